@@ -1,0 +1,2 @@
+//! mlx90333
+#![cfg_attr(not(test), no_std)]

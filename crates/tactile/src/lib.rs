@@ -1,0 +1,2 @@
+//! tactile
+#![cfg_attr(not(test), no_std)]

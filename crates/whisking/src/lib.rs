@@ -1,0 +1,2 @@
+//! whisking
+#![cfg_attr(not(test), no_std)]

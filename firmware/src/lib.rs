@@ -1,0 +1,2 @@
+//! firmware
+#![cfg_attr(not(test), no_std)]
