@@ -1,2 +1,66 @@
-//! whisking
+//! Whisking like a rat's: the pattern generator, its muscles, its modulation
+//! by contact, and what makes a motor follow.
+//!
+//! Equation numbers are those of BIOTACT (Sullivan et al. 2011), read with the
+//! misprints mended: the mass is m = T_W²/100 (eq. 7), contact lifts the gain
+//! above its nominal value (eq. 12) and the gain returns to it exponentially
+//! (eq. 13).
+//!
+//! # Glossary
+//!
+//! - *whisk*: one cycle of protraction (forwards) and retraction (backwards).
+//! - *side*: left (0) or right (1); each has one oscillator ψ and up to twelve whiskers.
+//! - *drive* W: what the oscillator asks of the muscles of its side, 0 to 1.
+//! - *θ*: protraction of one whisker, 0 at rest, about 1 at most; in degrees θ' = 100 θ + 50.
+//! - *contact* π: how strongly a side feels, 0 to about 1.
+//! - *RCP*: rapid cessation of protraction; contact raises z, which weakens that side.
+//! - *CIA*: contact-induced asymmetry; contact anywhere raises every gain g.
+//! - *tick*: one control step of length T; velocities are kept per tick (δ = T dθ/dt).
+//!
+//! # Shape
+//!
+//! [`Settings`] (physical units, f64) are checked and turned into a [`Config`]
+//! and a [`Start`] of the number format `R` outside the tick; the tick is
+//! [`Config::step`] on a small [`State`] and cannot fail. `Config` and `Start`
+//! print (`{:?}`) as Rust expressions, so a build script can make them
+//! constants: what a constant configuration leaves out (`None`, the other
+//! integrator) the compiler leaves out too.
 #![cfg_attr(not(test), no_std)]
+
+mod error;
+pub mod filter;
+pub mod gate;
+mod linalg;
+mod math;
+// pub mod motor;
+pub mod muscle;
+pub mod noise;
+pub mod oscillator;
+pub mod pd;
+mod real;
+mod settings;
+mod start;
+mod step;
+
+pub use error::{Error, Parameter};
+pub use real::Real;
+pub use settings::{GateSettings, Integrator, Settings};
+pub use start::Start;
+pub use step::{Config, State, Whisker};
+
+/// Degrees of the motor a unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
+pub const DEGREES_PER_UNIT: f64 = 100.0;
+/// Motor angle of a whisker at rest (θ = 0), degrees.
+pub const REST_DEG: f64 = 50.0;
+
+/// θ' in degrees from θ.
+#[inline]
+pub fn degrees(theta: f64) -> f64 {
+    DEGREES_PER_UNIT * theta + REST_DEG
+}
+
+/// θ from θ' in degrees.
+#[inline]
+pub fn protraction(degrees: f64) -> f64 {
+    (degrees - REST_DEG) / DEGREES_PER_UNIT
+}

@@ -1,0 +1,226 @@
+//! The oscillators' noise (BIOTACT eq. 5): seeded white Gaussian numbers through H50.
+//!
+//! Gaussian numbers come from the inverse of the normal distribution function,
+//! tabulated at a constant number of points an octave of probability and
+//! interpolated linearly: one random word, a count of leading zeros and a
+//! multiplication each, in integers, so the same on every machine.
+
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro128PlusPlus;
+
+use crate::filter::{self, CORNER_HZ};
+use crate::oscillator::Psi;
+use crate::{Error, Real};
+
+/// The tick rate at which σ_η is defined (BIOTACT: T = 500 µs), Hz. White noise
+/// of one variance a tick has a spectral density that falls with the tick rate;
+/// the amplitude is scaled so that the noise below 50 Hz is the papers' at any rate.
+pub const REFERENCE_TICK_HZ: f64 = 2000.0;
+
+const SEGMENTS: usize = 8;
+const OCTAVES: usize = 20;
+const Q24: f64 = 16_777_216.0;
+
+/// −Φ⁻¹(u) in Q24 at u = 2^-(k+1) (1 − j/16), k octaves of eight points, from
+/// u = ½ down to 2^-21 (4.9 standard deviations).
+static QUANTILES: [i32; OCTAVES * SEGMENTS + 1] = quantiles();
+
+/// exp(x) for 0 ≤ x < 13, at compile time.
+const fn exp(x: f64) -> f64 {
+    let small = x / 1024.0;
+    let mut sum = 1.0;
+    let mut k = 12;
+    while k > 0 {
+        sum = 1.0 + sum * small / k as f64;
+        k -= 1;
+    }
+    let mut squarings = 0;
+    while squarings < 10 {
+        sum *= sum;
+        squarings += 1;
+    }
+    sum
+}
+
+/// d(−Φ⁻¹)/d(−u) = √(2π) exp(x²/2), the inverse of the normal density.
+const fn slope(x: f64) -> f64 {
+    2.506_628_274_631_000_5 * exp(x * x / 2.0)
+}
+
+/// Integrates the quantile function down from the median with classical
+/// Runge-Kutta steps; within 1e-6 of the truth everywhere in the table.
+const fn quantiles() -> [i32; OCTAVES * SEGMENTS + 1] {
+    let mut table = [0; OCTAVES * SEGMENTS + 1];
+    let mut x = 0.0;
+    let mut top = 0.5;
+    let mut i = 0;
+    while i < OCTAVES * SEGMENTS {
+        let h = top / 16.0 / 8.0;
+        let mut n = 0;
+        while n < 8 {
+            let k1 = slope(x);
+            let k2 = slope(x + h / 2.0 * k1);
+            let k3 = slope(x + h / 2.0 * k2);
+            let k4 = slope(x + h * k3);
+            x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+            n += 1;
+        }
+        i += 1;
+        table[i] = (x * Q24 + 0.5) as i32;
+        if i % SEGMENTS == 0 {
+            top /= 2.0;
+        }
+    }
+    table
+}
+
+/// A standard normal number in Q24 from a uniformly distributed word; largest
+/// error of the quantile 2e-3 standard deviations, largest magnitude 4.9.
+fn normal_q24(word: u32) -> i32 {
+    let uniform = word >> 1;
+    let octave = (uniform << 1).leading_zeros() as usize;
+    let magnitude = if octave >= OCTAVES {
+        QUANTILES[OCTAVES * SEGMENTS]
+    } else {
+        // The bits below the leading one, from the top of the octave down.
+        let fraction = !(uniform << (octave + 2));
+        let segment = (fraction >> 29) as usize;
+        let within = i64::from((fraction << 3) >> 8);
+        let lo = QUANTILES[octave * SEGMENTS + segment];
+        let hi = QUANTILES[octave * SEGMENTS + segment + 1];
+        lo + ((i64::from(hi - lo) * within) >> 24) as i32
+    };
+    if word & 1 == 0 { magnitude } else { -magnitude }
+}
+
+/// Amplitude and filter of the noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Config<R> {
+    /// T σ_η √(tick rate/2 kHz).
+    pub amplitude: R,
+    /// H50 at this tick rate.
+    pub filter: filter::Config<R>,
+}
+
+/// The generator and one filter for each oscillator state.
+#[derive(Debug, Clone)]
+pub struct State<R, const S: usize> {
+    random: Xoshiro128PlusPlus,
+    filters: [[filter::State<R>; 2]; S],
+}
+
+impl<R: Real> Config<R> {
+    /// `sigma` is σ_η, per second; `tick_hz` the tick rate.
+    ///
+    /// # Errors
+    /// [`crate::Parameter::Corner`] if the tick rate leaves no room for 50 Hz.
+    pub(crate) fn new(sigma: f64, tick_hz: f64) -> Result<Self, Error> {
+        let amplitude = sigma / tick_hz * libm::sqrt(tick_hz / REFERENCE_TICK_HZ);
+        Ok(Self {
+            amplitude: R::from_f64(amplitude),
+            filter: filter::Config::new(CORNER_HZ, tick_hz)?,
+        })
+    }
+
+    /// T P_i of this tick for every oscillator state.
+    #[inline]
+    pub fn step<const S: usize>(&self, state: &mut State<R, S>) -> [Psi<R>; S] {
+        let State { random, filters } = state;
+        let mut out = [[R::ZERO; 2]; S];
+        for (o, f) in out.iter_mut().flatten().zip(filters.iter_mut().flatten()) {
+            let white = R::from_q24(normal_q24(random.next_u32()));
+            *o = self.amplitude * self.filter.process(f, white);
+        }
+        out
+    }
+}
+
+impl<R: Real, const S: usize> State<R, S> {
+    /// The same seed gives the same noise.
+    pub fn new(seed: u64) -> Self {
+        Self {
+            random: Xoshiro128PlusPlus::seed_from_u64(seed),
+            filters: [[filter::State::default(); 2]; S],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Config, Q24, QUANTILES, SEGMENTS, State, normal_q24};
+    use rand_core::{Rng, SeedableRng};
+
+    /// Φ(x) = erfc(−x/√2)/2.
+    fn distribution(x: f64) -> f64 {
+        libm::erfc(-x / core::f64::consts::SQRT_2) / 2.0
+    }
+
+    #[test]
+    fn the_table_inverts_the_normal_distribution() {
+        for (i, &q) in QUANTILES.iter().enumerate() {
+            let (octave, segment) = (i / SEGMENTS, i % SEGMENTS);
+            let u = 0.5_f64.powi(octave as i32 + 1) * (1.0 - segment as f64 / 16.0);
+            let back = distribution(-f64::from(q) / Q24);
+            assert!((back / u - 1.0).abs() < 1e-5, "{i}: {back} {u}");
+        }
+    }
+
+    #[test]
+    fn words_map_monotonically_to_quantiles() {
+        for i in 1..100_000_u32 {
+            let word = i.wrapping_mul(42_949) | 1;
+            let u = (f64::from(word >> 1) + 0.5) / 2.0_f64.powi(32);
+            let x = f64::from(normal_q24(word & !1)) / Q24;
+            if u > 1e-5 {
+                // Slope of the quantile turns its error of 2e-3 into one of probability.
+                let density = (-x * x / 2.0).exp() / 2.506_628;
+                assert!(
+                    (distribution(-x) - u).abs() < 2e-3 * density + 1e-9,
+                    "{word}: {x} {u}"
+                );
+            }
+        }
+        assert_eq!(normal_q24(0), *QUANTILES.last().unwrap());
+        assert_eq!(normal_q24(7), -normal_q24(6));
+    }
+
+    #[test]
+    fn moments_are_a_standard_normal_s() {
+        let mut random = rand_xoshiro::Xoshiro128PlusPlus::seed_from_u64(3);
+        let n = 1_000_000;
+        let mut m = [0.0; 4];
+        for _ in 0..n {
+            let x = f64::from(normal_q24(random.next_u32())) / Q24;
+            for (k, m) in m.iter_mut().enumerate() {
+                *m += x.powi(k as i32 + 1) / f64::from(n);
+            }
+        }
+        for (found, expected) in m.into_iter().zip([0.0, 1.0, 0.0, 3.0]) {
+            assert!((found - expected).abs() < 0.02, "{m:?}");
+        }
+    }
+
+    #[test]
+    fn the_noise_below_the_corner_does_not_depend_on_the_tick_rate() {
+        // Variance of the random walk it causes in one second, σ² T_ref: (σ_η)² / 2000 Hz.
+        for tick_hz in [500.0, 2_000.0, 8_000.0] {
+            let config = Config::<f64>::new(0.005, tick_hz).unwrap();
+            let mut state = State::<f64, 1>::new(11);
+            let mut squares = 0.0;
+            let seconds = 2_000;
+            for _ in 0..seconds {
+                let mut sum = 0.0;
+                for _ in 0..tick_hz as usize {
+                    sum += config.step(&mut state)[0][0];
+                }
+                squares += sum * sum / f64::from(seconds);
+            }
+            let expected = 0.005 * 0.005 / 2_000.0;
+            assert!(
+                (squares / expected - 1.0).abs() < 0.12,
+                "{tick_hz}: {}",
+                squares / expected
+            );
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What a user sets, in physical units, and its check.
+
+use crate::step::Config;
+use crate::{Error, Parameter, Real};
+use crate::{gate, muscle, noise, oscillator};
+
+/// How oscillators, muscles and gates are stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// The papers' forward Euler, step for step.
+    Euler,
+    /// Structure preserving: exact linear parts, exact decays, fourth-order muscle.
+    Exact,
+}
+
+/// Gain and time constant of a modulation by contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GateSettings {
+    /// σ_z or σ_g, 0 to 100.
+    pub gain: f64,
+    /// τ_z or τ_g in seconds, 1e-6 to 1e5.
+    pub tau_s: f64,
+}
+
+/// The pattern generator and its modulation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Control rate 1/T, 200 to 20,000 Hz.
+    pub tick_hz: f64,
+    /// Whisk frequency f_W, 0.05 to 25 Hz.
+    pub frequency_hz: f64,
+    /// Which integrator.
+    pub integrator: Integrator,
+    /// Whether the sides pull each other into phase (eq. 4).
+    pub coupling: bool,
+    /// σ_η of eq. 5, 0 to 1; 0 leaves the noise out.
+    pub noise: f64,
+    /// RCP (eq. 10); `None` leaves it out.
+    pub rcp: Option<GateSettings>,
+    /// CIA (eqs. 12 to 14); `None` leaves it out.
+    pub cia: Option<GateSettings>,
+}
+
+impl GateSettings {
+    fn check(self, parameter: Parameter) -> Result<Self, Error> {
+        Error::check(parameter, self.gain, 0.0, 100.0)?;
+        Error::check(parameter, self.tau_s, 1e-6, 1e5)?;
+        Ok(self)
+    }
+}
+
+impl Settings {
+    /// Whisks a tick, f_W T.
+    pub(crate) fn cycles(&self) -> f64 {
+        self.frequency_hz / self.tick_hz
+    }
+
+    /// Checks the settings.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        Error::check(Parameter::TickHz, self.tick_hz, 200.0, 20_000.0)?;
+        Error::check(Parameter::Frequency, self.frequency_hz, 0.05, 25.0)?;
+        Error::check(Parameter::Noise, self.noise, 0.0, 1.0)?;
+        Ok(())
+    }
+
+    /// The constants of the tick in number format `R`.
+    ///
+    /// # Errors
+    /// The first parameter outside its range.
+    pub fn build<R: Real>(&self) -> Result<Config<R>, Error> {
+        self.check()?;
+        let cycles = self.cycles();
+        let (oscillators, muscle) = match self.integrator {
+            Integrator::Euler => (
+                oscillator::Config::Euler(oscillator::Euler::new(cycles, self.coupling)),
+                muscle::Config::Euler(muscle::Euler::new(cycles)),
+            ),
+            Integrator::Exact => (
+                oscillator::Config::Exact(oscillator::Exact::new(cycles, self.coupling)),
+                muscle::Config::Exact(muscle::Exact::new(cycles)),
+            ),
+        };
+        let ticks = |settings: GateSettings| settings.tau_s * self.tick_hz;
+        let rcp = self.rcp.map(|rcp| rcp.check(Parameter::Rcp)).transpose()?;
+        let cia = self.cia.map(|cia| cia.check(Parameter::Cia)).transpose()?;
+        Ok(Config {
+            oscillators,
+            muscle,
+            peak_gain: R::from_f64(muscle::PEAK_GAIN),
+            rcp: rcp.map(|rcp| gate::Rcp {
+                keep: R::from_f64(1.0 - gate::approach(ticks(rcp), self.integrator)),
+                gain: R::from_f64(rcp.gain),
+            }),
+            cia: cia.map(|cia| gate::Cia {
+                approach: R::from_f64(gate::approach(ticks(cia), self.integrator)),
+                gain: R::from_f64(cia.gain),
+            }),
+            noise: (self.noise > 0.0)
+                .then(|| noise::Config::new(self.noise, self.tick_hz))
+                .transpose()?,
+        })
+    }
+}

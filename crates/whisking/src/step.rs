@@ -1,0 +1,116 @@
+//! One tick of a whole module: gates, oscillators, muscles, in this order.
+
+use crate::muscle;
+use crate::oscillator::Psi;
+use crate::{Real, Start, gate, noise, oscillator};
+
+/// Constants of the tick in number format `R`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Config<R> {
+    /// The oscillators' integrator.
+    pub oscillators: oscillator::Config<R>,
+    /// The muscles' integrator.
+    pub muscle: muscle::Config<R>,
+    /// 1.45, the peak of the muscle gain (eq. 8).
+    pub peak_gain: R,
+    /// RCP, if the module has it.
+    pub rcp: Option<gate::Rcp<R>>,
+    /// CIA, if the module has it.
+    pub cia: Option<gate::Cia<R>>,
+    /// Noise, if the module has it.
+    pub noise: Option<noise::Config<R>>,
+}
+
+/// One whisker: its muscle and its gain g.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Whisker<R> {
+    /// θ, δ and the integrator's past.
+    pub muscle: muscle::State<R>,
+    /// g of eqs. 12 and 13, 0 to 2.
+    pub gain: R,
+    /// Its nominal value.
+    pub nominal: R,
+}
+
+/// State of a module of `S` sides (1 or 2) with `N` whiskers each.
+#[derive(Debug, Clone)]
+pub struct State<R, const S: usize, const N: usize> {
+    /// ψ of each side.
+    pub psi: [Psi<R>; S],
+    /// z of each side (eq. 10), 0 to 1.
+    pub z: [R; S],
+    /// The whiskers of each side.
+    pub whiskers: [[Whisker<R>; N]; S],
+    drive: [R; S],
+    noise: noise::State<R, S>,
+}
+
+impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
+    /// A module at its start; `seed` is that of the noise.
+    pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
+        let muscles = start.whiskers();
+        Self {
+            psi: start.psi,
+            z: [R::ZERO; S],
+            whiskers: core::array::from_fn(|side| {
+                core::array::from_fn(|w| Whisker {
+                    muscle: muscles[side][w],
+                    gain: start.gain[side][w],
+                    nominal: start.gain[side][w],
+                })
+            }),
+            drive: start.psi.map(|p| p[0].drive()),
+            noise: noise::State::new(seed),
+        }
+    }
+
+    /// Protraction θ of every whisker; θ' = 100 θ + 50 degrees.
+    pub fn theta(&self) -> [[R; N]; S] {
+        self.whiskers
+            .each_ref()
+            .map(|side| side.each_ref().map(|whisker| whisker.muscle.theta))
+    }
+}
+
+impl<R: Real> Config<R> {
+    /// One tick. `contact` is π of each side (eq. 9), from the angle before
+    /// this tick: z and g follow it first, then oscillators and muscles move.
+    ///
+    /// Whatever comes in, NaN included, the state stays finite and in its
+    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.
+    #[inline]
+    pub fn step<const S: usize, const N: usize>(
+        &self,
+        state: &mut State<R, S, N>,
+        contact: [R; S],
+    ) {
+        if let Some(rcp) = &self.rcp {
+            for (z, pi) in state.z.iter_mut().zip(contact) {
+                *z = rcp.step(*z, pi);
+            }
+        }
+        if let Some(cia) = &self.cia {
+            let zeta = contact.iter().fold(R::ZERO, |zeta, pi| pi.max(zeta));
+            for whisker in state.whiskers.iter_mut().flatten() {
+                whisker.gain = cia.step(whisker.gain, whisker.nominal, zeta);
+            }
+        }
+
+        let noise = match &self.noise {
+            Some(noise) => noise.step(&mut state.noise),
+            None => [[R::ZERO; 2]; S],
+        };
+        self.oscillators.step(&mut state.psi, &noise);
+
+        for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
+            let before = state.drive[side];
+            let after = state.psi[side][0].drive();
+            let open = self.peak_gain * (R::ONE - state.z[side]);
+            for whisker in whiskers {
+                self.muscle
+                    .step(&mut whisker.muscle, open * whisker.gain, before, after);
+            }
+            state.drive[side] = after;
+        }
+    }
+}
