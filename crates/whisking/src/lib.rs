@@ -32,7 +32,7 @@ pub mod filter;
 pub mod gate;
 mod linalg;
 mod math;
-// pub mod motor;
+pub mod motor;
 pub mod muscle;
 pub mod noise;
 pub mod oscillator;

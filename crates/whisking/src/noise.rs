@@ -55,9 +55,9 @@ const fn quantiles() -> [i32; OCTAVES * SEGMENTS + 1] {
     let mut top = 0.5;
     let mut i = 0;
     while i < OCTAVES * SEGMENTS {
-        let h = top / 16.0 / 8.0;
+        let h = top / 16.0 / 16.0;
         let mut n = 0;
-        while n < 8 {
+        while n < 16 {
             let k1 = slope(x);
             let k2 = slope(x + h / 2.0 * k1);
             let k3 = slope(x + h / 2.0 * k2);

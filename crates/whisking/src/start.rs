@@ -196,9 +196,8 @@ mod tests {
                     *joint = equations.step(joint, 1.0 / 16.0);
                 }
             }
-            for s in 0..2 {
-                let theta = state.theta()[s][0].to_f64();
-                worst = worst.max(100.0 * (theta - truth[s].whisker[0]).abs());
+            for (side, truth) in state.theta().iter().zip(&truth) {
+                worst = worst.max(100.0 * (side[0].to_f64() - truth.whisker[0]).abs());
             }
         }
         worst

@@ -1,0 +1,244 @@
+//! The papers' module by forward Euler, step for step.
+//!
+//! A tick senses, gates, then steps. Contact of the previous angle (eq. 11, the
+//! sensor's word, H50, eq. 9) sets z and g (eq. 10, 12–14); then ψ, θ and θ̇
+//! move together, every right-hand side taken at the state before the step.
+//! No noise (σ_η = 0). θ and θ̇ start at 0, z at 0, g at nominal, H50 at rest.
+
+use super::butterworth::Lowpass;
+use super::{
+    CONTACT_CUTOFF_HZ, Gate, Obstacle, PSI_LIMIT, Row, Settings, muscle_acceleration,
+    oscillator_rate, to_degrees,
+};
+
+#[derive(Clone, Debug)]
+struct Whisker {
+    theta: f64,
+    rate: f64,
+    nominal: f64,
+    g: f64,
+    lowpass: Lowpass,
+}
+
+/// A module of two sides, between ticks.
+#[derive(Clone, Debug)]
+pub struct Module {
+    settings: Settings,
+    ticks: u64,
+    psi: [[f64; 2]; 2],
+    z: [f64; 2],
+    whiskers: [Vec<Whisker>; 2],
+}
+
+impl Module {
+    /// A module at its start.
+    pub fn new(settings: &Settings) -> Self {
+        let whiskers = settings.gains.clone().map(|gains| {
+            gains
+                .into_iter()
+                .map(|nominal| Whisker {
+                    theta: 0.0,
+                    rate: 0.0,
+                    nominal,
+                    g: nominal,
+                    lowpass: Lowpass::new(CONTACT_CUTOFF_HZ, settings.tick_hz),
+                })
+                .collect()
+        });
+        Self {
+            settings: settings.clone(),
+            ticks: 0,
+            psi: settings.start,
+            z: [0.0; 2],
+            whiskers,
+        }
+    }
+
+    /// ψ of both sides.
+    pub fn psi(&self) -> [[f64; 2]; 2] {
+        self.psi
+    }
+
+    /// Advances by one tick and returns its row. A side without whiskers shows
+    /// θ' = 50 degrees, g = 0 and no contact.
+    pub fn tick(&mut self) -> Row {
+        let contact = [self.sense(0), self.sense(1)];
+        self.gate(contact);
+        self.step();
+        self.ticks += 1;
+        let first = |of: fn(&Whisker) -> f64| {
+            [0, 1].map(|side: usize| self.whiskers[side].first().map_or(0.0, of))
+        };
+        Row {
+            t_s: self.ticks as f64 / self.settings.tick_hz,
+            theta_deg: first(|whisker| whisker.theta).map(to_degrees),
+            z: self.z,
+            g: first(|whisker| whisker.g),
+            contact,
+        }
+    }
+
+    /// π of a side (eq. 9): the largest |H50(x)| of its whiskers. The y axis is
+    /// zero and takes no part.
+    fn sense(&mut self, side: usize) -> f64 {
+        let mut contact = 0.0_f64;
+        for whisker in &mut self.whiskers[side] {
+            let mut x = match self.settings.obstacle {
+                Some(obstacle) => deflection(&obstacle, side, to_degrees(whisker.theta)),
+                None => 0.0,
+            };
+            if self.settings.quantise {
+                x = through_sensor_word(x);
+            }
+            contact = contact.max(whisker.lowpass.step(x).abs());
+        }
+        contact
+    }
+
+    /// z by eq. 10 and g by eq. 12 to 14.
+    fn gate(&mut self, contact: [f64; 2]) {
+        let tick = self.settings.tick_s();
+        if let Some(Gate { gain, tau_s }) = self.settings.rcp {
+            for (z, pi) in self.z.iter_mut().zip(contact) {
+                *z = ((1.0 - tick / tau_s) * *z).max(gain * pi).clamp(0.0, 1.0);
+            }
+        }
+        let Some(Gate { gain, tau_s }) = self.settings.cia else {
+            return;
+        };
+        let excitation = gain * contact[0].max(contact[1]);
+        let reading = self.settings.reading;
+        for whisker in self.whiskers.iter_mut().flatten() {
+            let decayed = if reading.g_decay_misprint {
+                whisker.g + tick / (tau_s * (1.0 - whisker.g))
+            } else {
+                whisker.g + tick / tau_s * (whisker.nominal - whisker.g)
+            };
+            let excited = if reading.cia_misprint {
+                excitation
+            } else {
+                whisker.nominal + excitation
+            };
+            whisker.g = decayed.max(excited).clamp(0.0, 2.0);
+        }
+    }
+
+    /// Oscillators (eq. 2 to 4) and muscles (eq. 6 to 8), both from the state
+    /// before the step.
+    fn step(&mut self) {
+        let tick = self.settings.tick_s();
+        let mass = self.settings.mass();
+        let rate = oscillator_rate(&self.settings, self.psi);
+        for (side, whiskers) in self.whiskers.iter_mut().enumerate() {
+            for w in whiskers {
+                let psi_1 = self.psi[side][0];
+                let acceleration =
+                    muscle_acceleration(mass, psi_1, self.z[side], w.g, w.theta, w.rate);
+                w.theta += tick * w.rate;
+                w.rate += tick * acceleration;
+            }
+        }
+        for (psi, rate) in self.psi.iter_mut().flatten().zip(rate.iter().flatten()) {
+            *psi = (*psi + tick * rate).clamp(-PSI_LIMIT, PSI_LIMIT);
+        }
+    }
+}
+
+/// x of a whisker at θ' (eq. 11): ⟨σ_x max(0, θ' − θ'_lim)⟩ on \[−1, 1\].
+fn deflection(obstacle: &Obstacle, side: usize, theta_deg: f64) -> f64 {
+    let beyond = (theta_deg - obstacle.at_deg[side]).max(0.0);
+    (obstacle.stiffness * beyond).clamp(-1.0, 1.0)
+}
+
+/// The nearest of the sensor's 14-bit words to `x` in \[−1, 1\], as deflection
+/// again: (code − 8192)/8191, halves rounded away from zero.
+fn through_sensor_word(x: f64) -> f64 {
+    let code = 8192.0 + (8191.0 * x).round();
+    (code - 8192.0) / 8191.0
+}
+
+/// Rows of a run of `duration_s` seconds, one a tick.
+pub fn run(settings: &Settings, duration_s: f64) -> Vec<Row> {
+    let ticks = (duration_s * settings.tick_hz).round() as usize;
+    let mut module = Module::new(settings);
+    (0..ticks).map(|_| module.tick()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three whiskers on the left, of which the middle one reaches farthest;
+    /// the right touches earlier than the left.
+    fn uneven() -> Settings {
+        let gate = |gain| Some(Gate { gain, tau_s: 0.125 });
+        Settings {
+            gains: [vec![0.8, 1.2, 0.6], vec![0.9]],
+            obstacle: Some(Obstacle {
+                at_deg: [110.0, 90.0],
+                stiffness: 0.05,
+            }),
+            rcp: gate(0.7),
+            cia: gate(0.5),
+            ..Settings::papers()
+        }
+    }
+
+    #[test]
+    fn gates_follow_their_closed_forms() {
+        let settings = uneven();
+        let rows = run(&settings, 2.0);
+        let keep = 1.0 - settings.tick_s() / 0.125;
+        for pair in rows.windows(2) {
+            let (before, now) = (pair[0], pair[1]);
+            let excitation = 0.5 * now.contact[0].max(now.contact[1]);
+            for (side, nominal) in [(0, 0.8), (1, 0.9)] {
+                let z = (keep * before.z[side]).max(0.7 * now.contact[side]);
+                assert!((now.z[side] - z.min(1.0)).abs() < 1e-12);
+                let g = nominal + (keep * (before.g[side] - nominal)).max(excitation);
+                assert!((now.g[side] - g.min(2.0)).abs() < 1e-12);
+            }
+        }
+        assert!(rows.iter().any(|row| row.contact[1] > row.contact[0] + 0.1));
+    }
+
+    #[test]
+    fn the_farthest_whisker_is_the_contact_of_its_side() {
+        let mut settings = uneven();
+        let alone = |settings: &Settings, whisker: usize| {
+            let mut one = settings.clone();
+            one.gains[0] = vec![settings.gains[0][whisker]];
+            run(&one, 1.0)
+        };
+        // Without gates the whiskers do not act on one another.
+        (settings.rcp, settings.cia) = (None, None);
+        let farthest = alone(&settings, 1);
+        for (all, one) in run(&settings, 1.0).iter().zip(&farthest) {
+            assert!(all.contact[0] >= one.contact[0]);
+            if one.contact[0] > 0.1 {
+                assert!((all.contact[0] - one.contact[0]).abs() < 1e-15);
+            }
+        }
+        let peak = |rows: &[Row]| rows.iter().map(|row| row.contact[0]).fold(0.0, f64::max);
+        assert!(peak(&farthest) > 0.9 && peak(&alone(&settings, 0)) < 0.5);
+    }
+
+    #[test]
+    fn the_sensor_word_is_the_nearest() {
+        let mut settings = uneven();
+        (settings.rcp, settings.cia) = (None, None);
+        let exact = run(&settings, 1.0);
+        settings.quantise = true;
+        let differences = run(&settings, 1.0)
+            .into_iter()
+            .zip(exact)
+            .map(|(word, exact)| (word.contact[0] - exact.contact[0]).abs());
+        let worst = differences.fold(0.0, f64::max);
+        // Half a code, and H50 overshoots by less than a quarter.
+        let half = 0.5 / 8191.0;
+        assert!(worst > 0.1 * half && worst < 1.25 * half, "{worst}");
+        for (x, code) in [(-1.0, 1.0), (0.0, 8192.0), (0.5, 12288.0), (1.0, 16383.0)] {
+            assert!((through_sensor_word(x) - (code - 8192.0) / 8191.0).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! The reference program against truths from outside: the table of the paper's
+//! claims, scipy's DOP853 and Butterworth design, closed forms, and the figures
+//! published with the real recordings. Everything else is tested against it.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use acceptance::claims::{self, ANGLE_TOLERANCE_DEG, Claim, Figure, Quantity, RUN_S, TABLE};
+use acceptance::reference::bayes::{self, Rule};
+use acceptance::reference::butterworth::{self, Lowpass};
+use acceptance::reference::recording::read_recording;
+use acceptance::reference::{Reading, Row, Settings, euler, ode};
+
+fn file(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Rows of numbers under a header.
+fn table(path: &str) -> Vec<Vec<f64>> {
+    let text = file(path);
+    let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    text.lines().skip(1).map(numbers).collect()
+}
+
+fn measured(claim: &Claim, settings: &Settings) -> f64 {
+    let rows = euler::run(settings, RUN_S);
+    let value = claim.quantity.measure(settings, &rows);
+    value.unwrap_or_else(|| panic!("{claim:?}: whisks differ"))
+}
+
+#[test]
+fn every_claim_holds() {
+    for claim in &TABLE {
+        let value = measured(claim, &claim.figure.settings());
+        assert!(claim.is_near(value, claim.value), "{value} for {claim:?}");
+    }
+}
+
+#[test]
+fn claims_hold_through_the_sensor_word_and_from_another_start() {
+    for claim in &TABLE {
+        let mut settings = claim.figure.settings();
+        settings.quantise = true;
+        settings.start = [[0.6, 0.5], [0.9, -0.2]];
+        let value = measured(claim, &settings);
+        assert!(claim.is_near(value, claim.value), "{value} for {claim:?}");
+    }
+}
+
+#[test]
+fn misprinted_mass_gives_the_other_column() {
+    for claim in &TABLE {
+        let Some(misprinted) = claim.misprinted else {
+            continue;
+        };
+        let mut settings = claim.figure.settings();
+        settings.reading.mass_misprint = true;
+        let value = measured(claim, &settings);
+        assert!(claim.is_near(value, misprinted), "{value} for {claim:?}");
+    }
+}
+
+#[test]
+fn fullest_protraction_stays_below_unity() {
+    for (misprint, largest, digits) in [(false, 0.9974, 5e-5), (true, 0.875, 5e-4)] {
+        let mut settings = Figure::Fig6(2.0).settings();
+        settings.reading.mass_misprint = misprint;
+        let rows = euler::run(&settings, RUN_S);
+        let max = Quantity::MaxTheta(0).measure(&settings, &rows).unwrap();
+        let theta = (max - 50.0) / 100.0;
+        assert!((theta - largest).abs() <= digits, "{theta}");
+    }
+}
+
+fn largest_g(rows: &[Row]) -> f64 {
+    rows.iter().map(|row| row.g[1]).fold(0.0, f64::max)
+}
+
+#[test]
+fn asymmetry_as_printed_never_excites() {
+    let mut settings = Figure::Fig9.settings();
+    assert!(largest_g(&euler::run(&settings, RUN_S)) > 1.2);
+    settings.reading.cia_misprint = true;
+    let rows = euler::run(&settings, RUN_S);
+    assert!((largest_g(&rows) - 1.0).abs() < 1e-15);
+    let max = Quantity::MaxTheta(1).measure(&settings, &rows).unwrap();
+    assert!((max - 122.9).abs() < ANGLE_TOLERANCE_DEG, "{max}");
+    // The printed return is singular at g = 1: full excitation without contact.
+    settings.obstacle = None;
+    settings.reading = Reading {
+        g_decay_misprint: true,
+        ..Reading::default()
+    };
+    let rows = euler::run(&settings, 0.001);
+    assert!((rows[0].g[1] - 2.0).abs() < 1e-15);
+}
+
+/// √((1 + ρ)² + (2π f_W T)²) = 1 with ρ = T (1 − r)/(τ_r r), solved for r.
+fn euler_radius(frequency_hz: f64, tick_s: f64) -> f64 {
+    let turn = TAU * frequency_hz * tick_s;
+    let shrink = 1.0 - (1.0 - turn * turn).sqrt();
+    let tau = 2.0 / frequency_hz;
+    1.0 / (1.0 - shrink * tau / tick_s)
+}
+
+#[test]
+fn euler_circles_too_wide_as_its_closed_form_says() {
+    for (frequency_hz, about) in [(2.0, 1.04), (10.0, 1.25)] {
+        let mut settings = Settings::papers();
+        settings.frequency_hz = frequency_hz;
+        let mut module = euler::Module::new(&settings);
+        for _ in 0..40_000 {
+            module.tick();
+        }
+        let [p, q] = module.psi()[0];
+        let expected = euler_radius(frequency_hz, settings.tick_s());
+        assert!((p.hypot(q) - expected).abs() < 1e-9, "{frequency_hz}");
+        assert!((expected - about).abs() < 0.005, "{expected}");
+    }
+}
+
+#[test]
+fn continuous_equations_agree_with_dop853() {
+    for frequency_hz in [2, 8, 25] {
+        let settings = published_run(f64::from(frequency_hz), 2000.0);
+        let rows = table(&format!("reference/whisk_{frequency_hz}hz.csv"));
+        let ours = ode::theta_prime(&settings, rows.last().unwrap()[0] as usize);
+        assert!(rows.len() > 350);
+        for row in rows {
+            let [left, right] = ours[row[0] as usize - 1];
+            assert!((left - row[1]).abs() < 1e-10, "{left} at tick {}", row[0]);
+            assert!((right - row[2]).abs() < 1e-10, "{right} at tick {}", row[0]);
+        }
+    }
+}
+
+#[test]
+fn continuous_equations_do_not_depend_on_the_tick() {
+    let coarse = ode::theta_prime(&published_run(25.0, 500.0), 200);
+    let fine = ode::theta_prime(&published_run(25.0, 6000.0), 2400);
+    for (index, row) in coarse.iter().enumerate() {
+        for side in 0..2 {
+            assert!((row[side] - fine[12 * index + 11][side]).abs() < 1e-11);
+        }
+    }
+}
+
+/// The start at which integrators were compared.
+fn published_run(frequency_hz: f64, tick_hz: f64) -> Settings {
+    Settings {
+        frequency_hz,
+        tick_hz,
+        start: [[1.0, 0.0], [0.6, 0.5]],
+        ..Settings::papers()
+    }
+}
+
+#[test]
+fn euler_errs_as_published() {
+    let cases = [
+        (2.0, 2000.0, 0.48, 0.005),
+        (8.0, 2000.0, 1.93, 0.005),
+        (25.0, 2000.0, 5.7, 0.05),
+        (25.0, 500.0, 51.0, 0.5),
+    ];
+    for (frequency_hz, tick_hz, published, digits) in cases {
+        let settings = published_run(frequency_hz, tick_hz);
+        let rows = euler::run(&settings, 10.0 / frequency_hz);
+        let exact = ode::theta_prime(&settings, rows.len());
+        let differences = rows.iter().zip(&exact).flat_map(|(row, exact)| {
+            [0, 1].map(|side: usize| (row.theta_deg[side] - exact[side]).abs())
+        });
+        let worst = differences.fold(0.0, f64::max);
+        assert!((worst - published).abs() <= digits, "{worst}");
+    }
+}
+
+/// Averaged over a whisk, the phase difference obeys dδ/dt = −sin(δ)/(2 T_W), so
+/// that tan(δ/2) falls with the time constant 2 T_W.
+#[test]
+fn sides_lock_within_two_whisks() {
+    for start_rad in [0.2_f64, 0.8, -1.5] {
+        let mut settings = Settings::papers();
+        settings.start = [[1.0, 0.0], [start_rad.cos(), start_rad.sin()]];
+        let path = ode::psi(&settings, 4000); // four whisks, 2 s
+        let [left, right] = path[3999].map(|[p, q]| q.atan2(p));
+        let difference = (right - left + PI).rem_euclid(TAU) - PI;
+        let fall = (start_rad / 2.0).tan() / (difference / 2.0).tan();
+        let tau_in_whisks = 4.0 / fall.ln();
+        assert!((tau_in_whisks - 2.0).abs() < 0.01, "{tau_in_whisks}");
+    }
+}
+
+#[test]
+fn butterworth_agrees_with_scipy() {
+    for row in table("reference/butterworth.csv") {
+        let filter = Lowpass::new(50.0, row[0]);
+        for (ours, scipy) in filter.b.iter().chain(&filter.a).zip(&row[1..]) {
+            assert!(
+                (ours - scipy).abs() < 1e-12 * scipy.abs().max(1e-3),
+                "{}",
+                row[0]
+            );
+        }
+    }
+    let mut filter = Lowpass::new(50.0, 2000.0);
+    for row in table("reference/butterworth_step.csv") {
+        assert!((filter.step(1.0) - row[0]).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn butterworth_passes_sines_as_its_closed_form_says() {
+    for tick_hz in [500.0, 2000.0, 8000.0] {
+        for f_hz in [0.0, 10.0, 50.0, 120.0, 200.0] {
+            let (magnitude, phase) = butterworth::response(50.0, tick_hz, f_hz);
+            let mut filter = Lowpass::new(50.0, tick_hz);
+            for n in 0..(tick_hz as i32) {
+                let angle = TAU * f_hz * f64::from(n) / tick_hz;
+                let y = filter.step(angle.cos());
+                if f64::from(n) > 0.5 * tick_hz {
+                    assert!((y - magnitude * (angle + phase).cos()).abs() < 1e-10);
+                }
+            }
+        }
+    }
+    let (magnitude, phase) = butterworth::response(50.0, 2000.0, 50.0);
+    assert!((magnitude - 0.5_f64.sqrt()).abs() < 1e-15);
+    assert!((phase + 0.75 * PI).abs() < 1e-15);
+}
+
+#[test]
+fn classifier_gives_the_published_figures() {
+    let recording = |name: &str| read_recording(&file(name)).unwrap();
+    let model = bayes::train(&recording("data/terrain/terrain-train.csv"), 100, 5.0, 20);
+    assert_eq!(model.classes, ["sandy_loam", "ice", "asphalt"]);
+    let test = recording("data/terrain/terrain-test.csv");
+    let cases = [
+        (0.9, 79.9, 116.0, 488, 120, 59.3),
+        (0.99, 86.0, 205.0, 245, 200, 59.6),
+        (0.999, 87.1, 253.0, 185, 260, 60.6),
+    ];
+    for (threshold, hits, samples, count, window, window_hits) in cases {
+        let decisions = bayes::classify(&model, &test, Rule::Sequential(threshold));
+        assert_eq!(decisions.len(), count);
+        assert!((100.0 * bayes::hit_rate(&decisions) - hits).abs() <= 0.05);
+        assert!((bayes::mean_samples(&decisions) - samples).abs() <= 0.5);
+        assert!(decisions.iter().all(|d| d.posterior > threshold));
+        let decisions = bayes::classify(&model, &test, Rule::Window(window));
+        assert!((100.0 * bayes::hit_rate(&decisions) - window_hits).abs() <= 0.05);
+        assert!(decisions.iter().all(|d| d.samples == window));
+    }
+}
+
+#[test]
+fn measures_count_what_they_say() {
+    let wave =
+        |n: f64| (0..=1000).map(move |k| 10.0 - 10.0 * (TAU * f64::from(k) * n / 1000.0).cos());
+    assert_eq!(claims::peaks(wave(1.0)), 1);
+    assert_eq!(claims::peaks(wave(3.0)), 3);
+    assert_eq!(claims::peaks(wave(3.0).map(|angle| 0.02 * angle)), 0);
+    assert_eq!(claims::contacts([0.0, 0.06, 0.03, 0.06, 0.01, 0.2, 0.0]), 2);
+    let text = "t_s,extra,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
+                contact_left,contact_right\n0.5,9,1,2,3,4,5,6,7,8\n";
+    let row = claims::read_trace(text).unwrap()[0];
+    assert_eq!(
+        (row.t_s, row.theta_deg, row.contact),
+        (0.5, [1.0, 2.0], [7.0, 8.0])
+    );
+    assert!(
+        claims::read_trace(&text.replace(",8", ",x"))
+            .unwrap_err()
+            .contains("line 2")
+    );
+}
