@@ -1,0 +1,104 @@
+//! The error word, bit by bit, against the table of known bits.
+
+use mlx90333::{Decoder, Faults, FrameError, SumRule, Word, encode};
+
+/// Written out once more, from the table of the protocol.
+const TABLE: [(u16, &str); 10] = [
+    (0x0004, "ADC monitor"),
+    (0x0008, "ADC saturated"),
+    (0x0010, "gain too low"),
+    (0x0020, "gain too high"),
+    (0x0040, "norm too low"),
+    (0x0080, "field too low"),
+    (0x0100, "field too high"),
+    (0x0200, "rough offset clamp"),
+    (0x0800, "dead zone alpha"),
+    (0x8000, "dead zone beta"),
+];
+const UNKNOWN: [u16; 6] = [0x0001, 0x0002, 0x0400, 0x1000, 0x2000, 0x4000];
+
+/// The faults that a decoder reads from a frame with this error word.
+fn through_a_frame(bits: u16) -> Faults {
+    let (alpha, beta) = (Word::new(0x2468), Word::MID);
+    let bytes = encode::alpha_beta(alpha, beta, Faults::new(bits), SumRule::default());
+    assert_eq!(u16::from_le_bytes([bytes[5], bytes[6]]), bits);
+    match Decoder::new().decode(&bytes) {
+        Err(FrameError::Sensor(faults)) => faults,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn each_known_bit() {
+    for (bits, name) in TABLE {
+        let faults = through_a_frame(bits);
+        assert_eq!(faults.bits(), bits);
+        assert_eq!(faults.unknown(), 0);
+        assert_eq!(faults.to_string(), name);
+        assert!(faults.named().eq([(Faults::new(bits), name)]));
+    }
+}
+
+#[test]
+fn each_pair_of_known_bits() {
+    for (i, (low, low_name)) in TABLE.into_iter().enumerate() {
+        for (high, high_name) in TABLE.into_iter().skip(i + 1) {
+            let faults = through_a_frame(low | high);
+            assert_eq!(faults, Faults::new(low) | Faults::new(high));
+            assert_eq!(faults.to_string(), format!("{low_name}, {high_name}"));
+            assert!(faults.contains(Faults::new(low)) && faults.contains(Faults::new(high)));
+            assert!(!Faults::new(low).contains(faults));
+            let names: Vec<_> = faults.named().map(|(_, name)| name).collect();
+            assert_eq!(names, [low_name, high_name]);
+        }
+    }
+}
+
+#[test]
+fn each_unknown_bit_is_kept_and_told() {
+    for bits in UNKNOWN {
+        let faults = through_a_frame(bits);
+        assert_eq!(faults.unknown(), bits);
+        assert_eq!(faults.named().count(), 0);
+        assert_eq!(faults.to_string(), format!("unknown 0x{bits:04x}"));
+        let both = faults | Faults::GAIN_TOO_HIGH;
+        assert_eq!(both.unknown(), bits);
+        assert_eq!(
+            both.to_string(),
+            format!("gain too high, unknown 0x{bits:04x}")
+        );
+    }
+}
+
+#[test]
+fn none_and_all() {
+    assert!(Faults::NONE.is_empty());
+    assert_eq!(Faults::NONE.to_string(), "none");
+    assert_eq!(Faults::NONE.named().count(), 0);
+    let all = through_a_frame(0xFFFF);
+    assert_eq!(all.named().count(), TABLE.len());
+    assert_eq!(all.unknown(), UNKNOWN.iter().sum());
+    assert!(!all.is_empty());
+}
+
+#[test]
+fn constants_have_their_bits() {
+    let constants = [
+        Faults::ADC_MONITOR,
+        Faults::ADC_SATURATED,
+        Faults::GAIN_TOO_LOW,
+        Faults::GAIN_TOO_HIGH,
+        Faults::NORM_TOO_LOW,
+        Faults::FIELD_TOO_LOW,
+        Faults::FIELD_TOO_HIGH,
+        Faults::ROUGH_OFFSET_CLAMP,
+        Faults::DEAD_ZONE_ALPHA,
+        Faults::DEAD_ZONE_BETA,
+    ];
+    assert!(
+        constants
+            .map(Faults::bits)
+            .into_iter()
+            .eq(TABLE.map(|row| row.0))
+    );
+}

@@ -1,0 +1,242 @@
+//! The decoder against frames written by hand, and against the encoder.
+
+mod common;
+
+use common::{rule, word};
+use mlx90333::{Decoder, Faults, Frame, FrameError, Mode, SumRule, Word, encode};
+use proptest::prelude::*;
+
+const MODES: [Mode; 2] = [Mode::AlphaBeta, Mode::Xyz];
+
+/// The rules that look at B7.
+const SUMMING: [SumRule; 4] = [
+    SumRule::SumB1B6,
+    SumRule::SumB0B6,
+    SumRule::ComplementB1B6,
+    SumRule::ComplementB0B6,
+];
+
+/// alpha = 0x1234, beta = 0xABCD: 0x34 + 0x12 + 0xCD + 0xAB = 0x1BE.
+const ALPHA_BETA: [u8; 8] = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x00, 0x00, 0xBE];
+
+#[test]
+fn alpha_beta_by_hand() {
+    let frame = Decoder::new().decode(&ALPHA_BETA).unwrap();
+    assert_eq!(
+        frame,
+        Frame::AlphaBeta {
+            alpha: Word::new(0x1234),
+            beta: Word::new(0xABCD)
+        }
+    );
+    assert_eq!(frame.first().raw(), 0x1234);
+    assert_eq!(frame.second().raw(), 0xABCD);
+    assert_eq!(frame.third(), None);
+}
+
+#[test]
+fn xyz_by_hand() {
+    // 0x1BE + 0x78 + 0x56 = 0x28C.
+    let bytes = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x78, 0x56, 0x8C];
+    let frame = Decoder::with_mode(Mode::Xyz).decode(&bytes).unwrap();
+    assert_eq!(frame.first().raw(), 0x1234);
+    assert_eq!(frame.second().raw(), 0xABCD);
+    assert_eq!(frame.third(), Some(Word::new(0x5678)));
+    // The same bytes in the other mode carry an error word.
+    assert_eq!(
+        Decoder::new().decode(&bytes),
+        Err(FrameError::Sensor(Faults::new(0x5678)))
+    );
+}
+
+#[test]
+fn each_rule_by_hand() {
+    let by_rule = [
+        (SumRule::SumB1B6, 0xBE),
+        (SumRule::SumB0B6, 0xBD),
+        (SumRule::ComplementB1B6, 0x41),
+        (SumRule::ComplementB0B6, 0x42),
+    ];
+    for (rule, expected) in by_rule {
+        let decoder = Decoder::with(Mode::AlphaBeta, rule);
+        for found in 0..=0xFF {
+            let mut bytes = ALPHA_BETA;
+            bytes[7] = found;
+            let result = decoder.decode(&bytes);
+            if found == expected {
+                assert_eq!(result.unwrap().first().raw(), 0x1234, "{rule:?}");
+            } else {
+                assert_eq!(result, Err(FrameError::BadSum { expected, found }));
+            }
+            assert!(
+                Decoder::with(Mode::AlphaBeta, SumRule::Ignore)
+                    .decode(&bytes)
+                    .is_ok()
+            );
+        }
+    }
+}
+
+#[test]
+fn rules_agree_only_where_documented() {
+    for s in 0..=0xFF {
+        let bytes = [0xFF, s, 0, 0, 0, 0, 0, 0];
+        for (i, a) in SUMMING.into_iter().enumerate() {
+            for (j, b) in SUMMING.into_iter().enumerate() {
+                let mirrored = i + j == 3 && (s == 0 || s == 128);
+                let agree = a.expected(&bytes) == b.expected(&bytes);
+                assert_eq!(agree, i == j || mirrored, "{a:?} {b:?} {s}");
+            }
+        }
+    }
+}
+
+#[test]
+fn silent_and_stuck_lines_under_every_rule() {
+    for mode in MODES {
+        for rule in SumRule::ALL {
+            let decoder = Decoder::with(mode, rule);
+            assert_eq!(decoder.decode(&[0xFF; 8]), Err(FrameError::NoSensor));
+            assert_eq!(decoder.decode(&[0x00; 8]), Err(FrameError::LineLow));
+        }
+    }
+}
+
+#[test]
+fn reports_come_in_the_documented_order() {
+    // Bad start, bad sum and an error word at once; then the last two.
+    let mut bytes = [0x7F, 1, 2, 3, 4, 5, 6, 0x99];
+    let decoder = Decoder::new();
+    assert_eq!(decoder.decode(&bytes), Err(FrameError::BadStart(0x7F)));
+    bytes[0] = 0xFF;
+    assert_eq!(
+        decoder.decode(&bytes),
+        Err(FrameError::BadSum {
+            expected: 21,
+            found: 0x99
+        })
+    );
+    bytes[7] = 21;
+    assert_eq!(
+        decoder.decode(&bytes),
+        Err(FrameError::Sensor(Faults::new(0x0605)))
+    );
+}
+
+#[test]
+fn messages() {
+    let text = |error: FrameError| error.to_string();
+    assert_eq!(text(FrameError::NoSensor), "no sensor: all bytes 0xff");
+    assert_eq!(
+        text(FrameError::LineLow),
+        "data line stuck low: all bytes 0x00"
+    );
+    assert_eq!(
+        text(FrameError::BadStart(0x0A)),
+        "bad start byte: 0x0a, expected 0xff"
+    );
+    assert_eq!(
+        text(FrameError::BadSum {
+            expected: 0xBE,
+            found: 0x01
+        }),
+        "bad sum byte: 0x01, expected 0xbe"
+    );
+    assert_eq!(
+        text(FrameError::Sensor(Faults::FIELD_TOO_LOW)),
+        "sensor reports: field too low"
+    );
+}
+
+proptest! {
+    #[test]
+    fn alpha_beta_round_trip(alpha in word(), beta in word(), rule in rule()) {
+        let bytes = encode::alpha_beta(alpha, beta, Faults::NONE, rule);
+        let decoded = Decoder::with(Mode::AlphaBeta, rule).decode(&bytes);
+        prop_assert_eq!(decoded, Ok(Frame::AlphaBeta { alpha, beta }));
+    }
+
+    #[test]
+    fn xyz_round_trip(x in word(), y in word(), z in word(), rule in rule()) {
+        let bytes = encode::xyz(x, y, z, rule);
+        let decoded = Decoder::with(Mode::Xyz, rule).decode(&bytes);
+        prop_assert_eq!(decoded, Ok(Frame::Xyz { x, y, z }));
+    }
+
+    #[test]
+    fn faults_round_trip(alpha in word(), beta in word(), bits in 1_u16.., rule in rule()) {
+        let bytes = encode::alpha_beta(alpha, beta, Faults::new(bits), rule);
+        let decoded = Decoder::with(Mode::AlphaBeta, rule).decode(&bytes);
+        prop_assert_eq!(decoded, Err(FrameError::Sensor(Faults::new(bits))));
+    }
+
+    /// Any eight bytes have an answer, and a frame that passes is one that the
+    /// encoder would have sent.
+    #[test]
+    fn what_passes_encodes_back(mut bytes: [u8; 8], good_sum: bool) {
+        bytes[0] |= 0xF0;
+        for rule in SUMMING {
+            if good_sum {
+                bytes[7] = rule.expected(&bytes).unwrap();
+            }
+            for mode in MODES {
+                match Decoder::with(mode, rule).decode(&bytes) {
+                    Ok(Frame::AlphaBeta { alpha, beta }) => prop_assert_eq!(
+                        encode::alpha_beta(alpha, beta, Faults::NONE, rule), bytes),
+                    Ok(Frame::Xyz { x, y, z }) =>
+                        prop_assert_eq!(encode::xyz(x, y, z, rule), bytes),
+                    Err(FrameError::BadStart(start)) => {
+                        prop_assert!(start == bytes[0] && start != 0xFF);
+                    }
+                    Err(FrameError::BadSum { found, .. }) =>
+                        prop_assert!(found == bytes[7] && !good_sum),
+                    Err(FrameError::Sensor(faults)) => prop_assert!(
+                        mode == Mode::AlphaBeta && faults.bits() == u16::from_le_bytes([bytes[5], bytes[6]])),
+                    Err(error) => prop_assert_eq!(error, FrameError::NoSensor),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_flipped_bit_is_caught(a in word(), b in word(), c in word()) {
+        for rule in SUMMING {
+            let frames = [
+                (Mode::AlphaBeta, encode::alpha_beta(a, b, Faults::NONE, rule)),
+                (Mode::Xyz, encode::xyz(a, b, c, rule)),
+            ];
+            for (mode, sent) in frames {
+                for bit in 0..64 {
+                    let mut bytes = sent;
+                    bytes[bit / 8] ^= 1 << (bit % 8);
+                    let error = Decoder::with(mode, rule).decode(&bytes).unwrap_err();
+                    if bit < 8 {
+                        prop_assert_eq!(error, FrameError::BadStart(bytes[0]));
+                    } else {
+                        let bad_sum = matches!(error, FrameError::BadSum { .. });
+                        prop_assert!(bad_sum, "{:?} bit {}: {:?}", rule, bit, error);
+                    }
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// Bits in the order of the wire; all bursts of up to eight at all places.
+    #[test]
+    fn every_short_burst_is_caught(x in word(), y in word(), z in word()) {
+        for rule in SUMMING {
+            let sent = u64::from_be_bytes(encode::xyz(x, y, z, rule));
+            let decoder = Decoder::with(Mode::Xyz, rule);
+            for burst in 1_u64..=0xFF {
+                for place in 0..=56 {
+                    let bytes = (sent ^ (burst << place)).to_be_bytes();
+                    prop_assert!(decoder.decode(&bytes).is_err(), "{burst:#x} at {place}");
+                }
+            }
+        }
+    }
+}
