@@ -1,0 +1,84 @@
+//! From a file or its text to a scene, or to everything that is wrong with it.
+
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use crate::problem::{Problem, Problems};
+use crate::text::Text;
+use crate::types::Scene;
+use crate::{assemble, read, rules};
+
+/// How the TOML parser words a key or table that is given twice: the one fault
+/// of syntax that leaves the rest of the document as it was meant.
+const DUPLICATE: &str = "duplicate key";
+
+impl Scene {
+    /// Reads a scene from its text. `file` is what messages call it.
+    ///
+    /// # Errors
+    ///
+    /// All problems of the text, in the order of its lines. Where the TOML
+    /// syntax is broken, only that is reported (once a line): keys read past a
+    /// broken line might not be what was meant.
+    pub fn from_str(file: &str, text: &str) -> Result<Self, Problems> {
+        let (document, faults) = DeTable::parse_recoverable(text);
+        let mut text = Text::new(file, text);
+        let mut last_line = None;
+        let mut is_broken = false;
+        for fault in faults {
+            let is_duplicate = fault.message() == DUPLICATE;
+            is_broken |= !is_duplicate;
+            let span = fault.span().unwrap_or(usize::MAX..usize::MAX);
+            let line = text.line(span.start);
+            if last_line.replace(line) == Some(line) {
+                continue;
+            }
+            let found = format!("found {}", text.line_at(span.start));
+            let (key, allowed) = if is_duplicate {
+                (
+                    text.excerpt(span.clone()),
+                    "given twice; allowed: once".to_owned(),
+                )
+            } else {
+                ("TOML syntax".to_owned(), fault.message().replace('\n', " "))
+            };
+            text.report(span.start, key, found, allowed);
+        }
+        if is_broken {
+            return Err(text.into_problems());
+        }
+        let values = read::read(document.get_ref(), &mut text);
+        rules::apply(&values, &mut text);
+        if !text.is_clean() {
+            return Err(text.into_problems());
+        }
+        let scene = assemble::scene(&values);
+        scene.ok_or_else(|| {
+            // Only a catalogue that lacks a key of the scene leads here.
+            let found = "the catalogue of keys is incomplete".to_owned();
+            text.report(0, "scene".to_owned(), found, String::new());
+            text.into_problems()
+        })
+    }
+
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read, named; else as [`Scene::from_str`].
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, Problems> {
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::from_str(&file, &text),
+            Err(error) => Err(Problems::new(vec![Problem {
+                file,
+                line: None,
+                key: String::new(),
+                found: format!("cannot be read: {error}"),
+                allowed: "allowed: a readable scene file in UTF-8".to_owned(),
+            }])),
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! What is wrong with a scene file.
+
+use std::fmt;
+
+/// One problem of a scene file.
+///
+/// It prints on one line as `file:line: key: what was found; what is allowed`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// The file, as the caller named it.
+    pub file: String,
+    /// Line, counted from 1; `None` when the file could not be read at all.
+    pub line: Option<usize>,
+    /// The key with its section (`head.sides`), a section (`[head]`), or
+    /// `TOML syntax`; empty when the file could not be read.
+    pub key: String,
+    /// What was found there.
+    pub found: String,
+    /// What is allowed there, with a suggestion where a word is misspelt.
+    pub allowed: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, ": {}", self.key)?;
+        }
+        write!(f, ": {}", self.found)?;
+        if !self.allowed.is_empty() {
+            write!(f, "; {}", self.allowed)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problem {}
+
+/// All problems of a scene file, in the order of its lines; at least one.
+///
+/// It prints one line a problem, without a newline at the end.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problems {
+    list: Vec<Problem>,
+}
+
+impl Problems {
+    pub(crate) fn new(list: Vec<Problem>) -> Self {
+        Self { list }
+    }
+
+    /// The problems, in the order of the file's lines.
+    pub fn as_slice(&self) -> &[Problem] {
+        &self.list
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.list.iter().enumerate() {
+            if i > 0 {
+                f.write_str("\n")?;
+            }
+            problem.fmt(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Problems {}

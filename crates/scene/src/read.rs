@@ -1,0 +1,214 @@
+//! From TOML to checked values, key by key as the catalogue has it.
+//!
+//! This stage sees each key alone; [`crate::rules`] then looks at keys together.
+//! A misspelt section or key is reported and then read as what it was taken
+//! for, so that one slip does not bring a train of others.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use crate::catalogue::{SECTIONS, section};
+use crate::spec::{Key, Need, Section};
+use crate::suggest;
+use crate::text::Text;
+use crate::value::{Value, check};
+
+/// The checked values of a file.
+#[derive(Default)]
+pub(crate) struct Values {
+    sections: BTreeMap<&'static str, Given>,
+    keys: BTreeMap<(&'static str, &'static str), Entry>,
+}
+
+/// A section that is in the file.
+#[derive(Clone, Copy)]
+pub(crate) struct Given {
+    /// Where it begins, as a byte offset.
+    pub(crate) offset: usize,
+    /// Whether it is a table, so that its keys could be read.
+    pub(crate) readable: bool,
+}
+
+/// A key that is in the file or has a default.
+struct Entry {
+    /// Where it stands; `None` for a default.
+    offset: Option<usize>,
+    /// Its value; `None` when that was refused.
+    value: Option<Value>,
+}
+
+impl Values {
+    /// The section, if it is in the file.
+    pub(crate) fn section(&self, section: &str) -> Option<Given> {
+        self.sections.get(section).copied()
+    }
+
+    /// The key's value, given or by default; `None` also when it was refused.
+    pub(crate) fn get(&self, section: &'static str, key: &'static str) -> Option<&Value> {
+        self.keys.get(&(section, key))?.value.as_ref()
+    }
+
+    /// Where the key stands in the file, whatever its value.
+    pub(crate) fn offset(&self, section: &'static str, key: &'static str) -> Option<usize> {
+        self.keys.get(&(section, key))?.offset
+    }
+}
+
+type Item<'t, 'i> = (&'t Spanned<DeString<'i>>, &'t Spanned<DeValue<'i>>);
+
+/// Reads all sections and keys of a document, noting problems in `text`.
+pub(crate) fn read(document: &DeTable<'_>, text: &mut Text<'_>) -> Values {
+    let mut values = Values::default();
+    let top = Given {
+        offset: 0,
+        readable: true,
+    };
+    values.sections.insert("", top);
+    let names = || SECTIONS.iter().map(|s| s.name).filter(|n| !n.is_empty());
+    if let Some(top) = section("") {
+        for (name, value) in in_file_order(document) {
+            let keys = top.keys.iter().map(|key| key.name);
+            let candidates: Vec<&'static str> = keys.chain(names()).collect();
+            let Some(meant) = resolve(top, &candidates, document, (name, value), text) else {
+                continue;
+            };
+            match (section(meant), top.keys.iter().find(|k| k.name == meant)) {
+                (Some(section), _) => read_section(section, (name, value), text, &mut values),
+                (None, Some(key)) => read_key(top, key, (name, value), text, &mut values),
+                (None, None) => {}
+            }
+        }
+    }
+    add_defaults(&mut values);
+    values
+}
+
+fn read_section(
+    section: &'static Section,
+    (name, value): Item<'_, '_>,
+    text: &mut Text<'_>,
+    values: &mut Values,
+) {
+    let offset = name.span().start;
+    let table = value.get_ref().as_table();
+    let given = Given {
+        offset,
+        readable: table.is_some(),
+    };
+    values.sections.entry(section.name).or_insert(given);
+    let Some(table) = table else {
+        let found = format!("found {}", text.excerpt(value.span()));
+        let allowed = format!(
+            "allowed: a table of keys under the header [{}]",
+            section.name
+        );
+        text.report(offset, section.title(), found, allowed);
+        return;
+    };
+    let candidates: Vec<&'static str> = section.keys.iter().map(|key| key.name).collect();
+    for item in in_file_order(table) {
+        let Some(meant) = resolve(section, &candidates, table, item, text) else {
+            continue;
+        };
+        if let Some(key) = section.keys.iter().find(|key| key.name == meant) {
+            read_key(section, key, item, text, values);
+        }
+    }
+}
+
+fn read_key(
+    section: &Section,
+    key: &Key,
+    (name, value): Item<'_, '_>,
+    text: &mut Text<'_>,
+    values: &mut Values,
+) {
+    let checked = check(&key.kind, value);
+    for fault in checked.as_ref().err().into_iter().flatten() {
+        let mut found = format!("found {}", text.excerpt(fault.span.clone()));
+        if !fault.note.is_empty() {
+            found = format!("{found} {}", fault.note);
+        }
+        let mut allowed = format!("allowed: {}", key.allowed());
+        if let Some(word) = fault.suggestion {
+            allowed = format!("did you mean {word:?}? {allowed}");
+        }
+        text.report(fault.span.start, section.path(key.name), found, allowed);
+    }
+    let entry = Entry {
+        offset: Some(name.span().start),
+        value: checked.ok(),
+    };
+    values.keys.entry((section.name, key.name)).or_insert(entry);
+}
+
+/// Which candidate an item's name means: itself, or after a report the one it
+/// is a misspelling of, unless that one is there as well.
+fn resolve(
+    section: &Section,
+    candidates: &[&'static str],
+    table: &DeTable<'_>,
+    (name, _): Item<'_, '_>,
+    text: &mut Text<'_>,
+) -> Option<&'static str> {
+    let written: &str = name.get_ref();
+    if let Some(exact) = candidates.iter().find(|c| **c == written) {
+        return Some(exact);
+    }
+    // A key that another section has stands in the wrong place; so does a table
+    // inside a table.
+    let homes: Vec<String> = SECTIONS
+        .iter()
+        .filter(|home| {
+            let is_table = home.name.is_empty() && crate::catalogue::section(written).is_some();
+            is_table || home.keys.iter().any(|key| key.name == written)
+        })
+        .map(|home| home.title())
+        .collect();
+    let nearest = suggest::nearest(written, candidates.iter().copied());
+    let list = candidates.join(", ");
+    let (meant, allowed) = match (homes.is_empty(), nearest) {
+        (false, _) => (
+            None,
+            format!("it belongs to {}; allowed here: {list}", homes.join(", ")),
+        ),
+        (true, Some(word)) => {
+            let taken = table.iter().any(|(other, _)| other.get_ref() == word);
+            let hint = format!("did you mean `{word}`? allowed here: {list}");
+            ((!taken).then_some(word), hint)
+        }
+        (true, None) => (None, format!("allowed here: {list}")),
+    };
+    let key = section.path(&text.excerpt(name.span()));
+    text.report(name.span().start, key, "unknown key".to_owned(), allowed);
+    meant
+}
+
+/// Fills in the defaults of keys that are not in the file.
+fn add_defaults(values: &mut Values) {
+    for section in SECTIONS {
+        for key in section.keys {
+            if let Need::Default(toml) = key.need {
+                let value = DeValue::parse(toml).ok();
+                let value = value.and_then(|value| check(&key.kind, &value).ok());
+                let default = Entry {
+                    offset: None,
+                    value,
+                };
+                values
+                    .keys
+                    .entry((section.name, key.name))
+                    .or_insert(default);
+            }
+        }
+    }
+}
+
+/// The entries of a table as they follow each other in the file.
+fn in_file_order<'t, 'i>(table: &'t DeTable<'i>) -> Vec<Item<'t, 'i>> {
+    let mut items: Vec<Item<'t, 'i>> = table.iter().collect();
+    items.sort_by_key(|(name, _)| name.span().start);
+    items
+}

@@ -1,0 +1,96 @@
+//! The reference page of scene files, written from the catalogue.
+
+use std::fmt::Write;
+
+use crate::catalogue::SECTIONS;
+use crate::spec::{Condition, Key, Need, Presence, Section};
+
+/// A scene that shows most keys; the tests read it.
+const EXAMPLE: &str = include_str!("example.toml");
+
+/// The reference page of scene files, in Markdown: every section and key with
+/// type, range, unit, default and meaning.
+///
+/// It is written from the same catalogue that files are checked against.
+pub fn reference() -> String {
+    let mut page = String::from(
+        "# Scene files\n\n\
+         <!-- Generated from the catalogue in crates/scene; do not edit by hand. -->\n\n\
+         One TOML file says what a module is and what happens to it. The simulator runs it on a \
+         PC, and the firmware is built from the same file. What a scene does not name is left \
+         out: not computed in the simulation, not linked into the firmware.\n\n\
+         An unknown key, a missing one and a value out of range are errors. All errors of a file \
+         are listed, one a line: file, line, key, what was found, what is allowed. Whole numbers \
+         may stand for real ones; NaN and infinity are refused.\n\n\
+         ## Example\n\n```toml\n",
+    );
+    page.push_str(EXAMPLE);
+    page.push_str("```\n");
+    for section in SECTIONS {
+        add_section(&mut page, section);
+    }
+    page
+}
+
+fn add_section(page: &mut String, section: &Section) {
+    let title = match section.name {
+        "" => "Top of the file".to_owned(),
+        name => format!("`[{name}]`"),
+    };
+    let presence = match &section.presence {
+        Presence::Required => "Required.".to_owned(),
+        Presence::Optional {
+            without,
+            needs: None,
+        } => format!("Optional. Left out: {without}."),
+        Presence::Optional {
+            without,
+            needs: Some(needed),
+        } => format!("Optional; needs `[{needed}]`. Left out: {without}."),
+    };
+    // Here and below: writing to a String cannot fail.
+    let _ = write!(
+        page,
+        "\n## {title}\n\n{} {presence}\n\n\
+         | key | value | unit | if left out | meaning |\n|---|---|---|---|---|\n",
+        section.meaning
+    );
+    for key in section.keys {
+        let _ = writeln!(
+            page,
+            "| `{}` | {} | {} | {} | {} |",
+            key.name,
+            key.kind,
+            key.unit,
+            left_out(key),
+            meaning(key)
+        );
+    }
+}
+
+fn left_out(key: &Key) -> String {
+    match &key.need {
+        Need::Always => "an error".to_owned(),
+        Need::Default(toml) => format!("`{toml}`"),
+        Need::When { any: [], without } => (*without).to_owned(),
+        Need::When { any, without } => {
+            let any: Vec<String> = any.iter().map(|c| in_code(*c)).collect();
+            format!("an error if {}; else {without}", any.join(" or "))
+        }
+    }
+}
+
+fn meaning(key: &Key) -> String {
+    match key.only {
+        Some(condition) => format!("{} Only with {}.", key.meaning, in_code(condition)),
+        None => key.meaning.to_owned(),
+    }
+}
+
+/// The condition with its TOML set as code.
+fn in_code(condition: Condition) -> String {
+    match condition {
+        Condition::Is(..) => format!("`{condition}`"),
+        Condition::Given(key) => format!("`{key}` is given"),
+    }
+}

@@ -1,0 +1,220 @@
+//! The vocabulary in which the catalogue describes sections and keys.
+
+use std::fmt;
+
+/// A TOML table of the scene file, or the top of the file (empty name).
+pub(crate) struct Section {
+    pub(crate) name: &'static str,
+    pub(crate) presence: Presence,
+    pub(crate) meaning: &'static str,
+    pub(crate) keys: &'static [Key],
+}
+
+/// Whether a section must be there.
+pub(crate) enum Presence {
+    /// It must.
+    Required,
+    /// It may be left out.
+    Optional {
+        /// What leaving it out means.
+        without: &'static str,
+        /// The section without which this one makes no sense.
+        needs: Option<&'static str>,
+    },
+}
+
+/// One key of a section.
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    /// Unit of the numbers; empty where there is none.
+    pub(crate) unit: &'static str,
+    pub(crate) need: Need,
+    /// The key is an error unless this holds.
+    pub(crate) only: Option<Condition>,
+    pub(crate) meaning: &'static str,
+}
+
+/// Whether a key must be there, once its section is.
+pub(crate) enum Need {
+    /// Always.
+    Always,
+    /// No: this TOML value stands in for it.
+    Default(&'static str),
+    /// When any of the conditions holds.
+    When {
+        any: &'static [Condition],
+        /// What leaving it out means where none holds.
+        without: &'static str,
+    },
+}
+
+/// Something about another key of the same section.
+#[derive(Clone, Copy)]
+pub(crate) enum Condition {
+    /// The key has this word as its value.
+    Is(&'static str, &'static str),
+    /// The key is given.
+    Given(&'static str),
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Is(key, word) => write!(f, "{key} = {word:?}"),
+            Self::Given(key) => write!(f, "{key} is given"),
+        }
+    }
+}
+
+/// Type and range of a value.
+pub(crate) enum Kind {
+    /// `true` or `false`.
+    Bool,
+    /// A whole number, bounds included.
+    Integer { low: u64, high: u64 },
+    /// A real number.
+    Number(Range),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A name that is safe in file names, of at most this many characters.
+    Name { longest: usize },
+    /// A path: a string that is not empty.
+    Path,
+    /// A real number for all whiskers, or a list with one for each.
+    PerWhisker(Range),
+    /// A list of real numbers, one a side.
+    PerSide(Range),
+    /// A list of pairs of real numbers, one pair a side.
+    PairPerSide(Range),
+    /// A list of distinct words among these, at least one.
+    Words(&'static [&'static str]),
+}
+
+/// A range of real numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Range {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Whether `low` itself belongs to the range; likewise `high`.
+    pub(crate) with_low: bool,
+    pub(crate) with_high: bool,
+}
+
+impl Range {
+    /// From `low` to `high`, both included.
+    pub(crate) const fn closed(low: f64, high: f64) -> Self {
+        Self {
+            low,
+            high,
+            with_low: true,
+            with_high: true,
+        }
+    }
+
+    /// Above 0, up to and including `high`.
+    pub(crate) const fn positive(high: f64) -> Self {
+        Self {
+            low: 0.0,
+            high,
+            with_low: false,
+            with_high: true,
+        }
+    }
+
+    /// Strictly between `low` and `high`.
+    pub(crate) const fn open(low: f64, high: f64) -> Self {
+        Self {
+            low,
+            high,
+            with_low: false,
+            with_high: false,
+        }
+    }
+
+    /// Whether `x` is in the range; NaN never is.
+    pub(crate) fn contains(self, x: f64) -> bool {
+        let above = x > self.low || (self.with_low && x >= self.low);
+        let below = x < self.high || (self.with_high && x <= self.high);
+        above && below
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { low, high, .. } = *self;
+        match (self.with_low, self.with_high) {
+            (true, true) => write!(f, "from {low} to {high}"),
+            (false, true) => write!(f, "above {low} and at most {high}"),
+            (true, false) => write!(f, "at least {low} and below {high}"),
+            (false, false) => write!(f, "above {low} and below {high}"),
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bool => f.write_str("true or false"),
+            Self::Integer { low, high } => write!(f, "a whole number from {low} to {high}"),
+            Self::Number(range) => write!(f, "a number {range}"),
+            Self::Word(words) => f.write_str(&quoted(words)),
+            Self::Name { longest } => write!(
+                f,
+                "1 to {longest} of the letters A-Z and a-z, the digits, '-', '_' and '.', \
+                 not dots alone"
+            ),
+            Self::Path => f.write_str("a path"),
+            Self::PerWhisker(range) => write!(
+                f,
+                "a number {range}, or a list of such, one a whisker, left side first"
+            ),
+            Self::PerSide(range) => write!(f, "a list of numbers {range}, one a side, left first"),
+            Self::PairPerSide(range) => write!(
+                f,
+                "a list of pairs of numbers {range}, one pair a side, left first"
+            ),
+            Self::Words(words) => write!(
+                f,
+                "a list of at least one of {}, each at most once",
+                quoted(words)
+            ),
+        }
+    }
+}
+
+impl Key {
+    /// Type, range and unit in words.
+    pub(crate) fn allowed(&self) -> String {
+        if self.unit.is_empty() {
+            self.kind.to_string()
+        } else {
+            format!("{}, in {}", self.kind, self.unit)
+        }
+    }
+}
+
+impl Section {
+    /// The key as messages name it: with its section, if that has a name.
+    pub(crate) fn path(&self, key: &str) -> String {
+        if self.name.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{}.{key}", self.name)
+        }
+    }
+
+    /// The section as messages name it.
+    pub(crate) fn title(&self) -> String {
+        if self.name.is_empty() {
+            "the top of the file".to_owned()
+        } else {
+            format!("[{}]", self.name)
+        }
+    }
+}
+
+fn quoted(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
+    quoted.join(" or ")
+}

@@ -1,0 +1,205 @@
+//! Scenes that are in order, and what they come out as.
+
+use crate::common::{FULL, with};
+use scene::{
+    Classifier, Driver, Gate, Head, Integrator, Motor, Obstacle, Plant, PlantKind, Rule, Scene,
+    Sides, Texture, Textured, Whisking,
+};
+
+fn read(text: &str) -> Scene {
+    Scene::from_str("s.toml", text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+#[test]
+fn every_key_reaches_its_field() {
+    let text = with(FULL, "[plant]\n", "[motor]\n\n[plant]\n");
+    let text = with(&text, "name        = \"rcp7\"", "name = 'A-z_0.9'");
+    let text = with(&text, "duration_s  = 6.0", "duration_s = 6");
+    let text = with(&text, "seed        = 1 ", "seed = 0x7fff_ffff_ffff_ffff");
+    let text = with(&text, "gain         = 1.0", "gain = [0.5, 2]");
+    let text = with(
+        &text,
+        "[[1.0, 0.0], [1.0, 0.0]]",
+        "[[1, -1.5], [0.25, 0.5]]",
+    );
+    let expected = Scene {
+        name: "A-z_0.9".to_owned(),
+        tick_hz: 2000,
+        duration_s: 6.0,
+        seed: i64::MAX as u64,
+        head: Head {
+            whiskers_per_side: 1,
+            sides: Sides::Both,
+        },
+        whisking: Some(Whisking {
+            frequency_hz: 2.0,
+            integrator: Integrator::Exact,
+            coupling: true,
+            noise: 0.0,
+            gain: vec![0.5, 2.0],
+            start: vec![[1.0, -1.5], [0.25, 0.5]],
+        }),
+        rcp: Some(Gate {
+            gain: 0.7,
+            tau_s: 0.125,
+        }),
+        cia: Some(Gate {
+            gain: 0.5,
+            tau_s: 0.125,
+        }),
+        motor: Some(Motor {
+            driver: Driver::HBridge,
+            kp: 0.05,
+            kd: 0.001,
+            duty_limit: 1.0,
+            slew_per_s: 400.0,
+            min_deg: 30.0,
+            max_deg: 160.0,
+            gear: 11.0,
+            counts_per_rev: 512,
+        }),
+        plant: Plant {
+            kind: PlantKind::Ideal,
+            obstacle: Some(Obstacle {
+                deg: vec![100.0, 125.0],
+                stiffness: 0.1,
+            }),
+            textured: None,
+        },
+        classifier: Some(Classifier {
+            rule: Rule::Sequential { threshold: 0.99 },
+            model: "models/example.model".to_owned(),
+            contact_min: None,
+        }),
+    };
+    assert_eq!(read(&text), expected);
+    assert_eq!(expected.ticks(), 12_000);
+    assert_eq!(expected.whiskers(), 2);
+}
+
+#[test]
+fn the_motor_is_read_key_by_key() {
+    let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
+                 slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
+                 counts_per_rev = 1024\n\n[plant]\n";
+    let expected = Motor {
+        driver: Driver::SixStep,
+        kp: 1.0,
+        kd: 0.5,
+        duty_limit: 0.25,
+        slew_per_s: 10.0,
+        min_deg: -20.0,
+        max_deg: 200.5,
+        gear: 4.4,
+        counts_per_rev: 1024,
+    };
+    assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));
+    // Without the table the defaults hold, as with an empty one.
+    let empty = with(FULL, "[plant]\n", "[motor]\n[plant]\n");
+    assert_eq!(read(FULL).motor, read(&empty).motor);
+}
+
+#[test]
+fn the_least_scene_is_passive_and_free() {
+    let text = "name='a'\ntick_hz=200\nduration_s=0.005\nseed=0\n\
+                head.whiskers_per_side=12\nplant={kind='ideal'}\n";
+    let scene = read(text);
+    assert_eq!(scene.ticks(), 1);
+    assert_eq!(scene.whiskers(), 24);
+    assert_eq!((scene.whisking, scene.rcp, scene.cia), (None, None, None));
+    assert_eq!((scene.motor, scene.classifier), (None, None));
+    assert_eq!(scene.plant.obstacle, None);
+}
+
+#[test]
+fn one_gain_stands_for_every_whisker() {
+    let text = with(FULL, "whiskers_per_side = 1 ", "whiskers_per_side = 3 ");
+    let text = with(&text, "gain         = 1.0", "gain = 1.25");
+    let whisking = read(&text).whisking.expect("whisking is in the text");
+    assert_eq!(whisking.gain, [1.25; 6]);
+}
+
+#[test]
+fn a_left_half_has_one_entry_a_side() {
+    let text = with(FULL, "[whisking]", "sides = 'left'\n[whisking]");
+    let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", "[[1.0, 0.0]]");
+    let text = with(&text, "[100.0, 125.0]", "[100.0]");
+    let scene = read(&text);
+    assert_eq!(scene.head.sides, Sides::Left);
+    assert_eq!(scene.whiskers(), 1);
+    let whisking = scene.whisking.expect("whisking is in the text");
+    assert_eq!(
+        (whisking.gain, whisking.start),
+        (vec![1.0], vec![[1.0, 0.0]])
+    );
+}
+
+#[test]
+fn textured_surfaces_keep_their_order() {
+    let kind = "kind = 'textured'\ntextures = ['carpet', 'smooth', 'p600']\npresent_s = 1";
+    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
+    let expected = Textured {
+        textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
+        present_s: 1.0,
+    };
+    assert_eq!(
+        (plant.kind, plant.textured),
+        (PlantKind::Textured, Some(expected))
+    );
+}
+
+#[test]
+fn the_rule_chooses_between_threshold_and_window() {
+    let text = with(FULL, "\"sequential\" ", "\"window\" ");
+    let text = with(&text, "window    = 400", "window = 400\ncontact_min = 0.5");
+    let classifier = read(&text).classifier.expect("it is in the text");
+    assert_eq!(classifier.rule, Rule::Window { samples: 400 });
+    assert_eq!(classifier.contact_min, Some(0.5));
+    // The other rule's key may be left out.
+    let text = with(FULL, "window    = 400\n", "");
+    let classifier = read(&text).classifier.expect("it is in the text");
+    assert_eq!(classifier.rule, Rule::Sequential { threshold: 0.99 });
+}
+
+#[test]
+fn ticks_are_rounded_to_the_nearest() {
+    // 0.0029 s at 1 kHz is 2.9 ticks.
+    let text = with(FULL, "tick_hz     = 2000 ", "tick_hz = 1000 ");
+    let text = with(&text, "duration_s  = 6.0", "duration_s = 0.0029");
+    assert_eq!(read(&text).ticks(), 3);
+    let longest = with(FULL, "tick_hz     = 2000 ", "tick_hz = 20000 ");
+    let longest = with(&longest, "duration_s  = 6.0", "duration_s = 1e5");
+    assert_eq!(read(&longest).ticks(), 2_000_000_000);
+}
+
+#[test]
+fn stiffness_without_an_obstacle_is_idle() {
+    let text = with(FULL, "obstacle_deg = [100.0, 125.0]", "");
+    assert_eq!(read(&text).plant.obstacle, None);
+}
+
+#[test]
+fn a_scene_is_loaded_and_its_model_found_beside_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("s.toml");
+    std::fs::write(&file, FULL).expect("the scene is written");
+    let scene = Scene::load(&file).unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(scene, read(FULL));
+
+    let model = std::path::Path::new("models/example.model");
+    assert_eq!(scene.model_path(folder.path()).as_deref(), Some(model));
+    let beside = folder.path().join(model);
+    std::fs::create_dir(folder.path().join("models")).expect("a folder");
+    std::fs::write(&beside, "").expect("the model is written");
+    assert_eq!(scene.model_path(folder.path()), Some(beside));
+
+    let (before, _) = FULL.split_once("[classifier]").expect("it is there");
+    assert_eq!(read(before).model_path(folder.path()), None);
+}
+
+#[test]
+fn negative_zero_becomes_zero() {
+    let text = with(FULL, "noise        = 0.0", "noise = -0.0");
+    let whisking = read(&text).whisking.expect("whisking is in the text");
+    assert!(whisking.noise.is_sign_positive());
+}

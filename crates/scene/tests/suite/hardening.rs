@@ -1,0 +1,158 @@
+//! Whatever stands in a file, reading it ends in a scene or in problems that
+//! name the file and a line of it.
+
+use crate::common::FULL;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use scene::Scene;
+
+/// Pieces that are apt to upset a reader.
+const PIECES: &[&str] = &[
+    "",
+    "\n",
+    "=",
+    "[",
+    "]",
+    "[[",
+    "]]",
+    "{",
+    "}",
+    "\"",
+    "'",
+    "\"\"\"",
+    ",",
+    ".",
+    "#",
+    "-",
+    "0x",
+    "nan",
+    "inf",
+    "-inf",
+    "1e999",
+    "99999999999999999999",
+    "-0.0",
+    "true",
+    "1979-05-27",
+    "[]",
+    "{}",
+    "[[]]",
+    "\u{feff}",
+    "ψ",
+    "\0",
+    "\r",
+    "\r\n",
+    "\\",
+    "\"textured\"",
+    "\"left\"",
+    "\"window\"",
+    "[motor]\n",
+    "seed",
+    "gain",
+    "[plant]\n",
+    "_",
+];
+
+#[derive(Debug, Clone)]
+enum Edit {
+    Insert(Index, &'static str),
+    Remove(Index, usize),
+    Replace(Index, usize, &'static str),
+    SwapLines(Index, Index),
+}
+
+fn edit() -> impl Strategy<Value = Edit> {
+    let piece = || prop::sample::select(PIECES);
+    let place = || any::<Index>();
+    prop_oneof![
+        (place(), piece()).prop_map(|(at, new)| Edit::Insert(at, new)),
+        (place(), 1..40_usize).prop_map(|(at, n)| Edit::Remove(at, n)),
+        (place(), 1..12_usize, piece()).prop_map(|(at, n, new)| Edit::Replace(at, n, new)),
+        (place(), place()).prop_map(|(a, b)| Edit::SwapLines(a, b)),
+    ]
+}
+
+fn apply(text: &str, edit: &Edit) -> String {
+    let mut chars: Vec<char> = text.chars().collect();
+    let size = chars.len();
+    let mut splice = |at: &Index, n: usize, new: &str| {
+        let start = at.index(size + 1);
+        chars.splice(start..(start + n).min(size), new.chars());
+        chars.iter().collect()
+    };
+    match edit {
+        Edit::Insert(at, new) => splice(at, 0, new),
+        Edit::Remove(at, n) => splice(at, *n, ""),
+        Edit::Replace(at, n, new) => splice(at, *n, new),
+        Edit::SwapLines(a, b) => {
+            let mut lines: Vec<&str> = text.split('\n').collect();
+            let n = lines.len();
+            lines.swap(a.index(n), b.index(n));
+            lines.join("\n")
+        }
+    }
+}
+
+/// Checks what must hold of any text.
+fn holds_up(text: &str) -> Result<(), TestCaseError> {
+    match Scene::from_str("s.toml", text) {
+        Ok(scene) => {
+            prop_assert!(scene.ticks() >= 1);
+            prop_assert_eq!(scene.motor.is_some(), scene.whisking.is_some());
+            if let Some(whisking) = scene.whisking {
+                let sides = scene.head.sides.count();
+                prop_assert_eq!(whisking.gain.len(), sides * scene.head.whiskers_per_side);
+                prop_assert_eq!(whisking.start.len(), sides);
+            }
+        }
+        Err(problems) => {
+            let lines = 1 + text.matches('\n').count();
+            let mut last = 1;
+            prop_assert!(!problems.as_slice().is_empty());
+            for problem in problems.as_slice() {
+                let line = problem.line.unwrap_or(0);
+                prop_assert!((last..=lines).contains(&line), "{}", problem);
+                prop_assert_eq!(problem.to_string().lines().count(), 1);
+                prop_assert!(!problem.key.is_empty() && !problem.found.is_empty());
+                last = line;
+            }
+            // The catalogue covers the whole scene.
+            prop_assert!(!problems.to_string().contains("catalogue"));
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2000, ..Default::default() })]
+
+    #[test]
+    fn a_scene_with_edits(edits in prop::collection::vec(edit(), 1..6)) {
+        let text = edits.iter().fold(FULL.to_owned(), |text, edit| apply(&text, edit));
+        holds_up(&text)?;
+    }
+
+    #[test]
+    fn any_text(text in any::<String>()) {
+        holds_up(&text)?;
+    }
+
+    #[test]
+    fn any_value_of_any_key(line in 0..36_usize, piece in prop::sample::select(PIECES)) {
+        let mut lines: Vec<String> = FULL.lines().map(str::to_owned).collect();
+        if let Some(line) = lines.get_mut(line)
+            && let Some((key, _)) = line.split_once('=')
+        {
+            *line = format!("{key}= {piece}");
+        }
+        holds_up(&lines.join("\n"))?;
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    for open in ["[", "{a=", "[{a="] {
+        let text = format!("name = {}", open.repeat(100_000));
+        let problems = Scene::from_str("s.toml", &text).expect_err("nested too deep");
+        assert_eq!(problems.as_slice().len(), 1, "{problems}");
+    }
+}

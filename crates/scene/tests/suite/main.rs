@@ -1,0 +1,8 @@
+//! Tests of the scene reader through its public interface, by topic.
+
+mod accepts;
+mod common;
+mod hardening;
+mod reference;
+mod refuses;
+mod relations;
