@@ -68,7 +68,9 @@ mod tests {
     #[test]
     fn drive_is_within_its_stated_error() {
         let worst = points()
-            .map(|x| (f64::from(drive(x)) - f64::midpoint(libm::tanh(2.0 * f64::from(x)), 1.0)).abs())
+            .map(|x| {
+                (f64::from(drive(x)) - f64::midpoint(libm::tanh(2.0 * f64::from(x)), 1.0)).abs()
+            })
             .fold(0.0, f64::max);
         assert!(worst < 2e-7, "{worst:e}");
     }

@@ -1,0 +1,144 @@
+//! Motor drivers: a signed drive in, switched pins out, faults that keep the
+//! motor off.
+//!
+//! Two power stages behind one trait, [`MotorDriver`]: a brushed motor on an
+//! H-bridge ([`HBridge`]) and a three-phase brushless motor commutated from
+//! its Hall sensors ([`SixStep`]). The BIOTACT module used the latter: a
+//! Faulhaber 1307BH with an 11:1 gearbox and a custom three-phase bridge
+//! (Sullivan et al. 2011, section II.C). Nothing here names a chip: pins and
+//! timers are embedded-hal 1.0 traits.
+//!
+//! Glossary:
+//!
+//! - *protraction*: the whisker sweeping forward; the sign of a positive
+//!   [`Duty`].
+//! - *duty*: the fraction of the supply put across the motor, signed.
+//! - *off*: no phase driven by us. The H-bridge stands at PWM zero (most
+//!   bridges brake there); the three-phase stage has all phases floating.
+//! - *tick*: one call of `drive`, 500 µs apart at BIOTACT's 2 kHz.
+//! - *sector*: a sixth of an electrical turn, 60°, as told by three Hall
+//!   sensors.
+//! - *lead*: the electrical angle from the rotor's magnet to the driven field;
+//!   torque goes with its sine.
+//! - *stall*: driven hard and not moving, the state that burns windings.
+//! - *buffered PWM*: a timer whose compare value takes effect only at the next
+//!   PWM period ("preload"), so that a pin written later changes earlier.
+//!
+//! A fault switches the motor off and holds it there until
+//! [`MotorDriver::clear`]. Every fault has a stable number, [`Fault::code`].
+
+mod commutation;
+mod duty;
+mod hall;
+mod hbridge;
+mod phases;
+mod six_step;
+mod stall;
+
+use core::fmt;
+
+pub use commutation::{COMMUTATION, Pair, Phase, Role, Sector, Step};
+pub use duty::Duty;
+pub use hall::HallTracker;
+pub use hbridge::HBridge;
+pub use phases::{HallInputs, PhaseEnables, PhasePwms};
+pub use six_step::{SixStep, SixStepConfig};
+pub use stall::{StallConfig, StallGuard};
+
+/// What the control loop needs of a motor.
+///
+/// Call [`drive`](Self::drive) once a tick; an error means that the motor has
+/// been switched off and stays off until [`clear`](Self::clear).
+pub trait MotorDriver {
+    /// Drives with the given duty until the next call.
+    ///
+    /// While a fault stands, the outputs are switched off anew and the same
+    /// fault is returned.
+    ///
+    /// # Errors
+    ///
+    /// The fault that stands, or the one just found.
+    fn drive(&mut self, duty: Duty) -> Result<(), Fault>;
+
+    /// Switches the motor off.
+    ///
+    /// Always returns, and tries every output even when one fails; a failure
+    /// is kept as a fault and told by the next [`drive`](Self::drive).
+    fn off(&mut self);
+
+    /// Forgets the fault. The motor stays off until the next
+    /// [`drive`](Self::drive).
+    fn clear(&mut self);
+}
+
+/// Why a motor was switched off.
+///
+/// Numbers (see [`Fault::code`]) never change meaning; 0 is left for "none".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Fault {
+    /// 1: a pin could not be read or written. Likely cause: an I/O expander
+    /// off its bus; pins of the chip itself do not fail.
+    Pin,
+    /// 2: a PWM channel could not be set. Likely cause: an external PWM chip
+    /// off its bus, or a channel not configured.
+    Pwm,
+    /// 3 for code 0, 4 for any other: the Hall sensors gave a code that no
+    /// rotor angle has. Likely cause of 0 (all low): sensors without supply,
+    /// or a shorted cable. Likely cause of 7 (all high): cable unplugged with
+    /// pull-ups fitted, or sensors spaced at 60° instead of 120°.
+    InvalidHall(u8),
+    /// 5: the rotor skipped Hall sectors in too many ticks in succession.
+    /// Likely cause: motor faster than the tick can follow, a Hall line with
+    /// noise, or two Hall lines exchanged.
+    SkippedSector,
+    /// 6: driven above the stall threshold and not moving for too long. Likely
+    /// cause: whisker or gear blocked, a phase wire open, or phases wired in
+    /// another order than the Hall sensors.
+    Stall,
+}
+
+impl Fault {
+    /// The stable number of the fault, 1 to 6, for telemetry.
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Pin => 1,
+            Self::Pwm => 2,
+            Self::InvalidHall(0) => 3,
+            Self::InvalidHall(_) => 4,
+            Self::SkippedSector => 5,
+            Self::Stall => 6,
+        }
+    }
+
+    /// The fault with a number, for readers of telemetry; none for a number
+    /// not in use. 4 becomes [`Fault::InvalidHall`]`(7)`, the only code it is
+    /// given for in practice.
+    pub const fn from_code(code: u8) -> Option<Self> {
+        match code {
+            1 => Some(Self::Pin),
+            2 => Some(Self::Pwm),
+            3 => Some(Self::InvalidHall(0)),
+            4 => Some(Self::InvalidHall(7)),
+            5 => Some(Self::SkippedSector),
+            6 => Some(Self::Stall),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pin => f.write_str("motor fault 1: a pin failed"),
+            Self::Pwm => f.write_str("motor fault 2: a PWM channel failed"),
+            Self::InvalidHall(code) => {
+                let number = self.code();
+                write!(f, "motor fault {number}: impossible Hall code {code}")
+            }
+            Self::SkippedSector => f.write_str("motor fault 5: Hall sectors skipped"),
+            Self::Stall => f.write_str("motor fault 6: driven but not moving"),
+        }
+    }
+}
+
+impl core::error::Error for Fault {}

@@ -1,0 +1,72 @@
+//! The signed drive of a motor as a fixed-point fraction.
+
+/// Signed drive in Q15: the integer `n` stands for `n / 32767` of the supply.
+///
+/// Range −32767 (full retraction) to +32767 (full protraction); −32768 does
+/// not occur, so that both directions are alike and negation cannot overflow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Duty(i16);
+
+impl Duty {
+    /// No drive.
+    pub const ZERO: Self = Self(0);
+    /// Full protraction.
+    pub const FULL: Self = Self(i16::MAX);
+
+    /// From a Q15 integer; −32768 is folded to −32767.
+    #[inline]
+    pub const fn from_q15(q15: i16) -> Self {
+        if q15 == i16::MIN {
+            Self(-i16::MAX)
+        } else {
+            Self(q15)
+        }
+    }
+
+    /// From a fraction of full drive, clipped to \[−1, 1\]; NaN gives
+    /// [`Duty::ZERO`].
+    ///
+    /// Rounded to nearest, halves away from zero; error at most 0.504 of a
+    /// step, the excess over 0.5 being the rounding of the product in f32.
+    #[inline]
+    pub fn from_f32(fraction: f32) -> Self {
+        let scaled = fraction.clamp(-1.0, 1.0) * f32::from(i16::MAX);
+        // A float-to-integer cast drops the fraction, saturates and turns NaN
+        // into zero; |scaled| + 0.5 stays below 32768.
+        Self((scaled + 0.5_f32.copysign(scaled)) as i16)
+    }
+
+    /// The Q15 integer, −32767 to 32767.
+    #[inline]
+    pub const fn q15(self) -> i16 {
+        self.0
+    }
+
+    /// The size of the drive, 0 to 32767.
+    #[inline]
+    pub const fn magnitude(self) -> u16 {
+        self.0.unsigned_abs()
+    }
+
+    /// Whether it drives towards protraction. False for zero, which has no
+    /// direction; the drivers keep their last one then.
+    #[inline]
+    pub const fn is_forward(self) -> bool {
+        self.0 > 0
+    }
+
+    /// Whether it drives towards retraction. False for zero.
+    #[inline]
+    pub const fn is_reverse(self) -> bool {
+        self.0 < 0
+    }
+
+    /// The magnitude in counts of a PWM timer: `magnitude · max / 32767`
+    /// rounded to nearest, never above `max`, exactly `max` at full drive.
+    #[inline]
+    pub const fn scaled_to(self, max: u16) -> u16 {
+        const ONE: u32 = i16::MAX as u32;
+        // At most 32767 · 65535 + 16383 < 2^31; the quotient is at most max.
+        ((self.magnitude() as u32 * max as u32 + ONE / 2) / ONE) as u16
+    }
+}

@@ -1,0 +1,135 @@
+//! A brushed motor on an H-bridge with one PWM and one direction input.
+
+use embedded_hal::digital::{OutputPin, PinState};
+use embedded_hal::pwm::SetDutyCycle;
+
+use super::{Duty, Fault, MotorDriver};
+
+/// Sign-magnitude drive: the PWM carries the size of the duty, the direction
+/// pin its sign (high is protraction). The input pair is called PH/EN or
+/// DIR/PWM in data sheets; IN1/IN2 bridges are not of this kind.
+///
+/// At a change of direction the PWM goes to zero first, then the pin changes,
+/// then the new duty is set, so that the old duty never acts in the new
+/// direction. A zero duty leaves the pin as it is.
+///
+/// With a buffered PWM (see the [module](super)) that order is not enough: the
+/// zero would take effect after the pin has changed. Use
+/// [`with_buffered_pwm`](Self::with_buffered_pwm) then.
+///
+/// [`MotorDriver::off`] sets the PWM to zero and leaves the direction pin
+/// alone: a bridge at zero does not heed it, and should the PWM have failed, a
+/// pin moved under a live PWM would reverse the motor.
+///
+/// Stall and encoder are the caller's: see [`StallGuard`](super::StallGuard).
+#[derive(Debug)]
+pub struct HBridge<PWM, DIR> {
+    pwm: PWM,
+    dir: DIR,
+    /// What the pin was last set to; unknown before the first drive and after
+    /// a fault.
+    forward: Option<bool>,
+    /// Whether the PWM output may still be at a duty other than zero.
+    live: bool,
+    buffered: bool,
+    fault: Option<Fault>,
+}
+
+impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
+    /// Takes the outputs and switches off. Should that fail, the first
+    /// [`drive`](MotorDriver::drive) returns the fault.
+    pub fn new(pwm: PWM, dir: DIR) -> Self {
+        let mut bridge = Self {
+            pwm,
+            dir,
+            forward: None,
+            live: true,
+            buffered: false,
+            fault: None,
+        };
+        bridge.off();
+        bridge
+    }
+
+    /// For a PWM whose duty takes effect only at its next period: a change of
+    /// direction under drive then rests at zero for one tick before the pin
+    /// changes. The PWM period must not exceed the tick.
+    #[must_use]
+    pub fn with_buffered_pwm(mut self) -> Self {
+        self.buffered = true;
+        self
+    }
+
+    /// The fault that holds the motor off.
+    pub fn fault(&self) -> Option<Fault> {
+        self.fault
+    }
+
+    /// Switches off and gives the outputs back.
+    pub fn release(mut self) -> (PWM, DIR) {
+        self.off();
+        (self.pwm, self.dir)
+    }
+
+    #[inline]
+    fn set_pwm(&mut self, duty: Duty) -> Result<(), Fault> {
+        // Said before the write: one that fails may have gone through.
+        self.live |= duty != Duty::ZERO;
+        let counts = duty.scaled_to(self.pwm.max_duty_cycle());
+        self.pwm.set_duty_cycle(counts).map_err(|_| Fault::Pwm)?;
+        self.live = duty != Duty::ZERO;
+        Ok(())
+    }
+
+    fn zero_pwm(&mut self) -> Result<(), Fault> {
+        self.pwm
+            .set_duty_cycle_fully_off()
+            .map_err(|_| Fault::Pwm)?;
+        self.live = false;
+        Ok(())
+    }
+
+    #[inline]
+    fn apply(&mut self, duty: Duty) -> Result<(), Fault> {
+        let forward = duty.is_forward();
+        if duty != Duty::ZERO && self.forward != Some(forward) {
+            let rest = self.buffered && self.live;
+            self.zero_pwm()?;
+            if rest {
+                return Ok(());
+            }
+            self.dir
+                .set_state(PinState::from(forward))
+                .map_err(|_| Fault::Pin)?;
+            self.forward = Some(forward);
+        }
+        self.set_pwm(duty)
+    }
+}
+
+impl<PWM: SetDutyCycle, DIR: OutputPin> MotorDriver for HBridge<PWM, DIR> {
+    #[inline]
+    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
+        if self.fault.is_none() {
+            self.fault = self.apply(duty).err();
+        }
+        if let Some(fault) = self.fault {
+            self.off();
+            return Err(fault);
+        }
+        Ok(())
+    }
+
+    fn off(&mut self) {
+        if let Err(fault) = self.zero_pwm() {
+            self.fault.get_or_insert(fault);
+        }
+        if self.fault.is_some() {
+            self.forward = None;
+        }
+    }
+
+    fn clear(&mut self) {
+        self.fault = None;
+    }
+}
