@@ -1,2 +1,94 @@
-//! tactile
+//! Deciding what a whisker touched: histogram likelihoods and streaming
+//! naive Bayes in integers.
+//!
+//! # Glossary
+//!
+//! - **channel**: one stream of numbers, such as the x deflection of a whisker.
+//! - **code**: a sample as an integer, in the units of the model's
+//!   [`Quantiser`]; for a model trained on integer sensor codes, that code.
+//! - **bin**: one of the equal cells that a channel's range is cut into.
+//! - **class**: what is to be told apart (a texture, a distance, a terrain).
+//! - **likelihood**: the probability of a bin given a class, learnt from a
+//!   recording (LEP10; LEP12 eq. 3; BIOTACT section IV).
+//! - **block**: the run of samples whose mean log-likelihood is one step of
+//!   evidence (LEP12: m = 20).
+//! - **evidence**: the log-posterior but for a constant; all classes start equal.
+//! - **deficit**: by how much a class's evidence lies behind the leader's.
+//! - **posterior**: the probability of a class given the samples so far.
+//! - **decision time**: the samples a decision used.
+//!
+//! # Three rules over one lookup
+//!
+//! | rule | decides | source |
+//! |---|---|---|
+//! | [`Sequential`] | after the block in which a posterior exceeds a threshold | LEP12 eq. 3–8 |
+//! | [`Window`] | by the largest evidence over each run of N samples | LEP10 |
+//! | [`Stationary`] | by the largest evidence over a whole whisk and all whiskers | BIOTACT eq. 15–16 |
+//!
+//! A rule is an immutable configuration that reads its [`Model`] in place from
+//! flash, and a small [`State`]: K + 1 words for the open block, and for the
+//! evidence K + 1 words (sequential) or 2K + 2 (the others). Channels C and
+//! classes K are compile-time constants, so the step is straight-line code.
+//! After training everything is an integer; there is no logarithm at run time.
+//!
+//! # Error bounds
+//!
+//! - A table entry is log2 p rounded to 2⁻¹⁰ bit: at most 2⁻¹¹ bit off.
+//! - Sums and evidence are exact integers: nothing drifts, however long. In
+//!   the sequential rule a class is held once it is 2²⁹ units behind (26214 bit
+//!   in blocks of 20 samples, 52 bit in blocks of 10000).
+//! - 2⁻ˣ is within 4e-6 relative (`exp2.rs`); x itself is scaled by a
+//!   reciprocal of the block within 1e-5 relative (2e-8 for blocks of 20).
+//!
+//! # Features
+//!
+//! `std`: `train` (learning a model, f64), `reference` (an independent f64
+//! classifier to compare with), `dynamic` (channels and classes known only at
+//! run time) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
+
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(target_endian = "big")]
+compile_error!("models are little-endian and read in place: big-endian targets are not supported");
+
+mod decision;
+#[cfg(feature = "std")]
+pub mod dynamic;
+mod error;
+mod evidence;
+mod exp2;
+mod format;
+mod likelihoods;
+mod model;
+#[cfg(feature = "std")]
+mod model_buf;
+mod quantiser;
+#[cfg(feature = "std")]
+pub mod reference;
+mod sequential;
+mod stationary;
+mod streaming;
+#[cfg(feature = "std")]
+pub mod train;
+#[cfg(feature = "std")]
+mod train_error;
+mod window;
+
+pub use decision::{Decision, Posterior};
+pub use error::{ModelError, QuantiserError, SetupError};
+pub use evidence::{Scale, Totals};
+pub use format::{
+    ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK, MAX_CHANNELS,
+    MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION,
+};
+pub use likelihoods::{Classes, Likelihoods, Sums, Supported};
+pub use model::{Aligned, Model};
+#[cfg(feature = "std")]
+pub use model_buf::{ModelBuf, ModelParts};
+pub use quantiser::{Binner, Quantiser};
+pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
+pub use stationary::{Stationary, StationaryRule};
+pub use streaming::{Rule, State, Streaming};
+pub use window::{Window, WindowRule};

@@ -1,0 +1,190 @@
+//! From a scene to the constants of the tick.
+//!
+//! The simulator computes them when it starts, a board's build script computes
+//! them when it builds and writes them into the firmware (they print as Rust
+//! expressions): by this same code, so that both run the same numbers.
+
+use scene::Scene;
+use whisking::{DEGREES_PER_UNIT, Error, Real, filter, pd};
+
+/// Constants of an active module of `S` sides with `N` whiskers each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion<R, const S: usize, const N: usize> {
+    /// Oscillators, muscles and gates.
+    pub whisking: whisking::Config<R>,
+    /// Where they start.
+    pub start: whisking::Start<R, S, N>,
+    /// Position control.
+    pub pd: pd::Config<R>,
+    /// Protraction θ a count of the angle input, times 2^24.
+    pub theta_per_count_q24: R,
+}
+
+/// What is wrong with a scene for a module of a given shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mismatch {
+    /// The scene has another number of sides or whiskers.
+    Shape,
+    /// A value is out of range; a checked scene has none.
+    Value(Error),
+}
+
+impl std::fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Shape => write!(f, "the scene has another number of sides or whiskers"),
+            Self::Value(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for Mismatch {}
+
+impl From<Error> for Mismatch {
+    fn from(error: Error) -> Self {
+        Self::Value(error)
+    }
+}
+
+/// The pattern generator's settings; `None` for a passive scene.
+pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
+    let whisking = scene.whisking.as_ref()?;
+    let gate = |gate: scene::Gate| whisking::GateSettings {
+        gain: gate.gain,
+        tau_s: gate.tau_s,
+    };
+    Some(whisking::Settings {
+        tick_hz: f64::from(scene.tick_hz),
+        frequency_hz: whisking.frequency_hz,
+        integrator: match whisking.integrator {
+            scene::Integrator::Exact => whisking::Integrator::Exact,
+            scene::Integrator::Euler => whisking::Integrator::Euler,
+        },
+        coupling: whisking.coupling,
+        noise: whisking.noise,
+        rcp: scene.rcp.map(gate),
+        cia: scene.cia.map(gate),
+    })
+}
+
+/// The constants of a module of `S` sides with `N` whiskers each; `None` for a
+/// passive scene.
+///
+/// # Errors
+/// [`Mismatch::Shape`] if the scene's array has another shape.
+pub fn motion<R: Real, const S: usize, const N: usize>(
+    scene: &Scene,
+) -> Result<Option<Motion<R, S, N>>, Mismatch> {
+    let (Some(settings), Some(whisking), Some(motor)) =
+        (settings(scene), &scene.whisking, &scene.motor)
+    else {
+        return Ok(None);
+    };
+    let start: [[f64; 2]; S] = whisking
+        .start
+        .as_slice()
+        .try_into()
+        .map_err(|_| Mismatch::Shape)?;
+    if whisking.gain.len() != S * N {
+        return Err(Mismatch::Shape);
+    }
+    let mut gain = [[0.0; N]; S];
+    for (place, g) in gain.iter_mut().flatten().zip(&whisking.gain) {
+        *place = *g;
+    }
+    let tick_hz = f64::from(scene.tick_hz);
+    let degrees_per_count = 360.0 / (f64::from(motor.counts_per_rev) * motor.gear);
+    Ok(Some(Motion {
+        whisking: settings.build()?,
+        start: settings.start(start, gain)?,
+        pd: pd::Settings {
+            kp: motor.kp,
+            kd: motor.kd,
+            limit: motor.duty_limit,
+            slew_per_s: motor.slew_per_s,
+            min_deg: motor.min_deg,
+            max_deg: motor.max_deg,
+        }
+        .build(tick_hz)?,
+        theta_per_count_q24: R::from_f64(degrees_per_count / DEGREES_PER_UNIT * 16_777_216.0),
+    }))
+}
+
+/// H50 for the contact signals, where the scene has something that uses them:
+/// RCP, CIA or a classifier that listens only during contact.
+///
+/// # Errors
+/// [`Mismatch::Value`] for a tick rate that leaves no room for 50 Hz.
+pub fn contact<R: Real>(scene: &Scene) -> Result<Option<filter::Config<R>>, Mismatch> {
+    let listens = scene
+        .classifier
+        .as_ref()
+        .is_some_and(|c| c.contact_min.is_some());
+    if scene.rcp.is_none() && scene.cia.is_none() && !listens {
+        return Ok(None);
+    }
+    Ok(Some(filter::Config::new(
+        filter::CORNER_HZ,
+        f64::from(scene.tick_hz),
+    )?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Mismatch, contact, motion};
+    use scene::Scene;
+
+    const SCENE: &str = r#"
+name = "rcp7"
+tick_hz = 2000
+duration_s = 6.0
+seed = 1
+[head]
+whiskers_per_side = 2
+[whisking]
+frequency_hz = 2.0
+integrator = "exact"
+coupling = true
+noise = 0.0
+gain = [0.5, 1.0, 1.5, 2.0]
+start = [[1.0, 0.0], [0.6, 0.5]]
+[rcp]
+gain = 0.7
+tau_s = 0.125
+[plant]
+kind = "ideal"
+"#;
+
+    #[test]
+    fn every_value_reaches_its_place_left_side_first() {
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let motion = motion::<f64, 2, 2>(&scene).unwrap().unwrap();
+        assert_eq!(motion.start.gain, [[0.5, 1.0], [1.5, 2.0]]);
+        assert_eq!(motion.start.psi, [[1.0, 0.0], [0.6, 0.5]]);
+        let rcp = motion.whisking.rcp.unwrap();
+        assert!((rcp.keep - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
+        assert_eq!(rcp.gain, 0.7);
+        assert!(motion.whisking.cia.is_none() && motion.whisking.noise.is_none());
+        // 512 counts a turn of the motor and a gear of 11: 0.0639 degrees a count.
+        let counts_to_90_deg = 512.0 * 11.0 / 4.0;
+        let theta = motion.theta_per_count_q24 * counts_to_90_deg / 16_777_216.0;
+        assert!((theta - 0.9).abs() < 1e-12);
+        assert!(contact::<f64>(&scene).unwrap().is_some());
+    }
+
+    #[test]
+    fn another_shape_is_refused() {
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        assert_eq!(motion::<f32, 2, 1>(&scene).unwrap_err(), Mismatch::Shape);
+        assert_eq!(motion::<f32, 1, 2>(&scene).unwrap_err(), Mismatch::Shape);
+    }
+
+    #[test]
+    fn what_a_scene_leaves_out_is_none() {
+        let passive = "name=\"p\"\ntick_hz=2000\nduration_s=1\nseed=1\n\
+            [head]\nwhiskers_per_side=1\n[plant]\nkind=\"ideal\"\n";
+        let scene = Scene::from_str("p.toml", passive).unwrap();
+        assert!(motion::<f32, 2, 1>(&scene).unwrap().is_none());
+        assert!(contact::<f32>(&scene).unwrap().is_none());
+    }
+}

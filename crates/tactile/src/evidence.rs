@@ -1,0 +1,182 @@
+//! From sums of log-likelihoods to posteriors.
+//!
+//! All evidence is held in table units (1/1024 bit) times the block, exact
+//! integers; dividing by the block waits until the exponent of the posterior,
+//! where the whole scale is one multiplication. With deficits d_j of the
+//! classes behind the leader, its posterior is
+//! p = 1 / Σ_j 2^(−d_j / (1024 · block)).
+
+use crate::decision::Posterior;
+use crate::exp2::{INDEX_BITS, ONE, TERM_BITS, exp2_neg};
+use crate::format::ENTRIES_PER_BIT;
+
+/// Largest deficit that is told apart: 2²⁹ − 1 units, 52 bit of evidence in
+/// blocks of 10000 samples and 26214 bit in blocks of 20. Classes further
+/// behind are held there. It keeps the evidence of a stream that never
+/// decides in a word: 2²⁹ + 65535 · 20480 < 2³¹.
+pub(crate) const MAX_DEFICIT: u32 = (1 << 29) - 1;
+
+/// More than any odds against the leader of 32 classes, Q26.
+pub(crate) const MAX_ODDS: u32 = 32 * ONE;
+
+/// 2³⁹ / 1024: turns deficits into units of 2⁻³⁹ bit.
+const RATE_OF_ONE: u32 = 1 << (32 + INDEX_BITS - ENTRIES_PER_BIT.ilog2());
+
+/// The number of samples whose mean is one step of evidence, as a multiplier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Scale {
+    /// 2³⁹ / (1024 · samples), rounded: within samples / 2³⁰ relative.
+    rate: u32,
+}
+
+impl Scale {
+    /// For the mean over this many samples (at least one; zero counts as one).
+    pub const fn per_samples(samples: u32) -> Self {
+        let samples = if samples == 0 { 1 } else { samples };
+        Self {
+            rate: (RATE_OF_ONE + samples / 2) / samples,
+        }
+    }
+
+    /// 2^(gain − d) for a deficit of at most [`MAX_DEFICIT`], Q26; see [`exp2_neg`].
+    #[inline]
+    pub(crate) fn term(self, deficit: u32, gain: i32) -> u32 {
+        exp2_neg(u64::from(deficit) * u64::from(self.rate), gain)
+    }
+
+    /// Odds against the leader, Σ over the others of 2^−d, times 2^gain, Q26:
+    /// but None as soon as they reach `bound`, which is at most 2³¹. One or
+    /// two rivals usually show it.
+    ///
+    /// Apart and for a slice: as a loop it keeps its constants in registers
+    /// and is shared by all numbers of classes.
+    #[inline(never)]
+    pub(crate) fn odds_below(self, deficits: &[u32], gain: u8, bound: u32) -> Option<u32> {
+        let gain = i32::from(gain);
+        // The leader's own term is exactly one, and in the sum. At most
+        // 32 · 2²⁶ = 2³¹, and the limit is no more than 2³¹ + 2²⁶.
+        let limit = bound.saturating_add(ONE);
+        let mut sum = 0_u32;
+        for &deficit in deficits {
+            sum = sum.wrapping_add(self.term(deficit, gain));
+            if sum >= limit {
+                return None;
+            }
+        }
+        Some(sum.wrapping_sub(ONE))
+    }
+
+    /// Posterior of each class, in units of 2⁻³², at most 2³² − 1. For display:
+    /// one 64-bit division.
+    pub fn posteriors<const K: usize>(self, deficits: &[u32; K]) -> [u32; K] {
+        let terms = deficits.map(|d| self.term(d, 0));
+        let sum: u64 = terms.iter().map(|&t| u64::from(t)).sum();
+        // The sum is at least one: a deficit is always zero somewhere.
+        let inverse = (1_u64 << (32 + TERM_BITS)).checked_div(sum).unwrap_or(0);
+        terms.map(|t| u32::try_from((u64::from(t) * inverse) >> TERM_BITS).unwrap_or(u32::MAX))
+    }
+}
+
+/// Index of the first class without a deficit: the leader, and on a perfect
+/// tie the one that comes first in the training file.
+#[inline]
+pub(crate) fn leader<const K: usize>(deficits: &[u32; K]) -> usize {
+    deficits.iter().position(|&d| d == 0).unwrap_or(0)
+}
+
+/// Sums over many blocks, exact: u64 a class. Never wraps, and saturates only
+/// after 2⁶⁴ / (20480 · C) samples, about a million years at 2 kHz.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Totals<const K: usize> {
+    sums: [u64; K],
+    /// Samples in them, saturated.
+    pub(crate) samples: u32,
+}
+
+impl<const K: usize> Default for Totals<K> {
+    fn default() -> Self {
+        Self {
+            sums: [0; K],
+            samples: 0,
+        }
+    }
+}
+
+impl<const K: usize> Totals<K> {
+    #[inline]
+    pub(crate) fn add(&mut self, sums: &[u32; K], samples: u32) {
+        for (total, &sum) in self.sums.iter_mut().zip(sums) {
+            *total = total.saturating_add(u64::from(sum));
+        }
+        self.samples = self.samples.saturating_add(samples);
+    }
+
+    /// By how much each class lies behind the leader.
+    pub(crate) fn deficits(&self) -> [u32; K] {
+        let most = self.sums.iter().copied().max().unwrap_or(0);
+        self.sums
+            .map(|sum| u32::try_from(most - sum).map_or(MAX_DEFICIT, |d| d.min(MAX_DEFICIT)))
+    }
+
+    /// The leader and its posterior.
+    pub(crate) fn decide(&self, scale: Scale) -> (usize, Posterior) {
+        let deficits = self.deficits();
+        // 32 classes cannot reach the bound.
+        let against = scale.odds_below(&deficits, 0, MAX_ODDS).unwrap_or(MAX_ODDS);
+        (leader(&deficits), Posterior::from_odds_against(against, 0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn posteriors_match_closed_form() {
+        // Deficits of 0, 1 and 3 bit in blocks of 20.
+        let unit = 20 * ENTRIES_PER_BIT;
+        let scale = Scale::per_samples(20);
+        let deficits = [unit, 0, 3 * unit];
+        let found = scale.posteriors(&deficits);
+        for (found, exact) in found
+            .into_iter()
+            .zip([0.5 / 1.625, 1.0 / 1.625, 0.125 / 1.625])
+        {
+            assert!((f64::from(found) / 2.0_f64.powi(32) - exact).abs() < 1e-7);
+        }
+        let odds = f64::from(scale.odds_below(&deficits, 0, MAX_ODDS).unwrap()) / f64::from(ONE);
+        assert!((odds - 0.625).abs() < 1e-7);
+    }
+
+    #[test]
+    fn all_of_thirty_two_tied() {
+        let scale = Scale::per_samples(1);
+        assert_eq!(scale.odds_below(&[0; 32], 0, MAX_ODDS), Some(31 * ONE));
+        assert_eq!(scale.odds_below(&[0; 32], 0, 31 * ONE), None);
+        assert_eq!(scale.posteriors(&[0; 32]), [1 << 27; 32]);
+        assert_eq!(leader(&[0; 32]), 0);
+    }
+
+    #[test]
+    fn scale_is_within_its_bound() {
+        for block in 1..=10_000_u32 {
+            let exact = 2.0_f64.powi(29) / f64::from(block);
+            let error = f64::from(Scale::per_samples(block).rate) / exact - 1.0;
+            assert!(error.abs() <= f64::from(block) / 2.0_f64.powi(30));
+        }
+    }
+
+    #[test]
+    fn totals_neither_wrap_nor_lose_the_leader() {
+        let mut totals = Totals::<2> {
+            sums: [u64::MAX - 5, u64::MAX - 1_u64.rotate_right(20)],
+            samples: u32::MAX,
+        };
+        totals.add(&[10, 10], 10);
+        assert_eq!(totals.samples, u32::MAX);
+        assert_eq!(totals.deficits(), [0, MAX_DEFICIT]);
+        let (class, posterior) = totals.decide(Scale::per_samples(1));
+        assert_eq!(class, 0);
+        assert_eq!(posterior.q32(), u32::MAX);
+    }
+}

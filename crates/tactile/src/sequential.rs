@@ -1,0 +1,213 @@
+//! Sequential analysis (LEP12 eq. 3–8): after each block, decide if a posterior
+//! exceeds a threshold; otherwise wait for more evidence.
+//!
+//! The comparison needs neither logarithm nor division: p > θ is the same as
+//! Σ_{j ≠ max} 2^(−d_j) < (1 − θ)/θ, where the right side is a constant.
+
+use crate::decision::{Decision, Posterior};
+use crate::error::SetupError;
+use crate::evidence::{MAX_DEFICIT, MAX_ODDS, Scale, leader};
+use crate::exp2::ONE;
+use crate::likelihoods::{Classes, Sums, Supported};
+use crate::model::Model;
+use crate::streaming::{Rule, Streaming};
+
+/// Largest threshold: beyond it the largest deficit could not reach it.
+const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
+
+/// A threshold on the posterior probability, prepared for the comparison.
+/// Computable at compile time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Threshold {
+    /// (1 − θ)/θ · 2^(26 + gain), rounded up; at most 2²⁵ where gain > 0.
+    bound: u32,
+    /// Chosen so that a bound below 1/4 keeps 25 significant bits.
+    gain: u8,
+}
+
+impl Threshold {
+    /// A threshold θ, 0 < θ ≤ 1 − 1e-12. The bound it turns into is right to
+    /// 2⁻²⁴ of itself.
+    ///
+    /// # Errors
+    ///
+    /// [`SetupError::Threshold`] outside that range, and where it is not a number.
+    pub const fn new(theta: f64) -> Result<Self, SetupError> {
+        // Not a number fails both comparisons.
+        if !(theta > 0.0 && theta <= MAX_THRESHOLD) {
+            return Err(SetupError::Threshold);
+        }
+        let mut odds = (1.0 - theta) / theta;
+        let mut gain = 0;
+        while odds <= 0.25 {
+            odds *= 2.0;
+            gain += 1;
+        }
+        let scaled = odds * ONE as f64;
+        // `as` saturates. Above 32 the posterior of any leader exceeds θ.
+        let bound = scaled as u32;
+        let bound = if bound >= MAX_ODDS {
+            MAX_ODDS
+        } else {
+            bound + ((bound as f64) < scaled) as u32
+        };
+        Ok(Self { bound, gain })
+    }
+}
+
+/// A sequential classifier of C channels and K classes.
+pub type Sequential<'m, const C: usize, const K: usize> = Streaming<'m, SequentialRule, C, K>;
+
+/// The sequential rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SequentialRule {
+    block: u32,
+    scale: Scale,
+    threshold: Threshold,
+}
+
+/// By how much each class lies behind the leader, and since how many blocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SequentialEvidence<const K: usize> {
+    deficits: [u32; K],
+    blocks: u32,
+}
+
+impl<const C: usize, const K: usize> Sequential<'_, C, K>
+where
+    Classes<K>: Supported,
+{
+    /// Decides where a posterior exceeds `threshold`.
+    ///
+    /// # Errors
+    ///
+    /// The model has other channels or classes than C and K.
+    pub fn new<'m>(
+        model: &Model<'m>,
+        threshold: Threshold,
+    ) -> Result<Sequential<'m, C, K>, SetupError> {
+        Sequential::with_rule(model, SequentialRule::new(model, threshold))
+    }
+}
+
+impl SequentialRule {
+    pub(crate) fn new(model: &Model<'_>, threshold: Threshold) -> Self {
+        Self {
+            block: model.block(),
+            scale: Scale::per_samples(model.block()),
+            threshold,
+        }
+    }
+
+    /// Apart from the end of a block, which then keeps no deficits at hand
+    /// for the rare decision.
+    #[cold]
+    #[inline(never)]
+    fn decide<const K: usize>(
+        &self,
+        against: u32,
+        evidence: &mut SequentialEvidence<K>,
+    ) -> Decision {
+        let posterior = Posterior::from_odds_against(against, self.threshold.gain);
+        let samples = evidence.blocks.saturating_mul(self.block);
+        let class = leader(&evidence.deficits);
+        *evidence = self.start();
+        Decision::new(class, samples, posterior)
+    }
+}
+
+impl<const K: usize> Rule<K> for SequentialRule {
+    type Evidence = SequentialEvidence<K>;
+
+    #[inline]
+    fn interval(&self) -> u32 {
+        self.block
+    }
+
+    fn start(&self) -> SequentialEvidence<K> {
+        SequentialEvidence {
+            deficits: [0; K],
+            blocks: 0,
+        }
+    }
+
+    /// No overflow, however many blocks pass without a decision: sums are
+    /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
+    /// here fits an i32.
+    #[inline(never)]
+    fn end_of_block(
+        &self,
+        sums: &mut Sums<K>,
+        evidence: &mut SequentialEvidence<K>,
+    ) -> Option<Decision> {
+        let mut levels = sums.take().map(|sum| sum as i32);
+        let mut lead = i32::MIN;
+        for (level, &deficit) in levels.iter_mut().zip(&evidence.deficits) {
+            *level -= deficit as i32;
+            lead = lead.max(*level);
+        }
+        for (deficit, level) in evidence.deficits.iter_mut().zip(levels) {
+            *deficit = (lead - level).clamp(0, MAX_DEFICIT as i32) as u32;
+        }
+        evidence.blocks = evidence.blocks.saturating_add(1);
+
+        let Threshold { bound, gain } = self.threshold;
+        let against = self.scale.odds_below(&evidence.deficits, gain, bound)?;
+        Some(self.decide(against, evidence))
+    }
+
+    fn deficits(&self, evidence: &SequentialEvidence<K>) -> [u32; K] {
+        evidence.deficits
+    }
+
+    fn scale(&self) -> Scale {
+        self.scale
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AT_COMPILE_TIME: Result<Threshold, SetupError> = Threshold::new(0.5);
+
+    #[test]
+    fn thresholds_are_checked() {
+        for bad in [0.0, -0.1, 1.0, 1.0 - 1e-13, 2.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(Threshold::new(bad), Err(SetupError::Threshold));
+        }
+        assert!(Threshold::new(f64::MIN_POSITIVE).is_ok());
+        assert_eq!(
+            AT_COMPILE_TIME,
+            Ok(Threshold {
+                bound: ONE,
+                gain: 0
+            })
+        );
+    }
+
+    #[test]
+    fn bounds_are_right_to_their_stated_precision() {
+        for theta in [
+            0.04,
+            0.3,
+            0.79,
+            0.81,
+            0.9,
+            0.99,
+            0.999,
+            1.0 - 1e-8,
+            1.0 - 1e-12,
+        ] {
+            let t = Threshold::new(theta).unwrap();
+            let exact = (1.0 - theta) / theta;
+            let found = f64::from(t.bound) / 2.0_f64.powi(26 + i32::from(t.gain));
+            let error = found / exact - 1.0;
+            assert!(
+                (0.0..=2.0_f64.powi(-24)).contains(&error),
+                "{theta} {error}"
+            );
+            assert!(t.gain == 0 || t.bound <= 1 << 25);
+        }
+    }
+}

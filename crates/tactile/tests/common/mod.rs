@@ -1,0 +1,46 @@
+//! Shared by the tests: models made to measure.
+#![allow(dead_code, reason = "each test binary uses its part")]
+
+use tactile::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser};
+
+/// The table entry of a log2-likelihood.
+pub(crate) fn entry(log2_p: f64) -> u16 {
+    ((log2_p + f64::from(ENTRY_OFFSET_BITS)) * f64::from(ENTRIES_PER_BIT)).round() as u16
+}
+
+/// A model whose channels all have codes 0 to 1000, and log2-likelihoods by a
+/// function of bin, channel and class.
+pub(crate) fn model(
+    classes: usize,
+    channels: usize,
+    bins: usize,
+    block: u32,
+    log2_p: impl Fn(usize, usize, usize) -> f64,
+) -> ModelBuf {
+    let names: Vec<String> = (0..classes).map(|k| format!("class {k}")).collect();
+    let quantiser = Quantiser {
+        origin: 0.0,
+        exponent: 0,
+        low: 0,
+        high: 1000,
+    };
+    let mut entries = Vec::new();
+    for bin in 0..bins {
+        for channel in 0..channels {
+            entries.extend((0..classes).map(|class| entry(log2_p(bin, channel, class))));
+        }
+    }
+    ModelBuf::new(&ModelParts {
+        names: &names,
+        block,
+        bins,
+        quantisers: &vec![quantiser; channels],
+        entries: &entries,
+    })
+    .unwrap()
+}
+
+/// The middle code of a bin of such a model.
+pub(crate) fn code(bin: usize, bins: usize) -> i32 {
+    ((bin * 1000 + 500) / bins) as i32
+}

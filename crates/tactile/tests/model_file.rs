@@ -1,0 +1,228 @@
+//! A model file is read back as it was written, and refused for the right
+//! reason when anything is wrong with it.
+
+mod common;
+
+use proptest::prelude::*;
+use tactile::{Aligned, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError};
+
+fn example() -> ModelBuf {
+    common::model(3, 2, 5, 20, |bin, channel, class| {
+        -((bin + 5 * channel + 10 * class) as f64) / 2.0
+    })
+}
+
+/// The bytes with one change and a checksum that fits.
+fn resealed(change: impl Fn(&mut Vec<u8>)) -> Result<ModelBuf, ModelError> {
+    let mut bytes = example().as_bytes().to_vec();
+    bytes.truncate(bytes.len() - 4);
+    change(&mut bytes);
+    let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(&bytes);
+    bytes.extend(crc.to_le_bytes());
+    ModelBuf::from_bytes(&bytes)
+}
+
+#[test]
+fn content_survives() {
+    let buf = example();
+    let model = buf.model().unwrap();
+    assert_eq!((model.classes(), model.channels()), (3, 2));
+    assert_eq!((model.bins(), model.block()), (5, 20));
+    let names: Vec<_> = model.names().collect();
+    assert_eq!(names, ["class 0", "class 1", "class 2"]);
+    assert_eq!((model.name(2), model.name(3)), (Some("class 2"), None));
+    assert_eq!(model.quantiser(1).unwrap().high, 1000);
+    assert!(model.quantiser(2).is_none());
+    for (bin, channel, class) in [(0, 0, 0), (4, 1, 2), (2, 0, 1), (3, 1, 0)] {
+        let expected = -((bin + 5 * channel + 10 * class) as f32) / 2.0;
+        assert_eq!(model.log2_likelihood(channel, bin, class), Some(expected));
+    }
+    assert_eq!(model.log2_likelihood(0, 5, 0), None);
+    assert_eq!(model.log2_likelihood(2, 0, 0), None);
+    assert_eq!(model.log2_likelihood(0, 0, 3), None);
+}
+
+#[test]
+fn the_header_is_laid_out_as_documented() {
+    let buf = example();
+    let b = buf.as_bytes();
+    assert_eq!(b[..4], *b"WLIK");
+    assert_eq!(b[4..8], [1, 0, 3, 2]);
+    assert_eq!(b[8..12], [5, 0, 20, 0]);
+    assert_eq!(b[12..16], (b.len() as u32).to_le_bytes());
+    // Header, two channels, three names of seven bytes, ten rows of two words.
+    assert_eq!(b.len(), 16 + 40 + 24 + 80 + 4);
+}
+
+#[test]
+fn damage_is_named() {
+    let good = example();
+    let parse = |bytes: &[u8]| ModelBuf::from_bytes(bytes).unwrap_err();
+    let b = good.as_bytes();
+    assert_eq!(parse(&[]), ModelError::TooShort);
+    assert_eq!(parse(&b[..15]), ModelError::TooShort);
+    assert_eq!(parse(&b[..b.len() - 4]), ModelError::TooShort);
+    assert_eq!(parse(&b[..b.len() - 1]), ModelError::TooShort);
+    assert_eq!(parse(&[b, &[0]].concat()), ModelError::TrailingBytes);
+    assert_eq!(parse(&[b, &[0; 4]].concat()), ModelError::TrailingBytes);
+    assert_eq!(parse(b"label,trial,x,y\nice,0,1,2\n"), ModelError::BadMagic);
+
+    let set = |at: usize, value: u8| resealed(|b| b[at] = value).unwrap_err();
+    assert_eq!(set(4, 2), ModelError::UnknownVersion(2));
+    assert_eq!(set(6, 1), ModelError::Classes(1));
+    assert_eq!(set(6, 33), ModelError::Classes(33));
+    assert_eq!(set(7, 0), ModelError::Channels(0));
+    assert_eq!(set(7, 25), ModelError::Channels(25));
+    assert_eq!(set(8, 0), ModelError::Bins(0));
+    assert_eq!(set(9, 17), ModelError::Bins(17 * 256 + 5));
+    assert_eq!(set(10, 0), ModelError::Block(0));
+    assert_eq!(set(11, 64), ModelError::Block(64 * 256 + 20));
+    // Counts within their ranges that do not add up.
+    assert_eq!(set(8, 6), ModelError::Length);
+    assert_eq!(set(8, 4), ModelError::Length);
+    assert_eq!(set(6, 5), ModelError::Length);
+    // Channel 1: its upper edge below the lower; its scale; a reserved byte.
+    let quantiser = |reason| ModelError::Quantiser { channel: 1, reason };
+    assert_eq!(set(16 + 20 + 15, 0x80), quantiser(QuantiserError::Reversed));
+    assert_eq!(
+        set(16 + 20 + 17, 4),
+        quantiser(QuantiserError::Exponent(1024))
+    );
+    assert_eq!(set(16 + 20 + 18, 1), ModelError::Padding);
+    // Names: empty, not UTF-8, one that eats the next.
+    assert_eq!(set(56, 0), ModelError::NameLength { class: 0 });
+    assert_eq!(set(66, 0xff), ModelError::NameNotUtf8 { class: 1 });
+    assert_eq!(set(72, 200), ModelError::Length);
+    // Table: above the range, and a value where an odd row has a gap.
+    assert_eq!(set(81, 0x51), ModelError::TableEntry);
+    assert_eq!(set(86, 1), ModelError::Padding);
+
+    let mut flipped = b.to_vec();
+    flipped[100] ^= 1;
+    assert_eq!(parse(&flipped), ModelError::Checksum);
+}
+
+#[test]
+fn a_block_of_too_many_lookups_is_refused() {
+    let result = resealed(|b| {
+        b[7] = 7;
+        b[10..12].copy_from_slice(&10_000_u16.to_le_bytes());
+    });
+    assert_eq!(result.unwrap_err(), ModelError::BlockTimesChannels(70_000));
+}
+
+#[test]
+fn misaligned_bytes_are_refused_not_misread() {
+    let buf = example();
+    let mut shifted = vec![0; 4];
+    shifted.extend(buf.as_bytes());
+    // Of four starts in a row one alone is aligned.
+    let mut copies = vec![0; buf.as_bytes().len() + 8];
+    let results: Vec<_> = (0..4)
+        .map(|at| {
+            let place = &mut copies[at..at + buf.as_bytes().len()];
+            place.copy_from_slice(buf.as_bytes());
+            Model::parse(place).map(|m| m.classes())
+        })
+        .collect();
+    let good = results.iter().filter(|r| **r == Ok(3)).count();
+    let bad = results
+        .iter()
+        .filter(|r| **r == Err(ModelError::Misaligned))
+        .count();
+    assert_eq!((good, bad), (1, 3));
+}
+
+#[test]
+fn aligned_wrapper_aligns_included_bytes() {
+    assert_eq!(align_of::<Aligned<[u8; 3]>>(), 4);
+    // Any file will do: what matters is where it is put.
+    let bytes = tactile::include_model!("common/mod.rs");
+    assert_eq!(bytes.as_ptr().align_offset(4), 0);
+    assert_eq!(Model::parse(bytes).unwrap_err(), ModelError::BadMagic);
+}
+
+#[test]
+fn what_could_not_be_read_is_not_written() {
+    let names = ["a".to_owned(), "b".to_owned()];
+    let quantiser = Quantiser {
+        origin: 0.0,
+        exponent: 0,
+        low: 0,
+        high: 10,
+    };
+    let parts = ModelParts {
+        names: &names,
+        block: 20,
+        bins: 2,
+        quantisers: &[quantiser],
+        entries: &[1, 2, 3, 4],
+    };
+    assert!(ModelBuf::new(&parts).is_ok());
+    let refused = |parts: ModelParts<'_>| ModelBuf::new(&parts).unwrap_err();
+    assert_eq!(
+        refused(ModelParts { block: 0, ..parts }),
+        ModelError::Block(0)
+    );
+    assert_eq!(refused(ModelParts { bins: 3, ..parts }), ModelError::Length);
+    assert_eq!(
+        refused(ModelParts {
+            entries: &[1, 2, 3, 20_481],
+            ..parts
+        }),
+        ModelError::TableEntry
+    );
+    assert_eq!(
+        refused(ModelParts {
+            names: &["a".to_owned(), "b".repeat(256)],
+            ..parts
+        }),
+        ModelError::NameLength { class: 1 }
+    );
+    assert_eq!(
+        refused(ModelParts {
+            names: &names[..1],
+            ..parts
+        }),
+        ModelError::Classes(1)
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #[test]
+    fn any_changed_byte_is_refused(place in 0.0_f64..1.0, mask in 1_u8..=255) {
+        let mut bytes = example().as_bytes().to_vec();
+        let at = (place * bytes.len() as f64) as usize;
+        bytes[at] ^= mask;
+        prop_assert!(ModelBuf::from_bytes(&bytes).is_err());
+    }
+
+    #[test]
+    fn any_bytes_are_handled(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        prop_assert!(ModelBuf::from_bytes(&bytes).is_err());
+        prop_assert!(Model::parse(&bytes).is_err());
+    }
+
+    /// Damage that the checksum does not show: no panic, and what is accepted
+    /// runs without one.
+    #[test]
+    fn resealed_damage_never_panics(
+        changes in prop::collection::vec((0.0_f64..1.0, any::<u8>()), 1..4),
+        codes in prop::collection::vec(any::<i32>(), 64),
+    ) {
+        let result = resealed(|b| for &(place, value) in &changes {
+            let at = (place * b.len() as f64) as usize;
+            b[at] = value;
+        });
+        if let Ok(buf) = result {
+            let model = buf.model().unwrap();
+            prop_assert!(model.names().all(|n| !n.is_empty()));
+            let threshold = tactile::Threshold::new(0.9).unwrap();
+            let mut c = tactile::dynamic::sequential(&model, threshold).unwrap();
+            for sample in codes.chunks_exact(model.channels()) {
+                c.push(sample).unwrap();
+            }
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! How a module moves: the pattern generator, and a motor that follows it for
+//! each whisker.
+
+use whisking::motor::{self, Duty, MotorDriver, StallConfig, StallGuard};
+use whisking::{Real, pd};
+
+use crate::io::AngleInput;
+use crate::sensing::Reading;
+use crate::{Event, Place};
+
+/// Moves the whiskers of a module, or does not.
+pub trait Motion<R, const S: usize, const N: usize> {
+    /// Its constants.
+    type Config;
+
+    /// One tick: contact π of each side and the readings it came from.
+    fn step(
+        &mut self,
+        config: &Self::Config,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    );
+
+    /// Switches every motor off.
+    fn off(&mut self);
+}
+
+/// Whiskers that hang still: no oscillator, muscle, motor or position control.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Passive;
+
+impl<R, const S: usize, const N: usize> Motion<R, S, N> for Passive {
+    type Config = ();
+
+    #[inline]
+    fn step(
+        &mut self,
+        (): &(),
+        _contact: [R; S],
+        _readings: &[[Reading; N]; S],
+        _events: &mut impl FnMut(Event),
+    ) {
+    }
+
+    fn off(&mut self) {}
+}
+
+/// Motion that is there or not at run time, for simulations of any scene. A
+/// configuration without the motion, or the reverse, moves nothing.
+impl<R, M: Motion<R, S, N>, const S: usize, const N: usize> Motion<R, S, N> for Option<M> {
+    type Config = Option<M::Config>;
+
+    #[inline]
+    fn step(
+        &mut self,
+        config: &Self::Config,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    ) {
+        if let (Some(motion), Some(config)) = (self, config) {
+            motion.step(config, contact, readings, events);
+        }
+    }
+
+    fn off(&mut self) {
+        if let Some(motion) = self {
+            motion.off();
+        }
+    }
+}
+
+/// Constants of an active module.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ActiveConfig<R> {
+    /// Oscillators, muscles and gates.
+    pub whisking: whisking::Config<R>,
+    /// Position control.
+    pub pd: pd::Config<R>,
+    /// Protraction θ a count of the angle input, times 2^24.
+    pub theta_per_count_q24: R,
+    /// Ticks a faulty motor rests before it is tried again.
+    pub retry: u16,
+    /// When a motor counts as stalled.
+    pub stall: StallConfig,
+}
+
+/// The motor of one whisker, its angle input and its controller.
+#[derive(Debug)]
+pub struct Follower<R, M, A> {
+    motor: M,
+    angle: A,
+    pd: pd::State<R>,
+    /// Counts at rest, θ = 0, and at the last tick.
+    home: i32,
+    counts: i32,
+    guard: StallGuard,
+    /// Ticks of rest left after a fault; 0: running.
+    rest: u16,
+}
+
+impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
+    /// A motor that is off, its whisker at rest (θ = 0) where the angle input now is.
+    pub fn new(mut motor: M, mut angle: A, stall: StallConfig) -> Self {
+        motor.off();
+        let home = angle.counts();
+        Self {
+            motor,
+            angle,
+            pd: pd::State::default(),
+            home,
+            counts: home,
+            guard: StallGuard::new(stall),
+            rest: 0,
+        }
+    }
+
+    /// The hardware, for a simulation that looks at it.
+    pub const fn parts_mut(&mut self) -> (&mut M, &mut A) {
+        (&mut self.motor, &mut self.angle)
+    }
+
+    fn off(&mut self) {
+        self.motor.off();
+        self.pd = pd::State::default();
+        self.guard.reset();
+    }
+
+    /// One tick towards protraction `setpoint`; off while `sound` is false.
+    #[inline]
+    fn step(
+        &mut self,
+        config: &ActiveConfig<R>,
+        setpoint: R,
+        sound: bool,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        let counts = self.angle.counts();
+        // A rotor that stands on an edge of its encoder flickers by a count.
+        let moved = counts.wrapping_sub(self.counts).unsigned_abs() > 1;
+        self.counts = counts;
+
+        if self.rest > 0 {
+            self.rest -= 1;
+            if self.rest == 0 {
+                self.motor.clear();
+                events(Event::MotorRetry(place));
+            }
+            return;
+        }
+        if !sound {
+            self.off();
+            return;
+        }
+
+        let measured = R::from_q24(counts.wrapping_sub(self.home)) * config.theta_per_count_q24;
+        let duty = Duty::from_q15(config.pd.step(&mut self.pd, setpoint, measured).to_q15());
+        let done = if self.guard.update(duty, moved) {
+            Err(motor::Fault::Stall)
+        } else {
+            self.motor.drive(duty)
+        };
+        if let Err(fault) = done {
+            self.off();
+            self.rest = config.retry.max(1);
+            events(Event::MotorFault(place, fault));
+        }
+    }
+}
+
+/// Whiskers that whisk: the pattern generator of the module and a follower each.
+#[derive(Debug)]
+pub struct Active<R, M, A, const S: usize, const N: usize> {
+    state: whisking::State<R, S, N>,
+    followers: [[Follower<R, M, A>; N]; S],
+}
+
+impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
+    /// A module at its start.
+    pub const fn new(
+        state: whisking::State<R, S, N>,
+        followers: [[Follower<R, M, A>; N]; S],
+    ) -> Self {
+        Self { state, followers }
+    }
+
+    /// Oscillators, gates and whiskers.
+    pub const fn state(&self) -> &whisking::State<R, S, N> {
+        &self.state
+    }
+
+    /// The followers, for a simulation that looks at their hardware.
+    pub const fn followers_mut(&mut self) -> &mut [[Follower<R, M, A>; N]; S] {
+        &mut self.followers
+    }
+}
+
+impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Motion<R, S, N>
+    for Active<R, M, A, S, N>
+{
+    type Config = ActiveConfig<R>;
+
+    #[inline]
+    fn step(
+        &mut self,
+        config: &ActiveConfig<R>,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    ) {
+        config.whisking.step(&mut self.state, contact);
+        let theta = self.state.theta();
+        for (side, followers) in self.followers.iter_mut().enumerate() {
+            for (w, follower) in followers.iter_mut().enumerate() {
+                let place = Place {
+                    side: side as u8,
+                    whisker: w as u8,
+                };
+                let sound = readings[side][w].sound;
+                follower.step(config, theta[side][w], sound, place, events);
+            }
+        }
+    }
+
+    fn off(&mut self) {
+        for follower in self.followers.iter_mut().flatten() {
+            follower.off();
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Every duration the module is built on, each with its derivation.
+//!
+//! Durations are given in seconds or microseconds and become ticks at the
+//! scene's tick rate.
+
+/// How long the last good reading stands in for a missing or faulty one, s.
+///
+/// The sensor may recompute only every 1.5 ms (its slow mode), and a disturbed
+/// frame costs one tick; contact changes within 7 ms (a quarter of the period
+/// of 35 Hz, the lowest resonance of a 100 mm whisker: BIOTACT section II-C).
+pub const HOLD_S: f64 = 0.005;
+
+/// How long readings must be good before a whisker with a sensor fault moves again, s.
+///
+/// Six time constants of the 50 Hz contact filter, so that what it remembers
+/// of the fault has gone.
+pub const RECOVER_S: f64 = 0.02;
+
+/// How long a motor rests after a fault before it is tried again, s.
+///
+/// A stalled winding heats for 0.2 s before it is noticed; with a rest five
+/// times as long the mean power stays below a sixth of the stall power.
+pub const RETRY_S: f64 = 1.0;
+
+/// `seconds` in ticks of a module that runs `tick_hz` times a second; at least
+/// one, at most `u16::MAX`.
+pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
+    let ticks = seconds * tick_hz as f64 + 0.5;
+    if ticks < 1.0 {
+        1
+    } else if ticks > u16::MAX as f64 {
+        u16::MAX
+    } else {
+        ticks as u16
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{HOLD_S, RETRY_S, ticks};
+
+    #[test]
+    fn durations_become_ticks_at_any_rate() {
+        assert_eq!(ticks(HOLD_S, 2_000), 10);
+        assert_eq!(ticks(HOLD_S, 200), 1);
+        assert_eq!(ticks(RETRY_S, 20_000), 20_000);
+        assert_eq!(ticks(1e-9, 200), 1);
+        assert_eq!(ticks(1e9, 200), u16::MAX);
+    }
+}

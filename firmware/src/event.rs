@@ -1,0 +1,70 @@
+//! What a tick has to say. Events are small values; formatting them is the
+//! business of whoever drains the queue.
+
+use mlx90333::FrameError;
+use tactile::Decision;
+use whisking::motor;
+
+/// A whisker of the array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// 0 left, 1 right.
+    pub side: u8,
+    /// Counted from 0.
+    pub whisker: u8,
+}
+
+/// Why a whisker's readings cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SensorFault {
+    /// No frame was finished in time. Likely cause: the bus is too slow for
+    /// the tick, or its DMA stands still.
+    NoFrame,
+    /// The bus controller reported an error.
+    Bus,
+    /// The frame was refused; the reason names the cause.
+    Frame(FrameError),
+}
+
+impl SensorFault {
+    /// A stable number for logs: 16 no frame, 17 bus, 18 no sensor, 19 line
+    /// stuck low, 20 bad start, 21 bad sum, 22 the sensor's own error word.
+    /// Motor faults have 1 to 6 ([`motor::Fault::code`]).
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::NoFrame => 16,
+            Self::Bus => 17,
+            Self::Frame(FrameError::NoSensor) => 18,
+            Self::Frame(FrameError::LineLow) => 19,
+            Self::Frame(FrameError::BadStart(_)) => 20,
+            Self::Frame(FrameError::BadSum { .. }) => 21,
+            Self::Frame(FrameError::Sensor(_)) => 22,
+        }
+    }
+}
+
+impl core::fmt::Display for SensorFault {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NoFrame => write!(f, "no frame in time"),
+            Self::Bus => write!(f, "bus error"),
+            Self::Frame(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+/// Something worth a line in the log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// A decision fell.
+    Decision(Decision),
+    /// Readings of a whisker have been bad for longer than they may be: its
+    /// motor is off (fault).
+    SensorLost(Place, SensorFault),
+    /// Readings are good again; the whisker moves again.
+    SensorBack(Place),
+    /// A motor was switched off (fault).
+    MotorFault(Place, motor::Fault),
+    /// A motor is tried again after its rest.
+    MotorRetry(Place),
+}

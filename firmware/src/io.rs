@@ -1,0 +1,58 @@
+//! What the module asks of the hardware, and an adaptor for a blocking bus.
+
+use embedded_hal::spi::SpiDevice;
+use mlx90333::{FRAME_LEN, Mlx90333};
+
+/// The bus did not deliver: no transfer ran, or the controller reported an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BusError;
+
+/// Where finished sensor frames come from.
+///
+/// Reading takes most of a tick (64 bits at 400 kHz are 160 µs), so a board
+/// reads by DMA or interrupt while the tick works on the frame before.
+pub trait FrameSource {
+    /// The newest frame that was finished since the last call, without waiting.
+    ///
+    /// # Errors
+    /// [`BusError`] if the transfer failed.
+    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError>;
+}
+
+/// Where the whisker is.
+pub trait AngleInput {
+    /// Counts of the encoder or of the Hall sectors; protraction counts up.
+    /// May wrap around.
+    fn counts(&mut self) -> i32;
+}
+
+/// A free-running counter, to measure how long ticks take.
+pub trait Clock {
+    /// Counts now; wraps around.
+    fn now(&mut self) -> u32;
+}
+
+/// A sensor behind an ordinary blocking [`SpiDevice`]: reads in the tick
+/// itself. For slow ticks, for bring-up and for tests.
+#[derive(Debug)]
+pub struct Polled<SPI> {
+    sensor: Mlx90333<SPI>,
+}
+
+impl<SPI: SpiDevice> Polled<SPI> {
+    /// Takes the sensor.
+    pub const fn new(sensor: Mlx90333<SPI>) -> Self {
+        Self { sensor }
+    }
+
+    /// Gives the sensor back.
+    pub fn release(self) -> Mlx90333<SPI> {
+        self.sensor
+    }
+}
+
+impl<SPI: SpiDevice> FrameSource for Polled<SPI> {
+    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+        self.sensor.read_raw().map(Some).map_err(|_| BusError)
+    }
+}

@@ -1,0 +1,174 @@
+//! The tick.
+
+use mlx90333::Decoder;
+use whisking::{Real, filter};
+
+use crate::sensing::{Patience, Reading, Sensor};
+use crate::{Clock, Event, FrameSource, Motion, Perception, Place, Timing};
+
+/// Constants of a module. A board holds it in a `const`, so that the compiler
+/// sees what is left out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Config<R, M, P> {
+    /// How the sensors' frames are read.
+    pub decoder: Decoder,
+    /// How long bad frames are bridged.
+    pub patience: Patience,
+    /// H50 on x, where something needs contact signals.
+    pub contact: Option<filter::Config<R>>,
+    /// How it moves.
+    pub motion: M,
+    /// What it decides.
+    pub perception: P,
+    /// Counts of the clock between ticks; 0 where they mean nothing.
+    pub period: u32,
+}
+
+/// A module of `S` sides (1 or 2) with `N` whiskers each.
+#[derive(Debug)]
+pub struct Module<R, F, M, P, C, const S: usize, const N: usize> {
+    sensors: [[Sensor<F>; N]; S],
+    filters: [[filter::State<R>; N]; S],
+    contact: [R; S],
+    motion: M,
+    perception: P,
+    clock: C,
+    timing: Timing,
+}
+
+impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
+where
+    R: Real,
+    F: FrameSource,
+    M: Motion<R, S, N>,
+    P: Perception<R, S, N>,
+    C: Clock,
+{
+    /// A module that has not ticked yet, from its sensors (left side first),
+    /// its motion, its perception and its clock.
+    pub fn new(sources: [[F; N]; S], motion: M, perception: P, clock: C) -> Self {
+        Self {
+            sensors: sources.map(|side| side.map(Sensor::new)),
+            filters: [[filter::State::default(); N]; S],
+            contact: [R::ZERO; S],
+            motion,
+            perception,
+            clock,
+            timing: Timing::default(),
+        }
+    }
+
+    /// One tick. `events` gets what is worth telling; nothing is formatted here.
+    #[inline]
+    pub fn tick(
+        &mut self,
+        config: &Config<R, M::Config, P::Config>,
+        events: &mut impl FnMut(Event),
+    ) {
+        self.timing.begin(self.clock.now(), config.period);
+
+        let readings = self.sense(config, events);
+        if let Some(h50) = &config.contact {
+            self.feel(h50, &readings);
+        }
+        self.motion
+            .step(&config.motion, self.contact, &readings, events);
+        if let Some(decision) = self
+            .perception
+            .step(&config.perception, self.contact, &readings)
+        {
+            events(Event::Decision(decision));
+        }
+
+        self.timing.end(self.clock.now());
+    }
+
+    #[inline]
+    fn sense(
+        &mut self,
+        config: &Config<R, M::Config, P::Config>,
+        events: &mut impl FnMut(Event),
+    ) -> [[Reading; N]; S] {
+        core::array::from_fn(|side| {
+            core::array::from_fn(|w| {
+                let place = Place {
+                    side: side as u8,
+                    whisker: w as u8,
+                };
+                self.sensors[side][w].read(&config.decoder, config.patience, place, events)
+            })
+        })
+    }
+
+    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9).
+    #[inline]
+    fn feel(&mut self, h50: &filter::Config<R>, readings: &[[Reading; N]; S]) {
+        for (side, contact) in self.contact.iter_mut().enumerate() {
+            *contact = R::ZERO;
+            for (filter, reading) in self.filters[side].iter_mut().zip(&readings[side]) {
+                *contact = h50
+                    .process(filter, normalised(reading.x))
+                    .abs()
+                    .max(*contact);
+            }
+        }
+    }
+
+    /// Contact π of each side in the last tick.
+    pub const fn contact(&self) -> [R; S] {
+        self.contact
+    }
+
+    /// How it moves.
+    pub const fn motion(&self) -> &M {
+        &self.motion
+    }
+
+    /// How it moves, for a simulation that looks at its hardware.
+    pub const fn motion_mut(&mut self) -> &mut M {
+        &mut self.motion
+    }
+
+    /// What it decides.
+    pub const fn perception_mut(&mut self) -> &mut P {
+        &mut self.perception
+    }
+
+    /// The sensor of a whisker, left side first.
+    pub fn sensor_mut(&mut self, side: usize, whisker: usize) -> Option<&mut Sensor<F>> {
+        self.sensors.get_mut(side)?.get_mut(whisker)
+    }
+
+    /// Longest tick and missed deadlines.
+    pub const fn timing_mut(&mut self) -> &mut Timing {
+        &mut self.timing
+    }
+
+    /// Switches every motor off, until the next tick.
+    pub fn off(&mut self) {
+        self.motion.off();
+    }
+}
+
+/// The normalised reading, (code − 8192)/8191 limited to −1: what
+/// [`mlx90333::Word::normalised`] gives, within one rounding.
+#[inline]
+fn normalised<R: Real>(word: mlx90333::Word) -> R {
+    let value = R::from_q24(i32::from(word.signed14()) << 11) * R::from_f64(8192.0 / 8191.0);
+    value.clamp(-R::ONE, R::ONE)
+}
+
+#[cfg(test)]
+mod tests {
+    use mlx90333::Word;
+
+    #[test]
+    fn every_code_is_normalised_as_the_driver_does() {
+        for code in 0..1 << 14 {
+            let word = Word::new(code << 2);
+            let found: f32 = super::normalised(word);
+            assert!((found - word.normalised()).abs() < 1.3e-7, "{code}");
+        }
+        assert_eq!(super::normalised::<f32>(Word::MID), 0.0);
+    }
+}

@@ -1,0 +1,250 @@
+//! From frames to readings, and what happens when frames are bad.
+
+use mlx90333::{Decoder, FRAME_LEN, Word};
+
+use crate::io::{BusError, FrameSource};
+use crate::{Event, Place, SensorFault};
+
+/// What one whisker feels in one tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reading {
+    /// Deflection along the direction of whisking.
+    pub x: Word,
+    /// Deflection across it.
+    pub y: Word,
+    /// A new frame arrived in this tick; otherwise the last good one is held.
+    pub fresh: bool,
+    /// False while the sensor has a fault: x and y are then at rest and the
+    /// motor must be off.
+    pub sound: bool,
+}
+
+impl Reading {
+    const REST: Self = Self {
+        x: Word::MID,
+        y: Word::MID,
+        fresh: false,
+        sound: true,
+    };
+}
+
+/// One whisker's sensor and its health.
+#[derive(Debug)]
+pub struct Sensor<F> {
+    source: F,
+    last: Reading,
+    /// Ticks in succession: bad ones while sound, good ones while not.
+    run: u16,
+}
+
+/// How long a reading is held and how long a recovery takes, in ticks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Patience {
+    /// Bad ticks that are bridged.
+    pub hold: u16,
+    /// Good ticks before a faulty sensor is trusted again.
+    pub recover: u16,
+}
+
+fn decode(
+    decoder: &Decoder,
+    taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
+) -> Result<(Word, Word), SensorFault> {
+    let bytes = taken
+        .map_err(|_| SensorFault::Bus)?
+        .ok_or(SensorFault::NoFrame)?;
+    let frame = decoder.decode(&bytes).map_err(SensorFault::Frame)?;
+    Ok((frame.first(), frame.second()))
+}
+
+impl<F: FrameSource> Sensor<F> {
+    /// A sensor that has not been read yet.
+    pub const fn new(source: F) -> Self {
+        Self {
+            source,
+            last: Reading::REST,
+            run: 0,
+        }
+    }
+
+    /// Where the frames come from.
+    pub const fn source_mut(&mut self) -> &mut F {
+        &mut self.source
+    }
+
+    /// Takes the frame of this tick. Bad ones are bridged with the last good
+    /// reading for `patience.hold` ticks, then the sensor counts as faulty
+    /// until `patience.recover` good ones have come in a row.
+    #[inline]
+    pub fn read(
+        &mut self,
+        decoder: &Decoder,
+        patience: Patience,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) -> Reading {
+        let decoded = decode(decoder, self.source.take());
+        match (decoded, self.last.sound) {
+            (Ok((x, y)), true) => {
+                self.run = 0;
+                self.last = Reading {
+                    x,
+                    y,
+                    fresh: true,
+                    sound: true,
+                };
+            }
+            (Err(fault), true) => {
+                self.run = self.run.saturating_add(1);
+                self.last.fresh = false;
+                if self.run > patience.hold {
+                    self.run = 0;
+                    self.last = Reading {
+                        sound: false,
+                        ..Reading::REST
+                    };
+                    events(Event::SensorLost(place, fault));
+                }
+            }
+            (Ok((x, y)), false) => {
+                self.run = self.run.saturating_add(1);
+                if self.run >= patience.recover {
+                    self.run = 0;
+                    self.last = Reading {
+                        x,
+                        y,
+                        fresh: true,
+                        sound: true,
+                    };
+                    events(Event::SensorBack(place));
+                }
+            }
+            (Err(_), false) => self.run = 0,
+        }
+        self.last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Patience, Reading, Sensor};
+    use crate::io::{BusError, FrameSource};
+    use crate::{Event, Place, SensorFault};
+    use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
+
+    struct Script<I>(I);
+
+    impl<I: Iterator<Item = Result<Option<[u8; FRAME_LEN]>, BusError>>> FrameSource for Script<I> {
+        fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+            self.0.next().unwrap_or(Ok(None))
+        }
+    }
+
+    fn good(x: u16) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+        let words = (Word::new(x), Word::MID);
+        Ok(Some(encode::alpha_beta(
+            words.0,
+            words.1,
+            Faults::NONE,
+            SumRule::SumB1B6,
+        )))
+    }
+
+    fn play(
+        script: &[Result<Option<[u8; FRAME_LEN]>, BusError>],
+    ) -> (Vec<Reading>, Vec<(usize, Event)>) {
+        let mut sensor = Sensor::new(Script(script.iter().copied()));
+        let patience = Patience {
+            hold: 3,
+            recover: 2,
+        };
+        let place = Place {
+            side: 1,
+            whisker: 4,
+        };
+        let mut events = Vec::new();
+        let readings = (0..script.len())
+            .map(|tick| {
+                sensor.read(&Decoder::new(), patience, place, &mut |e| {
+                    events.push((tick, e))
+                })
+            })
+            .collect();
+        (readings, events)
+    }
+
+    #[test]
+    fn a_short_gap_is_bridged_and_a_long_one_is_a_fault() {
+        let bad = Ok(Some([0xFF; FRAME_LEN]));
+        let (readings, events) = play(&[
+            good(0x9000),
+            bad,
+            bad,
+            bad,
+            good(0xA000),
+            bad,
+            bad,
+            bad,
+            bad,
+            bad,
+        ]);
+        assert!(readings[..8].iter().all(|r| r.sound));
+        assert_eq!(readings[3].x.raw(), 0x9000, "held");
+        assert!(!readings[3].fresh && readings[4].fresh);
+        let place = Place {
+            side: 1,
+            whisker: 4,
+        };
+        let lost = Event::SensorLost(place, SensorFault::Frame(FrameError::NoSensor));
+        assert_eq!(events, [(8, lost)], "told once");
+        assert_eq!(readings[8].x, Word::MID, "a faulty sensor feels nothing");
+        assert!(!readings[9].sound);
+    }
+
+    #[test]
+    fn recovery_needs_good_frames_in_a_row() {
+        let bad = Err(BusError);
+        let (readings, events) = play(&[
+            bad,
+            bad,
+            Ok(None),
+            bad,
+            good(1),
+            bad,
+            good(2),
+            good(0x4000),
+            Ok(None),
+        ]);
+        let place = Place {
+            side: 1,
+            whisker: 4,
+        };
+        assert_eq!(
+            events,
+            [
+                (3, Event::SensorLost(place, SensorFault::Bus)),
+                (7, Event::SensorBack(place)),
+            ]
+        );
+        assert!(!readings[6].sound && readings[7].sound && readings[8].sound);
+        assert_eq!(readings[8].x.raw(), 0x4000);
+    }
+
+    #[test]
+    fn fault_numbers_are_stable() {
+        let numbers = [
+            SensorFault::NoFrame,
+            SensorFault::Bus,
+            SensorFault::Frame(FrameError::NoSensor),
+            SensorFault::Frame(FrameError::LineLow),
+            SensorFault::Frame(FrameError::BadStart(1)),
+            SensorFault::Frame(FrameError::BadSum {
+                expected: 1,
+                found: 2,
+            }),
+            SensorFault::Frame(FrameError::Sensor(Faults::FIELD_TOO_LOW)),
+        ]
+        .map(SensorFault::code);
+        assert_eq!(numbers, [16, 17, 18, 19, 20, 21, 22]);
+    }
+}

@@ -1,0 +1,71 @@
+//! Whether the tick keeps its time.
+
+/// Longest tick and missed deadlines, in counts of the [`Clock`](crate::Clock).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Timing {
+    /// Longest tick since the last [`Timing::take_worst`].
+    worst: u32,
+    /// Ticks that did not start in their period, since the beginning.
+    missed: u32,
+    begun: Option<u32>,
+}
+
+impl Timing {
+    /// A tick begins at `now`; one is due every `period` counts (0: not known).
+    #[inline]
+    pub fn begin(&mut self, now: u32, period: u32) {
+        if let Some(last) = self.begun
+            && period > 0
+        {
+            // Half a period of jitter is none; more means that whole ticks are lost.
+            let elapsed = now.wrapping_sub(last);
+            let late = elapsed.saturating_add(period / 2) / period;
+            self.missed = self.missed.saturating_add(late.saturating_sub(1));
+        }
+        self.begun = Some(now);
+    }
+
+    /// The tick that began last ends at `now`.
+    #[inline]
+    pub fn end(&mut self, now: u32) {
+        if let Some(begun) = self.begun {
+            self.worst = self.worst.max(now.wrapping_sub(begun));
+        }
+    }
+
+    /// Ticks lost since the beginning.
+    pub const fn missed(&self) -> u32 {
+        self.missed
+    }
+
+    /// Longest tick since the last call, counts.
+    pub fn take_worst(&mut self) -> u32 {
+        core::mem::take(&mut self.worst)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Timing;
+
+    #[test]
+    fn lost_ticks_are_counted_and_jitter_is_not() {
+        let mut timing = Timing::default();
+        let start = u32::MAX - 150;
+        for now in [0, 100, 240, 300, 400, 700, 800] {
+            timing.begin(start.wrapping_add(now), 100);
+            timing.end(start.wrapping_add(now + now / 10));
+        }
+        assert_eq!(timing.missed(), 2, "500 and 600 did not happen");
+        assert_eq!(timing.take_worst(), 80);
+        assert_eq!(timing.take_worst(), 0);
+    }
+
+    #[test]
+    fn an_unknown_period_counts_nothing() {
+        let mut timing = Timing::default();
+        timing.begin(0, 0);
+        timing.begin(9_999, 0);
+        assert_eq!(timing.missed(), 0);
+    }
+}

@@ -1,0 +1,197 @@
+//! The whole loop against expectations on the wire: every byte on the bus,
+//! every pin and duty value, worked out by hand from the settings below.
+
+use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
+use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
+use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
+use firmware::{
+    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Module, Patience, Place,
+    Polled, SensorFault,
+};
+use mlx90333::{Decoder, FrameError, Mlx90333};
+use whisking::motor::{Duty, HBridge, StallConfig};
+use whisking::{GateSettings, Integrator, Settings, filter, pd};
+
+/// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
+const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
+/// Alpha 0xC000: code 12288, x = 4096/8191; 0xC0 + 0x80 = 0x140.
+const BENT: [u8; 8] = [0xFF, 0x00, 0xC0, 0x00, 0x80, 0x00, 0x00, 0x40];
+/// Nobody answers.
+const EMPTY: [u8; 8] = [0xFF; 8];
+/// The sum byte of [`REST`] with one bit wrong.
+const TORN: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x10];
+
+struct Encoder(std::vec::IntoIter<i32>);
+
+impl AngleInput for Encoder {
+    fn counts(&mut self) -> i32 {
+        self.0.next().expect("one reading a tick")
+    }
+}
+
+struct Microseconds(u32);
+
+impl Clock for Microseconds {
+    fn now(&mut self) -> u32 {
+        // A tick of 40 µs, one every 500 µs.
+        self.0 += if self.0 % 500 == 0 { 40 } else { 460 };
+        self.0
+    }
+}
+
+/// One tick as the wires see it.
+struct Tick {
+    frame: [u8; 8],
+    counts: i32,
+    pulses: Vec<Pulse>,
+    direction: Option<State>,
+}
+
+/// A tick that only sets the duty.
+fn tick(frame: [u8; 8], counts: i32, duty: u16) -> Tick {
+    let pulses = vec![Pulse::max_duty_cycle(1000), Pulse::set_duty_cycle(duty)];
+    Tick {
+        frame,
+        counts,
+        pulses,
+        direction: None,
+    }
+}
+
+/// A tick that turns the bridge around first.
+fn turn(frame: [u8; 8], counts: i32, direction: State, duty: u16) -> Tick {
+    let mut tick = tick(frame, counts, duty);
+    tick.pulses.insert(0, Pulse::set_duty_cycle(0));
+    tick.direction = Some(direction);
+    tick
+}
+
+/// A tick with the motor off.
+fn off(frame: [u8; 8], counts: i32) -> Tick {
+    Tick {
+        frame,
+        counts,
+        pulses: vec![Pulse::set_duty_cycle(0)],
+        direction: None,
+    }
+}
+
+#[test]
+fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
+    // Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a
+    // tick; the gain is 0, so the setpoint is the rest position throughout.
+    let ticks = [
+        turn(REST, -40, State::High, 200),
+        tick(REST, -80, 400),
+        tick(REST, -200, 500),
+        tick(REST, 20, 300),
+        tick(BENT, 20, 100),
+        turn(REST, 20, State::Low, 100),
+        tick(EMPTY, 20, 100),
+        off(EMPTY, 20),
+        off(TORN, 20),
+        off(REST, 20),
+        tick(REST, 20, 100),
+    ];
+
+    let spi: Vec<_> = ticks
+        .iter()
+        .flat_map(|tick| {
+            [
+                Transfer::transaction_start(),
+                Transfer::transfer_in_place(vec![0xFF; 8], tick.frame.to_vec()),
+                Transfer::transaction_end(),
+            ]
+        })
+        .collect();
+    // The bridge and then the module begin by switching off.
+    let mut pulses = vec![Pulse::set_duty_cycle(0), Pulse::set_duty_cycle(0)];
+    pulses.extend(ticks.iter().flat_map(|tick| tick.pulses.clone()));
+    let sets: Vec<_> = ticks
+        .iter()
+        .filter_map(|tick| tick.direction)
+        .map(Set::set)
+        .collect();
+    let counts: Vec<_> = std::iter::once(0)
+        .chain(ticks.iter().map(|tick| tick.counts))
+        .collect();
+    let (mut spi, mut pwm, mut pin) = (Spi::new(&spi), Pwm::new(&pulses), Pin::new(&sets));
+
+    let settings = Settings {
+        tick_hz: 2000.0,
+        frequency_hz: 2.0,
+        integrator: Integrator::Euler,
+        coupling: true,
+        noise: 0.0,
+        rcp: Some(GateSettings {
+            gain: 0.7,
+            tau_s: 0.125,
+        }),
+        cia: None,
+    };
+    let stall = StallConfig {
+        ticks: 400,
+        threshold: Duty::FULL,
+    };
+    let config = Config {
+        decoder: Decoder::new(),
+        patience: Patience {
+            hold: 1,
+            recover: 2,
+        },
+        contact: Some(filter::Config::<f32>::new(50.0, 2000.0).unwrap()),
+        motion: ActiveConfig {
+            whisking: settings.build().unwrap(),
+            pd: pd::Settings {
+                kp: 0.05,
+                kd: 0.0,
+                limit: 0.5,
+                slew_per_s: 400.0,
+                min_deg: 30.0,
+                max_deg: 160.0,
+            }
+            .build(2000.0)
+            .unwrap(),
+            theta_per_count_q24: 16_777_216.0 / 1000.0,
+            retry: 10,
+            stall,
+        },
+        perception: (),
+        period: 500,
+    };
+    let start = settings.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
+    let bridge = HBridge::new(pwm.clone(), pin.clone());
+    let follower = Follower::new(bridge, Encoder(counts.into_iter()), stall);
+    let active = Active::new(whisking::State::new(&start, 1), [[follower]]);
+    let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
+    let mut module = Module::new([[sensor]], active, (), Microseconds(40));
+
+    let mut events = Vec::new();
+    for n in 0..ticks.len() {
+        module.tick(&config, &mut |event| events.push((n, event)));
+        if n == 4 {
+            // First value of H50's impulse response, by scipy.signal.butter(3, 50, fs=2000).
+            let contact = 4.165_461_390_757_6e-4 * 4096.0 / 8191.0;
+            assert!((f64::from(module.contact()[0]) - contact).abs() < 1e-9);
+            assert!((f64::from(module.motion().state().z[0]) - 0.7 * contact).abs() < 1e-9);
+        }
+    }
+
+    spi.done();
+    pwm.done();
+    pin.done();
+    let place = Place {
+        side: 0,
+        whisker: 0,
+    };
+    let lost = SensorFault::Frame(FrameError::NoSensor);
+    assert_eq!(
+        events,
+        [
+            (7, Event::SensorLost(place, lost)),
+            (10, Event::SensorBack(place))
+        ]
+    );
+    assert_eq!(module.timing_mut().take_worst(), 40);
+    assert_eq!(module.timing_mut().missed(), 0);
+}

@@ -1,0 +1,29 @@
+//! What CI checks, in the order in which it is quickest to fail.
+
+use std::path::Path;
+
+use crate::run::{Fault, cargo, run};
+use crate::{docs, firmware};
+
+/// Everything.
+///
+/// # Errors
+/// The first check that fails.
+pub(crate) fn all() -> Result<(), Fault> {
+    run(&mut cargo(&["fmt", "--all", "--check"]))?;
+    let deny = ["--", "-D", "warnings"];
+    let lints = ["clippy", "--workspace", "--all-targets", "--all-features"];
+    run(cargo(&lints).args(deny))?;
+
+    for board in firmware::Board::ALL {
+        run(cargo(&["clippy"]).args(board.build_arguments()).args(deny))?;
+        let scene = Path::new(firmware::DEFAULT_SCENE);
+        let elf = firmware::build(board, scene)?;
+        firmware::print_size(board, scene, &elf)?;
+    }
+
+    // What the README tells a newcomer to run: the main job, then all tests.
+    run(&mut cargo(&["run", "--release", "-p", "host-sim"]))?;
+    docs::all(true)?;
+    run(&mut cargo(&["test"]))
+}
