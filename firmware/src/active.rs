@@ -211,15 +211,19 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
         events: &mut impl FnMut(Event),
     ) {
         config.whisking.step(&mut self.state, contact);
-        let theta = self.state.theta();
-        for (side, followers) in self.followers.iter_mut().enumerate() {
-            for (w, follower) in followers.iter_mut().enumerate() {
+        for (side, (followers, whiskers)) in self
+            .followers
+            .iter_mut()
+            .zip(&self.state.whiskers)
+            .enumerate()
+        {
+            for (w, (follower, whisker)) in followers.iter_mut().zip(whiskers).enumerate() {
                 let place = Place {
                     side: side as u8,
                     whisker: w as u8,
                 };
                 let sound = readings[side][w].sound;
-                follower.step(config, theta[side][w], sound, place, events);
+                follower.step(config, whisker.muscle.theta, sound, place, events);
             }
         }
     }

@@ -89,15 +89,17 @@ where
         config: &Config<R, M::Config, P::Config>,
         events: &mut impl FnMut(Event),
     ) -> [[Reading; N]; S] {
-        core::array::from_fn(|side| {
-            core::array::from_fn(|w| {
+        let mut readings = [[Reading::REST; N]; S];
+        for (side, (sensors, readings)) in self.sensors.iter_mut().zip(&mut readings).enumerate() {
+            for (w, (sensor, reading)) in sensors.iter_mut().zip(readings).enumerate() {
                 let place = Place {
                     side: side as u8,
                     whisker: w as u8,
                 };
-                self.sensors[side][w].read(&config.decoder, config.patience, place, events)
-            })
-        })
+                *reading = sensor.read(config.decoder, config.patience, place, events);
+            }
+        }
+        readings
     }
 
     /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9).

@@ -20,7 +20,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    const REST: Self = Self {
+    pub(crate) const REST: Self = Self {
         x: Word::MID,
         y: Word::MID,
         fresh: false,
@@ -47,7 +47,7 @@ pub struct Patience {
 }
 
 fn decode(
-    decoder: &Decoder,
+    decoder: Decoder,
     taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
 ) -> Result<(Word, Word), SensorFault> {
     let bytes = taken
@@ -78,7 +78,7 @@ impl<F: FrameSource> Sensor<F> {
     #[inline]
     pub fn read(
         &mut self,
-        decoder: &Decoder,
+        decoder: Decoder,
         patience: Patience,
         place: Place,
         events: &mut impl FnMut(Event),
@@ -165,7 +165,7 @@ mod tests {
         let mut events = Vec::new();
         let readings = (0..script.len())
             .map(|tick| {
-                sensor.read(&Decoder::new(), patience, place, &mut |e| {
+                sensor.read(Decoder::new(), patience, place, &mut |e| {
                     events.push((tick, e))
                 })
             })

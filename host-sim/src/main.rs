@@ -1,2 +1,145 @@
-//! host-sim
-fn main() {}
+//! The command line. `host-sim --help` documents it.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use host_sim::Error;
+use host_sim::commands::{classify, main_job, run, train};
+use host_sim::progress::Verbosity;
+use scene::Rule;
+
+/// Simulates active whisker modules: the firmware's tick on a mock SPI bus and
+/// mock motors, with whiskers and surfaces behind them.
+///
+/// Without a command it runs the main job: the left whisker of a module learns
+/// four textures by whisking against them, then decides by touch which one it
+/// feels; decisions are printed as they fall, and traces, model and a plot are
+/// written to out/textures.
+///
+/// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// No progress on standard error
+    #[arg(long, global = true)]
+    quiet: bool,
+
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs one scene: writes DIR/trace.csv, and DIR/decisions.csv where the scene classifies
+    Run {
+        /// The scene file (docs/scenes.md lists its keys)
+        scene: PathBuf,
+        /// Where to write
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
+    /// Learns a likelihood model from a recording
+    Train {
+        /// The recording: label,trial,x,y
+        #[arg(long, value_name = "FILE.csv")]
+        data: PathBuf,
+        /// Where to write the model
+        #[arg(long, value_name = "MODEL")]
+        out: PathBuf,
+        /// Bins over each channel's range
+        #[arg(long, default_value_t = 100)]
+        bins: usize,
+        /// Standard deviation of the smoothing, in bins; 0: none
+        #[arg(long, default_value_t = 5.0)]
+        smooth: f64,
+        /// Samples whose mean log-likelihood is one step of evidence
+        #[arg(long, default_value_t = 20)]
+        block: u32,
+    },
+    /// Streams a recording through the fixed-point classifier, exactly the code
+    /// that runs on the board
+    Classify {
+        /// The model
+        #[arg(long)]
+        model: PathBuf,
+        /// The recording: label,trial,x,y
+        #[arg(long, value_name = "FILE.csv")]
+        data: PathBuf,
+        /// When to decide
+        #[arg(long, value_enum)]
+        rule: RuleName,
+        /// Sequential: decide when a posterior probability exceeds this
+        #[arg(long, value_name = "P", required_if_eq("rule", "sequential"))]
+        threshold: Option<f64>,
+        /// Window: decide after this many samples, a multiple of the model's block
+        #[arg(long, value_name = "N", required_if_eq("rule", "window"))]
+        window: Option<u32>,
+        /// Where to write the decisions
+        #[arg(long, value_name = "FILE.csv")]
+        out: PathBuf,
+    },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum RuleName {
+    /// When a posterior exceeds the threshold
+    Sequential,
+    /// By maximum likelihood over fixed windows
+    Window,
+}
+
+fn rule(name: RuleName, threshold: Option<f64>, window: Option<u32>) -> Result<Rule, Error> {
+    let missing = |what: &str| Error::Input(format!("--{what} is missing"));
+    Ok(match name {
+        RuleName::Sequential => Rule::Sequential {
+            threshold: threshold.ok_or_else(|| missing("threshold"))?,
+        },
+        RuleName::Window => Rule::Window {
+            samples: window.ok_or_else(|| missing("window"))?,
+        },
+    })
+}
+
+fn work(arguments: Arguments) -> Result<(), Error> {
+    let verbosity = if arguments.quiet {
+        Verbosity::Quiet
+    } else {
+        Verbosity::Normal
+    };
+    match arguments.command {
+        None => main_job::main_job(verbosity),
+        Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity),
+        Some(Command::Train {
+            data,
+            out,
+            bins,
+            smooth,
+            block,
+        }) => train::train(&data, &out, bins, smooth, block),
+        Some(Command::Classify {
+            model,
+            data,
+            rule: name,
+            threshold,
+            window,
+            out,
+        }) => classify::classify(
+            &model,
+            &data,
+            rule(name, threshold, window)?,
+            &out,
+            verbosity,
+        ),
+    }
+}
+
+fn main() -> ExitCode {
+    match work(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("host-sim: {error}");
+            ExitCode::from(error.exit_status())
+        }
+    }
+}

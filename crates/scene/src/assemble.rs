@@ -6,8 +6,8 @@
 
 use crate::read::Values;
 use crate::types::{
-    Classifier, Driver, Gate, Head, Integrator, Motor, Obstacle, Plant, PlantKind, Rule, Scene,
-    Sides, Texture, Textured, Whisking,
+    Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
+    Scene, Sides, Texture, Textured, Whisking,
 };
 use crate::value::Value;
 
@@ -104,13 +104,20 @@ fn read_whisking(part: Part<'_>, whiskers: usize) -> Option<Whisking> {
     let Value::Pairs(start) = part.values.get(part.section, "start")? else {
         return None;
     };
+    let integrator = Integrator::from_name(&part.text("integrator")?)?;
+    let numbers = match (Numbers::from_name(&part.text("numbers")?)?, integrator) {
+        (Numbers::Auto, Integrator::Exact) => Numbers::Single,
+        (Numbers::Auto, Integrator::Euler) => Numbers::Double,
+        (said, _) => said,
+    };
     Some(Whisking {
         frequency_hz: part.number("frequency_hz")?,
-        integrator: Integrator::from_name(&part.text("integrator")?)?,
+        integrator,
         coupling: part.bool("coupling")?,
         noise: part.number("noise")?,
         gain,
         start: start.clone(),
+        numbers,
     })
 }
 

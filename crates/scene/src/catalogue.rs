@@ -128,8 +128,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nine of the motor, one of the head.
-        assert_eq!(defaults, 10);
+        // Nine of the motor, one of the head, one of whisking.
+        assert_eq!(defaults, 11);
     }
 
     #[test]

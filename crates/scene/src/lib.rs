@@ -50,6 +50,6 @@ mod value;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use types::{
-    Classifier, Driver, Gate, Head, Integrator, Motor, Obstacle, Plant, PlantKind, Rule, Scene,
-    Sides, Texture, Textured, Whisking,
+    Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
+    Scene, Sides, Texture, Textured, Whisking,
 };

@@ -58,6 +58,18 @@ choice! {
 }
 
 choice! {
+    /// Number format in which the tick is simulated.
+    Numbers {
+        /// `f64` for Euler, whose point is to be the papers', `f32` for exact.
+        Auto = "auto",
+        /// Single precision, as on a board with an FPU.
+        Single = "f32",
+        /// Double precision, the reference.
+        Double = "f64",
+    }
+}
+
+choice! {
     /// A surface that a whisker is swept over, named after its material or grit.
     Texture {
         /// A smooth surface.
@@ -152,6 +164,8 @@ pub struct Whisking {
     /// Oscillator state ψ = [ψ₁, ψ₂] at the start, left first: one a side,
     /// each component within ±1.5.
     pub start: Vec<[f64; 2]>,
+    /// Number format of the simulated tick, never [`Numbers::Auto`].
+    pub numbers: Numbers,
 }
 
 /// A contact-driven gate: a gain on contact and an exponential recovery.

@@ -2,7 +2,7 @@
 
 use super::{defaulted, required};
 use crate::spec::{Key, Kind, Presence, Range, Section};
-use crate::types::{Driver, Integrator};
+use crate::types::{Driver, Integrator, Numbers};
 
 pub(super) static WHISKING: Section = Section {
     name: "whisking",
@@ -47,6 +47,14 @@ pub(super) static WHISKING: Section = Section {
             Kind::PairPerSide(Range::closed(-1.5, 1.5)),
             "",
             "Oscillator state ψ = [ψ₁, ψ₂] of each side at the start.",
+        ),
+        defaulted(
+            "numbers",
+            Kind::Word(Numbers::NAMES),
+            "",
+            "\"auto\"",
+            "Number format of the simulated tick. `auto`: `f64` for `euler`, whose point is to be \
+             the papers', `f32` for `exact`, as on a board. A board has its own format.",
         ),
     ],
 };
@@ -129,7 +137,7 @@ pub(super) static MOTOR: Section = Section {
             "kd",
             1.0,
             "duty per degree/s",
-            "0.001",
+            "0.0004",
             "Derivative gain of the position control.",
         ),
         control(

@@ -2,8 +2,8 @@
 
 use crate::common::{FULL, with};
 use scene::{
-    Classifier, Driver, Gate, Head, Integrator, Motor, Obstacle, Plant, PlantKind, Rule, Scene,
-    Sides, Texture, Textured, Whisking,
+    Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
+    Scene, Sides, Texture, Textured, Whisking,
 };
 
 fn read(text: &str) -> Scene {
@@ -38,6 +38,7 @@ fn every_key_reaches_its_field() {
             noise: 0.0,
             gain: vec![0.5, 2.0],
             start: vec![[1.0, -1.5], [0.25, 0.5]],
+            numbers: Numbers::Single,
         }),
         rcp: Some(Gate {
             gain: 0.7,
@@ -50,7 +51,7 @@ fn every_key_reaches_its_field() {
         motor: Some(Motor {
             driver: Driver::HBridge,
             kp: 0.05,
-            kd: 0.001,
+            kd: 0.0004,
             duty_limit: 1.0,
             slew_per_s: 400.0,
             min_deg: 30.0,

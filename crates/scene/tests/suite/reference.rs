@@ -19,7 +19,7 @@ fn rows_tell_type_range_unit_and_default() {
         "| `tick_hz` | a whole number from 200 to 20000 | Hz | an error | \
          Control and sampling rate. |",
         "| `sides` | \"both\" or \"left\" |  | `\"both\"` | ",
-        "| `kd` | a number from 0 to 1 | duty per degree/s | `0.001` | ",
+        "| `kd` | a number from 0 to 1 | duty per degree/s | `0.0004` | ",
         "| `threshold` | a number above 0 and below 1 |  | \
          an error if `rule = \"sequential\"`; else not used | ",
         "| `contact_min` | a number from 0 to 1 |  | every sample is classified | ",

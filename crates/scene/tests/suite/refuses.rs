@@ -199,7 +199,7 @@ fn misspelt_keys_are_read_as_what_they_mean() {
         "frequency_hz = 2.0",
         "frequncy_hz = 2.0",
         "s.toml:10: whisking.frequncy_hz: unknown key; did you mean `frequency_hz`? \
-         allowed here: frequency_hz, integrator, coupling, noise, gain, start",
+         allowed here: frequency_hz, integrator, coupling, noise, gain, start, numbers",
     );
     let sections = "name, tick_hz, duration_s, seed, head, whisking, rcp, cia, motor, plant, \
                     classifier";
@@ -220,7 +220,7 @@ fn misspelt_keys_are_read_as_what_they_mean() {
         "noise        = 0.0",
         "noise = 0.0\ncolour = 3",
         "s.toml:14: whisking.colour: unknown key; \
-         allowed here: frequency_hz, integrator, coupling, noise, gain, start",
+         allowed here: frequency_hz, integrator, coupling, noise, gain, start, numbers",
     );
 }
 
@@ -236,7 +236,7 @@ fn keys_in_the_wrong_place() {
         "[rcp]",
         "[whisking.rcp]",
         "s.toml:17: whisking.rcp: unknown key; it belongs to the top of the file; \
-         allowed here: frequency_hz, integrator, coupling, noise, gain, start",
+         allowed here: frequency_hz, integrator, coupling, noise, gain, start, numbers",
     );
 }
 

@@ -1,0 +1,310 @@
+//! A module of any shape behind one interface: the firmware's [`Module`] on
+//! mock hardware.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use firmware::design_parameters::{HOLD_S, RECOVER_S, RETRY_S, ticks};
+use firmware::{
+    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Listener, Module, Patience,
+    Polled, Touch, TouchConfig,
+};
+use mlx90333::{Decoder, Mlx90333};
+use scene::{Numbers, Scene};
+use tactile::Decision;
+use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
+use whisking::{Real, filter};
+
+use crate::Error;
+use crate::bus::{SimSpi, Slave};
+
+/// Any motor driver.
+pub struct AnyMotor(pub Box<dyn MotorDriver>);
+
+impl MotorDriver for AnyMotor {
+    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
+        self.0.drive(duty)
+    }
+
+    fn off(&mut self) {
+        self.0.off();
+    }
+
+    fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+/// Any angle input.
+pub struct AnyAngle(pub Box<dyn AngleInput>);
+
+impl AngleInput for AnyAngle {
+    fn counts(&mut self) -> i32 {
+        self.0.counts()
+    }
+}
+
+/// Any classifier of one whisker.
+pub struct AnyListener<'m>(pub Box<dyn Listener + 'm>);
+
+impl Listener for AnyListener<'_> {
+    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
+        self.0.push(codes)
+    }
+
+    fn reset(&mut self) {
+        self.0.reset();
+    }
+}
+
+/// A motor that is wherever it should be: the plant says where. For the plant
+/// `ideal`, in which the angle is θ' exactly.
+#[derive(Debug, Clone, Default)]
+pub struct IdealMotor {
+    angle_deg: Rc<Cell<f64>>,
+    counts_per_deg: f64,
+}
+
+impl IdealMotor {
+    /// A motor at rest whose angle input has `counts_per_deg` counts a degree.
+    pub fn new(counts_per_deg: f64) -> Self {
+        Self {
+            angle_deg: Rc::new(Cell::new(whisking::REST_DEG)),
+            counts_per_deg,
+        }
+    }
+
+    /// Moves it.
+    pub fn set_deg(&self, angle_deg: f64) {
+        self.angle_deg.set(angle_deg);
+    }
+}
+
+impl MotorDriver for IdealMotor {
+    fn drive(&mut self, _duty: Duty) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn off(&mut self) {}
+
+    fn clear(&mut self) {}
+}
+
+impl AngleInput for IdealMotor {
+    fn counts(&mut self) -> i32 {
+        ((self.angle_deg.get() - whisking::REST_DEG) * self.counts_per_deg).round() as i32
+    }
+}
+
+/// Time does not pass within a tick of the simulation.
+#[derive(Debug, Clone, Copy)]
+struct NoClock;
+
+impl Clock for NoClock {
+    fn now(&mut self) -> u32 {
+        0
+    }
+}
+
+/// What a module shows of itself after a tick. Values of a side that is not
+/// there are not a number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// θ' of every whisker, left side first, degrees.
+    pub theta_deg: Vec<f64>,
+    /// z of each side.
+    pub z: [f64; 2],
+    /// g of the first whisker of each side.
+    pub g: [f64; 2],
+    /// Contact π of each side.
+    pub contact: [f64; 2],
+}
+
+/// A module as a run sees it.
+pub trait Bench {
+    /// One tick.
+    fn tick(&mut self, events: &mut Vec<Event>);
+
+    /// Fills in `snapshot`; `theta_deg` has a place for every whisker.
+    fn look(&self, snapshot: &mut Snapshot);
+
+    /// Makes the classifier forget its evidence.
+    fn forget(&mut self);
+}
+
+type HostModule<'m, R, const S: usize, const N: usize> = Module<
+    R,
+    Polled<SimSpi>,
+    Option<Active<R, AnyMotor, AnyAngle, S, N>>,
+    Option<Touch<AnyListener<'m>>>,
+    NoClock,
+    S,
+    N,
+>;
+
+struct Shaped<'m, R, const S: usize, const N: usize> {
+    module: HostModule<'m, R, S, N>,
+    config: Config<R, Option<ActiveConfig<R>>, Option<TouchConfig<R>>>,
+}
+
+impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
+    fn tick(&mut self, events: &mut Vec<Event>) {
+        self.module
+            .tick(&self.config, &mut |event| events.push(event));
+    }
+
+    fn look(&self, snapshot: &mut Snapshot) {
+        for (place, pi) in snapshot.contact.iter_mut().zip(self.module.contact()) {
+            *place = pi.to_f64();
+        }
+        let Some(active) = self.module.motion() else {
+            return;
+        };
+        let state = active.state();
+        let theta = state.theta();
+        for (place, theta) in snapshot.theta_deg.iter_mut().zip(theta.iter().flatten()) {
+            *place = whisking::degrees(theta.to_f64());
+        }
+        for (place, z) in snapshot.z.iter_mut().zip(state.z) {
+            *place = z.to_f64();
+        }
+        for (place, whiskers) in snapshot.g.iter_mut().zip(&state.whiskers) {
+            *place = whiskers
+                .first()
+                .map_or(f64::NAN, |whisker| whisker.gain.to_f64());
+        }
+    }
+
+    fn forget(&mut self) {
+        if let Some(touch) = self.module.perception_mut() {
+            touch.listener_mut().reset();
+        }
+    }
+}
+
+/// What a module is made of besides its scene.
+pub struct Parts<'m> {
+    /// The sensor of every whisker, left side first.
+    pub slaves: Vec<Slave>,
+    /// The motor and angle input of every whisker, left side first; none where
+    /// the whiskers are passive.
+    pub drives: Vec<(AnyMotor, AnyAngle)>,
+    /// What listens to the first whisker.
+    pub listener: Option<AnyListener<'m>>,
+}
+
+/// Makes the module of `scene`.
+///
+/// # Errors
+/// [`Error::Work`] if the parts do not fit the scene.
+pub fn build<'m>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench + 'm>, Error> {
+    let double = scene
+        .whisking
+        .as_ref()
+        .is_some_and(|whisking| whisking.numbers == Numbers::Double);
+    if double {
+        sized::<f64>(scene, parts)
+    } else {
+        sized::<f32>(scene, parts)
+    }
+}
+
+fn sized<'m, R: Real>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench + 'm>, Error> {
+    macro_rules! shapes {
+        ($($n:literal)*) => {
+            match (scene.head.sides.count(), scene.head.whiskers_per_side) {
+                $(
+                    (1, $n) => shaped::<R, 1, $n>(scene, parts),
+                    (2, $n) => shaped::<R, 2, $n>(scene, parts),
+                )*
+                (sides, whiskers) => {
+                    Err(Error::Work(format!("no module of {sides} sides with {whiskers} whiskers")))
+                }
+            }
+        };
+    }
+    shapes!(1 2 3 4 5 6 7 8 9 10 11 12)
+}
+
+fn shaped<'m, R: Real, const S: usize, const N: usize>(
+    scene: &Scene,
+    parts: Parts<'m>,
+) -> Result<Box<dyn Bench + 'm>, Error> {
+    let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
+    let broken = |mismatch: plan::Mismatch| Error::Work(mismatch.to_string());
+    let within = |seconds| ticks(seconds, scene.tick_hz);
+    let tick_hz = f64::from(scene.tick_hz);
+
+    let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
+    let stall = StallConfig {
+        ticks: within(0.2),
+        ..StallConfig::DEFAULT
+    };
+    let mut drives = parts.drives.into_iter();
+    let motion = match &plan {
+        None => None,
+        Some(plan) => {
+            let followers = array(|| {
+                let (motor, angle) = drives.next()?;
+                Some(Follower::new(motor, angle, stall))
+            })
+            .ok_or_else(|| misfit("motors"))?;
+            Some(Active::new(
+                whisking::State::new(&plan.start, scene.seed),
+                followers,
+            ))
+        }
+    };
+
+    let mut slaves = parts.slaves.iter();
+    let sensors = array(|| {
+        Some(Polled::new(Mlx90333::new(
+            slaves.next()?.spi(),
+            Decoder::new(),
+        )))
+    })
+    .ok_or_else(|| misfit("sensors"))?;
+
+    // The trace shows contact wherever there is something to touch.
+    let contact = match plan::contact(scene).map_err(broken)? {
+        None if scene.plant.obstacle.is_some() => {
+            let h50 = filter::Config::new(filter::CORNER_HZ, tick_hz);
+            Some(h50.map_err(|error| Error::Work(error.to_string()))?)
+        }
+        contact => contact,
+    };
+    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
+    let config = Config {
+        decoder: Decoder::new(),
+        patience: Patience {
+            hold: within(HOLD_S),
+            recover: within(RECOVER_S),
+        },
+        contact,
+        motion: plan.map(|plan| ActiveConfig {
+            whisking: plan.whisking,
+            pd: plan.pd,
+            theta_per_count_q24: plan.theta_per_count_q24,
+            retry: within(RETRY_S),
+            stall,
+        }),
+        perception: parts.listener.is_some().then(|| TouchConfig {
+            contact_min: contact_min.map(R::from_f64),
+        }),
+        period: 0,
+    };
+    let module = Module::new(sensors, motion, parts.listener.map(Touch::new), NoClock);
+    Ok(Box::new(Shaped { module, config }))
+}
+
+/// S × N things, or `None` if `make` runs out of them.
+fn array<T, const S: usize, const N: usize>(
+    mut make: impl FnMut() -> Option<T>,
+) -> Option<[[T; N]; S]> {
+    let mut sides = Vec::with_capacity(S);
+    for _ in 0..S {
+        let side: Vec<T> = (0..N).map_while(|_| make()).collect();
+        sides.push(<[T; N]>::try_from(side).ok()?);
+    }
+    <[[T; N]; S]>::try_from(sides).ok()
+}

@@ -1,0 +1,298 @@
+//! A mock SPI bus with an MLX90333 on it that speaks the wire format.
+//!
+//! Glossary:
+//!
+//! - *slave*: the sensor's end of the wire, in the hands of the simulation
+//!   ([`Slave`]); the module has the other end ([`SimSpi`]);
+//! - *latch*: at the falling edge of /SS the slave takes the deflections of
+//!   that moment; a frame never mixes two of them;
+//! - *wired-AND*: MOSI and MISO are one open-drain line. Whoever sends a zero
+//!   pulls it low, so the master reads `sent & answered` and a master that
+//!   sends zeros reads zeros;
+//! - *error word*: what the sensor reports about itself, in a sound frame;
+//! - *wire fault*: what befalls the frame on its way ([`WireFault`]).
+//!
+//! No time passes on this bus: delays are accepted and added up.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
+use mlx90333::{FRAME_LEN, Faults, Mode, SumRule, Word, encode};
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// What a line reads when nobody pulls it low.
+const RELEASED: u8 = 0xFF;
+
+/// What the master sends where embedded-hal leaves it open (reads, and a
+/// transfer whose answer is longer than what it sends). Zero is the value that
+/// a driver for this sensor must not rely on.
+const FILLER: u8 = 0x00;
+
+/// What befalls frames on the wire.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum WireFault {
+    /// The slave does not answer: all bytes 0xFF. A lost frame, a cut wire and
+    /// a sensor without supply look alike.
+    Silent,
+    /// The line is held low: all bytes 0x00.
+    LineLow,
+    /// B7 is one more than the sum rule wants.
+    BadSum,
+    /// The bus controller reports an error; nothing is read.
+    Bus,
+    /// One bit of the frame arrives inverted: 0 is the first on the wire, the
+    /// top bit of B0, and 63 the last. Others change nothing.
+    Flip(u8),
+}
+
+/// What has gone over a bus since its slave was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Traffic {
+    /// Times that /SS went low, failed transactions included.
+    pub transactions: u64,
+    /// Bytes clocked.
+    pub bytes: u64,
+    /// Sum of the delays asked for inside transactions, nanoseconds.
+    pub delay_ns: u64,
+}
+
+/// Random disturbances, each drawn once a frame.
+#[derive(Debug, Clone)]
+struct Disturbance {
+    lost: f64,
+    flipped: f64,
+    random: Xoshiro256PlusPlus,
+}
+
+impl Disturbance {
+    fn draw(&mut self) -> Option<WireFault> {
+        let word = self.random.next_u64();
+        // The upper 53 bits as a number in [0, 1); the lower ones choose the bit.
+        let chance = (word >> 11) as f64 / (1_u64 << 53) as f64;
+        if chance < self.lost {
+            Some(WireFault::Silent)
+        } else if chance < self.lost + self.flipped {
+            Some(WireFault::Flip((word % 64) as u8))
+        } else {
+            None
+        }
+    }
+}
+
+#[derive(Debug)]
+struct Inner {
+    mode: Mode,
+    sum_rule: SumRule,
+    words: [Word; 3],
+    error_word: Faults,
+    standing: Option<WireFault>,
+    passing: Option<(WireFault, u32)>,
+    disturbance: Option<Disturbance>,
+    traffic: Traffic,
+}
+
+impl Inner {
+    /// The falling edge of /SS: the frame to answer with, and what befalls it.
+    fn select(&mut self) -> ([u8; FRAME_LEN], Option<WireFault>) {
+        self.traffic.transactions = self.traffic.transactions.saturating_add(1);
+        let [x, y, z] = self.words;
+        let mut frame = match self.mode {
+            Mode::AlphaBeta => encode::alpha_beta(x, y, self.error_word, self.sum_rule),
+            Mode::Xyz => encode::xyz(x, y, z, self.sum_rule),
+        };
+        let by_chance = self.disturbance.as_mut().and_then(Disturbance::draw);
+        let passing = self.passing.map(|(fault, _)| fault);
+        self.passing = self
+            .passing
+            .and_then(|(fault, left)| Some((fault, left.checked_sub(1).filter(|&n| n > 0)?)));
+        let fault = self.standing.or(passing).or(by_chance);
+        match fault {
+            Some(WireFault::Silent) => frame = [RELEASED; FRAME_LEN],
+            Some(WireFault::BadSum) => {
+                let [.., sum] = &mut frame;
+                *sum = sum.wrapping_add(1);
+            }
+            _ => {}
+        }
+        (frame, fault)
+    }
+}
+
+/// The sensor: a shared handle; clones are the same sensor.
+///
+/// A new one is at rest (mid-scale) and sound.
+#[derive(Debug, Clone)]
+pub struct Slave(Rc<RefCell<Inner>>);
+
+impl Slave {
+    /// A sensor in alpha-beta mode that sends the default sum.
+    pub fn new() -> Self {
+        Self::with(Mode::AlphaBeta, SumRule::SumB1B6)
+    }
+
+    /// A sensor programmed to `mode` that sums by `sum_rule`. In XYZ mode Z
+    /// stays at mid-scale and there is no error word.
+    pub fn with(mode: Mode, sum_rule: SumRule) -> Self {
+        Self(Rc::new(RefCell::new(Inner {
+            mode,
+            sum_rule,
+            words: [Word::MID; 3],
+            error_word: Faults::NONE,
+            standing: None,
+            passing: None,
+            disturbance: None,
+            traffic: Traffic::default(),
+        })))
+    }
+
+    /// The bus that this sensor hangs on.
+    pub fn spi(&self) -> SimSpi {
+        SimSpi {
+            slave: self.clone(),
+        }
+    }
+
+    /// Deflections along x and y, limited to ±1 and rounded to the sensor's 14
+    /// bits; NaN reads as rest.
+    pub fn set(&self, [x, y]: [f64; 2]) {
+        let mut inner = self.0.borrow_mut();
+        let [_, _, z] = inner.words;
+        let word = |value: f64| Word::from_normalised(value as f32);
+        inner.words = [word(x), word(y), z];
+    }
+
+    /// What the sensor reports about itself from now on.
+    pub fn set_error_word(&self, faults: Faults) {
+        self.0.borrow_mut().error_word = faults;
+    }
+
+    /// A wire fault in every frame from now on; `None` mends it. It goes
+    /// before [`Slave::inject`], and that before [`Slave::disturb`].
+    pub fn set_fault(&self, fault: Option<WireFault>) {
+        self.0.borrow_mut().standing = fault;
+    }
+
+    /// A wire fault in the next `frames` frames; replaces what is left of the last.
+    pub fn inject(&self, fault: WireFault, frames: u32) {
+        self.0.borrow_mut().passing = (frames > 0).then_some((fault, frames));
+    }
+
+    /// From now on each frame is lost with probability `lost`, else has one bit
+    /// inverted with probability `flipped`. NaN and negative count as 0, a sum
+    /// above 1 as 1; both 0 ends it. The same seed gives the same faults.
+    pub fn disturb(&self, lost: f64, flipped: f64, seed: u64) {
+        let (lost, flipped) = (lost.max(0.0), flipped.max(0.0));
+        self.0.borrow_mut().disturbance = (lost + flipped > 0.0).then(|| Disturbance {
+            lost,
+            flipped,
+            random: Xoshiro256PlusPlus::seed_from_u64(seed),
+        });
+    }
+
+    /// What has gone over the bus so far.
+    pub fn traffic(&self) -> Traffic {
+        self.0.borrow().traffic
+    }
+}
+
+impl Default for Slave {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The bus controller failed, as by [`WireFault::Bus`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("simulated bus error")]
+pub struct SimSpiError;
+
+impl embedded_hal::spi::Error for SimSpiError {
+    fn kind(&self) -> ErrorKind {
+        ErrorKind::Other
+    }
+}
+
+/// The master's end of the wire: an SPI device with the sensor behind it.
+#[derive(Debug)]
+pub struct SimSpi {
+    slave: Slave,
+}
+
+/// One transaction: the frame latched at its start, byte by byte.
+struct Exchange {
+    frame: std::array::IntoIter<u8, FRAME_LEN>,
+    held_low: bool,
+    /// What noise inverts, in the same positions.
+    noise: std::array::IntoIter<u8, FRAME_LEN>,
+    bytes: u64,
+}
+
+impl Exchange {
+    fn new(frame: [u8; FRAME_LEN], fault: Option<WireFault>) -> Self {
+        let flipped = match fault {
+            Some(WireFault::Flip(bit @ 0..64)) => 1_u64 << (63 - bit),
+            _ => 0,
+        };
+        Self {
+            frame: frame.into_iter(),
+            held_low: fault == Some(WireFault::LineLow),
+            noise: flipped.to_be_bytes().into_iter(),
+            bytes: 0,
+        }
+    }
+
+    /// Eight clocks: what the master reads while it sends a byte.
+    fn byte(&mut self, sent: u8) -> u8 {
+        self.bytes += 1;
+        let answered = self.frame.next().unwrap_or(RELEASED);
+        let line = if self.held_low { 0 } else { sent & answered };
+        line ^ self.noise.next().unwrap_or(0)
+    }
+
+    fn transfer(&mut self, read: &mut [u8], write: &[u8]) {
+        for i in 0..read.len().max(write.len()) {
+            let received = self.byte(write.get(i).copied().unwrap_or(FILLER));
+            if let Some(slot) = read.get_mut(i) {
+                *slot = received;
+            }
+        }
+    }
+}
+
+impl ErrorType for SimSpi {
+    type Error = SimSpiError;
+}
+
+impl SpiDevice for SimSpi {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), SimSpiError> {
+        let mut inner = self.slave.0.borrow_mut();
+        let (frame, fault) = inner.select();
+        if fault == Some(WireFault::Bus) {
+            return Err(SimSpiError);
+        }
+        let mut exchange = Exchange::new(frame, fault);
+        let mut delay_ns = 0_u64;
+        for operation in operations {
+            match operation {
+                Operation::Read(buffer) => exchange.transfer(buffer, &[]),
+                Operation::Write(bytes) => exchange.transfer(&mut [], bytes),
+                Operation::Transfer(read, write) => exchange.transfer(read, write),
+                Operation::TransferInPlace(buffer) => {
+                    for byte in buffer.iter_mut() {
+                        *byte = exchange.byte(*byte);
+                    }
+                }
+                Operation::DelayNs(ns) => delay_ns = delay_ns.saturating_add(u64::from(*ns)),
+            }
+        }
+        let traffic = &mut inner.traffic;
+        traffic.bytes = traffic.bytes.saturating_add(exchange.bytes);
+        traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,6 @@
+//! What the command line can do, one file a command.
+
+pub mod classify;
+pub mod main_job;
+pub mod run;
+pub mod train;

@@ -1,0 +1,116 @@
+//! `host-sim classify`: a recording through the fixed-point classifier.
+
+use std::path::Path;
+
+use scene::Rule;
+use tactile::{Model, Quantiser, Threshold, dynamic};
+
+use crate::Error;
+use crate::decisions::{self, Confusion, Decided};
+use crate::listening;
+use crate::progress::{Progress, Verbosity};
+use crate::recording::{self, Stream};
+
+/// Streams the recording `data` through the classifier of `model` and writes
+/// its decisions to `out`.
+///
+/// # Errors
+/// [`Error::Input`] for a model, recording or rule that is wrong, [`Error::Write`].
+pub fn classify(
+    model: &Path,
+    data: &Path,
+    rule: Rule,
+    out: &Path,
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    let (path, buffer) = listening::load(model)?;
+    let model = buffer.model().map_err(|error| Error::file(&path, error))?;
+    let mut classifier = Streamed::new(&model, rule).map_err(|fault| match fault {
+        Fault::Model(fault) => Error::file(&path, fault),
+        Fault::Rule(fault) => Error::Input(fault),
+    })?;
+    let streams = recording::read(data)?;
+    let mut progress = Progress::new(verbosity, "classifying", streams.len() as u64);
+    let mut decided = Vec::new();
+    for (n, stream) in streams.iter().enumerate() {
+        let told = classifier.stream(stream, &mut decided);
+        told.map_err(|fault| Error::file(&path, fault))?;
+        progress.set(n as u64);
+    }
+    drop(progress);
+    decisions::write(out, &decided)?;
+    let confusion = Confusion::new(&listening::names(&model), &decided);
+    match (confusion.hit_rate(), confusion.mean_samples()) {
+        (Some(hits), Some(samples)) => println!(
+            "{confusion}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
+            confusion.decisions(),
+            100.0 * hits
+        ),
+        _ => println!("no decision"),
+    }
+    Ok(())
+}
+
+/// What keeps a classifier from being made.
+enum Fault {
+    Model(String),
+    Rule(String),
+}
+
+/// A classifier with the names and quantisers of its model.
+struct Streamed<'m> {
+    classifier: Box<dyn dynamic::Classifier + 'm>,
+    quantisers: [Quantiser; 2],
+    names: Vec<String>,
+}
+
+impl<'m> Streamed<'m> {
+    fn new(model: &Model<'m>, rule: Rule) -> Result<Self, Fault> {
+        let (Some(x), Some(y), 2) = (model.quantiser(0), model.quantiser(1), model.channels())
+        else {
+            let fault = format!("the model has {} channels, not x and y", model.channels());
+            return Err(Fault::Model(fault));
+        };
+        let classifier = match rule {
+            Rule::Sequential { threshold } => {
+                let fault = |error| Fault::Rule(format!("--threshold {threshold}: {error}"));
+                let threshold = Threshold::new(threshold).map_err(fault)?;
+                dynamic::sequential(model, threshold).map_err(fault)?
+            }
+            Rule::Window { samples } => dynamic::window(model, samples)
+                .map_err(|error| Fault::Rule(format!("--window {samples}: {error}")))?,
+        };
+        Ok(Self {
+            classifier,
+            quantisers: [x, y],
+            names: listening::names(model),
+        })
+    }
+
+    /// Appends the decisions of one stream; evidence does not outlive it.
+    fn stream(&mut self, stream: &Stream, decided: &mut Vec<Decided>) -> Result<(), String> {
+        self.classifier.reset();
+        let [x, y] = &self.quantisers;
+        for sample in &stream.samples {
+            let codes = [x.code_from_f64(sample[0]), y.code_from_f64(sample[1])];
+            let pushed = self
+                .classifier
+                .push(&codes)
+                .map_err(|error| error.to_string())?;
+            decided.extend(pushed.map(|decision| {
+                Decided {
+                    label: stream.label.clone(),
+                    trial: stream.trial.clone(),
+                    decision: self
+                        .names
+                        .get(decision.class())
+                        .cloned()
+                        .unwrap_or_default(),
+                    samples: decision.samples(),
+                    posterior: decision.posterior().to_f64(),
+                }
+            }));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,180 @@
+//! `host-sim` without arguments: a whisker learns textures and tells them apart.
+
+use std::cell::RefCell;
+use std::path::Path;
+use std::rc::Rc;
+
+use firmware::Listener;
+use scene::Scene;
+use tactile::train::{Options, Trainer};
+use tactile::{Decision, ModelBuf};
+
+use crate::bench::AnyListener;
+use crate::decisions::{self, Confusion};
+use crate::output::write_whole;
+use crate::plot::{self, Mark};
+use crate::progress::{Progress, Verbosity};
+use crate::recording::{self, Stream};
+use crate::run::{Happened, Run};
+use crate::trace::{Row, TraceFile};
+use crate::{Error, listening, report};
+
+/// The scene, so that the program runs wherever it stands.
+const SCENE: &str = include_str!("../../../scenes/textures.toml");
+/// Where the files go.
+const OUT: &str = "out/textures";
+/// How much of the run the plot shows, s: a presentation of each texture.
+const PLOTTED_S: f64 = 10.0;
+
+/// Trains on some whisks, decides on others, prints and writes what came out.
+///
+/// # Errors
+/// [`Error::Work`] or [`Error::Write`].
+pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
+    let scene = Scene::from_str("scenes/textures.toml", SCENE)?;
+    let out = Path::new(OUT);
+
+    println!(
+        "learning: {} s of whisking against each texture in turn",
+        scene.duration_s
+    );
+    let streams = record(&scene, verbosity)?;
+    recording::write(&out.join("training.csv"), &streams)?;
+    let model = learn(&streams)?;
+    write_whole(&out.join("textures.model"), model.as_bytes())?;
+
+    println!(
+        "deciding: {} s of other whisks, as decisions fall",
+        scene.duration_s
+    );
+    let deciding = decide(&scene, &model, out, verbosity)?;
+    let marks = &deciding.marks;
+    let decided: Vec<_> = marks.iter().map(|mark| mark.decided.clone()).collect();
+    decisions::write(&out.join("decisions.csv"), &decided)?;
+    let title = "left whisker: four textures, RCP";
+    let svg = plot::left_whisker(title, &deciding.rows, marks)
+        .map_err(|error| Error::Work(format!("plot: {error}")))?;
+    write_whole(&out.join("textures.svg"), svg.as_bytes())?;
+
+    let confusion = Confusion::new(&deciding.classes, &decided);
+    print!("\n{}", report::Summary(&confusion, scene.tick_hz));
+    println!("in {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg");
+    Ok(())
+}
+
+/// Listens without deciding: keeps the codes.
+struct Recorder(Rc<RefCell<Vec<[f64; 2]>>>);
+
+impl Listener for Recorder {
+    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
+        self.0.borrow_mut().push(codes.map(f64::from));
+        None
+    }
+
+    fn reset(&mut self) {}
+}
+
+/// What the classifier of `scene` would have heard in another run of it: the
+/// same scene with another seed, so other noise and other grit.
+///
+/// # Errors
+/// [`Error::Work`] if the module cannot be put together.
+pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error> {
+    let scene = Scene {
+        seed: scene.seed.wrapping_add(1),
+        ..scene.clone()
+    };
+    let heard = Rc::new(RefCell::new(Vec::new()));
+    let recorder = AnyListener(Box::new(Recorder(Rc::clone(&heard))));
+    let mut run = Run::new(&scene, Some(recorder))?;
+    let mut happened = Happened::default();
+    let mut streams: Vec<Stream> = Vec::new();
+    let mut progress = Progress::new(verbosity, "learning", run.ticks());
+    for n in 0..run.ticks() {
+        run.tick(&mut happened);
+        let (label, trial) = run.presented();
+        let trial = trial.to_string();
+        let samples = std::mem::take(&mut *heard.borrow_mut());
+        match streams
+            .last_mut()
+            .filter(|last| last.label == label && last.trial == trial)
+        {
+            Some(stream) => stream.samples.extend(samples),
+            None => streams.push(Stream {
+                label: label.to_owned(),
+                trial,
+                samples,
+            }),
+        }
+        if n.is_multiple_of(1024) {
+            progress.set(n);
+        }
+    }
+    Ok(streams)
+}
+
+/// The model of a recording with the settings that `host-sim train` has by default.
+///
+/// # Errors
+/// [`Error::Work`] if the recording teaches nothing.
+pub fn learn(streams: &[Stream]) -> Result<ModelBuf, Error> {
+    let wrong = |error| Error::Work(format!("training: {error}"));
+    let trainer = Trainer::new(2, Options::default()).map_err(wrong)?;
+    super::train::learn(trainer, streams).map_err(wrong)
+}
+
+/// A run with decisions.
+struct Deciding {
+    classes: Vec<String>,
+    marks: Vec<Mark>,
+    /// The rows to be plotted.
+    rows: Vec<Row>,
+}
+
+fn decide(
+    scene: &Scene,
+    model: &ModelBuf,
+    out: &Path,
+    verbosity: Verbosity,
+) -> Result<Deciding, Error> {
+    let Some(classifier) = &scene.classifier else {
+        return Err(Error::Work("the scene has no classifier".to_owned()));
+    };
+    let model = model
+        .model()
+        .map_err(|error| Error::Work(error.to_string()))?;
+    let listener = listening::classifier(&model, classifier.rule).map_err(Error::Work)?;
+    let classes = listening::names(&model);
+
+    let mut run = Run::new(scene, Some(listener))?;
+    let mut trace = TraceFile::create(&out.join("trace.csv"))?;
+    let (mut marks, mut rows) = (Vec::new(), Vec::new());
+    let mut happened = Happened::default();
+    let mut progress = Progress::new(verbosity, "deciding", run.ticks());
+    for n in 0..run.ticks() {
+        let row = *run.tick(&mut happened);
+        trace.row(&row)?;
+        if row.t_s <= PLOTTED_S {
+            rows.push(row);
+        }
+        for event in &happened.events {
+            report::limits_and_faults(row.t_s, event);
+        }
+        if let Some(decided) = run.decided(&happened, &classes) {
+            progress.pause(|| report::decision(row.t_s, &decided));
+            marks.push(Mark {
+                t_s: row.t_s,
+                decided,
+            });
+        }
+        if n.is_multiple_of(1024) {
+            progress.set(n);
+        }
+    }
+    trace.finish()?;
+    Ok(Deciding {
+        classes,
+        marks,
+        rows,
+    })
+}

@@ -1,0 +1,51 @@
+//! `host-sim train`: a likelihood model from a recording.
+
+use std::path::Path;
+
+use tactile::ModelBuf;
+use tactile::train::{Options, TrainError, Trainer};
+
+use crate::Error;
+use crate::output::write_whole;
+use crate::recording::{self, Stream};
+
+/// Learns a model from the recording `data` and writes it to `out`.
+///
+/// # Errors
+/// [`Error::Input`] for a recording or an option that is wrong, [`Error::Write`].
+pub fn train(data: &Path, out: &Path, bins: usize, smooth: f64, block: u32) -> Result<(), Error> {
+    let trainer = Trainer::new(
+        2,
+        Options {
+            bins,
+            smooth,
+            block,
+        },
+    )
+    .map_err(|error| Error::Input(error.to_string()))?;
+    let streams = recording::read(data)?;
+    let model = learn(trainer, &streams).map_err(|error| Error::file(data, error))?;
+    write_whole(out, model.as_bytes())?;
+    let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
+    println!(
+        "{}: {} samples in {} streams, {} bytes",
+        out.display(),
+        samples,
+        streams.len(),
+        model.as_bytes().len()
+    );
+    Ok(())
+}
+
+/// The model of `streams`; classes in the order in which they first appear.
+///
+/// # Errors
+/// What the trainer refuses.
+pub fn learn(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
+    for stream in streams {
+        for sample in &stream.samples {
+            trainer.add(&stream.label, sample)?;
+        }
+    }
+    trainer.train()
+}

@@ -1,0 +1,75 @@
+//! The classifiers of the firmware with the number of classes known only now.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use firmware::{Listener, Stream};
+use scene::Rule;
+use tactile::{Model, ModelBuf, Sequential, Threshold, Window};
+
+use crate::Error;
+use crate::bench::AnyListener;
+
+/// Reads and checks a model file.
+///
+/// # Errors
+/// [`Error::Input`] names the file and why it is refused.
+pub fn load(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    let model = ModelBuf::from_bytes(&bytes).map_err(|error| Error::file(path, error))?;
+    Ok((path.to_owned(), model))
+}
+
+/// The class names of a model.
+pub fn names(model: &Model<'_>) -> Vec<String> {
+    model.names().map(str::to_owned).collect()
+}
+
+/// The very type that a board runs with this model and rule.
+///
+/// # Errors
+/// Why the model cannot be used: other than two channels, not learnt from
+/// sensor codes, a window that is no multiple of the block.
+pub fn classifier<'m>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, String> {
+    if model.channels() != 2 {
+        return Err(format!(
+            "the model has {} channels, a whisker has 2",
+            model.channels()
+        ));
+    }
+    macro_rules! classes {
+        ($($k:literal)*) => {
+            match model.classes() {
+                $($k => streaming::<$k>(model, rule),)*
+                count => Err(format!("no classifier of {count} classes")),
+            }
+        };
+    }
+    classes!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32)
+}
+
+fn streaming<'m, const K: usize>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, String>
+where
+    tactile::Classes<K>: tactile::Supported,
+{
+    let boxed = |listener: Box<dyn Listener + 'm>| AnyListener(listener);
+    match rule {
+        Rule::Sequential { threshold } => {
+            let threshold = Threshold::new(threshold).map_err(text)?;
+            let classifier = Sequential::<2, K>::new(model, threshold).map_err(text)?;
+            Ok(boxed(Box::new(
+                Stream::new(model, classifier).map_err(text)?,
+            )))
+        }
+        Rule::Window { samples } => {
+            let classifier = Window::<2, K>::new(model, samples).map_err(text)?;
+            Ok(boxed(Box::new(
+                Stream::new(model, classifier).map_err(text)?,
+            )))
+        }
+    }
+}
+
+fn text(error: impl Display) -> String {
+    error.to_string()
+}

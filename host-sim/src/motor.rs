@@ -1,0 +1,214 @@
+//! A simulated micro motor with gear, whisker inertia and encoder, behind the
+//! same embedded-hal traits as the board's.
+//!
+//! Glossary:
+//!
+//! - *stage*: what the pins switch. Brushed: an H-bridge with PWM and
+//!   direction. Brushless: three half-bridges with enables, and three Halls;
+//! - *drive torque*: what the winding would give at standstill;
+//! - *damping*: torque lost per unit of speed, by back-EMF and viscous friction;
+//! - *electrical turn*: equal to a mechanical one (one pole pair);
+//! - *reflected*: seen through the gear of ratio G: inertia and torque of the
+//!   whisker appear at the rotor divided by G² and G.
+//!
+//! # Model
+//!
+//! J dω/dt = k (u U − k ω)/R − b ω − τ_c sgn ω + τ_load/G, with the PWM averaged
+//! over its period and the winding's inductance left out: its L/R, some tens of
+//! microseconds, is short against a tick. An H-bridge at PWM zero brakes
+//! (the winding is shorted), a phase that is not enabled carries no current
+//! (free-wheeling diodes are left out). The gear is ideal: its losses are in
+//! τ_c and b.
+//!
+//! Between pin changes this is linear but for the sign of ω, and is solved
+//! exactly ([`rotor`]), so any tick is stable. In the brushless stage the
+//! torque also depends on the rotor angle, which is held over substeps.
+
+mod pins;
+#[cfg(test)]
+pub(crate) mod rig;
+mod rotor;
+mod settings;
+mod stage;
+
+use std::rc::Rc;
+
+use pins::Wires;
+pub use pins::{PWM_MAX, SimDir, SimEncoder, SimHall, SimPin, SimPwm};
+use rotor::Rotor;
+pub use settings::{BadMotorSetting, MotorSettings};
+use stage::Stage;
+
+/// What connects a brushed motor with its driver and its angle input.
+#[derive(Debug)]
+pub struct Brushed {
+    /// Size of the duty.
+    pub pwm: SimPwm,
+    /// Its sign; high is protraction.
+    pub dir: SimDir,
+    /// Angle input.
+    pub encoder: SimEncoder,
+}
+
+/// What connects a brushless motor with its driver and its angle input.
+#[derive(Debug)]
+pub struct Brushless {
+    /// Inputs of phases 1 to 3.
+    pub pwms: (SimPwm, SimPwm, SimPwm),
+    /// Enables of phases 1 to 3.
+    pub enables: (SimPin, SimPin, SimPin),
+    /// Hall sensors 1 to 3.
+    pub halls: (SimHall, SimHall, SimHall),
+    /// Angle input, if the driver's count of sectors is not used.
+    pub encoder: SimEncoder,
+}
+
+/// A wire that can be cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wire {
+    /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one;
+    /// others are not there.
+    Winding(usize),
+    /// The cable of the Hall sensors: their pull-ups read high, code 7.
+    Halls,
+    /// The cable of the encoder: its count stands still. Once mended it goes on
+    /// from there, off by what it has missed.
+    Encoder,
+}
+
+/// A motor, its gear and its whisker.
+#[derive(Debug)]
+pub struct SimMotor {
+    settings: MotorSettings,
+    stage: Stage,
+    rotor: Rotor,
+    wires: Rc<Wires>,
+    blocked: bool,
+    load_nm: f64,
+}
+
+impl SimMotor {
+    /// A brushed motor at rest with its pins.
+    ///
+    /// # Errors
+    /// The first setting out of its range.
+    pub fn brushed(settings: MotorSettings) -> Result<(Self, Brushed), BadMotorSetting> {
+        let motor = Self::new(settings, Stage::Brushed)?;
+        let wires = &motor.wires;
+        let pins = Brushed {
+            pwm: SimPwm::new(wires, 0),
+            dir: SimPin::new(wires, 0),
+            encoder: SimEncoder::new(wires),
+        };
+        Ok((motor, pins))
+    }
+
+    /// A three-phase motor at rest with its pins; phases and sensors as in
+    /// [`whisking::motor::COMMUTATION`].
+    ///
+    /// # Errors
+    /// The first setting out of its range.
+    pub fn brushless(settings: MotorSettings) -> Result<(Self, Brushless), BadMotorSetting> {
+        let motor = Self::new(settings, Stage::Brushless)?;
+        let wires = &motor.wires;
+        let pwm = |i| SimPwm::new(wires, i);
+        let pin = |i| SimPin::new(wires, i);
+        let hall = |i| SimHall::new(wires, i);
+        let pins = Brushless {
+            pwms: (pwm(0), pwm(1), pwm(2)),
+            enables: (pin(0), pin(1), pin(2)),
+            halls: (hall(0), hall(1), hall(2)),
+            encoder: SimEncoder::new(wires),
+        };
+        Ok((motor, pins))
+    }
+
+    fn new(settings: MotorSettings, stage: Stage) -> Result<Self, BadMotorSetting> {
+        settings.check()?;
+        let counts_per_rad = f64::from(settings.counts_per_rev) / core::f64::consts::TAU;
+        Ok(Self {
+            settings,
+            stage,
+            rotor: Rotor::default(),
+            wires: Rc::new(Wires::new(counts_per_rad)),
+            blocked: false,
+            load_nm: 0.0,
+        })
+    }
+
+    /// Lets `dt_s` seconds pass with the pins as they are; nothing happens
+    /// unless it is positive and finite.
+    pub fn advance(&mut self, dt_s: f64) {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return;
+        }
+        if self.blocked {
+            self.rotor.speed = 0.0;
+            return;
+        }
+        let s = &self.settings;
+        let load = self.load_nm / s.gear;
+        let inertia = s.inertia_kg_m2();
+        let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
+        let step_s = dt_s / f64::from(steps);
+        for _ in 0..steps {
+            let winding = self.stage.winding(s, &self.wires, self.rotor.angle);
+            let law = rotor::Law {
+                push: (winding.drive_nm + load) / inertia,
+                rate: (winding.damping_nm_s + s.viscous_nm_s) / inertia,
+                friction: s.coulomb_nm / inertia,
+            };
+            self.rotor.advance(&law, step_s);
+        }
+        self.wires.set_angle(self.rotor.angle);
+    }
+
+    /// Holds the whisker where it is, or lets it go.
+    pub fn block(&mut self, blocked: bool) {
+        self.blocked = blocked;
+    }
+
+    /// An outer torque on the whisker from now on, N·m, positive towards
+    /// protraction; what is not finite counts as 0.
+    pub fn set_load_nm(&mut self, load_nm: f64) {
+        self.load_nm = if load_nm.is_finite() { load_nm } else { 0.0 };
+    }
+
+    /// Cuts a wire.
+    pub fn cut(&mut self, wire: Wire) {
+        self.wires.set_cut(wire, true);
+    }
+
+    /// Mends a wire.
+    pub fn mend(&mut self, wire: Wire) {
+        self.wires.set_cut(wire, false);
+    }
+
+    /// Whisker angle θ′, degrees; [`MotorSettings::rest_deg`] at the start.
+    pub fn angle_deg(&self) -> f64 {
+        self.settings.rest_deg + (self.rotor.angle / self.settings.gear).to_degrees()
+    }
+
+    /// Speed of the whisker, degrees a second.
+    pub fn speed_deg_s(&self) -> f64 {
+        (self.rotor.speed / self.settings.gear).to_degrees()
+    }
+
+    /// Current into each winding terminal, A: terminals 0 and 1 of a brushed
+    /// motor, 0 to 2 of a brushless one, averaged over the PWM period. Their
+    /// sum is 0.
+    pub fn currents_a(&self) -> [f64; 3] {
+        self.stage
+            .currents(&self.settings, &self.wires, &self.rotor)
+    }
+
+    /// The settings it was made with.
+    pub const fn settings(&self) -> &MotorSettings {
+        &self.settings
+    }
+}
+
+#[cfg(test)]
+mod six_step_tests;
+#[cfg(test)]
+mod tests;

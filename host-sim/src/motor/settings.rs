@@ -1,0 +1,98 @@
+//! What a motor is, in physical units.
+
+use core::ops::RangeInclusive;
+
+/// A motor setting that is out of its range, by the name of its field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("motor setting {0} is out of range")]
+pub struct BadMotorSetting(pub &'static str);
+
+/// Motor, gear, whisker inertia and encoder.
+///
+/// The defaults describe a class, that of flat 13 mm brushless micro motors
+/// such as the Faulhaber 1307 of BIOTACT (section II-C); they are rounded
+/// choices, not data-sheet figures. They give a stall torque of 0.6 mN·m, a
+/// no-load speed of 22,000 turns a minute at the rotor and 11,900 °/s at the
+/// whisker, and a mechanical time constant of 48 ms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorSettings {
+    /// Supply voltage U, 0 to 100 V.
+    pub supply_v: f64,
+    /// Winding resistance R between two terminals, 1e-3 to 1e6 Ω.
+    pub resistance_ohm: f64,
+    /// Torque constant k, N·m/A, also the back-EMF constant in V·s/rad; 1e-6 to
+    /// 10. Between two phases at its peak for a brushless motor.
+    pub torque_nm_per_a: f64,
+    /// Inertia of the rotor, 1e-12 to 1 kg·m².
+    pub rotor_kg_m2: f64,
+    /// Inertia of whisker and hub about the whisker's axis, 0 to 1 kg·m².
+    pub whisker_kg_m2: f64,
+    /// Viscous friction b at the rotor, 0 to 1 N·m·s.
+    pub viscous_nm_s: f64,
+    /// Coulomb friction τ_c of rotor and gear, at the rotor, 0 to 10 N·m.
+    pub coulomb_nm: f64,
+    /// Motor turns a whisker turn G, 1 to 1000.
+    pub gear: f64,
+    /// Encoder counts a motor turn, 4 to 65,536.
+    pub counts_per_rev: u32,
+    /// Whisker angle θ′ at which the motor starts and the encoder reads 0,
+    /// ±360 degrees.
+    pub rest_deg: f64,
+}
+
+impl MotorSettings {
+    /// The class described above.
+    pub const DEFAULT: Self = Self {
+        supply_v: 6.0,
+        resistance_ohm: 25.0,
+        torque_nm_per_a: 2.5e-3,
+        rotor_kg_m2: 1e-8,
+        // A cone of 112 mm, 2 mm to 0.25 mm thick (BIOTACT section II-C) at
+        // 1300 kg/m³ weighs 0.17 g and has m L²/10 = 2.2e-7 about its base; a
+        // gram of hub and magnet at 5 mm adds 0.3e-7.
+        whisker_kg_m2: 2.5e-7,
+        viscous_nm_s: 1e-9,
+        // A twentieth of the stall torque.
+        coulomb_nm: 3e-5,
+        gear: 11.0,
+        counts_per_rev: 512,
+        rest_deg: whisking::REST_DEG,
+    };
+
+    /// Inertia seen by the rotor: J = J_rotor + J_whisker/G².
+    pub fn inertia_kg_m2(&self) -> f64 {
+        self.rotor_kg_m2 + self.whisker_kg_m2 / (self.gear * self.gear)
+    }
+
+    /// Degrees of the whisker a count of the encoder.
+    pub fn degrees_per_count(&self) -> f64 {
+        360.0 / (self.gear * f64::from(self.counts_per_rev))
+    }
+
+    /// Checks every setting.
+    pub(super) fn check(&self) -> Result<(), BadMotorSetting> {
+        let within = |name, value: f64, range: RangeInclusive<f64>| {
+            range
+                .contains(&value)
+                .then_some(())
+                .ok_or(BadMotorSetting(name))
+        };
+        within("supply_v", self.supply_v, 0.0..=100.0)?;
+        within("resistance_ohm", self.resistance_ohm, 1e-3..=1e6)?;
+        within("torque_nm_per_a", self.torque_nm_per_a, 1e-6..=10.0)?;
+        within("rotor_kg_m2", self.rotor_kg_m2, 1e-12..=1.0)?;
+        within("whisker_kg_m2", self.whisker_kg_m2, 0.0..=1.0)?;
+        within("viscous_nm_s", self.viscous_nm_s, 0.0..=1.0)?;
+        within("coulomb_nm", self.coulomb_nm, 0.0..=10.0)?;
+        within("gear", self.gear, 1.0..=1000.0)?;
+        let counts = f64::from(self.counts_per_rev);
+        within("counts_per_rev", counts, 4.0..=65_536.0)?;
+        within("rest_deg", self.rest_deg, -360.0..=360.0)
+    }
+}
+
+impl Default for MotorSettings {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}

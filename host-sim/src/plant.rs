@@ -1,0 +1,99 @@
+//! What the whiskers meet: from their angles to what their sensors feel.
+//!
+//! Glossary:
+//!
+//! - *θ′*: angle of a whisker's base, degrees, 50 at rest;
+//! - *obstacle*: a surface that a whisker touches beyond an angle θ′_lim;
+//! - *overlap*: how far θ′ exceeds θ′_lim, degrees;
+//! - *deflection*: what the sensor reads, x along the direction of whisking and
+//!   y across it, each within ±1.
+//!
+//! A host loop, each tick: give every sensor its [`Plant::deflection`], tick the
+//! module, advance the motors, [`Plant::advance`].
+
+mod ideal;
+mod noise;
+mod resonator;
+mod surface;
+mod textured;
+
+pub use ideal::Ideal;
+pub use surface::Surface;
+pub use textured::{Textured, TexturedSettings, WhiskerSettings};
+
+/// A plant setting that is out of its range, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("plant setting {0} is out of range")]
+pub struct BadPlantSetting(pub &'static str);
+
+impl BadPlantSetting {
+    /// `value` if it is in `lo..=hi`.
+    fn check(name: &'static str, value: f64, lo: f64, hi: f64) -> Result<f64, Self> {
+        if (lo..=hi).contains(&value) {
+            Ok(value)
+        } else {
+            Err(Self(name))
+        }
+    }
+}
+
+/// How many whiskers there are, and where their obstacles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Head {
+    /// Whiskers on each side.
+    pub whiskers_per_side: usize,
+    /// θ′_lim of each side, left first, degrees; infinite: nothing to touch.
+    /// Its length is the number of sides.
+    pub obstacle_deg: Vec<f64>,
+    /// Stiffness σ_x, deflection a degree of overlap (BIOTACT eq. 11), 0 to 100.
+    pub stiffness: f64,
+}
+
+impl Head {
+    /// Whiskers that meet nothing.
+    pub fn free(sides: usize, whiskers_per_side: usize) -> Self {
+        Self {
+            whiskers_per_side,
+            obstacle_deg: vec![f64::INFINITY; sides],
+            stiffness: 0.0,
+        }
+    }
+
+    /// Checks stiffness and obstacles.
+    fn check(&self) -> Result<(), BadPlantSetting> {
+        BadPlantSetting::check("stiffness", self.stiffness, 0.0, 100.0)?;
+        if self.obstacle_deg.iter().any(|limit| limit.is_nan()) {
+            return Err(BadPlantSetting("obstacle_deg"));
+        }
+        Ok(())
+    }
+
+    /// θ′_lim of every whisker, left side first.
+    fn limits(&self) -> impl Iterator<Item = f64> {
+        let each = self.whiskers_per_side;
+        self.obstacle_deg
+            .iter()
+            .flat_map(move |&limit| core::iter::repeat_n(limit, each))
+    }
+
+    /// Place of a whisker in the list of all, left side first.
+    fn index(&self, side: usize, whisker: usize) -> Option<usize> {
+        let known = side < self.obstacle_deg.len() && whisker < self.whiskers_per_side;
+        known.then(|| side * self.whiskers_per_side + whisker)
+    }
+}
+
+/// Something for whiskers to meet.
+pub trait Plant {
+    /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
+    /// that is not there.
+    fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];
+
+    /// Moves on by `dt_s` seconds to the given angles θ′, one a whisker, left
+    /// side first. A whisker whose angle is missing or not finite keeps its
+    /// last one. Nothing happens unless `dt_s` is positive and finite.
+    fn advance(&mut self, angles_deg: &[f64], dt_s: f64);
+}
+
+#[cfg(test)]
+mod tests;

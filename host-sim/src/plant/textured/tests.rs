@@ -1,0 +1,287 @@
+//! Textured surfaces against closed forms: static bend, ring-down, forced and
+//! random vibration.
+
+use core::f64::consts::{PI, TAU};
+
+use proptest::prelude::*;
+use scene::Texture;
+
+use super::{Textured, TexturedSettings, WhiskerSettings};
+use crate::plant::{BadPlantSetting, Head, Plant, Surface};
+
+const TICK_S: f64 = 5e-4;
+
+fn head(whiskers_per_side: usize) -> Head {
+    Head {
+        whiskers_per_side,
+        obstacle_deg: vec![100.0],
+        stiffness: 0.1,
+    }
+}
+
+/// Without noise, base inertia and scatter of the friction.
+fn quiet() -> TexturedSettings {
+    TexturedSettings {
+        inertia: 0.0,
+        patch: 0.0,
+        noise_codes: 0.0,
+        ..TexturedSettings::default()
+    }
+}
+
+const FLAT: Surface = Surface {
+    height_m: 0.0,
+    grain_m: 1e-3,
+    grip: 0.0,
+    softness: 0.0,
+    friction: 0.0,
+};
+
+fn plant(settings: TexturedSettings, surface: Surface) -> Textured {
+    let mut plant = Textured::new(head(1), settings, 7).unwrap();
+    plant.present_surface(surface);
+    plant
+}
+
+/// Moves the one whisker at a constant speed and returns its last deflection.
+fn sweep(plant: &mut Textured, from: f64, to: f64, seconds: f64) -> [f64; 2] {
+    let ticks = (seconds / TICK_S).round();
+    for n in 1..=ticks as u32 {
+        plant.advance(&[from + (to - from) * f64::from(n) / ticks], TICK_S);
+    }
+    plant.deflection(0, 0)
+}
+
+#[test]
+fn a_resting_whisker_is_bent_as_the_formula_says() {
+    for (overlap, softness) in [(1.0, 0.0), (4.0, 0.0), (30.0, 0.0), (4.0, 3.0)] {
+        let mut plant = plant(quiet(), Surface { softness, ..FLAT });
+        let [x, y] = sweep(&mut plant, 100.0 + overlap, 100.0 + overlap, 1.0);
+        let expected = 0.8 * (0.1 * overlap / (1.0 + softness) / 0.8).tanh();
+        assert!((x - expected).abs() < 1e-9 && y == 0.0, "{overlap}: {x}");
+    }
+}
+
+#[test]
+fn friction_adds_in_protraction_and_takes_in_retraction() {
+    // 30 degrees a second against a creep of 10: s = ±0.75. Slow enough for the
+    // mode's lag, 2 ζ/ω = 0.6 ms or 0.002 in x, to be small.
+    let friction = 0.5;
+    let surface = Surface { friction, ..FLAT };
+    let bend = 0.8 * (0.5_f64 / 0.8).tanh();
+    for (from, sign) in [(80.0, 1.0), (130.0, -1.0)] {
+        let mut plant = plant(quiet(), surface);
+        let [x, y] = sweep(&mut plant, from, 105.0, (105.0_f64 - from).abs() / 30.0);
+        let share = sign * 0.75 * friction;
+        assert!((x - bend * (1.0 + 0.4 * share)).abs() < 4e-3, "{x}");
+        assert!((y - bend * 0.4 * share).abs() < 1e-3, "{y}");
+    }
+}
+
+#[test]
+fn released_whiskers_ring_at_their_frequencies() {
+    let shafts = [
+        WhiskerSettings::FRONT,
+        WhiskerSettings::MIDDLE,
+        WhiskerSettings::REAR,
+    ];
+    let settings = TexturedSettings {
+        whiskers: shafts.to_vec(),
+        ..quiet()
+    };
+    let mut plant = Textured::new(head(3), settings, 1).unwrap();
+    plant.present_surface(FLAT);
+    let step_s = 1e-5;
+    for _ in 0..200_000 {
+        plant.advance(&[105.0; 3], step_s);
+    }
+    let mut crossings = [const { Vec::new() }; 3];
+    let mut last = [1.0; 3];
+    for n in 0..100_000 {
+        plant.advance(&[90.0; 3], step_s);
+        for w in 0..3 {
+            let [x, _] = plant.deflection(0, w);
+            // Falling through zero: once a period.
+            if last[w] > 0.0 && x <= 0.0 && crossings[w].len() < 5 {
+                crossings[w].push(f64::from(n) * step_s);
+            }
+            last[w] = x;
+        }
+    }
+    // BIOTACT section II-C gives 86, 50 and 21 Hz; damping 0.1 lowers them by 0.5 %.
+    for (times, hz) in crossings.iter().zip([86.0, 50.0, 21.0]) {
+        let found = 4.0 / (times[4] - times[0]);
+        assert!(
+            (found / (hz * 0.99_f64.sqrt()) - 1.0).abs() < 1e-3,
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn a_free_whisker_only_sways_with_its_base() {
+    let settings = TexturedSettings {
+        noise_codes: 0.0,
+        ..TexturedSettings::default()
+    };
+    let mut plant = Textured::new(head(1), settings, 3).unwrap();
+    plant.present(Texture::P240);
+    // θ′ = 70 − 20 cos ωt at 2 Hz bends it by −σ_x θ″/ω₀², nearly in phase with θ′.
+    let expected = 0.1 * 20.0 * (2.0_f64 / 50.0).powi(2) / (1.0 - (2.0_f64 / 50.0).powi(2));
+    let mut product = 0.0;
+    for n in 1..=4000 {
+        let wave = -(TAU * 2.0 * f64::from(n) * TICK_S).cos();
+        plant.advance(&[70.0 + 20.0 * wave], TICK_S);
+        let [x, y] = plant.deflection(0, 0);
+        assert!(x.abs() < 0.01 && y == 0.0, "{x} {y}");
+        if n > 2000 {
+            product += x * wave / 1000.0;
+        }
+    }
+    assert!(
+        (product / expected - 1.0).abs() < 0.02,
+        "{product} {expected}"
+    );
+}
+
+#[test]
+fn the_sensor_s_noise_is_as_set() {
+    let mut plant = Textured::new(head(1), TexturedSettings::default(), 3).unwrap();
+    let mut squares = [0.0; 2];
+    for _ in 0..20_000 {
+        plant.advance(&[60.0], TICK_S);
+        for (square, v) in squares.iter_mut().zip(plant.deflection(0, 0)) {
+            *square += (v * 8191.0).powi(2) / 20_000.0;
+        }
+    }
+    assert!(
+        squares.iter().all(|s| (s.sqrt() - 4.0).abs() < 0.1),
+        "{squares:?}"
+    );
+}
+
+/// Variance of y in a steady slide of `speed` degrees a second, to and fro.
+fn vibration(surface: Surface, speed: f64, tick_s: f64, seconds: f64) -> f64 {
+    let settings = TexturedSettings {
+        drag_y: 0.0,
+        ..quiet()
+    };
+    let mut plant = plant(settings, surface);
+    let (mut angle, mut forth) = (120.0, true);
+    let ticks = (seconds / tick_s) as u32;
+    let mut variance = 0.0;
+    for _ in 0..ticks {
+        angle += if forth { speed } else { -speed } * tick_s;
+        forth = if forth { angle < 160.0 } else { angle < 110.0 };
+        plant.advance(&[angle], tick_s);
+        variance += plant.deflection(0, 0)[1].powi(2) / f64::from(ticks);
+    }
+    variance
+}
+
+/// The same for a resonator behind a process with correlation exp(−a |t|) and
+/// variance s²: s² ω (a + 2 ζ ω)/(2 ζ (ω² + a² + 2 ζ ω a)).
+fn vibration_in_theory(surface: Surface, speed: f64) -> f64 {
+    let metres_per_degree = 0.112 * PI / 180.0;
+    let (omega, damping) = (TAU * 50.0, 0.1);
+    let a = speed * metres_per_degree / surface.grain_m;
+    let s = 0.1 * 0.5 * surface.grip * surface.height_m / metres_per_degree;
+    s * s * omega * (a + 2.0 * damping * omega)
+        / (2.0 * damping * (omega * omega + a * a + 2.0 * damping * omega * a))
+}
+
+#[test]
+fn vibration_is_that_of_a_resonator_over_a_random_profile() {
+    for texture in [Texture::P600, Texture::P240, Texture::Carpet] {
+        let surface = Surface::of(texture);
+        for (speed, tick_s) in [(300.0, TICK_S), (300.0, 5e-5), (20.0, TICK_S)] {
+            let found = vibration(surface, speed, tick_s, 200.0);
+            let expected = vibration_in_theory(surface, speed);
+            let ratio = found / expected;
+            assert!(
+                (ratio - 1.0).abs() < 0.08,
+                "{texture} {speed} {tick_s}: {ratio}"
+            );
+        }
+    }
+}
+
+#[test]
+fn rougher_textures_shake_more() {
+    let textures = [
+        Texture::Smooth,
+        Texture::P600,
+        Texture::P240,
+        Texture::Carpet,
+    ];
+    let shaking = textures.map(|texture| vibration(Surface::of(texture), 300.0, TICK_S, 5.0));
+    assert!(
+        shaking.windows(2).all(|pair| pair[1] > 3.0 * pair[0]),
+        "{shaking:?}"
+    );
+}
+
+/// Readings of whiskers that whisk against P240.
+fn readings(whiskers: usize, seed: u64) -> Vec<Vec<[f64; 2]>> {
+    let mut plant = Textured::new(head(whiskers), TexturedSettings::default(), seed).unwrap();
+    plant.present(Texture::P240);
+    let mut all = vec![Vec::new(); whiskers];
+    for n in 0..2000 {
+        let angle = 95.0 + 15.0 * (f64::from(n) * TICK_S * TAU * 2.0).sin();
+        plant.advance(&vec![angle; whiskers], TICK_S);
+        for (w, one) in all.iter_mut().enumerate() {
+            one.push(plant.deflection(0, w));
+        }
+    }
+    all
+}
+
+#[test]
+fn the_seed_decides_everything_for_each_whisker() {
+    let all = readings(3, 5);
+    assert_eq!(all, readings(3, 5));
+    assert_ne!(all, readings(3, 6));
+    assert_eq!(
+        all[0],
+        readings(1, 5)[0],
+        "a whisker does not depend on others"
+    );
+    assert_ne!(all[0], all[1]);
+}
+
+#[test]
+fn bad_settings_are_named() {
+    let with = |change: fn(&mut TexturedSettings)| {
+        let mut settings = TexturedSettings::default();
+        change(&mut settings);
+        Textured::new(head(1), settings, 1).map(|_| ()).err()
+    };
+    assert_eq!(with(|_| ()), None);
+    let bad = |name| Some(BadPlantSetting(name));
+    assert_eq!(with(|s| s.whiskers.clear()), bad("whiskers"));
+    assert_eq!(with(|s| s.whiskers[0].damping = 1.0), bad("damping"));
+    assert_eq!(with(|s| s.creep_deg_s = 0.0), bad("creep_deg_s"));
+    assert_eq!(with(|s| s.noise_codes = f64::NAN), bad("noise_codes"));
+}
+
+proptest! {
+    /// Whatever the angles, ticks and surfaces are, readings stay in range.
+    #[test]
+    fn nothing_leaves_the_range(
+        angles in prop::collection::vec(
+            prop_oneof![50.0..150.0, -1e7..1e7, Just(f64::NAN), Just(f64::MAX)], 1..60),
+        tick_s in prop_oneof![Just(5e-3), Just(5e-5), 1e-12..1e3],
+        height_m in prop_oneof![0.0..1e-3, Just(f64::INFINITY), Just(1e300)],
+        grain_m in prop_oneof![0.0..1e-2, Just(f64::NAN)],
+        friction in prop_oneof![0.0..1.0, Just(1e300)],
+    ) {
+        let mut plant = Textured::new(head(2), TexturedSettings::default(), 1).unwrap();
+        plant.present_surface(Surface { height_m, grain_m, grip: 20.0, softness: 1.0, friction });
+        for angle in angles {
+            plant.advance(&[angle], tick_s);
+            let [x, y] = plant.deflection(0, 0);
+            prop_assert!((-1.0..=1.0).contains(&x) && (-1.0..=1.0).contains(&y), "{x} {y}");
+            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never told where it is");
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Progress on standard error, for work that takes more than a second.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Whether and how to tell how far the work is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verbosity {
+    /// A bar on a terminal, nothing elsewhere.
+    Normal,
+    /// Nothing.
+    Quiet,
+}
+
+/// A bar that appears once the work has taken a second.
+#[derive(Debug)]
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    verbosity: Verbosity,
+    message: &'static str,
+    total: u64,
+    since: Instant,
+}
+
+impl Progress {
+    /// How long work may be silent.
+    const PATIENCE: Duration = Duration::from_secs(1);
+
+    /// Work of `total` steps.
+    pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
+        Self {
+            bar: None,
+            verbosity,
+            message,
+            total,
+            since: Instant::now(),
+        }
+    }
+
+    /// `done` steps are done. Call it a few hundred times in all, not every step.
+    pub fn set(&mut self, done: u64) {
+        if self.verbosity == Verbosity::Quiet {
+            return;
+        }
+        if self.bar.is_none() && self.since.elapsed() >= Self::PATIENCE {
+            let bar = ProgressBar::new(self.total).with_message(self.message);
+            if let Ok(style) =
+                ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta} left")
+            {
+                bar.set_style(style.progress_chars("=> "));
+            }
+            self.bar = Some(bar);
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_position(done);
+        }
+    }
+
+    /// Runs `print` without the bar in its way.
+    pub fn pause(&self, print: impl FnOnce()) {
+        match &self.bar {
+            Some(bar) => bar.suspend(print),
+            None => print(),
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}

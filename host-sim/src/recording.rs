@@ -1,0 +1,149 @@
+//! A recording: `label,trial,x,y` rows; rows of one label and trial that
+//! follow each other are one stream in time order.
+
+use std::io::Write;
+use std::path::Path;
+
+use crate::{Error, output::Output};
+
+/// Two channels under one label and trial, in time order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stream {
+    /// Class name.
+    pub label: String,
+    /// Any token.
+    pub trial: String,
+    /// x and y of each sample.
+    pub samples: Vec<[f64; 2]>,
+}
+
+/// Reads a recording. More columns than the four are ignored, their order is free.
+///
+/// # Errors
+/// [`Error::Input`] names the file, the line and what is wrong with it.
+pub fn read(path: &Path) -> Result<Vec<Stream>, Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    parse(&bytes).map_err(|fault| Error::file(path, fault))
+}
+
+/// Writes a recording, whole or not at all.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn write(path: &Path, streams: &[Stream]) -> Result<(), Error> {
+    let mut output = Output::create(path)?;
+    let mut table = csv::Writer::from_writer(&mut output);
+    let filled = fill(&mut table, streams);
+    drop(table);
+    filled.map_err(|error| output.failed(error.into()))?;
+    output.finish()
+}
+
+fn fill(table: &mut csv::Writer<impl Write>, streams: &[Stream]) -> Result<(), csv::Error> {
+    table.write_record(["label", "trial", "x", "y"])?;
+    for stream in streams {
+        for [x, y] in &stream.samples {
+            table.write_record([&stream.label, &stream.trial, &x.to_string(), &y.to_string()])?;
+        }
+    }
+    table.flush()?;
+    Ok(())
+}
+
+fn parse(bytes: &[u8]) -> Result<Vec<Stream>, String> {
+    let mut table = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_reader(bytes);
+    let header = table.headers().map_err(|error| error.to_string())?.clone();
+    let column = |name: &str| {
+        let mut found = header.iter().enumerate().filter(|(_, cell)| *cell == name);
+        match (found.next(), found.next()) {
+            (Some((place, _)), None) => Ok(place),
+            (None, _) => Err(format!(
+                "line 1: no column {name:?}; a recording has label,trial,x,y"
+            )),
+            (Some(_), Some(_)) => Err(format!("line 1: two columns {name:?}")),
+        }
+    };
+    let (label, trial, x, y) = (
+        column("label")?,
+        column("trial")?,
+        column("x")?,
+        column("y")?,
+    );
+
+    let mut streams: Vec<Stream> = Vec::new();
+    let mut record = csv::StringRecord::new();
+    while table
+        .read_record(&mut record)
+        .map_err(|error| error.to_string())?
+    {
+        let line = record.position().map_or(0, csv::Position::line);
+        let cell = |place: usize| record.get(place).unwrap_or_default();
+        let number = |name: &str, place: usize| -> Result<f64, String> {
+            let text = cell(place);
+            match text.parse::<f64>() {
+                Ok(value) if value.is_finite() => Ok(value),
+                _ => Err(format!(
+                    "line {line}: {name} is {text:?}, not a finite number"
+                )),
+            }
+        };
+        let sample = [number("x", x)?, number("y", y)?];
+        let (label, trial) = (cell(label), cell(trial));
+        if label.is_empty() {
+            return Err(format!("line {line}: the label is empty"));
+        }
+        match streams
+            .last_mut()
+            .filter(|last| last.label == label && last.trial == trial)
+        {
+            Some(stream) => stream.samples.push(sample),
+            None => streams.push(Stream {
+                label: label.to_owned(),
+                trial: trial.to_owned(),
+                samples: vec![sample],
+            }),
+        }
+    }
+    if streams.is_empty() {
+        return Err("no samples".to_owned());
+    }
+    Ok(streams)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse;
+
+    #[test]
+    fn rows_that_follow_each_other_are_a_stream() {
+        let text = "y,extra,label,x,trial\n1,a,ice,2,1\n3,b,ice,4,1\n5,c,ice,6,2\n7,d,ice,8,1\n";
+        let streams = parse(text.as_bytes()).unwrap();
+        let shapes: Vec<_> = streams
+            .iter()
+            .map(|s| (s.trial.as_str(), s.samples.clone()))
+            .collect();
+        assert_eq!(
+            shapes,
+            [
+                ("1", vec![[2.0, 1.0], [4.0, 3.0]]),
+                ("2", vec![[6.0, 5.0]]),
+                ("1", vec![[8.0, 7.0]]),
+            ]
+        );
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let fault = |text: &str| parse(text.as_bytes()).unwrap_err();
+        assert!(fault("label,trial,x\na,1,2\n").contains("\"y\""));
+        assert!(fault("label,trial,x,x,y\na,1,2,2,2\n").contains("two columns"));
+        assert!(fault("label,trial,x,y\na,1,2,3\na,1,nan,3\n").starts_with("line 3: x is"));
+        assert!(fault("label,trial,x,y\na,1,2,3\na,1,1e999,3\n").starts_with("line 3: x is"));
+        assert!(fault("label,trial,x,y\na,1,2\n").contains('3'));
+        assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
+        assert_eq!(fault("label,trial,x,y\n"), "no samples");
+        assert!(fault("").contains("line 1"));
+    }
+}

@@ -1,0 +1,66 @@
+//! What is said on the terminal.
+
+use std::fmt;
+
+use firmware::Event;
+
+use crate::decisions::{Confusion, Decided};
+
+/// Tells faults and recoveries on standard error; decisions are told elsewhere.
+pub fn limits_and_faults(t_s: f64, event: &Event) {
+    let place = |place: &firmware::Place| {
+        let side = if place.side == 0 { "left" } else { "right" };
+        format!("{side} whisker {}", place.whisker + 1)
+    };
+    match event {
+        Event::Decision(_) => {}
+        Event::SensorLost(at, fault) => {
+            eprintln!(
+                "{t_s:.4} s: {}: sensor fault {}: {fault}",
+                place(at),
+                fault.code()
+            );
+        }
+        Event::SensorBack(at) => eprintln!("{t_s:.4} s: {}: sensor is back", place(at)),
+        Event::MotorFault(at, fault) => eprintln!("{t_s:.4} s: {}: {fault}", place(at)),
+        Event::MotorRetry(at) => eprintln!("{t_s:.4} s: {}: motor tried again", place(at)),
+    }
+}
+
+/// Tells a decision as it falls.
+pub fn decision(t_s: f64, decided: &Decided) {
+    let Decided {
+        label,
+        decision,
+        samples,
+        posterior,
+        ..
+    } = decided;
+    let verdict = if label == decision { "right" } else { "wrong" };
+    let percent = 100.0 * posterior;
+    println!(
+        "{t_s:8.3} s  {decision:<8} {percent:6.2} %  {samples:5} samples  {verdict} ({label})"
+    );
+}
+
+/// A score for people: confusion matrix, hit rate, decision time.
+#[derive(Debug)]
+pub struct Summary<'a>(pub &'a Confusion, pub u32);
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(confusion, tick_hz) = self;
+        let (Some(hits), Some(samples)) = (confusion.hit_rate(), confusion.mean_samples()) else {
+            return writeln!(f, "no decision");
+        };
+        let milliseconds = samples * 1000.0 / f64::from(*tick_hz);
+        write!(f, "{confusion}")?;
+        writeln!(
+            f,
+            "{} decisions, hit rate {:.1} % (mean over classes), mean decision time {samples:.0} \
+             samples ({milliseconds:.0} ms)",
+            confusion.decisions(),
+            100.0 * hits,
+        )
+    }
+}

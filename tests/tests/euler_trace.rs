@@ -1,0 +1,129 @@
+//! The papers' integrator, step for step: every column of the product's trace
+//! against the independent program, with the sensor's 14-bit words in the loop.
+
+mod common;
+
+use acceptance::reference::{Gate, Obstacle, Row, Settings, euler};
+
+/// Largest difference of each column as a share of its full scale.
+fn differences(a: &[Row], b: &[Row]) -> [f64; 5] {
+    assert_eq!(a.len(), b.len());
+    let mut worst = [0.0_f64; 5];
+    for (a, b) in a.iter().zip(b) {
+        let pairs = [
+            ([a.t_s; 2], [b.t_s; 2], 1.0),
+            (a.theta_deg, b.theta_deg, 100.0),
+            (a.z, b.z, 1.0),
+            (a.g, b.g, 2.0),
+            (a.contact, b.contact, 1.0),
+        ];
+        for (worst, (a, b, scale)) in worst.iter_mut().zip(pairs) {
+            for side in 0..2 {
+                *worst = worst.max((a[side] - b[side]).abs() / scale);
+            }
+        }
+    }
+    worst
+}
+
+fn cases() -> Vec<(&'static str, Settings)> {
+    let papers = Settings {
+        rcp: Some(Gate {
+            gain: 0.7,
+            tau_s: 0.125,
+        }),
+        cia: Some(Gate {
+            gain: 0.5,
+            tau_s: 0.125,
+        }),
+        obstacle: Some(Obstacle {
+            at_deg: [100.0, 125.0],
+            stiffness: 0.1,
+        }),
+        quantise: true,
+        ..Settings::papers()
+    };
+    vec![
+        ("the papers' RCP and CIA", papers.clone()),
+        (
+            "strong and fast, several whiskers, out of phase",
+            Settings {
+                gains: [vec![1.3, 0.4, 2.0], vec![0.7, 1.0, 1.9]],
+                start: [[0.6, 0.5], [-0.9, 0.2]],
+                rcp: Some(Gate {
+                    gain: 2.0,
+                    tau_s: 0.05,
+                }),
+                ..papers.clone()
+            },
+        ),
+        (
+            "another tick, faster whisks, no coupling",
+            Settings {
+                tick_hz: 4000.0,
+                frequency_hz: 8.0,
+                coupling: false,
+                start: [[0.1, -1.2], [1.4, 1.4]],
+                rcp: Some(Gate {
+                    gain: 0.9,
+                    tau_s: 0.02,
+                }),
+                cia: Some(Gate {
+                    gain: 0.8,
+                    tau_s: 0.2,
+                }),
+                obstacle: Some(Obstacle {
+                    at_deg: [90.0, 110.0],
+                    stiffness: 0.02,
+                }),
+                ..papers
+            },
+        ),
+    ]
+}
+
+#[test]
+fn every_column_agrees_over_six_seconds() {
+    for (name, settings) in cases() {
+        let product = common::trace(&settings, "euler", 6.0);
+        let reference = euler::run(&settings, 6.0);
+        let worst = differences(&product, &reference);
+        println!("{name}: t, theta, z, g, contact differ by at most {worst:?} of full scale");
+        assert!(
+            worst.iter().all(|&difference| difference < 3e-4),
+            "{name}: {worst:?}"
+        );
+        // Not by standing still: contact was made and gates opened.
+        assert!(
+            product.iter().any(|row| row.z[0] > 0.2 && row.g[1] > 1.02),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_wrong_sign_or_factor_would_be_seen() {
+    let (_, settings) = cases().remove(0);
+    let reference = euler::run(&settings, 6.0);
+    let mut off = settings.clone();
+    off.rcp = Some(Gate {
+        gain: 0.7,
+        tau_s: 0.125 * 1.01,
+    });
+    assert!(
+        differences(&euler::run(&off, 6.0), &reference)[2] > 3e-4,
+        "one per cent of tau"
+    );
+    let mut off = settings.clone();
+    off.gains = [vec![1.0], vec![1.005]];
+    assert!(
+        differences(&euler::run(&off, 6.0), &reference)[1] > 3e-4,
+        "half a per cent of gain"
+    );
+    let mut off = settings;
+    off.start = [[1.0, 0.0], [1.0, -0.01]];
+    assert!(
+        differences(&euler::run(&off, 6.0), &reference)[1] > 3e-4,
+        "a hundredth of psi"
+    );
+}
