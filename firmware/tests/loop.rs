@@ -34,7 +34,7 @@ struct Microseconds(u32);
 impl Clock for Microseconds {
     fn now(&mut self) -> u32 {
         // A tick of 40 µs, one every 500 µs.
-        self.0 += if self.0 % 500 == 0 { 40 } else { 460 };
+        self.0 += if self.0.is_multiple_of(500) { 40 } else { 460 };
         self.0
     }
 }
@@ -76,11 +76,58 @@ fn off(frame: [u8; 8], counts: i32) -> Tick {
     }
 }
 
-#[test]
-fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
-    // Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a
-    // tick; the gain is 0, so the setpoint is the rest position throughout.
-    let ticks = [
+const SETTINGS: Settings = Settings {
+    tick_hz: 2000.0,
+    frequency_hz: 2.0,
+    integrator: Integrator::Euler,
+    coupling: true,
+    noise: 0.0,
+    rcp: Some(GateSettings {
+        gain: 0.7,
+        tau_s: 0.125,
+    }),
+    cia: None,
+};
+
+/// Never stalled.
+const STALL: StallConfig = StallConfig {
+    ticks: 400,
+    threshold: Duty::FULL,
+};
+
+/// Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a tick.
+fn config() -> Config<f32, ActiveConfig<f32>, ()> {
+    let pd = pd::Settings {
+        kp: 0.05,
+        kd: 0.0,
+        limit: 0.5,
+        slew_per_s: 400.0,
+        min_deg: 30.0,
+        max_deg: 160.0,
+    };
+    Config {
+        decoder: Decoder::new(),
+        patience: Patience {
+            hold: 1,
+            recover: 2,
+        },
+        contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
+        motion: ActiveConfig {
+            whisking: SETTINGS.build().unwrap(),
+            pd: pd.build(2000.0).unwrap(),
+            theta_per_count_q24: 16_777_216.0 / 1000.0,
+            retry: 10,
+            stall: STALL,
+        },
+        perception: (),
+        period: 500,
+    }
+}
+
+/// The ticks as the wires must see them. The gain is 0, so that the setpoint is
+/// the rest position throughout.
+fn script() -> [Tick; 11] {
+    [
         turn(REST, -40, State::High, 200),
         tick(REST, -80, 400),
         tick(REST, -200, 500),
@@ -92,8 +139,12 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
         off(TORN, 20),
         off(REST, 20),
         tick(REST, 20, 100),
-    ];
+    ]
+}
 
+#[test]
+fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
+    let ticks = script();
     let spi: Vec<_> = ticks
         .iter()
         .flat_map(|tick| {
@@ -117,51 +168,10 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
         .collect();
     let (mut spi, mut pwm, mut pin) = (Spi::new(&spi), Pwm::new(&pulses), Pin::new(&sets));
 
-    let settings = Settings {
-        tick_hz: 2000.0,
-        frequency_hz: 2.0,
-        integrator: Integrator::Euler,
-        coupling: true,
-        noise: 0.0,
-        rcp: Some(GateSettings {
-            gain: 0.7,
-            tau_s: 0.125,
-        }),
-        cia: None,
-    };
-    let stall = StallConfig {
-        ticks: 400,
-        threshold: Duty::FULL,
-    };
-    let config = Config {
-        decoder: Decoder::new(),
-        patience: Patience {
-            hold: 1,
-            recover: 2,
-        },
-        contact: Some(filter::Config::<f32>::new(50.0, 2000.0).unwrap()),
-        motion: ActiveConfig {
-            whisking: settings.build().unwrap(),
-            pd: pd::Settings {
-                kp: 0.05,
-                kd: 0.0,
-                limit: 0.5,
-                slew_per_s: 400.0,
-                min_deg: 30.0,
-                max_deg: 160.0,
-            }
-            .build(2000.0)
-            .unwrap(),
-            theta_per_count_q24: 16_777_216.0 / 1000.0,
-            retry: 10,
-            stall,
-        },
-        perception: (),
-        period: 500,
-    };
-    let start = settings.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
+    let config = config();
+    let start = SETTINGS.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
     let bridge = HBridge::new(pwm.clone(), pin.clone());
-    let follower = Follower::new(bridge, Encoder(counts.into_iter()), stall);
+    let follower = Follower::new(bridge, Encoder(counts.into_iter()), STALL);
     let active = Active::new(whisking::State::new(&start, 1), [[follower]]);
     let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
     let mut module = Module::new([[sensor]], active, (), Microseconds(40));
