@@ -3,6 +3,10 @@
 //! Durations are given in seconds or microseconds and become ticks at the
 //! scene's tick rate.
 
+use whisking::motor::StallConfig;
+
+use crate::Patience;
+
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
 /// The sensor may recompute only every 1.5 ms (its slow mode), and a disturbed
@@ -21,6 +25,26 @@ pub const RECOVER_S: f64 = 0.02;
 /// A stalled winding heats for 0.2 s before it is noticed; with a rest five
 /// times as long the mean power stays below a sixth of the stall power.
 pub const RETRY_S: f64 = 1.0;
+
+/// How long a motor may be driven hard without moving, s: longer than the pause
+/// at a whisk's turning point, shorter than a small winding takes to overheat.
+pub const STALL_S: f64 = 0.2;
+
+/// How long bad frames are borne at `tick_hz` ticks a second.
+pub const fn patience(tick_hz: u32) -> Patience {
+    Patience {
+        hold: ticks(HOLD_S, tick_hz),
+        recover: ticks(RECOVER_S, tick_hz),
+    }
+}
+
+/// When a motor counts as stalled at `tick_hz` ticks a second.
+pub const fn stall(tick_hz: u32) -> StallConfig {
+    StallConfig {
+        ticks: ticks(STALL_S, tick_hz),
+        ..StallConfig::DEFAULT
+    }
+}
 
 /// `seconds` in ticks of a module that runs `tick_hz` times a second; at least
 /// one, at most `u16::MAX`.

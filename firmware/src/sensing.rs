@@ -132,27 +132,30 @@ mod tests {
     use crate::{Event, Place, SensorFault};
     use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
 
+    type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;
+
     struct Script<I>(I);
 
-    impl<I: Iterator<Item = Result<Option<[u8; FRAME_LEN]>, BusError>>> FrameSource for Script<I> {
+    impl<I: Iterator<Item = Taken>> FrameSource for Script<I> {
         fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
             self.0.next().unwrap_or(Ok(None))
         }
     }
 
-    fn good(x: u16) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        let words = (Word::new(x), Word::MID);
-        Ok(Some(encode::alpha_beta(
-            words.0,
-            words.1,
-            Faults::NONE,
-            SumRule::SumB1B6,
-        )))
+    /// A good frame with x at each of these words.
+    fn good<const N: usize>(words: [u16; N]) -> [Taken; N] {
+        words.map(|x| {
+            let x = Word::new(x);
+            Ok(Some(encode::alpha_beta(
+                x,
+                Word::MID,
+                Faults::NONE,
+                SumRule::SumB1B6,
+            )))
+        })
     }
 
-    fn play(
-        script: &[Result<Option<[u8; FRAME_LEN]>, BusError>],
-    ) -> (Vec<Reading>, Vec<(usize, Event)>) {
+    fn play(script: &[Taken]) -> (Vec<Reading>, Vec<(usize, Event)>) {
         let mut sensor = Sensor::new(Script(script.iter().copied()));
         let patience = Patience {
             hold: 3,
@@ -166,7 +169,7 @@ mod tests {
         let readings = (0..script.len())
             .map(|tick| {
                 sensor.read(Decoder::new(), patience, place, &mut |e| {
-                    events.push((tick, e))
+                    events.push((tick, e));
                 })
             })
             .collect();
@@ -176,18 +179,8 @@ mod tests {
     #[test]
     fn a_short_gap_is_bridged_and_a_long_one_is_a_fault() {
         let bad = Ok(Some([0xFF; FRAME_LEN]));
-        let (readings, events) = play(&[
-            good(0x9000),
-            bad,
-            bad,
-            bad,
-            good(0xA000),
-            bad,
-            bad,
-            bad,
-            bad,
-            bad,
-        ]);
+        let [first, second] = good([0x9000, 0xA000]);
+        let (readings, events) = play(&[first, bad, bad, bad, second, bad, bad, bad, bad, bad]);
         assert!(readings[..8].iter().all(|r| r.sound));
         assert_eq!(readings[3].x.raw(), 0x9000, "held");
         assert!(!readings[3].fresh && readings[4].fresh);
@@ -204,17 +197,8 @@ mod tests {
     #[test]
     fn recovery_needs_good_frames_in_a_row() {
         let bad = Err(BusError);
-        let (readings, events) = play(&[
-            bad,
-            bad,
-            Ok(None),
-            bad,
-            good(1),
-            bad,
-            good(2),
-            good(0x4000),
-            Ok(None),
-        ]);
+        let [one, two, three] = good([1, 2, 0x4000]);
+        let (readings, events) = play(&[bad, bad, Ok(None), bad, one, bad, two, three, Ok(None)]);
         let place = Place {
             side: 1,
             whisker: 4,

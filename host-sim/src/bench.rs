@@ -4,15 +4,15 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use firmware::design_parameters::{HOLD_S, RECOVER_S, RETRY_S, ticks};
+use firmware::design_parameters::{RETRY_S, patience, stall, ticks};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Listener, Module, Patience,
-    Polled, Touch, TouchConfig,
+    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Listener, Module, Polled,
+    Touch, TouchConfig,
 };
 use mlx90333::{Decoder, Mlx90333};
 use scene::{Numbers, Scene};
 use tactile::Decision;
-use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
+use whisking::motor::{Duty, Fault, MotorDriver};
 use whisking::{Real, filter};
 
 use crate::Error;
@@ -232,14 +232,10 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
 ) -> Result<Box<dyn Bench + 'm>, Error> {
     let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
     let broken = |mismatch: plan::Mismatch| Error::Work(mismatch.to_string());
-    let within = |seconds| ticks(seconds, scene.tick_hz);
     let tick_hz = f64::from(scene.tick_hz);
 
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
-    let stall = StallConfig {
-        ticks: within(0.2),
-        ..StallConfig::DEFAULT
-    };
+    let stall = stall(scene.tick_hz);
     let mut drives = parts.drives.into_iter();
     let motion = match &plan {
         None => None,
@@ -276,16 +272,13 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
     let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
     let config = Config {
         decoder: Decoder::new(),
-        patience: Patience {
-            hold: within(HOLD_S),
-            recover: within(RECOVER_S),
-        },
+        patience: patience(scene.tick_hz),
         contact,
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
             pd: plan.pd,
             theta_per_count_q24: plan.theta_per_count_q24,
-            retry: within(RETRY_S),
+            retry: ticks(RETRY_S, scene.tick_hz),
             stall,
         }),
         perception: parts.listener.is_some().then(|| TouchConfig {

@@ -14,90 +14,108 @@ pub struct Mark {
     pub decided: Decided,
 }
 
+/// A class that was presented for a while, s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Presented {
+    /// When it began and ended.
+    pub span_s: (f64, f64),
+    /// Its name.
+    pub label: String,
+}
+
+/// What the picture is made of.
+#[derive(Debug)]
+pub struct Picture<'a> {
+    /// Above it.
+    pub title: &'a str,
+    /// The ticks it shows.
+    pub rows: &'a [Row],
+    /// Names of the classes, from below.
+    pub classes: &'a [String],
+    /// What was there to be felt.
+    pub presented: &'a [Presented],
+    /// The decisions.
+    pub marks: &'a [Mark],
+}
+
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Fault = Box<dyn std::error::Error>;
 
-const SIZE: (u32, u32) = (1000, 640);
+const SIZE: (u32, u32) = (1000, 760);
 const SHOULD: RGBColor = RGBColor(150, 150, 150);
 const IS: RGBColor = RGBColor(0, 90, 170);
 const CONTACT: RGBColor = RGBColor(200, 90, 0);
 const RIGHT: RGBColor = RGBColor(0, 130, 60);
 const WRONG: RGBColor = RGBColor(190, 20, 20);
+const TRUTH: RGBColor = RGBColor(220, 225, 230);
 
-/// The left whisker over `rows` as an SVG document: where it should be and is,
-/// what the sensor felt, contact and suppression, and the decisions below.
+/// The left whisker as an SVG document: where it should be and is, what the
+/// sensor felt, contact and suppression, and each decision beside the truth.
 ///
 /// # Errors
 /// If the drawing library fails.
-pub fn left_whisker(title: &str, rows: &[Row], marks: &[Mark]) -> Result<String, Fault> {
+pub fn left_whisker(picture: &Picture<'_>) -> Result<String, Fault> {
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE)?;
-        let root = root.titled(title, ("sans-serif", 20))?;
-        let areas = root.split_evenly((3, 1));
-        let [angle, sensor, contact] = areas.as_slice() else {
+        let root = root.titled(picture.title, ("sans-serif", 20))?;
+        let areas = root.split_evenly((4, 1));
+        let [angle, sensor, contact, classes] = areas.as_slice() else {
             return Err("the drawing area does not split".into());
         };
+        let rows = picture.rows;
         let span = (
             rows.first().map_or(0.0, |row| row.t_s),
             rows.last().map_or(1.0, |row| row.t_s),
         );
-        let left = |value: fn(&Row) -> f64| rows.iter().map(move |row| (row.t_s, value(row)));
-        panel(
-            angle,
-            "degrees",
-            span,
-            (40.0, 140.0),
-            None,
-            vec![
-                ("should be", SHOULD, left(|row| row.theta_deg[0]).collect()),
-                ("is", IS, left(|row| row.angle_deg[0]).collect()),
-            ],
-        )?;
-        panel(
-            sensor,
-            "x, codes",
-            span,
-            (4000.0, 12_400.0),
-            None,
-            vec![("x", IS, left(|row| row.x[0]).collect())],
-        )?;
-        panel(
-            contact,
-            "contact",
-            span,
-            (-0.35, 1.0),
-            Some(marks),
-            vec![
-                ("contact", CONTACT, left(|row| row.contact[0]).collect()),
-                ("z", SHOULD, left(|row| row.z[0]).collect()),
-            ],
-        )?;
+        let left = |value| envelope(rows, value);
+        let should = ("should be", SHOULD, left(|row| row.theta_deg[0]));
+        let is = ("is", IS, left(|row| row.angle_deg[0]));
+        curves(angle, "degrees", span, (40.0, 140.0), vec![should, is])?;
+        let x = ("x", IS, left(|row| row.x[0]));
+        curves(sensor, "codes", span, (6000.0, 15_000.0), vec![x])?;
+        let pi = ("contact", CONTACT, left(|row| row.contact[0]));
+        let z = ("suppression z", SHOULD, left(|row| row.z[0]));
+        curves(contact, "", span, (0.0, 1.2), vec![pi, z])?;
+        decisions(classes, picture, span)?;
         root.present()?;
     }
     Ok(svg)
 }
 
+/// Points of a curve: the lowest and highest value of each stretch of time, so
+/// that a vibration keeps its width however long the run.
+fn envelope(rows: &[Row], value: fn(&Row) -> f64) -> Vec<(f64, f64)> {
+    let stretch = rows.len().div_ceil(SIZE.0 as usize).max(1);
+    rows.chunks(stretch)
+        .flat_map(|rows| {
+            let t_s = rows.first().map_or(0.0, |row| row.t_s);
+            let values = || rows.iter().map(value);
+            let low = values().fold(f64::INFINITY, f64::min);
+            let high = values().fold(f64::NEG_INFINITY, f64::max);
+            [(t_s, low), (t_s, high)]
+        })
+        .collect()
+}
+
 type Curve = (&'static str, RGBColor, Vec<(f64, f64)>);
 
-fn panel(
+fn curves(
     area: &Area<'_>,
     unit: &str,
     (from, to): (f64, f64),
     (low, high): (f64, f64),
-    marks: Option<&[Mark]>,
     curves: Vec<Curve>,
 ) -> Result<(), Fault> {
     let mut chart = ChartBuilder::on(area)
         .margin(6)
-        .x_label_area_size(28)
-        .y_label_area_size(58)
+        .x_label_area_size(24)
+        .y_label_area_size(64)
         .build_cartesian_2d(from..to, low..high)?;
     chart
         .configure_mesh()
         .light_line_style(WHITE)
-        .x_desc("s")
         .y_desc(unit)
         .draw()?;
     for (name, colour, points) in curves {
@@ -106,27 +124,62 @@ fn panel(
             .label(name)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
     }
-    for mark in marks
-        .unwrap_or_default()
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.8))
+        .draw()?;
+    Ok(())
+}
+
+/// A row a class: grey where it was presented, a dot where it was decided for.
+fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> Result<(), Fault> {
+    let count = picture.classes.len();
+    let mut chart = ChartBuilder::on(area)
+        .margin(6)
+        .x_label_area_size(36)
+        .y_label_area_size(64)
+        .build_cartesian_2d(from..to, -0.5..count as f64 - 0.5)?;
+    let name = |height: &f64| {
+        let class = height.round();
+        let on_row = (height - class).abs() < 1e-6 && class >= 0.0;
+        picture
+            .classes
+            .get(class as usize)
+            .filter(|_| on_row)
+            .cloned()
+            .unwrap_or_default()
+    };
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .y_labels(count.max(1))
+        .y_label_formatter(&name)
+        .x_desc("s; grey: presented, green: decided rightly, red: wrongly")
+        .draw()?;
+    let row = |label: &String| picture.classes.iter().position(|class| class == label);
+    for Presented {
+        span_s: (start, end),
+        label,
+    } in picture.presented
+    {
+        let Some(row) = row(label).filter(|_| *start < to) else {
+            continue;
+        };
+        let corners = [(*start, row as f64 - 0.4), (end.min(to), row as f64 + 0.4)];
+        chart.draw_series([Rectangle::new(corners, TRUTH.filled())])?;
+    }
+    for mark in picture
+        .marks
         .iter()
         .filter(|mark| (from..=to).contains(&mark.t_s))
     {
+        let Some(row) = row(&mark.decided.decision) else {
+            continue;
+        };
         let right = mark.decided.label == mark.decided.decision;
         let colour = if right { RIGHT } else { WRONG };
-        chart.draw_series([PathElement::new(
-            [(mark.t_s, -0.12), (mark.t_s, 0.0)],
-            colour,
-        )])?;
-        chart.draw_series([Text::new(
-            mark.decided.decision.clone(),
-            (mark.t_s, -0.15),
-            ("sans-serif", 12).into_font().color(&colour),
-        )])?;
+        chart.draw_series([Circle::new((mark.t_s, row as f64), 4, colour.filled())])?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.8))
-        .draw()?;
     Ok(())
 }

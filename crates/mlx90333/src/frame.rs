@@ -244,7 +244,7 @@ impl Decoder {
     /// Whether the sum byte lets the frame pass. No rule lets all-0xFF pass:
     /// the four sums of 0xFF bytes are 0xFA, 0xF9, 0x05 and 0x06.
     #[inline]
-    #[expect(
+    #[allow(
         clippy::trivially_copy_pass_by_ref,
         reason = "a copy hides that the words lie in memory"
     )]
@@ -258,7 +258,7 @@ impl Decoder {
 
     /// Names what is wrong with a frame that did not pass.
     #[cold]
-    #[expect(
+    #[allow(
         clippy::trivially_copy_pass_by_ref,
         reason = "a copy hides that the words lie in memory"
     )]
@@ -282,7 +282,7 @@ impl Decoder {
 /// The three words, each taken from memory whole: put together from bytes they
 /// would cost the good path a third more instructions.
 #[inline]
-#[expect(
+#[allow(
     clippy::trivially_copy_pass_by_ref,
     reason = "a copy hides that the words lie in memory"
 )]

@@ -12,7 +12,7 @@ use tactile::{Decision, ModelBuf};
 use crate::bench::AnyListener;
 use crate::decisions::{self, Confusion};
 use crate::output::write_whole;
-use crate::plot::{self, Mark};
+use crate::plot::{self, Mark, Picture, Presented};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{self, Stream};
 use crate::run::{Happened, Run};
@@ -34,31 +34,39 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     let scene = Scene::from_str("scenes/textures.toml", SCENE)?;
     let out = Path::new(OUT);
 
-    println!(
+    report::say(format_args!(
         "learning: {} s of whisking against each texture in turn",
         scene.duration_s
-    );
+    ));
     let streams = record(&scene, verbosity)?;
     recording::write(&out.join("training.csv"), &streams)?;
     let model = learn(&streams)?;
     write_whole(&out.join("textures.model"), model.as_bytes())?;
 
-    println!(
+    report::say(format_args!(
         "deciding: {} s of other whisks, as decisions fall",
         scene.duration_s
-    );
+    ));
     let deciding = decide(&scene, &model, out, verbosity)?;
     let marks = &deciding.marks;
     let decided: Vec<_> = marks.iter().map(|mark| mark.decided.clone()).collect();
     decisions::write(&out.join("decisions.csv"), &decided)?;
-    let title = "left whisker: four textures, RCP";
-    let svg = plot::left_whisker(title, &deciding.rows, marks)
-        .map_err(|error| Error::Work(format!("plot: {error}")))?;
+    let picture = Picture {
+        title: "left whisker: four textures, RCP",
+        rows: &deciding.rows,
+        classes: &deciding.classes,
+        presented: &deciding.presented,
+        marks,
+    };
+    let svg =
+        plot::left_whisker(&picture).map_err(|error| Error::Work(format!("plot: {error}")))?;
     write_whole(&out.join("textures.svg"), svg.as_bytes())?;
 
     let confusion = Confusion::new(&deciding.classes, &decided);
-    print!("\n{}", report::Summary(&confusion, scene.tick_hz));
-    println!("in {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg");
+    let summary = report::Summary(&confusion, scene.tick_hz);
+    report::say(format_args!(
+        "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg"
+    ));
     Ok(())
 }
 
@@ -127,6 +135,7 @@ pub fn learn(streams: &[Stream]) -> Result<ModelBuf, Error> {
 struct Deciding {
     classes: Vec<String>,
     marks: Vec<Mark>,
+    presented: Vec<Presented>,
     /// The rows to be plotted.
     rows: Vec<Row>,
 }
@@ -143,12 +152,14 @@ fn decide(
     let model = model
         .model()
         .map_err(|error| Error::Work(error.to_string()))?;
-    let listener = listening::classifier(&model, classifier.rule).map_err(Error::Work)?;
+    let listener = listening::classifier(&model, classifier.rule)
+        .map_err(|fault| Error::Work(fault.to_string()))?;
     let classes = listening::names(&model);
 
     let mut run = Run::new(scene, Some(listener))?;
     let mut trace = TraceFile::create(&out.join("trace.csv"))?;
     let (mut marks, mut rows) = (Vec::new(), Vec::new());
+    let mut presented: Vec<Presented> = Vec::new();
     let mut happened = Happened::default();
     let mut progress = Progress::new(verbosity, "deciding", run.ticks());
     for n in 0..run.ticks() {
@@ -159,6 +170,14 @@ fn decide(
         }
         for event in &happened.events {
             report::limits_and_faults(row.t_s, event);
+        }
+        let (label, _) = run.presented();
+        match presented.last_mut().filter(|last| last.label == label) {
+            Some(last) => last.span_s.1 = row.t_s,
+            None => presented.push(Presented {
+                span_s: (row.t_s, row.t_s),
+                label: label.to_owned(),
+            }),
         }
         if let Some(decided) = run.decided(&happened, &classes) {
             progress.pause(|| report::decision(row.t_s, &decided));
@@ -175,6 +194,7 @@ fn decide(
     Ok(Deciding {
         classes,
         marks,
+        presented,
         rows,
     })
 }

@@ -1,0 +1,67 @@
+//! When nothing else helps: motor off, last words, reset.
+//!
+//! All ways into here end alike. The motor's outputs go off first, then the
+//! log gets a line, then the watchdog resets the chip; waiting for it gives
+//! the probe time to fetch the line.
+
+use core::panic::PanicInfo;
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use cortex_m::peripheral::SCB;
+use cortex_m_rt::{ExceptionFrame, exception};
+
+use super::{outputs, watchdog};
+
+/// Set by the first fault, so that one within the last words says no more.
+static DYING: AtomicBool = AtomicBool::new(false);
+
+/// Motor off, `last_words`, reset.
+pub(crate) fn die(last_words: impl FnOnce()) -> ! {
+    cortex_m::interrupt::disable();
+    outputs::off();
+    if !DYING.swap(true, Ordering::Relaxed) {
+        last_words();
+    }
+    watchdog::wait_for_reset()
+}
+
+#[panic_handler]
+fn panic(info: &PanicInfo<'_>) -> ! {
+    die(|| {
+        if let Some(place) = info.location() {
+            defmt::error!("panic at {=str}:{=u32}", place.file(), place.line());
+        }
+    })
+}
+
+#[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
+// SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
+#[exception]
+unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
+    die(|| {
+        #[allow(unsafe_code, reason = "nobody owns the SCB in a fault")]
+        // SAFETY: status registers; reading them has no effect.
+        let (configurable, hard) = unsafe { ((*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()) };
+        defmt::error!(
+            "hard fault at {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}, HFSR {=u32:#x}",
+            frame.pc(),
+            frame.lr(),
+            configurable,
+            hard
+        );
+    })
+}
+
+#[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
+// SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
+#[exception]
+unsafe fn NonMaskableInt() -> ! {
+    die(|| defmt::error!("the 8 MHz clock from the ST-LINK stopped"))
+}
+
+#[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
+// SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
+#[exception]
+unsafe fn DefaultHandler(number: i16) -> ! {
+    die(|| defmt::error!("interrupt {=i16} without a handler", number))
+}

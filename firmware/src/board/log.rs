@@ -1,0 +1,268 @@
+//! Lines of the log, by defmt over RTT. Texts stay on the PC; the board sends
+//! a number for each.
+//!
+//! Only idle writes here. A line that finds no room in the ring is dropped
+//! whole, and nothing waits for the probe.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use firmware::{Event, Place, SensorFault};
+use mlx90333::{Faults, FrameError};
+
+use super::clock::{ClockError, ResetCause};
+use super::scene;
+use super::timing::APB1_TIMER_HZ;
+
+// Lines begin with the time since the first tick, in seconds to the tick.
+defmt::timestamp!("{=u32:ms}", {
+    let ticks = TICKS.load(Ordering::Relaxed);
+    let (whole, part) = (ticks / scene::TICK_HZ, ticks % scene::TICK_HZ);
+    // Wraps after seven weeks, as a clock of 32 bits in milliseconds does.
+    whole
+        .wrapping_mul(1_000)
+        .wrapping_add(part * 1_000 / scene::TICK_HZ)
+});
+
+/// Ticks since the start; the tick counts, idle and the log read.
+pub(crate) static TICKS: AtomicU32 = AtomicU32::new(0);
+
+/// Counts of the clock in a tenth of a microsecond.
+const TENTH_US: u32 = APB1_TIMER_HZ / 10_000_000;
+
+/// The first lines after a reset.
+pub(crate) fn start(cause: ResetCause) {
+    defmt::info!(
+        "whisker {=str}: scene {=str}, {=u32} ticks a second",
+        env!("CARGO_PKG_VERSION"),
+        scene::NAME,
+        scene::TICK_HZ
+    );
+    match cause {
+        ResetCause::Watchdog => {
+            defmt::warn!(
+                "reset by the watchdog: a fault (told above), or tick or idle stood still"
+            );
+        }
+        ResetCause::Software => defmt::info!("reset by software"),
+        ResetCause::Power => defmt::info!("reset by power-up"),
+        ResetCause::Pin => defmt::info!("reset by the reset pin"),
+        ResetCause::Other => defmt::info!("reset, cause unknown"),
+    }
+}
+
+/// Last words where a clock did not come.
+pub(crate) fn clock(error: ClockError) {
+    match error {
+        ClockError::NoHse => defmt::error!("no 8 MHz clock from the ST-LINK (PH0)"),
+        ClockError::NoPll => defmt::error!("the PLL does not run"),
+    }
+}
+
+/// Last words where the classifier cannot start.
+#[cfg(not(perception = "none"))]
+pub(crate) fn model() {
+    defmt::error!("the model in flash is damaged: flash again");
+}
+
+/// How the ticks keep their time.
+#[derive(Default)]
+pub(crate) struct Health {
+    /// The longest tick since the last line, counts of the clock.
+    pub(crate) worst: u32,
+    /// Ticks that did not happen in time, since the start.
+    pub(crate) missed: u32,
+    /// Events that found the queue full, since the start.
+    pub(crate) dropped: u32,
+}
+
+/// Once a second: the longest tick, and the limits that were passed since `before`.
+pub(crate) fn health(now: &Health, before: &Health) {
+    let tenths = now.worst / TENTH_US;
+    defmt::info!(
+        "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
+        tenths / 10,
+        tenths % 10,
+        1_000_000 / scene::TICK_HZ,
+        now.missed,
+        now.dropped
+    );
+    if now.missed != before.missed {
+        defmt::warn!("limit 32: ticks were missed");
+    }
+    if now.dropped != before.dropped {
+        defmt::warn!("limit 33: events were dropped");
+    }
+}
+
+/// One event of a tick.
+pub(crate) fn event(event: Event, names: &Names) {
+    match event {
+        Event::Decision(decided) => names.decision(decided),
+        Event::SensorLost(place, fault) => sensor_lost(place, fault),
+        Event::SensorBack(place) => {
+            defmt::info!("{=str} {=u8}: sensor is back", side(place), place.whisker);
+        }
+        Event::MotorFault(place, fault) => motor_fault(place, fault),
+        Event::MotorRetry(place) => motor_retry(place),
+    }
+}
+
+const fn side(place: Place) -> &'static str {
+    if place.side == 0 { "left" } else { "right" }
+}
+
+/// What classes are called.
+pub(crate) struct Names {
+    /// The model in flash, which knows.
+    #[cfg(not(perception = "none"))]
+    pub(crate) model: tactile::Model<'static>,
+}
+
+impl Names {
+    #[cfg(not(perception = "none"))]
+    fn decision(&self, decided: tactile::Decision) {
+        // Percent with four decimals, rounded down: at most 99.9999.
+        let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
+        defmt::info!(
+            "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
+            self.model.name(decided.class()).unwrap_or("?"),
+            posterior / 10_000,
+            posterior % 10_000,
+            decided.samples()
+        );
+    }
+
+    #[cfg(perception = "none")]
+    #[allow(clippy::unused_self, reason = "with perception it is used")]
+    fn decision(&self, _: tactile::Decision) {}
+}
+
+#[cfg(motor = "none")]
+fn motor_fault(_: Place, _: whisking::motor::Fault) {}
+
+#[cfg(motor = "none")]
+fn motor_retry(_: Place) {}
+
+#[cfg(not(motor = "none"))]
+fn motor_fault(place: Place, fault: whisking::motor::Fault) {
+    use whisking::motor::Fault;
+
+    let (side, whisker) = (side(place), place.whisker);
+    let code = fault.code();
+    match fault {
+        Fault::Pin => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, a motor pin",
+            side,
+            whisker,
+            code
+        ),
+        Fault::Pwm => defmt::error!("{=str} {=u8}: fault {=u8}, PWM", side, whisker, code),
+        Fault::InvalidHall(hall) => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, impossible Hall code {=u8} (supply or cable of the Halls?)",
+            side,
+            whisker,
+            code,
+            hall
+        ),
+        Fault::SkippedSector => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, Hall sectors skipped (too fast, noise, lines exchanged?)",
+            side,
+            whisker,
+            code
+        ),
+        Fault::Stall => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)",
+            side,
+            whisker,
+            code
+        ),
+    }
+}
+
+#[cfg(not(motor = "none"))]
+fn motor_retry(place: Place) {
+    defmt::info!(
+        "{=str} {=u8}: motor is tried again",
+        side(place),
+        place.whisker
+    );
+}
+
+fn sensor_lost(place: Place, fault: SensorFault) {
+    let (side, whisker) = (side(place), place.whisker);
+    let code = fault.code();
+    match fault {
+        SensorFault::NoFrame => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, no frame in time",
+            side,
+            whisker,
+            code
+        ),
+        SensorFault::Bus => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, SPI or its DMA",
+            side,
+            whisker,
+            code
+        ),
+        SensorFault::Frame(FrameError::NoSensor) => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, no sensor answers (/SS or data line open, no supply?)",
+            side,
+            whisker,
+            code
+        ),
+        SensorFault::Frame(FrameError::LineLow) => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, data line stuck low (no pull-up, short?)",
+            side,
+            whisker,
+            code
+        ),
+        SensorFault::Frame(FrameError::BadStart(found)) => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, frame begins with {=u8:#04x} (slow edges, SPI mode?)",
+            side,
+            whisker,
+            code,
+            found
+        ),
+        SensorFault::Frame(FrameError::BadSum { expected, found }) => defmt::error!(
+            "{=str} {=u8}: fault {=u8}, sum {=u8:#04x} instead of {=u8:#04x} (noise, pull-up?)",
+            side,
+            whisker,
+            code,
+            found,
+            expected
+        ),
+        SensorFault::Frame(FrameError::Sensor(faults)) => {
+            defmt::error!(
+                "{=str} {=u8}: fault {=u8}, the sensor reports {=u16:#06x}",
+                side,
+                whisker,
+                code,
+                faults.bits()
+            );
+            sensor_reports(faults);
+        }
+    }
+}
+
+/// One line for each bit set of the sensor's error word.
+fn sensor_reports(faults: Faults) {
+    macro_rules! tell {
+        ($($bit:ident: $text:literal;)*) => {
+            $(if faults.contains(Faults::$bit) {
+                defmt::error!($text);
+            })*
+        };
+    }
+    tell! {
+        ADC_MONITOR: "- converter self-test failed (supply?)";
+        ADC_SATURATED: "- converter saturated (magnet too close?)";
+        GAIN_TOO_LOW: "- gain at its lower end (magnet too strong?)";
+        GAIN_TOO_HIGH: "- gain at its upper end (magnet too weak or missing?)";
+        NORM_TOO_LOW: "- field norm too low (magnet off axis?)";
+        FIELD_TOO_LOW: "- field too low (magnet missing?)";
+        FIELD_TOO_HIGH: "- field too high (magnet or motor too close?)";
+        ROUGH_OFFSET_CLAMP: "- rough offset at its limit (a strong constant field?)";
+        DEAD_ZONE_ALPHA: "- alpha in its dead zone (deflected too far?)";
+        DEAD_ZONE_BETA: "- beta in its dead zone (deflected too far?)";
+    }
+}
