@@ -135,7 +135,7 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
     let parts = [
         constant(
             "oscillators",
-            "whisking::oscillator::{Config, Config::*, Euler, Exact}",
+            "whisking::oscillator::{Config, Config::*, Euler, Exact, Linear}",
             "Config<f32>",
             &whisking.oscillators,
         ),
@@ -172,13 +172,13 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
          pub(crate) const WHISKING: whisking::Config<f32> = whisking::Config {{\n    \
          oscillators: OSCILLATORS,\n    muscle: MUSCLE,\n    peak_gain: {:?},\n    \
          rcp: RCP,\n    cia: CIA,\n    noise: NOISE,\n}};\n\
-         /// Protraction a count of the encoder, times 2^24.\n\
-         pub(crate) const THETA_PER_COUNT_Q24: f32 = {:?};\n\
+         /// Protraction a count of the encoder.\n\
+         pub(crate) const THETA_PER_COUNT: f32 = {:?};\n\
          /// Seed of the noise.\n\
          pub(crate) const SEED: u64 = {};\n",
         parts.concat(),
         whisking.peak_gain,
-        plan.theta_per_count_q24,
+        plan.theta_per_count,
         scene.seed
     ))
 }

@@ -73,13 +73,13 @@ impl<R, M: Motion<R, S, N>, const S: usize, const N: usize> Motion<R, S, N> for 
 
 /// Constants of an active module.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ActiveConfig<R> {
+pub struct ActiveConfig<R: Real> {
     /// Oscillators, muscles and gates.
     pub whisking: whisking::Config<R>,
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Protraction θ a count of the angle input, times 2^24.
-    pub theta_per_count_q24: R,
+    /// Protraction θ a count of the angle input.
+    pub theta_per_count: R::Coefficient,
     /// Ticks a faulty motor rests before it is tried again.
     pub retry: u16,
     /// When a motor counts as stalled.
@@ -155,7 +155,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
             return;
         }
 
-        let measured = R::from_q24(counts.wrapping_sub(self.home)) * config.theta_per_count_q24;
+        let measured = R::from_counts(counts.wrapping_sub(self.home), config.theta_per_count);
         let duty = Duty::from_q15(config.pd.step(&mut self.pd, setpoint, measured).to_q15());
         let done = if self.guard.update(duty, moved) {
             Err(motor::Fault::Stall)
@@ -172,7 +172,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
 
 /// Whiskers that whisk: the pattern generator of the module and a follower each.
 #[derive(Debug)]
-pub struct Active<R, M, A, const S: usize, const N: usize> {
+pub struct Active<R: Real, M, A, const S: usize, const N: usize> {
     state: whisking::State<R, S, N>,
     followers: [[Follower<R, M, A>; N]; S],
 }

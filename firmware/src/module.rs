@@ -9,7 +9,7 @@ use crate::{Clock, Event, FrameSource, Motion, Perception, Place, Timing};
 /// Constants of a module. A board holds it in a `const`, so that the compiler
 /// sees what is left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R, M, P> {
+pub struct Config<R: Real, M, P> {
     /// How the sensors' frames are read.
     pub decoder: Decoder,
     /// How long bad frames are bridged.

@@ -115,7 +115,7 @@ fn config() -> Config<f32, ActiveConfig<f32>, ()> {
         motion: ActiveConfig {
             whisking: SETTINGS.build().unwrap(),
             pd: pd.build(2000.0).unwrap(),
-            theta_per_count_q24: 16_777_216.0 / 1000.0,
+            theta_per_count: 1.0 / 1000.0,
             retry: 10,
             stall: STALL,
         },
@@ -183,7 +183,7 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
             // First value of H50's impulse response, by scipy.signal.butter(3, 50, fs=2000).
             let contact = 4.165_461_390_757_6e-4 * 4096.0 / 8191.0;
             assert!((f64::from(module.contact()[0]) - contact).abs() < 1e-9);
-            assert!((f64::from(module.motion().state().z[0]) - 0.7 * contact).abs() < 1e-9);
+            assert!((f64::from(module.motion().state().z[0].value) - 0.7 * contact).abs() < 1e-9);
         }
     }
 

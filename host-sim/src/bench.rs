@@ -142,7 +142,7 @@ type HostModule<'m, R, const S: usize, const N: usize> = Module<
     N,
 >;
 
-struct Shaped<'m, R, const S: usize, const N: usize> {
+struct Shaped<'m, R: Real, const S: usize, const N: usize> {
     module: HostModule<'m, R, S, N>,
     config: Config<R, Option<ActiveConfig<R>>, Option<TouchConfig<R>>>,
 }
@@ -166,12 +166,12 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
             *place = whisking::degrees(theta.to_f64());
         }
         for (place, z) in snapshot.z.iter_mut().zip(state.z) {
-            *place = z.to_f64();
+            *place = z.value.to_f64();
         }
         for (place, whiskers) in snapshot.g.iter_mut().zip(&state.whiskers) {
             *place = whiskers
                 .first()
-                .map_or(f64::NAN, |whisker| whisker.gain.to_f64());
+                .map_or(f64::NAN, |whisker| whisker.gain.value.to_f64());
         }
     }
 
@@ -277,7 +277,7 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
             pd: plan.pd,
-            theta_per_count_q24: plan.theta_per_count_q24,
+            theta_per_count: plan.theta_per_count,
             retry: ticks(RETRY_S, scene.tick_hz),
             stall,
         }),

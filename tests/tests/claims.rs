@@ -6,6 +6,7 @@ mod common;
 
 use acceptance::claims::{Claim, Figure, Quantity, RUN_S, TABLE};
 use acceptance::reference::{Row, Settings};
+use whisking::gate::Gate;
 use whisking::{GateSettings, Integrator, Start, State, degrees, filter, gate, muscle};
 
 fn measure(claim: &Claim, settings: &Settings, rows: &[Row]) -> f64 {
@@ -60,20 +61,21 @@ fn the_claims_in_words_hold_with_the_exact_integrator() {
 }
 
 /// How g of a whisker follows the array's contact: (g, ζ) to g.
-type Excite = fn(Option<gate::Cia<f64>>, f64, f64) -> f64;
+type Excite = fn(Option<gate::Cia<f64>>, &mut Gate<f64>, f64);
 
 /// Eqs. 12 and 13 as mended: the product's.
-fn mended(cia: Option<gate::Cia<f64>>, g: f64, zeta: f64) -> f64 {
-    cia.map_or(g, |cia| cia.step(g, 1.0, zeta))
+fn mended(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
+    if let Some(cia) = cia {
+        cia.step(g, 1.0, zeta);
+    }
 }
 
 /// Eq. 12 as printed: lifted to σ_g ζ, not to nominal + σ_g ζ.
-fn printed(cia: Option<gate::Cia<f64>>, g: f64, zeta: f64) -> f64 {
-    cia.map_or(g, |cia| {
-        (g + cia.approach * (1.0 - g))
-            .max(cia.gain * zeta)
-            .clamp(0.0, 2.0)
-    })
+fn printed(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
+    if let Some(cia) = cia {
+        let returned = g.value + cia.approach * (1.0 - g.value);
+        g.value = returned.max(cia.gain * zeta).clamp(0.0, 2.0);
+    }
 }
 
 /// The product's equations in f64 with one of them as `mass` and `excite` say,
@@ -96,7 +98,7 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
     let cia = config.cia.take();
     let tick_s = settings.tick_s();
     config.muscle = muscle::Config::Euler(muscle::Euler {
-        spring: tick_s * tick_s / mass,
+        spring: tick_s / mass.sqrt(),
         damping: tick_s * 4.0 / mass.sqrt(),
     });
     let gain = [[settings.gains[0][0]], [settings.gains[1][0]]];
@@ -117,15 +119,15 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
             }
             let zeta = contact[0].max(contact[1]);
             for side in &mut state.whiskers {
-                side[0].gain = excite(cia, side[0].gain, zeta);
+                excite(cia, &mut side[0].gain, zeta);
             }
             config.step(&mut state, contact);
             theta_deg = state.theta().map(|side| degrees(side[0]));
             Row {
                 t_s: n as f64 * tick_s,
                 theta_deg,
-                z: state.z,
-                g: [state.whiskers[0][0].gain, state.whiskers[1][0].gain],
+                z: state.z.map(|z| z.value),
+                g: state.whiskers.map(|side| side[0].gain.value),
                 contact,
             }
         })

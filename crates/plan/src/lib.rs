@@ -9,15 +9,15 @@ use whisking::{DEGREES_PER_UNIT, Error, Real, filter, pd};
 
 /// Constants of an active module of `S` sides with `N` whiskers each.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion<R, const S: usize, const N: usize> {
+pub struct Motion<R: Real, const S: usize, const N: usize> {
     /// Oscillators, muscles and gates.
     pub whisking: whisking::Config<R>,
     /// Where they start.
     pub start: whisking::Start<R, S, N>,
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Protraction θ a count of the angle input, times 2^24.
-    pub theta_per_count_q24: R,
+    /// Protraction θ a count of the angle input.
+    pub theta_per_count: R::Coefficient,
 }
 
 /// What is wrong with a scene for a module of a given shape.
@@ -106,7 +106,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
             max_deg: motor.max_deg,
         }
         .build(tick_hz)?,
-        theta_per_count_q24: R::from_f64(degrees_per_count / DEGREES_PER_UNIT * 16_777_216.0),
+        theta_per_count: R::coefficient(degrees_per_count / DEGREES_PER_UNIT),
     }))
 }
 
@@ -133,6 +133,7 @@ pub fn contact<R: Real>(scene: &Scene) -> Result<Option<filter::Config<R>>, Mism
 mod tests {
     use super::{Mismatch, contact, motion};
     use scene::Scene;
+    use whisking::State;
 
     const SCENE: &str = r#"
 name = "rcp7"
@@ -160,14 +161,18 @@ kind = "ideal"
         let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
         let motion = motion::<f64, 2, 2>(&scene).unwrap().unwrap();
         assert_eq!(motion.start.gain, [[0.5, 1.0], [1.5, 2.0]]);
-        assert_eq!(motion.start.psi, [[1.0, 0.0], [0.6, 0.5]]);
+        let psi = State::new(&motion.start, 0).oscillators;
+        let psi = motion.whisking.oscillators.psi(&psi);
+        for (found, said) in psi.iter().flatten().zip([1.0, 0.0, 0.6, 0.5]) {
+            assert!((found - said).abs() < 1e-12);
+        }
         let rcp = motion.whisking.rcp.unwrap();
-        assert!((rcp.keep - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
+        assert!((1.0 - rcp.decay - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
         assert_eq!(rcp.gain, 0.7);
         assert!(motion.whisking.cia.is_none() && motion.whisking.noise.is_none());
         // 512 counts a turn of the motor and a gear of 11: 0.0639 degrees a count.
         let counts_to_90_deg = 512.0 * 11.0 / 4.0;
-        let theta = motion.theta_per_count_q24 * counts_to_90_deg / 16_777_216.0;
+        let theta = motion.theta_per_count * counts_to_90_deg;
         assert!((theta - 0.9).abs() < 1e-12);
         assert!(contact::<f64>(&scene).unwrap().is_some());
     }

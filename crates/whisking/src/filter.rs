@@ -16,11 +16,12 @@ pub const CORNER_HZ: f64 = 50.0;
 
 /// Coefficients of one third-order Butterworth low-pass filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R> {
+pub struct Config<R: Real> {
     /// g/(1 + g) of the first-order section.
-    pub first: R,
-    /// 1/(1 + g + g²), g times that, g² times that: the second-order section.
-    pub second: [R; 3],
+    pub first: R::Coefficient,
+    /// g, g and g² over 1 + g + g²: what the second-order section's inner
+    /// state gives up, what it takes in, what its outer state takes in.
+    pub second: [R::Coefficient; 3],
 }
 
 /// What the filter remembers; the default is rest.
@@ -46,8 +47,8 @@ impl<R: Real> Config<R> {
         let g = libm::tan(PI * ratio);
         let a1 = 1.0 / (1.0 + g + g * g);
         Ok(Self {
-            first: R::from_f64(g / (1.0 + g)),
-            second: [a1, g * a1, g * g * a1].map(R::from_f64),
+            first: R::coefficient(g / (1.0 + g)),
+            second: [(g + g * g) * a1, g * a1, g * g * a1].map(R::coefficient),
         })
     }
 
@@ -56,16 +57,18 @@ impl<R: Real> Config<R> {
     /// Butterworth filter to the worst bounded input).
     #[inline]
     pub fn process(&self, state: &mut State<R>, x: R) -> R {
-        let half = self.first * (x - state.first);
-        let y = half + state.first;
+        let half = (x - state.first).times(self.first);
+        let y = state.first + half;
         state.first = y + half;
 
-        let [a1, a2, a3] = self.second;
+        // v1 = (s1 + g v3)/(1 + g + g²), in increments: the coefficients are
+        // small at high tick rates, and so is what rounding does to them.
+        let [leak, into, through] = self.second;
         let [s1, s2] = state.second;
         let v3 = y - s2;
-        let v1 = a1 * s1 + a2 * v3;
-        let v2 = s2 + a2 * s1 + a3 * v3;
-        state.second = [v1 + v1 - s1, v2 + v2 - s2];
+        let d1 = v3.times(into) - s1.times(leak);
+        let v2 = s2 + s1.times(into) + v3.times(through);
+        state.second = [s1 + d1 + d1, v2 + v2 - s2];
         v2
     }
 }

@@ -15,7 +15,8 @@
 //! - *contact* π: how strongly a side feels, 0 to about 1.
 //! - *RCP*: rapid cessation of protraction; contact raises z, which weakens that side.
 //! - *CIA*: contact-induced asymmetry; contact anywhere raises every gain g.
-//! - *tick*: one control step of length T; velocities are kept per tick (δ = T dθ/dt).
+//! - *v*: velocity of a whisker in units of its natural frequency, (dθ/dt)/(10 f_W).
+//! - *tick*: one control step of length T.
 //!
 //! # Shape
 //!
@@ -43,7 +44,7 @@ mod start;
 mod step;
 
 pub use error::{Error, Parameter};
-pub use real::Real;
+pub use real::{Factor, Fix, Real};
 pub use settings::{GateSettings, Integrator, Settings};
 pub use start::Start;
 pub use step::{Config, State, Whisker};

@@ -1,15 +1,17 @@
 //! The muscle and mass of one whisker (BIOTACT eqs. 6 to 8).
 //!
 //! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1,
-//! m = T_W²/100 and ν = 4 √(k m): natural frequency 10 f_W rad/s, damping
-//! ratio 2. With f = W exp(−θ²), the force per gain a = 1.45 (1 − z) g, the
-//! equation is linear in (θ, δ = T dθ/dt) with input a f.
+//! m = T_W²/100 and ν = 4 √(k m): natural frequency ω_n = 10 f_W rad/s, damping
+//! ratio 2. With f = W exp(−θ²), the force per gain a = 1.45 (1 − z) g, and
+//! v = (dθ/dt)/ω_n, the equation is θ' = h v, v' = h (a f − θ − 4 v) a tick,
+//! h = ω_n T: linear in (θ, v) with input a f, and every state near one.
 //!
 //! [`Exact`] propagates the linear part exactly and takes f as the cubic
 //! through its last values: an exponential Adams method of fourth order,
 //! predicted and corrected once, so one exponential and one drive a tick.
 //! The gain multiplies after the differences are taken, so that a jump of z or
-//! g does not enter the history.
+//! g does not enter the history. The linear part acts on θ − a f, so that the
+//! equilibrium is exact however the coefficients are rounded.
 
 use crate::Real;
 use crate::linalg::{Matrix, exponential};
@@ -23,32 +25,32 @@ const DAMPING: f64 = 4.0;
 
 /// Which integrator steps the muscles, with its constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Config<R> {
+pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
     /// Exact linear part, fourth-order exponential multistep.
     Exact(Exact<R>),
 }
 
-/// Forward Euler: θ, δ and the force at the state before the step.
+/// Forward Euler: θ, v and the force at the state before the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Euler<R> {
-    /// T² k/m.
-    pub spring: R,
-    /// T ν/m.
-    pub damping: R,
+pub struct Euler<R: Real> {
+    /// h = ω_n T.
+    pub spring: R::Coefficient,
+    /// 4 h.
+    pub damping: R::Coefficient,
 }
 
 /// Exact linear propagator and multistep weights; row 0 gives the increment of
-/// θ, row 1 that of δ.
+/// θ, row 1 that of v.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Exact<R> {
-    /// exp(A) − 1 on (θ, δ).
-    pub linear: [[R; 2]; 2],
-    /// Weights of f, ∇f, ∇²f (predictor).
-    pub predict: [[R; 3]; 2],
+pub struct Exact<R: Real> {
+    /// exp(A) − 1 on (θ − a f, v).
+    pub linear: [[R::Coefficient; 2]; 2],
+    /// Weights of ∇f and ∇²f (predictor).
+    pub predict: [[R::Coefficient; 2]; 2],
     /// Weight of ∇³f at the new end (corrector).
-    pub correct: [R; 2],
+    pub correct: [R::Coefficient; 2],
 }
 
 /// f at the last tick and its backward differences; unused by Euler.
@@ -58,57 +60,74 @@ pub struct History<R> {
     pub force: [R; 3],
 }
 
-/// (θ, δ) of one whisker and what its integrator remembers.
+/// (θ, v) of one whisker and what its integrator remembers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct State<R> {
+pub struct State<R: Real> {
     /// Protraction θ; θ' = 100 θ + 50 degrees.
     pub theta: R,
-    /// T dθ/dt.
-    pub delta: R,
-    /// Past forces.
-    pub history: History<R>,
+    /// v = (dθ/dt)/ω_n.
+    pub velocity: R,
+    carry: R::Carry,
+    history: History<R>,
 }
 
-/// T² k/m and T ν/m for `cycles` = f_W T.
-pub(crate) fn rates(cycles: f64) -> [f64; 2] {
-    let omega = STIFFNESS * cycles;
-    [omega * omega, DAMPING * omega]
+/// h = ω_n T for `cycles` = f_W T.
+pub(crate) fn pace(cycles: f64) -> f64 {
+    STIFFNESS * cycles
+}
+
+/// dv/dt in ticks at `theta` and `velocity` under the force `push` = a f.
+pub(crate) fn acceleration(cycles: f64, [theta, velocity]: [f64; 2], push: f64) -> f64 {
+    pace(cycles) * (push - theta - DAMPING * velocity)
+}
+
+impl<R: Real> State<R> {
+    /// At rest with these forces behind it.
+    pub fn new(history: History<R>) -> Self {
+        Self {
+            history,
+            ..Self::default()
+        }
+    }
 }
 
 impl<R: Real> Euler<R> {
     pub(crate) fn new(cycles: f64) -> Self {
-        let [spring, damping] = rates(cycles).map(R::from_f64);
-        Self { spring, damping }
+        Self {
+            spring: R::coefficient(pace(cycles)),
+            damping: R::coefficient(DAMPING * pace(cycles)),
+        }
     }
 
     #[inline]
     fn step(&self, state: &mut State<R>, gain: R, drive: R) {
-        let force = gain * drive * state.theta.exp_neg_square();
-        let delta = state.delta;
-        state.delta += self.spring * (force - state.theta) - self.damping * delta;
-        state.theta += delta;
+        let push = gain * (drive * state.theta.exp_neg_square());
+        let velocity = state.velocity;
+        let pull = (push - state.theta).times(self.spring);
+        state.velocity = velocity + pull - velocity.times(self.damping);
+        state
+            .theta
+            .accumulate(&mut state.carry, velocity.times(self.spring));
     }
 }
 
 impl<R: Real> Exact<R> {
     pub(crate) fn new(cycles: f64) -> Self {
-        let [spring, damping] = rates(cycles);
-        // (θ, δ) driven by a chain of integrators: the exponential holds the
+        let h = pace(cycles);
+        // (θ, v) driven by a chain of integrators: the exponential holds the
         // propagator and, beside it, the response to each power s^k/k! of time.
         let mut a: Matrix<6> = [[0.0; 6]; 6];
-        a[0][1] = 1.0;
-        a[1][0] = -spring;
-        a[1][1] = -damping;
-        a[1][2] = spring;
+        a[0][1] = h;
+        a[1] = [-h, -DAMPING * h, h, 0.0, 0.0, 0.0];
         for k in 2..5 {
             a[k][k + 1] = 1.0;
         }
         let e = exponential(&a);
+        // The response to 1 is what the linear part does not do: on θ − a f.
         let row = |i: usize| {
-            let [power0, power1, power2, power3] = [e[i][2], e[i][3], e[i][4], e[i][5]];
-            // Newton's basis 1, s, s(s+1)/2, s(s+1)(s+2)/6 in powers s^k/k!.
+            let [power1, power2, power3] = [e[i][3], e[i][4], e[i][5]];
+            // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6 in powers s^k/k!.
             [
-                power0,
                 power1,
                 power2 + power1 / 2.0,
                 power3 + power2 + power1 / 3.0,
@@ -117,27 +136,29 @@ impl<R: Real> Exact<R> {
         let weights = [row(0), row(1)];
         Self {
             linear: [[e[0][0] - 1.0, e[0][1]], [e[1][0], e[1][1] - 1.0]]
-                .map(|row| row.map(R::from_f64)),
-            predict: weights.map(|w| [w[0], w[1], w[2]].map(R::from_f64)),
-            correct: weights.map(|w| R::from_f64(w[3])),
+                .map(|row| row.map(R::coefficient)),
+            predict: weights.map(|w| [w[0], w[1]].map(R::coefficient)),
+            correct: weights.map(|w| R::coefficient(w[2])),
         }
     }
 
     #[inline]
     fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let [f, d1, d2] = state.history.force;
-        let mut change = [R::ZERO; 2];
-        for (i, c) in change.iter_mut().enumerate() {
-            let [w0, w1, w2] = self.predict[i];
-            let [l0, l1] = self.linear[i];
-            *c = l0 * state.theta + l1 * state.delta + gain * (w0 * f + w1 * d1 + w2 * d2);
-        }
+        let (off, velocity) = (state.theta - gain * f, state.velocity);
+        let predict = |i: usize| {
+            off.times(self.linear[i][0])
+                + velocity.times(self.linear[i][1])
+                + gain * (d1.times(self.predict[i][0]) + d2.times(self.predict[i][1]))
+        };
+        let change = [predict(0), predict(1)];
         let force = drive * (state.theta + change[0]).exp_neg_square();
         let n1 = force - f;
         let n2 = n1 - d1;
         let correction = gain * (n2 - d2);
-        state.theta += change[0] + self.correct[0] * correction;
-        state.delta += change[1] + self.correct[1] * correction;
+        let [theta, v] = self.correct.map(|weight| correction.times(weight));
+        state.theta.accumulate(&mut state.carry, change[0] + theta);
+        state.velocity = velocity + (change[1] + v);
         state.history.force = [force, n1, n2];
     }
 }
@@ -146,7 +167,7 @@ impl<R: Real> Config<R> {
     /// One tick of one whisker: `gain` is 1.45 (1 − z) g, `before` and `after`
     /// the drive W at the two ends of the tick.
     ///
-    /// θ and δ are held within ±2, which no sane input reaches (the static
+    /// θ and v are held within ±2, which no sane input reaches (the static
     /// solution at full drive is 1.015), so that no input can make them grow.
     #[inline]
     pub fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
@@ -154,15 +175,14 @@ impl<R: Real> Config<R> {
             Self::Euler(euler) => euler.step(state, gain, before),
             Self::Exact(exact) => exact.step(state, gain, after),
         }
-        let limit = R::ONE + R::ONE;
-        state.theta = state.theta.clamp(-limit, limit);
-        state.delta = state.delta.clamp(-limit, limit);
+        state.theta = state.theta.clamp(-R::TWO, R::TWO);
+        state.velocity = state.velocity.clamp(-R::TWO, R::TWO);
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Config, Euler, Exact, State};
+    use super::{Config, Euler, Exact, History, State, pace};
 
     #[test]
     fn a_constant_force_is_answered_as_the_closed_form_says() {
@@ -170,12 +190,13 @@ mod tests {
         // 1 + (p2 e^{p1 t} − p1 e^{p2 t})/(p1 − p2), p = −ω(2 ∓ √3).
         let cycles = 1.25e-2;
         let config = Config::Exact(Exact::new(cycles));
-        let mut state = State::default();
-        state.history.force = [1.0, 0.0, 0.0];
+        let mut state = State::new(History {
+            force: [1.0, 0.0, 0.0],
+        });
         let gain = 1e-6;
         for n in 1..=80 {
             config.step(&mut state, gain, 1.0, 1.0);
-            let t = 10.0 * cycles * f64::from(n);
+            let t = pace(cycles) * f64::from(n);
             let (p1, p2) = (-(2.0 - 3.0_f64.sqrt()), -(2.0 + 3.0_f64.sqrt()));
             let expected = 1.0 + (p2 * (p1 * t).exp() - p1 * (p2 * t).exp()) / (p1 - p2);
             assert!((state.theta / gain - expected).abs() < 1e-9, "{n}");
@@ -195,19 +216,19 @@ mod tests {
                 config.step(&mut state, 2.9, drive, drive);
             }
             assert!((state.theta - 1.015).abs() < 5e-4, "{}", state.theta);
-            assert!((state.theta * (state.theta * state.theta).exp() - 2.9 * drive).abs() < 1e-6);
+            let balance = state.theta * (state.theta * state.theta).exp();
+            assert!((balance - 2.9 * drive).abs() < 1e-6);
         }
     }
 
     #[test]
     fn newton_weights_integrate_a_cubic_exactly() {
-        // With A → 0 (slow whisker) the double integral of s(s+1)(s+2)/6 over a tick is
-        // ∫₀¹ (1 − s) s(s+1)(s+2)/6 ds = 19/180, the single one 3/8.
+        // With a slow whisker v is h times the integral of s(s+1)(s+2)/6 over a
+        // tick, 3/8, and θ h² times its double integral, 19/180.
         let cycles = 1e-4;
-        let exact = Exact::<f64>::new(cycles);
-        let [spring, _] = super::rates(cycles);
-        assert!((exact.correct[0] / spring - 19.0 / 180.0).abs() < 1e-4);
-        assert!((exact.correct[1] / spring - 3.0 / 8.0).abs() < 1e-3);
-        assert!((exact.predict[1][1] / spring - 0.5).abs() < 1e-2);
+        let (exact, h) = (Exact::<f64>::new(cycles), pace(cycles));
+        assert!((exact.correct[0] / (h * h) - 19.0 / 180.0).abs() < 1e-3);
+        assert!((exact.correct[1] / h - 3.0 / 8.0).abs() < 1e-3);
+        assert!((exact.predict[1][0] / h - 0.5).abs() < 1e-2);
     }
 }

@@ -9,6 +9,7 @@ use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro128PlusPlus;
 
 use crate::filter::{self, CORNER_HZ};
+use crate::math::constant::exp;
 use crate::oscillator::Psi;
 use crate::{Error, Real};
 
@@ -24,23 +25,6 @@ const Q24: f64 = 16_777_216.0;
 /// −Φ⁻¹(u) in Q24 at u = 2^-(k+1) (1 − j/16), k octaves of eight points, from
 /// u = ½ down to 2^-21 (4.9 standard deviations).
 static QUANTILES: [i32; OCTAVES * SEGMENTS + 1] = quantiles();
-
-/// exp(x) for 0 ≤ x < 13, at compile time.
-const fn exp(x: f64) -> f64 {
-    let small = x / 1024.0;
-    let mut sum = 1.0;
-    let mut k = 12;
-    while k > 0 {
-        sum = 1.0 + sum * small / k as f64;
-        k -= 1;
-    }
-    let mut squarings = 0;
-    while squarings < 10 {
-        sum *= sum;
-        squarings += 1;
-    }
-    sum
-}
 
 /// d(−Φ⁻¹)/d(−u) = √(2π) exp(x²/2), the inverse of the normal density.
 const fn slope(x: f64) -> f64 {
@@ -95,9 +79,10 @@ fn normal_q24(word: u32) -> i32 {
 
 /// Amplitude and filter of the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R> {
-    /// T σ_η √(tick rate/2 kHz).
-    pub amplitude: R,
+pub struct Config<R: Real> {
+    /// 4 T σ_η √(tick rate/2 kHz): what is filtered is a quarter of η, so that
+    /// no format has to hold 4.9.
+    pub amplitude: R::Coefficient,
     /// H50 at this tick rate.
     pub filter: filter::Config<R>,
 }
@@ -115,9 +100,9 @@ impl<R: Real> Config<R> {
     /// # Errors
     /// [`crate::Parameter::Corner`] if the tick rate leaves no room for 50 Hz.
     pub(crate) fn new(sigma: f64, tick_hz: f64) -> Result<Self, Error> {
-        let amplitude = sigma / tick_hz * libm::sqrt(tick_hz / REFERENCE_TICK_HZ);
+        let amplitude = 4.0 * sigma / tick_hz * libm::sqrt(tick_hz / REFERENCE_TICK_HZ);
         Ok(Self {
-            amplitude: R::from_f64(amplitude),
+            amplitude: R::coefficient(amplitude),
             filter: filter::Config::new(CORNER_HZ, tick_hz)?,
         })
     }
@@ -128,8 +113,8 @@ impl<R: Real> Config<R> {
         let State { random, filters } = state;
         let mut out = [[R::ZERO; 2]; S];
         for (o, f) in out.iter_mut().flatten().zip(filters.iter_mut().flatten()) {
-            let white = R::from_q24(normal_q24(random.next_u32()));
-            *o = self.amplitude * self.filter.process(f, white);
+            let white = R::from_q24(normal_q24(random.next_u32()) >> 2);
+            *o = self.filter.process(f, white).times(self.amplitude);
         }
         out
     }

@@ -29,13 +29,13 @@ pub struct Settings {
 
 /// The same a tick and a unit of protraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R> {
+pub struct Config<R: Real> {
     /// Duty a unit of error.
-    pub kp: R,
+    pub kp: R::Coefficient,
     /// Duty a unit a tick.
-    pub kd: R,
+    pub kd: R::Coefficient,
     /// Share of a new velocity reading in the smoothed one.
-    pub smooth: R,
+    pub smooth: R::Coefficient,
     /// Largest duty.
     pub limit: R,
     /// Largest change of the duty a tick.
@@ -71,9 +71,9 @@ impl Settings {
         check(self.max_deg, self.min_deg, 1e4)?;
         let smooth = -libm::expm1(-core::f64::consts::TAU * VELOCITY_CORNER_HZ / tick_hz);
         Ok(Config {
-            kp: R::from_f64(self.kp * DEGREES_PER_UNIT),
-            kd: R::from_f64(self.kd * DEGREES_PER_UNIT * tick_hz),
-            smooth: R::from_f64(smooth),
+            kp: R::coefficient(self.kp * DEGREES_PER_UNIT),
+            kd: R::coefficient(self.kd * DEGREES_PER_UNIT * tick_hz),
+            smooth: R::coefficient(smooth),
             limit: R::from_f64(self.limit),
             slew: R::from_f64((self.slew_per_s / tick_hz).min(2.0)),
             min: R::from_f64(protraction(self.min_deg)),
@@ -89,12 +89,13 @@ impl<R: Real> Config<R> {
     pub fn step(&self, state: &mut State<R>, setpoint: R, measured: R) -> R {
         let moved = measured - state.measured.unwrap_or(measured);
         state.measured = Some(measured);
-        let velocity = state.velocity + self.smooth * (moved - state.velocity);
+        let velocity = state.velocity + (moved - state.velocity).times(self.smooth);
         // No whisker turns a unit a tick; the limit is there so that no reading stays for ever.
         state.velocity = velocity.clamp(-R::ONE, R::ONE);
         let error = setpoint.clamp(self.min, self.max) - measured;
-        let wanted = (self.kp * error - self.kd * state.velocity).clamp(-self.limit, self.limit);
-        state.output += (wanted - state.output).clamp(-self.slew, self.slew);
+        let wanted = error.times(self.kp) - state.velocity.times(self.kd);
+        let wanted = wanted.clamp(-self.limit, self.limit);
+        state.output = state.output + (wanted - state.output).clamp(-self.slew, self.slew);
         state.output
     }
 }

@@ -1,38 +1,47 @@
 //! The number formats the equations run in. Each equation is written once over
-//! [`Real`]; f64 is the reference, f32 is what a part with an FPU runs.
+//! [`Real`]: f64 is the reference, f32 runs on parts with an FPU, [`Fix`] on
+//! parts without.
+
+mod fix;
+mod float;
 
 use core::fmt::Debug;
-use core::ops::{Add, AddAssign, Mul, Neg, Sub};
+use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::math;
+pub use fix::{Factor, Fix};
 
 /// A number format of the tick.
 ///
-/// The functions are those the equations need, each on the range in which it
-/// is used; their errors are largest absolute errors there, in f32, measured
-/// by the tests of this crate.
+/// States lie within ±4. Constants of the tick have a type of their own,
+/// because in fixed point a small constant needs a scale of its own to keep
+/// its digits. Stated errors are the largest absolute ones in f32 and in
+/// [`Fix`], measured by the tests of this crate.
 pub trait Real:
     Copy
     + Debug
     + Default
+    + PartialEq
     + PartialOrd
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Neg<Output = Self>
-    + AddAssign
     + 'static
 {
+    /// A constant of the tick, to multiply with.
+    type Coefficient: Copy + Debug + PartialEq + 'static;
+
+    /// What rounding took from a long sum.
+    type Carry: Copy + Debug + Default + PartialEq + 'static;
+
     /// 0.
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// ½.
-    const HALF: Self;
+    /// 2.
+    const TWO: Self;
     /// Limit of an oscillator's states, ψ_lim = 1.5 (BIOTACT section III-B).
     const PSI_LIMIT: Self;
-    /// Squared radius below which an oscillator counts as standing at its origin.
-    const ORIGIN: Self;
 
     /// The nearest representable number. For configurations, not for the tick.
     fn from_f64(value: f64) -> Self;
@@ -40,11 +49,28 @@ pub trait Real:
     /// The same value in f64. For reports, not for the tick.
     fn to_f64(self) -> f64;
 
+    /// The nearest coefficient. For configurations, not for the tick.
+    fn coefficient(value: f64) -> Self::Coefficient;
+
+    /// The product with a constant.
+    fn times(self, factor: Self::Coefficient) -> Self;
+
+    /// `counts` times a constant.
+    fn from_counts(counts: i32, factor: Self::Coefficient) -> Self;
+
     /// `value` / 2^24.
     fn from_q24(value: i32) -> Self;
 
     /// The nearest multiple of 1/32767, limited to ±1; NaN gives 0.
     fn to_q15(self) -> i16;
+
+    /// Adds `increment`, and what rounding took from the last addition: a sum
+    /// of many small steps keeps its accuracy.
+    fn accumulate(&mut self, carry: &mut Self::Carry, increment: Self);
+
+    /// Goes the share `approach` of the way to `target`, however small a share:
+    /// what rounding takes is remembered.
+    fn relax(&mut self, carry: &mut Self::Carry, target: Self, approach: Self::Coefficient);
 
     /// Muscle drive W = (tanh 2x + 1)/2 (BIOTACT eq. 6) for |x| ≤ 1.5; error 2e-7.
     fn drive(self) -> Self;
@@ -53,8 +79,8 @@ pub trait Real:
     /// beyond that the value at 1.5; error 4e-7.
     fn exp_neg_square(self) -> Self;
 
-    /// 1/√x for x of [`Self::ORIGIN`] and above; relative error 2e-7.
-    fn inv_sqrt(self) -> Self;
+    /// (x, y)/r, or `None` where r is zero (in f32 and f64 below 1e-15); error 2e-7.
+    fn unit(x: Self, y: Self) -> Option<[Self; 2]>;
 
     /// |x|.
     #[inline]
@@ -76,130 +102,6 @@ pub trait Real:
             if self < hi { self } else { hi }
         } else {
             lo
-        }
-    }
-}
-
-impl Real for f32 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
-    const HALF: Self = 0.5;
-    const PSI_LIMIT: Self = 1.5;
-    const ORIGIN: Self = 1e-30;
-
-    #[inline]
-    fn from_f64(value: f64) -> Self {
-        value as f32
-    }
-
-    #[inline]
-    fn to_f64(self) -> f64 {
-        f64::from(self)
-    }
-
-    #[inline]
-    fn from_q24(value: i32) -> Self {
-        value as f32 * (1.0 / 16_777_216.0)
-    }
-
-    #[inline]
-    fn to_q15(self) -> i16 {
-        if self.is_nan() {
-            return 0;
-        }
-        let scaled = Real::clamp(self, -1.0, 1.0) * 32_767.0;
-        // The offset makes truncation a rounding.
-        ((scaled + 32_768.5) as i32 - 32_768) as i16
-    }
-
-    #[inline]
-    fn drive(self) -> Self {
-        math::drive(self)
-    }
-
-    #[inline]
-    fn exp_neg_square(self) -> Self {
-        math::exp_neg_square(self)
-    }
-
-    #[inline]
-    fn inv_sqrt(self) -> Self {
-        math::inv_sqrt(self)
-    }
-}
-
-impl Real for f64 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
-    const HALF: Self = 0.5;
-    const PSI_LIMIT: Self = 1.5;
-    const ORIGIN: Self = 1e-30;
-
-    #[inline]
-    fn from_f64(value: f64) -> Self {
-        value
-    }
-
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self
-    }
-
-    #[inline]
-    fn from_q24(value: i32) -> Self {
-        f64::from(value) / 16_777_216.0
-    }
-
-    #[inline]
-    fn to_q15(self) -> i16 {
-        (self as f32).to_q15()
-    }
-
-    #[inline]
-    fn drive(self) -> Self {
-        0.5 * libm::tanh(2.0 * self) + 0.5
-    }
-
-    #[inline]
-    fn exp_neg_square(self) -> Self {
-        let x = Real::clamp(self, -1.5, 1.5);
-        libm::exp(-x * x)
-    }
-
-    #[inline]
-    fn inv_sqrt(self) -> Self {
-        1.0 / libm::sqrt(self)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Real;
-
-    #[test]
-    fn clamp_takes_nan_to_the_low_side() {
-        assert_eq!(Real::clamp(f32::NAN, -2.0, 3.0), -2.0);
-        assert_eq!(Real::clamp(f32::INFINITY, -2.0, 3.0), 3.0);
-        assert_eq!(Real::clamp(f64::NEG_INFINITY, -2.0, 3.0), -2.0);
-        assert_eq!(Real::clamp(1.0_f32, -2.0, 3.0), 1.0);
-    }
-
-    #[test]
-    fn q15_rounds_and_saturates_on_both_sides() {
-        let cases = [
-            (0.0, 0),
-            (1.0, 32_767),
-            (-1.0, -32_767),
-            (7.0, 32_767),
-            (f32::NEG_INFINITY, -32_767),
-            (f32::NAN, 0),
-            (1.4 / 32_767.0, 1),
-            (-1.4 / 32_767.0, -1),
-            (-1.6 / 32_767.0, -2),
-        ];
-        for (value, code) in cases {
-            assert_eq!(Real::to_q15(value), code, "{value}");
-            assert_eq!(Real::to_q15(f64::from(value)), code, "{value}");
         }
     }
 }

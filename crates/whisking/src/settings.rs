@@ -88,12 +88,12 @@ impl Settings {
             muscle,
             peak_gain: R::from_f64(muscle::PEAK_GAIN),
             rcp: rcp.map(|rcp| gate::Rcp {
-                keep: R::from_f64(1.0 - gate::approach(ticks(rcp), self.integrator)),
-                gain: R::from_f64(rcp.gain),
+                decay: R::coefficient(gate::approach(ticks(rcp), self.integrator)),
+                gain: R::coefficient(rcp.gain),
             }),
             cia: cia.map(|cia| gate::Cia {
-                approach: R::from_f64(gate::approach(ticks(cia), self.integrator)),
-                gain: R::from_f64(cia.gain),
+                approach: R::coefficient(gate::approach(ticks(cia), self.integrator)),
+                gain: R::coefficient(cia.gain),
             }),
             noise: (self.noise > 0.0)
                 .then(|| noise::Config::new(self.noise, self.tick_hz))

@@ -1,12 +1,12 @@
 //! One tick of a whole module: gates, oscillators, muscles, in this order.
 
+use crate::gate::{self, Gate};
 use crate::muscle;
-use crate::oscillator::Psi;
-use crate::{Real, Start, gate, noise, oscillator};
+use crate::{Real, Start, noise, oscillator};
 
 /// Constants of the tick in number format `R`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R> {
+pub struct Config<R: Real> {
     /// The oscillators' integrator.
     pub oscillators: oscillator::Config<R>,
     /// The muscles' integrator.
@@ -23,22 +23,22 @@ pub struct Config<R> {
 
 /// One whisker: its muscle and its gain g.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Whisker<R> {
-    /// θ, δ and the integrator's past.
+pub struct Whisker<R: Real> {
+    /// θ, v and the integrator's past.
     pub muscle: muscle::State<R>,
     /// g of eqs. 12 and 13, 0 to 2.
-    pub gain: R,
+    pub gain: Gate<R>,
     /// Its nominal value.
     pub nominal: R,
 }
 
 /// State of a module of `S` sides (1 or 2) with `N` whiskers each.
 #[derive(Debug, Clone)]
-pub struct State<R, const S: usize, const N: usize> {
-    /// ψ of each side.
-    pub psi: [Psi<R>; S],
+pub struct State<R: Real, const S: usize, const N: usize> {
+    /// The oscillator of each side.
+    pub oscillators: oscillator::State<R, S>,
     /// z of each side (eq. 10), 0 to 1.
-    pub z: [R; S],
+    pub z: [Gate<R>; S],
     /// The whiskers of each side.
     pub whiskers: [[Whisker<R>; N]; S],
     drive: [R; S],
@@ -50,16 +50,16 @@ impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
     pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
         let muscles = start.whiskers();
         Self {
-            psi: start.psi,
-            z: [R::ZERO; S],
+            oscillators: oscillator::State::new(start.oscillators),
+            z: [Gate::default(); S],
             whiskers: core::array::from_fn(|side| {
                 core::array::from_fn(|w| Whisker {
                     muscle: muscles[side][w],
-                    gain: start.gain[side][w],
+                    gain: Gate::new(start.gain[side][w]),
                     nominal: start.gain[side][w],
                 })
             }),
-            drive: start.psi.map(|p| p[0].drive()),
+            drive: start.drive,
             noise: noise::State::new(seed),
         }
     }
@@ -77,7 +77,7 @@ impl<R: Real> Config<R> {
     /// this tick: z and g follow it first, then oscillators and muscles move.
     ///
     /// Whatever comes in, NaN included, the state stays finite and in its
-    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.
+    /// bounds: |ψ| ≤ 1.5 (a little more in the exact integrator's L½ χ), 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.
     #[inline]
     pub fn step<const S: usize, const N: usize>(
         &self,
@@ -86,29 +86,31 @@ impl<R: Real> Config<R> {
     ) {
         if let Some(rcp) = &self.rcp {
             for (z, pi) in state.z.iter_mut().zip(contact) {
-                *z = rcp.step(*z, pi);
+                rcp.step(z, pi);
             }
         }
         if let Some(cia) = &self.cia {
             let zeta = contact.iter().fold(R::ZERO, |zeta, pi| pi.max(zeta));
             for whisker in state.whiskers.iter_mut().flatten() {
-                whisker.gain = cia.step(whisker.gain, whisker.nominal, zeta);
+                cia.step(&mut whisker.gain, whisker.nominal, zeta);
             }
         }
 
-        let noise = match &self.noise {
-            Some(noise) => noise.step(&mut state.noise),
-            None => [[R::ZERO; 2]; S],
-        };
-        self.oscillators.step(&mut state.psi, &noise);
+        let noise = self
+            .noise
+            .as_ref()
+            .map(|noise| noise.step(&mut state.noise));
+        self.oscillators
+            .step(&mut state.oscillators, noise.as_ref());
 
+        let psi = self.oscillators.psi(&state.oscillators);
         for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
             let before = state.drive[side];
-            let after = state.psi[side][0].drive();
-            let open = self.peak_gain * (R::ONE - state.z[side]);
+            let after = psi[side][0].drive();
+            let open = self.peak_gain * (R::ONE - state.z[side].value);
             for whisker in whiskers {
-                self.muscle
-                    .step(&mut whisker.muscle, open * whisker.gain, before, after);
+                let gain = open * whisker.gain.value;
+                self.muscle.step(&mut whisker.muscle, gain, before, after);
             }
             state.drive[side] = after;
         }

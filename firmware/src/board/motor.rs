@@ -18,7 +18,7 @@ const STALL: StallConfig = stall(scene::TICK_HZ);
 pub(crate) const CONFIG: ActiveConfig<f32> = ActiveConfig {
     whisking: scene::WHISKING,
     pd: scene::PD,
-    theta_per_count_q24: scene::THETA_PER_COUNT_Q24,
+    theta_per_count: scene::THETA_PER_COUNT,
     retry: ticks(RETRY_S, scene::TICK_HZ),
     stall: STALL,
 };
