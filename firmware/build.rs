@@ -174,11 +174,14 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
          rcp: RCP,\n    cia: CIA,\n    noise: NOISE,\n}};\n\
          /// Protraction a count of the encoder.\n\
          pub(crate) const THETA_PER_COUNT: f32 = {:?};\n\
+         /// Duty above which a motor that stands still is stalled, Q15.\n\
+         pub(crate) const STALL_Q15: i16 = {};\n\
          /// Seed of the noise.\n\
          pub(crate) const SEED: u64 = {};\n",
         parts.concat(),
         whisking.peak_gain,
         plan.theta_per_count,
+        plan.stall_q15,
         scene.seed
     ))
 }

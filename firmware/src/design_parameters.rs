@@ -3,7 +3,7 @@
 //! Durations are given in seconds or microseconds and become ticks at the
 //! scene's tick rate.
 
-use whisking::motor::StallConfig;
+use whisking::motor::{Duty, StallConfig};
 
 use crate::Patience;
 
@@ -38,11 +38,12 @@ pub const fn patience(tick_hz: u32) -> Patience {
     }
 }
 
-/// When a motor counts as stalled at `tick_hz` ticks a second.
-pub const fn stall(tick_hz: u32) -> StallConfig {
+/// When a motor counts as stalled at `tick_hz` ticks a second: driven above
+/// `threshold_q15` and not moving for [`STALL_S`].
+pub const fn stall(tick_hz: u32, threshold_q15: i16) -> StallConfig {
     StallConfig {
         ticks: ticks(STALL_S, tick_hz),
-        ..StallConfig::DEFAULT
+        threshold: Duty::from_q15(threshold_q15),
     }
 }
 

@@ -13,7 +13,7 @@ use mlx90333::{Decoder, Mlx90333};
 use scene::{Numbers, Scene};
 use tactile::Decision;
 use whisking::motor::{Duty, Fault, MotorDriver};
-use whisking::{Real, filter};
+use whisking::{Fix, Real, filter};
 
 use crate::Error;
 use crate::bus::{SimSpi, Slave};
@@ -198,14 +198,10 @@ pub struct Parts<'m> {
 /// # Errors
 /// [`Error::Work`] if the parts do not fit the scene.
 pub fn build<'m>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench + 'm>, Error> {
-    let double = scene
-        .whisking
-        .as_ref()
-        .is_some_and(|whisking| whisking.numbers == Numbers::Double);
-    if double {
-        sized::<f64>(scene, parts)
-    } else {
-        sized::<f32>(scene, parts)
+    match scene.whisking.as_ref().map(|whisking| whisking.numbers) {
+        Some(Numbers::Double) => sized::<f64>(scene, parts),
+        Some(Numbers::Fixed) => sized::<Fix>(scene, parts),
+        _ => sized::<f32>(scene, parts),
     }
 }
 
@@ -235,11 +231,11 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
     let tick_hz = f64::from(scene.tick_hz);
 
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
-    let stall = stall(scene.tick_hz);
     let mut drives = parts.drives.into_iter();
     let motion = match &plan {
         None => None,
         Some(plan) => {
+            let stall = stall(scene.tick_hz, plan.stall_q15);
             let followers = array(|| {
                 let (motor, angle) = drives.next()?;
                 Some(Follower::new(motor, angle, stall))
@@ -279,7 +275,7 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
             pd: plan.pd,
             theta_per_count: plan.theta_per_count,
             retry: ticks(RETRY_S, scene.tick_hz),
-            stall,
+            stall: stall(scene.tick_hz, plan.stall_q15),
         }),
         perception: parts.listener.is_some().then(|| TouchConfig {
             contact_min: contact_min.map(R::from_f64),

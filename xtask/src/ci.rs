@@ -17,9 +17,15 @@ pub(crate) fn all() -> Result<(), Fault> {
 
     for board in firmware::Board::ALL {
         run(cargo(&["clippy"]).args(board.build_arguments()).args(deny))?;
-        let scene = Path::new(firmware::DEFAULT_SCENE);
-        let elf = firmware::build(board, scene)?;
-        firmware::print_size(board, scene, &elf)?;
+        for scene in [
+            "scenes/passive.toml",
+            "scenes/rcp-left.toml",
+            "scenes/textures.toml",
+        ] {
+            let scene = Path::new(scene);
+            let elf = firmware::build(board, scene)?;
+            firmware::print_size(board, scene, &elf)?;
+        }
     }
 
     // What the README tells a newcomer to run: the main job (its output and its

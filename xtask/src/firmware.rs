@@ -5,9 +5,6 @@ use std::process::Command;
 
 use crate::run::{Fault, cargo, output, run, top};
 
-/// The scene that is built when none is named.
-pub(crate) const DEFAULT_SCENE: &str = "scenes/textures.toml";
-
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Board {

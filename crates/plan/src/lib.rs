@@ -18,6 +18,9 @@ pub struct Motion<R: Real, const S: usize, const N: usize> {
     pub pd: pd::Config<R>,
     /// Protraction θ a count of the angle input.
     pub theta_per_count: R::Coefficient,
+    /// Duty above which a motor that does not move counts as stalled, Q15:
+    /// half of what it may be driven with.
+    pub stall_q15: i16,
 }
 
 /// What is wrong with a scene for a module of a given shape.
@@ -107,6 +110,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
         }
         .build(tick_hz)?,
         theta_per_count: R::coefficient(degrees_per_count / DEGREES_PER_UNIT),
+        stall_q15: (motor.duty_limit / 2.0).to_q15(),
     }))
 }
 
@@ -174,6 +178,7 @@ kind = "ideal"
         let counts_to_90_deg = 512.0 * 11.0 / 4.0;
         let theta = motion.theta_per_count * counts_to_90_deg;
         assert!((theta - 0.9).abs() < 1e-12);
+        assert_eq!(motion.stall_q15, 16_384, "half of a full duty");
         assert!(contact::<f64>(&scene).unwrap().is_some());
     }
 

@@ -66,6 +66,8 @@ choice! {
         Single = "f32",
         /// Double precision, the reference.
         Double = "f64",
+        /// 32-bit fixed point, as on a board without FPU.
+        Fixed = "fixed",
     }
 }
 

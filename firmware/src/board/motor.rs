@@ -12,7 +12,7 @@ use super::{pwm, scene};
 /// The moving part of the module: one whisker.
 pub(crate) type Motion = Active<f32, Motor, Encoder, 1, 1>;
 
-const STALL: StallConfig = stall(scene::TICK_HZ);
+const STALL: StallConfig = stall(scene::TICK_HZ, scene::STALL_Q15);
 
 /// Its constants.
 pub(crate) const CONFIG: ActiveConfig<f32> = ActiveConfig {

@@ -45,9 +45,21 @@ pub(crate) fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> S
 
 /// The product's trace of `settings`.
 pub(crate) fn trace(settings: &Settings, integrator: &str, duration_s: f64) -> Vec<Row> {
+    run(&scene(settings, integrator, duration_s))
+}
+
+/// The same with its numbers in `format`.
+pub(crate) fn trace_in(format: &str, settings: &Settings, duration_s: f64) -> Vec<Row> {
+    let text = scene(settings, "exact", duration_s);
+    let numbers = format!("[whisking]\nnumbers = \"{format}\"");
+    run(&text.replace("[whisking]", &numbers))
+}
+
+/// The trace of a scene file.
+fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, scene(settings, integrator, duration_s)).unwrap();
+    std::fs::write(&path, scene).unwrap();
     commands::run::run(&path, folder.path(), Verbosity::Quiet).unwrap();
     let text = std::fs::read_to_string(folder.path().join("trace.csv")).unwrap();
     read_trace(&text).unwrap()

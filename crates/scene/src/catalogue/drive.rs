@@ -54,7 +54,8 @@ pub(super) static WHISKING: Section = Section {
             "",
             "\"auto\"",
             "Number format of the simulated tick. `auto`: `f64` for `euler`, whose point is to be \
-             the papers', `f32` for `exact`, as on a board. A board has its own format.",
+             the papers', `f32` for `exact`, as on a board with an FPU; `fixed` is a board's \
+             without. A board has its own format.",
         ),
     ],
 };
