@@ -6,8 +6,8 @@
 //! v = (dθ/dt)/ω_n, the equation is θ' = h v, v' = h (a f − θ − 4 v) a tick,
 //! h = ω_n T: linear in (θ, v) with input a f, and every state near one.
 //!
-//! [`Exact`] propagates the linear part exactly and takes f as the cubic
-//! through its last values: an exponential Adams method of fourth order,
+//! [`Exact`] propagates the linear part exactly and takes f as the quartic
+//! through its last values: an exponential Adams method of fifth order,
 //! predicted and corrected once, so one exponential and one drive a tick.
 //! The gain multiplies after the differences are taken, so that a jump of z or
 //! g does not enter the history. The linear part acts on θ − a f, so that the
@@ -28,7 +28,7 @@ const DAMPING: f64 = 4.0;
 pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
-    /// Exact linear part, fourth-order exponential multistep.
+    /// Exact linear part, fifth-order exponential multistep.
     Exact(Exact<R>),
 }
 
@@ -47,17 +47,17 @@ pub struct Euler<R: Real> {
 pub struct Exact<R: Real> {
     /// exp(A) − 1 on (θ − a f, v).
     pub linear: [[R::Coefficient; 2]; 2],
-    /// Weights of ∇f and ∇²f (predictor).
-    pub predict: [[R::Coefficient; 2]; 2],
-    /// Weight of ∇³f at the new end (corrector).
+    /// Weights of ∇f, ∇²f and ∇³f (predictor).
+    pub predict: [[R::Coefficient; 3]; 2],
+    /// Weight of ∇⁴f at the new end (corrector).
     pub correct: [R::Coefficient; 2],
 }
 
 /// f at the last tick and its backward differences; unused by Euler.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct History<R> {
-    /// f, ∇f, ∇²f.
-    pub force: [R; 3],
+    /// f, ∇f, ∇²f, ∇³f.
+    pub force: [R; 4],
 }
 
 /// (θ, v) of one whisker and what its integrator remembers.
@@ -116,50 +116,54 @@ impl<R: Real> Exact<R> {
         let h = pace(cycles);
         // (θ, v) driven by a chain of integrators: the exponential holds the
         // propagator and, beside it, the response to each power s^k/k! of time.
-        let mut a: Matrix<6> = [[0.0; 6]; 6];
+        let mut a: Matrix<7> = [[0.0; 7]; 7];
         a[0][1] = h;
-        a[1] = [-h, -DAMPING * h, h, 0.0, 0.0, 0.0];
-        for k in 2..5 {
+        a[1][..3].copy_from_slice(&[-h, -DAMPING * h, h]);
+        for k in 2..6 {
             a[k][k + 1] = 1.0;
         }
         let e = exponential(&a);
         // The response to 1 is what the linear part does not do: on θ − a f.
         let row = |i: usize| {
-            let [power1, power2, power3] = [e[i][3], e[i][4], e[i][5]];
-            // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6 in powers s^k/k!.
+            let [power1, power2, power3, power4] = [e[i][3], e[i][4], e[i][5], e[i][6]];
+            // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6, s(s+1)(s+2)(s+3)/24 in
+            // powers s^k/k!.
             [
                 power1,
                 power2 + power1 / 2.0,
                 power3 + power2 + power1 / 3.0,
+                power4 + 1.5 * power3 + 11.0 / 12.0 * power2 + power1 / 4.0,
             ]
         };
         let weights = [row(0), row(1)];
         Self {
             linear: [[e[0][0] - 1.0, e[0][1]], [e[1][0], e[1][1] - 1.0]]
                 .map(|row| row.map(R::coefficient)),
-            predict: weights.map(|w| [w[0], w[1]].map(R::coefficient)),
-            correct: weights.map(|w| R::coefficient(w[2])),
+            predict: weights.map(|w| [w[0], w[1], w[2]].map(R::coefficient)),
+            correct: weights.map(|w| R::coefficient(w[3])),
         }
     }
 
     #[inline]
     fn step(&self, state: &mut State<R>, gain: R, drive: R) {
-        let [f, d1, d2] = state.history.force;
+        let [f, d1, d2, d3] = state.history.force;
         let (off, velocity) = (state.theta - gain * f, state.velocity);
         let predict = |i: usize| {
+            let [w1, w2, w3] = self.predict[i];
             off.times(self.linear[i][0])
                 + velocity.times(self.linear[i][1])
-                + gain * (d1.times(self.predict[i][0]) + d2.times(self.predict[i][1]))
+                + gain * (d1.times(w1) + d2.times(w2) + d3.times(w3))
         };
         let change = [predict(0), predict(1)];
         let force = drive * (state.theta + change[0]).exp_neg_square();
         let n1 = force - f;
         let n2 = n1 - d1;
-        let correction = gain * (n2 - d2);
+        let n3 = n2 - d2;
+        let correction = gain * (n3 - d3);
         let [theta, v] = self.correct.map(|weight| correction.times(weight));
         state.theta.accumulate(&mut state.carry, change[0] + theta);
         state.velocity = velocity + (change[1] + v);
-        state.history.force = [force, n1, n2];
+        state.history.force = [force, n1, n2, n3];
     }
 }
 
@@ -191,7 +195,7 @@ mod tests {
         let cycles = 1.25e-2;
         let config = Config::Exact(Exact::new(cycles));
         let mut state = State::new(History {
-            force: [1.0, 0.0, 0.0],
+            force: [1.0, 0.0, 0.0, 0.0],
         });
         let gain = 1e-6;
         for n in 1..=80 {
@@ -222,13 +226,25 @@ mod tests {
     }
 
     #[test]
-    fn newton_weights_integrate_a_cubic_exactly() {
-        // With a slow whisker v is h times the integral of s(s+1)(s+2)/6 over a
-        // tick, 3/8, and θ h² times its double integral, 19/180.
+    fn newton_weights_integrate_polynomials_exactly() {
+        // With a slow whisker v is h times the integral of each basis polynomial
+        // over a tick (Adams and Bashforth's numbers), θ h² times its double
+        // integral ∫ (1 − s) p(s) ds.
         let cycles = 1e-4;
         let (exact, h) = (Exact::<f64>::new(cycles), pace(cycles));
-        assert!((exact.correct[0] / (h * h) - 19.0 / 180.0).abs() < 1e-3);
-        assert!((exact.correct[1] / h - 3.0 / 8.0).abs() < 1e-3);
-        assert!((exact.predict[1][0] / h - 0.5).abs() < 1e-2);
+        for (found, expected) in exact.predict[1]
+            .iter()
+            .zip([1.0 / 2.0, 5.0 / 12.0, 3.0 / 8.0])
+        {
+            assert!((found / h - expected).abs() < 2e-3, "{expected}");
+        }
+        assert!((exact.correct[1] / h - 251.0 / 720.0).abs() < 2e-3);
+        for (found, expected) in exact.predict[0]
+            .iter()
+            .zip([1.0 / 6.0, 1.0 / 8.0, 19.0 / 180.0])
+        {
+            assert!((found / (h * h) - expected).abs() < 1e-3, "{expected}");
+        }
+        assert!((exact.correct[0] / (h * h) - 3.0 / 32.0).abs() < 1e-3);
     }
 }
