@@ -16,9 +16,9 @@ pub const HOLD_S: f64 = 0.005;
 
 /// How long readings must be good before a whisker with a sensor fault moves again, s.
 ///
-/// Six time constants of the 50 Hz contact filter, so that what it remembers
-/// of the fault has gone.
-pub const RECOVER_S: f64 = 0.02;
+/// 40 ms: the envelope of the 50 Hz contact filter falls by e^(−π 50 t), to
+/// 0.2 % by then, so that what it remembers of the fault has gone.
+pub const RECOVER_S: f64 = 0.04;
 
 /// How long a motor rests after a fault before it is tried again, s.
 ///

@@ -25,51 +25,65 @@ pub fn names(model: &Model<'_>) -> Vec<String> {
     model.names().map(str::to_owned).collect()
 }
 
+/// What keeps a classifier from being made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Fault {
+    /// The model is not one for the two channels of a whisker.
+    #[error("{0}")]
+    Model(String),
+    /// The rule asks for what no model, or not this one, can do.
+    #[error("{0}")]
+    Rule(String),
+}
+
 /// The very type that a board runs with this model and rule.
 ///
 /// # Errors
-/// Why the model cannot be used: other than two channels, not learnt from
-/// sensor codes, a window that is no multiple of the block.
-pub fn classifier<'m>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, String> {
+/// [`Fault::Model`] for other than two channels or a model that was not learnt
+/// from sensor codes, [`Fault::Rule`] for a window that is no multiple of the
+/// model's block or a threshold too near to 1.
+pub fn classifier<'m>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, Fault> {
     if model.channels() != 2 {
-        return Err(format!(
-            "the model has {} channels, a whisker has 2",
-            model.channels()
-        ));
+        let fault = format!("the model has {} channels, not x and y", model.channels());
+        return Err(Fault::Model(fault));
     }
     macro_rules! classes {
         ($($k:literal)*) => {
             match model.classes() {
                 $($k => streaming::<$k>(model, rule),)*
-                count => Err(format!("no classifier of {count} classes")),
+                count => Err(Fault::Model(format!("no classifier of {count} classes"))),
             }
         };
     }
     classes!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32)
 }
 
-fn streaming<'m, const K: usize>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, String>
+fn streaming<'m, const K: usize>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, Fault>
 where
     tactile::Classes<K>: tactile::Supported,
 {
     let boxed = |listener: Box<dyn Listener + 'm>| AnyListener(listener);
     match rule {
         Rule::Sequential { threshold } => {
-            let threshold = Threshold::new(threshold).map_err(text)?;
-            let classifier = Sequential::<2, K>::new(model, threshold).map_err(text)?;
+            let threshold = Threshold::new(threshold).map_err(of_rule)?;
+            let classifier = Sequential::<2, K>::new(model, threshold).map_err(of_rule)?;
             Ok(boxed(Box::new(
-                Stream::new(model, classifier).map_err(text)?,
+                Stream::new(model, classifier).map_err(of_model)?,
             )))
         }
         Rule::Window { samples } => {
-            let classifier = Window::<2, K>::new(model, samples).map_err(text)?;
+            let classifier = Window::<2, K>::new(model, samples).map_err(of_rule)?;
             Ok(boxed(Box::new(
-                Stream::new(model, classifier).map_err(text)?,
+                Stream::new(model, classifier).map_err(of_model)?,
             )))
         }
     }
 }
 
-fn text(error: impl Display) -> String {
-    error.to_string()
+fn of_rule(error: impl Display) -> Fault {
+    Fault::Rule(error.to_string())
+}
+
+fn of_model(error: impl Display) -> Fault {
+    Fault::Model(error.to_string())
 }

@@ -5,8 +5,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
-use host_sim::commands::{classify, main_job, run, train};
+use host_sim::accuracy::LongRun;
+use host_sim::commands::{classify, main_job, report as accuracy, run, train};
 use host_sim::progress::Verbosity;
+use host_sim::report;
 use scene::Rule;
 
 /// Simulates active whisker modules: the firmware's tick on a mock SPI bus and
@@ -40,6 +42,7 @@ enum Command {
         out: PathBuf,
     },
     /// Learns a likelihood model from a recording
+    #[command(allow_negative_numbers = true)]
     Train {
         /// The recording: label,trial,x,y
         #[arg(long, value_name = "FILE.csv")]
@@ -59,6 +62,7 @@ enum Command {
     },
     /// Streams a recording through the fixed-point classifier, exactly the code
     /// that runs on the board
+    #[command(allow_negative_numbers = true)]
     Classify {
         /// The model
         #[arg(long)]
@@ -78,6 +82,22 @@ enum Command {
         /// Where to write the decisions
         #[arg(long, value_name = "FILE.csv")]
         out: PathBuf,
+    },
+    /// Measures the accuracy of every integrator, number format and function
+    /// and writes DIR/accuracy.md with its pictures
+    Report {
+        /// Where documents are: instructions.csv is read, the report written there
+        #[arg(long, value_name = "DIR", default_value = "docs")]
+        out: PathBuf,
+        /// Run ten minutes in place of showing the kept 24 hours
+        #[arg(long)]
+        quick: bool,
+        /// Run the 24 hours anew and keep them (DIR/accuracy/long-run.csv)
+        #[arg(long, conflicts_with = "quick")]
+        long: bool,
+        /// Only say whether the report is up to date; timings of the PC are left out
+        #[arg(long, conflicts_with_all = ["quick", "long"])]
+        check: bool,
     },
 }
 
@@ -107,16 +127,16 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     } else {
         Verbosity::Normal
     };
-    match arguments.command {
-        None => main_job::main_job(verbosity),
-        Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity),
+    let summary = match arguments.command {
+        None => return main_job::main_job(verbosity),
+        Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity)?,
         Some(Command::Train {
             data,
             out,
             bins,
             smooth,
             block,
-        }) => train::train(&data, &out, bins, smooth, block),
+        }) => Some(train::train(&data, &out, bins, smooth, block)?),
         Some(Command::Classify {
             model,
             data,
@@ -124,21 +144,35 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             threshold,
             window,
             out,
-        }) => classify::classify(
-            &model,
-            &data,
-            rule(name, threshold, window)?,
-            &out,
-            verbosity,
-        ),
+        }) => {
+            let rule = rule(name, threshold, window)?;
+            Some(classify::classify(&model, &data, rule, &out, verbosity)?)
+        }
+        Some(Command::Report {
+            out,
+            quick,
+            long,
+            check,
+        }) => {
+            let long_run = match (long, quick) {
+                (true, _) => LongRun::Anew,
+                (false, true) => LongRun::Quick,
+                (false, false) => LongRun::Kept,
+            };
+            Some(accuracy::report(&out, long_run, check, verbosity)?)
+        }
+    };
+    if let Some(summary) = summary {
+        report::say(summary);
     }
+    Ok(())
 }
 
 fn main() -> ExitCode {
     match work(Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("host-sim: {error}");
+            report::warn(format_args!("host-sim: {error}"));
             ExitCode::from(error.exit_status())
         }
     }

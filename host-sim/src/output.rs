@@ -19,20 +19,23 @@ impl Output {
     /// Begins `path`, making its folder if need be.
     ///
     /// # Errors
-    /// [`Error::Write`] if the folder or the file cannot be made.
+    /// [`Error::Input`] if `path` cannot be that of a file: it is a folder, or
+    /// lies below a file. [`Error::Write`] if the folder or the file cannot be
+    /// made for another reason.
     pub fn create(path: &Path) -> Result<Self, Error> {
-        let wrong = |source| Error::write(path, source);
-        let name = path.file_name().ok_or_else(|| {
-            wrong(io::Error::new(
-                io::ErrorKind::InvalidInput,
-                "not a file name",
-            ))
-        })?;
+        use io::ErrorKind::{AlreadyExists, InvalidFilename, NotADirectory};
+        let wrong = |source: io::Error| match source.kind() {
+            AlreadyExists | NotADirectory => {
+                Error::file(path, "a file is where its folder would be")
+            }
+            InvalidFilename => Error::file(path, source),
+            _ => Error::write(path, source),
+        };
+        let name = path
+            .file_name()
+            .ok_or_else(|| Error::file(path, "not a file name"))?;
         if path.is_dir() {
-            return Err(wrong(io::Error::new(
-                io::ErrorKind::IsADirectory,
-                "is a folder",
-            )));
+            return Err(Error::file(path, "is a folder, not a file"));
         }
         if let Some(folder) = path
             .parent()
@@ -133,6 +136,6 @@ mod tests {
     fn a_folder_in_the_way_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
         let error = write_whole(folder.path(), b"x").unwrap_err();
-        assert_eq!(error.exit_status(), 1);
+        assert_eq!(error.exit_status(), 2);
     }
 }

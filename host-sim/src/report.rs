@@ -1,10 +1,22 @@
 //! What is said on the terminal.
 
-use std::fmt;
+use std::fmt::{self, Display};
+use std::io::{self, Write};
 
 use firmware::Event;
 
 use crate::decisions::{Confusion, Decided};
+
+/// A line on standard output. A reader that has gone away does not stop the
+/// work: what counts is in the files.
+pub fn say(line: impl Display) {
+    let _ = writeln!(io::stdout().lock(), "{line}");
+}
+
+/// A line on standard error, likewise.
+pub fn warn(line: impl Display) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
 
 /// Tells faults and recoveries on standard error; decisions are told elsewhere.
 pub fn limits_and_faults(t_s: f64, event: &Event) {
@@ -15,15 +27,15 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
     match event {
         Event::Decision(_) => {}
         Event::SensorLost(at, fault) => {
-            eprintln!(
+            warn(format_args!(
                 "{t_s:.4} s: {}: sensor fault {}: {fault}",
                 place(at),
                 fault.code()
-            );
+            ));
         }
-        Event::SensorBack(at) => eprintln!("{t_s:.4} s: {}: sensor is back", place(at)),
-        Event::MotorFault(at, fault) => eprintln!("{t_s:.4} s: {}: {fault}", place(at)),
-        Event::MotorRetry(at) => eprintln!("{t_s:.4} s: {}: motor tried again", place(at)),
+        Event::SensorBack(at) => warn(format_args!("{t_s:.4} s: {}: sensor is back", place(at))),
+        Event::MotorFault(at, fault) => warn(format_args!("{t_s:.4} s: {}: {fault}", place(at))),
+        Event::MotorRetry(at) => warn(format_args!("{t_s:.4} s: {}: motor tried again", place(at))),
     }
 }
 
@@ -38,9 +50,9 @@ pub fn decision(t_s: f64, decided: &Decided) {
     } = decided;
     let verdict = if label == decision { "right" } else { "wrong" };
     let percent = 100.0 * posterior;
-    println!(
+    say(format_args!(
         "{t_s:8.3} s  {decision:<8} {percent:6.2} %  {samples:5} samples  {verdict} ({label})"
-    );
+    ));
 }
 
 /// A score for people: confusion matrix, hit rate, decision time.
@@ -51,11 +63,11 @@ impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(confusion, tick_hz) = self;
         let (Some(hits), Some(samples)) = (confusion.hit_rate(), confusion.mean_samples()) else {
-            return writeln!(f, "no decision");
+            return write!(f, "no decision");
         };
         let milliseconds = samples * 1000.0 / f64::from(*tick_hz);
         write!(f, "{confusion}")?;
-        writeln!(
+        write!(
             f,
             "{} decisions, hit rate {:.1} % (mean over classes), mean decision time {samples:.0} \
              samples ({milliseconds:.0} ms)",

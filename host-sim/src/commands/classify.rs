@@ -7,12 +7,12 @@ use tactile::{Model, Quantiser, Threshold, dynamic};
 
 use crate::Error;
 use crate::decisions::{self, Confusion, Decided};
-use crate::listening;
+use crate::listening::{self, Fault};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{self, Stream};
 
 /// Streams the recording `data` through the classifier of `model` and writes
-/// its decisions to `out`.
+/// its decisions to `out`. Returns their score.
 ///
 /// # Errors
 /// [`Error::Input`] for a model, recording or rule that is wrong, [`Error::Write`].
@@ -22,7 +22,7 @@ pub fn classify(
     rule: Rule,
     out: &Path,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<String, Error> {
     let (path, buffer) = listening::load(model)?;
     let model = buffer.model().map_err(|error| Error::file(&path, error))?;
     let mut classifier = Streamed::new(&model, rule).map_err(|fault| match fault {
@@ -40,21 +40,14 @@ pub fn classify(
     drop(progress);
     decisions::write(out, &decided)?;
     let confusion = Confusion::new(&listening::names(&model), &decided);
-    match (confusion.hit_rate(), confusion.mean_samples()) {
-        (Some(hits), Some(samples)) => println!(
+    Ok(match (confusion.hit_rate(), confusion.mean_samples()) {
+        (Some(hits), Some(samples)) => format!(
             "{confusion}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
             confusion.decisions(),
             100.0 * hits
         ),
-        _ => println!("no decision"),
-    }
-    Ok(())
-}
-
-/// What keeps a classifier from being made.
-enum Fault {
-    Model(String),
-    Rule(String),
+        _ => "no decision".to_owned(),
+    })
 }
 
 /// A classifier with the names and quantisers of its model.

@@ -1,24 +1,25 @@
 //! `host-sim run`: one scene to its files.
 
-use std::fmt::Display;
 use std::path::Path;
 
-use scene::Scene;
+use scene::{Rule, Scene};
 
 use crate::decisions::{self, Confusion, Decided};
-use crate::listening;
+use crate::listening::{self, Fault};
 use crate::progress::{Progress, Verbosity};
 use crate::run::{Happened, Run};
 use crate::trace::TraceFile;
 use crate::{Error, report};
 
 /// Runs the scene in `path`; writes `out/trace.csv`, and `out/decisions.csv`
-/// where the scene classifies.
+/// where the scene classifies. Returns the score of the decisions, where there
+/// are any to score.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene or model that is wrong, otherwise what writing brings.
-pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<(), Error> {
+pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<String>, Error> {
     let scene = Scene::load(path)?;
+    plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     let folder = path.parent().unwrap_or(Path::new("."));
     let model = scene
         .model_path(folder)
@@ -26,13 +27,19 @@ pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<(), Error> {
         .transpose()?;
     let (listener, classes) = match (&scene.classifier, &model) {
         (Some(classifier), Some((model_path, model))) => {
-            let wrong = |fault: &dyn Display| Error::file(model_path, fault);
-            let model = model.model().map_err(|error| wrong(&error))?;
+            let model = model
+                .model()
+                .map_err(|error| Error::file(model_path, error))?;
+            let key = match classifier.rule {
+                Rule::Sequential { .. } => "threshold",
+                Rule::Window { .. } => "window",
+            };
             let listener = listening::classifier(&model, classifier.rule);
-            (
-                Some(listener.map_err(|fault| wrong(&fault))?),
-                listening::names(&model),
-            )
+            let listener = listener.map_err(|fault| match fault {
+                Fault::Model(fault) => Error::file(model_path, fault),
+                Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
+            })?;
+            (Some(listener), listening::names(&model))
         }
         _ => (None, Vec::new()),
     };
@@ -59,11 +66,8 @@ pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<(), Error> {
         decisions::write(&out.join("decisions.csv"), &decided)?;
     }
     trace.finish()?;
-    if scene.classifier.is_some() {
-        print!(
-            "{}",
-            report::Summary(&Confusion::new(&classes, &decided), scene.tick_hz)
-        );
-    }
-    Ok(())
+    Ok(scene.classifier.as_ref().map(|_| {
+        let confusion = Confusion::new(&classes, &decided);
+        report::Summary(&confusion, scene.tick_hz).to_string()
+    }))
 }

@@ -2,18 +2,25 @@
 
 use std::path::Path;
 
-use tactile::ModelBuf;
 use tactile::train::{Options, TrainError, Trainer};
+use tactile::{ModelBuf, ModelError};
 
 use crate::Error;
 use crate::output::write_whole;
 use crate::recording::{self, Stream};
 
 /// Learns a model from the recording `data` and writes it to `out`.
+/// Returns what it was made of.
 ///
 /// # Errors
 /// [`Error::Input`] for a recording or an option that is wrong, [`Error::Write`].
-pub fn train(data: &Path, out: &Path, bins: usize, smooth: f64, block: u32) -> Result<(), Error> {
+pub fn train(
+    data: &Path,
+    out: &Path,
+    bins: usize,
+    smooth: f64,
+    block: u32,
+) -> Result<String, Error> {
     let trainer = Trainer::new(
         2,
         Options {
@@ -22,19 +29,27 @@ pub fn train(data: &Path, out: &Path, bins: usize, smooth: f64, block: u32) -> R
             block,
         },
     )
-    .map_err(|error| Error::Input(error.to_string()))?;
+    .map_err(|error| Error::Input(format!("{}{error}", option(&error))))?;
     let streams = recording::read(data)?;
     let model = learn(trainer, &streams).map_err(|error| Error::file(data, error))?;
     write_whole(out, model.as_bytes())?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
-    println!(
-        "{}: {} samples in {} streams, {} bytes",
+    Ok(format!(
+        "{}: {samples} samples in {} streams, {} bytes",
         out.display(),
-        samples,
         streams.len(),
         model.as_bytes().len()
-    );
-    Ok(())
+    ))
+}
+
+/// The option that an error is about.
+fn option(error: &TrainError) -> &'static str {
+    match error {
+        TrainError::Smooth(_) => "--smooth: ",
+        TrainError::Model(ModelError::Bins(_)) => "--bins: ",
+        TrainError::Model(ModelError::Block(_) | ModelError::BlockTimesChannels(_)) => "--block: ",
+        _ => "",
+    }
 }
 
 /// The model of `streams`; classes in the order in which they first appear.

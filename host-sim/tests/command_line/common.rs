@@ -1,0 +1,258 @@
+//! A folder to run the program in, and files to give it.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tactile::train::{Options, Trainer};
+use tempfile::TempDir;
+
+/// Two textures of an active whisker that is touched gently; half a second.
+pub(crate) const TEXTURED: &str = r#"name = "textured"
+tick_hz = 2000
+duration_s = 0.5
+seed = 1
+[head]
+whiskers_per_side = 1
+sides = "left"
+[whisking]
+frequency_hz = 8.0
+integrator = "exact"
+coupling = false
+noise = 0.01
+gain = 1.0
+start = [[1.0, 0.0]]
+[rcp]
+gain = 0.7
+tau_s = 0.03
+[plant]
+kind = "textured"
+obstacle_deg = [80.0]
+stiffness = 0.1
+textures = ["smooth", "carpet"]
+present_s = 0.125
+"#;
+
+/// What makes [`TEXTURED`] classify.
+pub(crate) const SEQUENTIAL: &str =
+    "[classifier]\nrule = \"sequential\"\nmodel = \"the.model\"\nthreshold = 0.9\n";
+
+/// Both sides before obstacles, without motors; a tenth of a second.
+pub(crate) const IDEAL: &str = r#"name = "ideal"
+tick_hz = 2000
+duration_s = 0.1
+seed = 1
+[head]
+whiskers_per_side = 2
+[whisking]
+frequency_hz = 10.0
+integrator = "euler"
+coupling = true
+noise = 0.0
+gain = 1.0
+start = [[1.0, 0.0], [0.6, 0.5]]
+[rcp]
+gain = 0.7
+tau_s = 0.02
+[plant]
+kind = "ideal"
+obstacle_deg = [80.0, 90.0]
+stiffness = 0.1
+"#;
+
+/// Two classes of sensor codes, told apart by x.
+pub(crate) const RECORDING: &str = "label,trial,x,y\n\
+    low,0,100,8000\nlow,0,120,8100\nlow,1,140,8000\nlow,1,110,8100\n\
+    high,0,9000,8000\nhigh,0,9100,8100\nhigh,1,9050,8000\nhigh,1,9020,8100\n";
+
+/// A folder to work in; gone when dropped.
+pub(crate) struct Place(TempDir);
+
+/// How the program ended.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    /// `None`: by a signal.
+    pub(crate) status: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Ran {
+    fn new(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Self {
+            status: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+impl Place {
+    /// An empty folder.
+    pub(crate) fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    /// A folder with these files.
+    pub(crate) fn with(files: &[(&str, &str)]) -> Self {
+        let place = Self::new();
+        for (name, text) in files {
+            place.write(name, text);
+        }
+        place
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, bytes).unwrap();
+    }
+
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    pub(crate) fn text(&self, name: &str) -> String {
+        String::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    /// The program's command, to be run here.
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_host-sim"));
+        command
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program here.
+    pub(crate) fn run(&self, arguments: &[&str]) -> Ran {
+        Ran::new(self.command(arguments).output().unwrap())
+    }
+
+    /// Runs the program here, which must succeed and have nothing to complain of.
+    pub(crate) fn done(&self, arguments: &[&str]) -> Ran {
+        let ran = self.run(arguments);
+        assert_eq!(
+            (ran.status, ran.stderr.as_str()),
+            (Some(0), ""),
+            "{arguments:?}"
+        );
+        ran
+    }
+
+    /// The whole content of the folder; `None` for a folder.
+    pub(crate) fn content(&self) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
+        let mut content = BTreeMap::new();
+        walk(self.0.path(), &mut content);
+        content
+    }
+
+    /// The program must refuse `arguments` with status 2 and a message that
+    /// has each of `naming`, and leave the folder as it was.
+    pub(crate) fn refuses(&self, arguments: &[&str], naming: &[&str]) {
+        let before = self.content();
+        let ran = self.run(arguments);
+        let Ran {
+            status,
+            stdout,
+            stderr,
+        } = &ran;
+        assert_eq!(*status, Some(2), "{arguments:?}: {ran:?}");
+        assert_eq!(stdout, "", "{arguments:?}");
+        for name in naming {
+            assert!(
+                stderr.contains(name),
+                "{arguments:?}: no {name:?} in: {stderr}"
+            );
+        }
+        let after = self.content();
+        let names = |content: &BTreeMap<PathBuf, _>| content.keys().cloned().collect::<Vec<_>>();
+        assert_eq!(names(&after), names(&before), "{arguments:?}");
+        assert!(after == before, "{arguments:?} changed a file");
+    }
+
+    /// [`Place::refuses`] with the option `--out`, once onto older output, which
+    /// must survive, and once into a folder that is not there.
+    pub(crate) fn refuses_to_write(&self, arguments: &[&str], naming: &[&str]) {
+        let old = ["old/trace.csv", "old/decisions.csv", "old/file"];
+        for name in old {
+            self.write(name, "older output");
+        }
+        let folder = arguments.first() == Some(&"run");
+        let outs = if folder {
+            ["old", "new/deep"]
+        } else {
+            ["old/file", "new/deep/file"]
+        };
+        for out in outs {
+            self.refuses(&[arguments, &["--out", out]].concat(), naming);
+        }
+    }
+}
+
+fn walk(folder: &Path, content: &mut BTreeMap<PathBuf, Option<Vec<u8>>>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            walk(&path, content);
+            content.insert(path, None);
+        } else {
+            let bytes = std::fs::read(&path).unwrap();
+            content.insert(path, Some(bytes));
+        }
+    }
+}
+
+/// A model of `channels` channels and two classes with blocks of `block`,
+/// learnt from two samples, whole numbers or not.
+pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
+    let options = Options {
+        bins: 10,
+        smooth: 1.0,
+        block,
+    };
+    let mut trainer = Trainer::new(channels, options).unwrap();
+    let shift = if whole { 0.0 } else { 0.25 };
+    trainer.add("smooth", &vec![8000.0; channels]).unwrap();
+    trainer
+        .add("carpet", &vec![9000.0 + shift; channels])
+        .unwrap();
+    trainer.train().unwrap().as_bytes().to_vec()
+}
+
+/// The cells of a table, header first.
+pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split(',').collect()).collect()
+}
+
+/// A decision as the file has it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Decided {
+    pub(crate) label: String,
+    pub(crate) trial: String,
+    pub(crate) decision: String,
+    pub(crate) samples: u32,
+    pub(crate) posterior: f64,
+}
+
+/// Reads `decisions.csv`; checks its header.
+pub(crate) fn decisions(text: &str) -> Vec<Decided> {
+    let mut rows = cells(text).into_iter();
+    let header = ["label", "trial", "decision", "samples", "posterior"];
+    assert_eq!(rows.next().unwrap(), header);
+    rows.map(|row| Decided {
+        label: row[0].into(),
+        trial: row[1].into(),
+        decision: row[2].into(),
+        samples: row[3].parse().unwrap(),
+        posterior: row[4].parse().unwrap(),
+    })
+    .collect()
+}

@@ -1,0 +1,234 @@
+//! What each command writes and prints when nothing is wrong.
+
+use host_sim::commands::main_job;
+use host_sim::progress::Verbosity;
+use host_sim::recording;
+use scene::Scene;
+
+use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions};
+
+/// The textured scene with a model that was learnt from it by `train`.
+fn classifying() -> Place {
+    let scene = Scene::from_str("training.toml", &TEXTURED.replace("= 0.5", "= 3.0")).unwrap();
+    let streams = main_job::record(&scene, Verbosity::Quiet).unwrap();
+    let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
+    let place = Place::with(&[("scenes/textured.toml", &text)]);
+    recording::write(&place.path("heard.csv"), &streams).unwrap();
+    place.done(&["train", "--data", "heard.csv", "--out", "scenes/the.model"]);
+    place
+}
+
+#[test]
+fn run_writes_a_row_a_tick() {
+    let place = Place::with(&[("ideal.toml", IDEAL)]);
+    let ran = place.done(&["run", "ideal.toml", "--out", "deep/er"]);
+    assert_eq!(ran.stdout, "");
+    let text = place.text("deep/er/trace.csv");
+    let rows = cells(&text);
+    assert_eq!(
+        rows[0][..9].join(","),
+        "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
+         contact_left,contact_right"
+    );
+    assert_eq!(rows.len(), 1 + 200);
+    for (n, row) in (1..).zip(&rows[1..]) {
+        assert_eq!(row.len(), rows[0].len());
+        let values: Vec<f64> = row.iter().map(|cell| cell.parse().unwrap()).collect();
+        assert_eq!(values[0], f64::from(n) / 2000.0);
+        assert!(values.iter().all(|value| value.is_finite()));
+    }
+    assert!(!place.path("deep/er/decisions.csv").exists());
+    assert_eq!(std::fs::read_dir(place.path("deep/er")).unwrap().count(), 1);
+}
+
+#[test]
+fn a_side_that_is_not_built_has_empty_cells() {
+    let place = Place::with(&[("s.toml", TEXTURED)]);
+    place.done(&["run", "s.toml", "--out", "."]);
+    let text = place.text("trace.csv");
+    for row in &cells(&text)[1..] {
+        for right in [2, 4, 6, 8, 10] {
+            assert!(!row[right - 1].is_empty());
+            assert_eq!(row[right], "");
+        }
+    }
+}
+
+#[test]
+fn run_writes_decisions_where_the_scene_classifies() {
+    let place = classifying();
+    let ran = place.done(&["run", "scenes/textured.toml", "--out", "out"]);
+    let decided = decisions(&place.text("out/decisions.csv"));
+    assert!(decided.len() >= 20, "{}", decided.len());
+    for d in &decided {
+        assert!(["smooth", "carpet"].contains(&d.label.as_str()));
+        assert!(["smooth", "carpet"].contains(&d.decision.as_str()));
+        assert!(d.samples > 0 && d.samples % 20 == 0);
+        assert!(d.posterior > 0.9 && d.posterior <= 1.0);
+    }
+    let told = format!("\n{} decisions, hit rate ", decided.len());
+    assert!(ran.stdout.contains(&told), "{}", ran.stdout);
+    assert_eq!(place.text("out/trace.csv").lines().count(), 1 + 6000);
+
+    // The model is looked for beside the scene first, then from where one stands.
+    let beside = place.bytes("out/decisions.csv");
+    std::fs::rename(place.path("scenes/the.model"), place.path("the.model")).unwrap();
+    place.done(&["run", "scenes/textured.toml", "--out", "out"]);
+    assert_eq!(place.bytes("out/decisions.csv"), beside);
+
+    // By fixed windows every window decides.
+    let window = TEXTURED.to_owned()
+        + "[classifier]\nrule = \"window\"\nmodel = \"the.model\"\nwindow = 120\n";
+    place.write("window.toml", window);
+    place.done(&["run", "window.toml", "--out", "windows"]);
+    let decided = decisions(&place.text("windows/decisions.csv"));
+    // Two windows fit in each of four presentations of 250 samples.
+    assert_eq!(decided.len(), 8);
+    assert!(decided.iter().all(|d| d.samples == 120));
+}
+
+#[test]
+fn the_seed_is_the_only_source_of_chance() {
+    let place = classifying();
+    let run = |scene: &str| {
+        place.write("scenes/s.toml", scene);
+        place.done(&["run", "scenes/s.toml", "--out", "out"]);
+        place.bytes("out/trace.csv")
+    };
+    let noisy = format!("{TEXTURED}{SEQUENTIAL}");
+    let other = |scene: &str| scene.replace("seed = 1", "seed = 2");
+    let first = run(&noisy);
+    let decided = place.bytes("out/decisions.csv");
+    assert!(first == run(&noisy), "the same seed, other bytes");
+    assert_eq!(decided, place.bytes("out/decisions.csv"));
+    assert!(first != run(&other(&noisy)), "another seed, the same bytes");
+    assert!(run(IDEAL) == run(&other(IDEAL)), "without noise no chance");
+    let hummed = IDEAL.replace("noise = 0.0", "noise = 0.01");
+    assert!(run(&hummed) != run(&other(&hummed)));
+}
+
+#[test]
+fn quiet_changes_nothing_but_the_progress() {
+    let place = Place::with(&[("r.csv", RECORDING)]);
+    let train = ["train", "--data", "r.csv", "--out", "m", "--block", "2"];
+    place.done(&train);
+    let mut classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv"
+        .split(' ')
+        .collect::<Vec<_>>();
+    let loud = place.done(&classify);
+    let written = place.bytes("d.csv");
+    classify.push("--quiet");
+    assert_eq!(place.done(&classify).stdout, loud.stdout);
+    assert_eq!(place.bytes("d.csv"), written);
+    classify.pop();
+    classify.insert(0, "--quiet");
+    assert_eq!(place.done(&classify).stdout, loud.stdout);
+}
+
+#[test]
+fn train_and_classify_say_and_write_what_they_did() {
+    let place = Place::with(&[("r.csv", RECORDING), ("d.csv", "older")]);
+    let ran = place.done(&["train", "--data", "r.csv", "--out", "m", "--block", "2"]);
+    let size = place.bytes("m").len();
+    let told = format!("m: 8 samples in 4 streams, {size} bytes\n");
+    assert_eq!(ran.stdout, told);
+    let classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv";
+    let ran = place.done(&classify.split(' ').collect::<Vec<_>>());
+    let told = "4 decisions, hit rate 100.0 % (mean over classes), mean 2 samples\n";
+    assert!(ran.stdout.ends_with(told), "{}", ran.stdout);
+    let decided = decisions(&place.text("d.csv"));
+    let rows: Vec<_> = decided
+        .iter()
+        .map(|d| [&d.label, &d.trial, &d.decision].map(String::as_str))
+        .collect();
+    let expected = [
+        ["low", "0", "low"],
+        ["low", "1", "low"],
+        ["high", "0", "high"],
+        ["high", "1", "high"],
+    ];
+    assert_eq!(rows, expected);
+    let left: Vec<_> = place.content().into_keys().collect();
+    assert_eq!(left.len(), 3, "{left:?}");
+}
+
+/// The same table in every dress that spreadsheets give it.
+#[test]
+fn recordings_may_come_in_any_dress() {
+    let learn = |bytes: &[u8]| {
+        let place = Place::new();
+        place.write("r.csv", bytes);
+        place.done(&["train", "--data", "r.csv", "--out", "m"]);
+        place.bytes("m")
+    };
+    let plain = learn(RECORDING.as_bytes());
+    let with = |from: &str, to: &str| RECORDING.replace(from, to).into_bytes();
+    let mut reordered = Vec::new();
+    for row in cells(RECORDING) {
+        let [label, trial, x, y] = row[..] else {
+            panic!("{row:?}")
+        };
+        reordered.push(format!("note,{y},{trial},{x},{label}"));
+    }
+    let dresses: [(&str, Vec<u8>); 7] = [
+        ("byte order mark", format!("\u{feff}{RECORDING}").into()),
+        ("line ends", with("\n", "\r\n")),
+        ("quotes", with("low", "\"low\"")),
+        ("quoted numbers", with("9000", "\"9000\"")),
+        ("spaces", with(",", " , ")),
+        ("exponents", with("9000", "9.0e3")),
+        ("other order, more columns", reordered.join("\n").into()),
+    ];
+    for (dress, bytes) in dresses {
+        assert!(learn(&bytes) == plain, "{dress}");
+    }
+    let unfinished = RECORDING.trim_end().as_bytes();
+    assert!(learn(unfinished) == plain, "no newline at the end");
+}
+
+#[test]
+fn help_names_every_command_and_option() {
+    let place = Place::new();
+    let help = |arguments: &[&str]| place.done(arguments).stdout;
+    for word in ["run", "train", "classify", "--quiet", "Exit status"] {
+        assert!(help(&["--help"]).contains(word), "{word}");
+    }
+    for (command, options) in [
+        ("run", &["<SCENE>", "--out"][..]),
+        (
+            "train",
+            &[
+                "--data", "--out", "--bins", "--smooth", "--block", "100", "5", "20",
+            ],
+        ),
+        (
+            "classify",
+            &[
+                "--model",
+                "--data",
+                "--rule",
+                "--threshold",
+                "--window",
+                "--out",
+            ],
+        ),
+    ] {
+        let text = help(&[command, "--help"]);
+        assert!(options.iter().all(|option| text.contains(option)), "{text}");
+    }
+    assert!(help(&["--version"]).starts_with("host-sim "));
+}
+
+#[test]
+fn a_reader_that_goes_away_does_not_stop_the_work() {
+    let gone = || std::io::pipe().unwrap().1;
+    let place = Place::with(&[("r.csv", RECORDING)]);
+    let run = |arguments: &[&str]| {
+        let mut command = place.command(arguments);
+        let child = command.stdout(gone()).stderr(gone()).spawn();
+        child.unwrap().wait().unwrap().code()
+    };
+    assert_eq!(run(&["train", "--data", "r.csv", "--out", "m"]), Some(0));
+    assert!(place.path("m").exists());
+    assert_eq!(run(&["train", "--data", "none", "--out", "m"]), Some(2));
+}

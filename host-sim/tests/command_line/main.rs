@@ -1,0 +1,12 @@
+//! The command line from outside: what it writes and prints, what it refuses
+//! and how, and what its figures mean. The program runs as a user runs it.
+
+mod common;
+mod does;
+mod main_job;
+mod meaning;
+mod mutations;
+mod refuses_arguments;
+mod refuses_models;
+mod refuses_recordings;
+mod refuses_scenes;

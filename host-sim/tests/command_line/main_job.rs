@@ -1,0 +1,65 @@
+//! `host-sim` without arguments: learns four textures and tells them apart.
+
+use crate::common::{Place, cells, decisions};
+
+const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
+
+#[test]
+fn textures_are_told_apart_better_than_by_chance_and_not_by_magic() {
+    let place = Place::new();
+    let ran = place.done(&[]);
+    let mut files: Vec<_> = std::fs::read_dir(place.path("out/textures"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    files.sort();
+    let expected = [
+        "decisions.csv",
+        "textures.model",
+        "textures.svg",
+        "trace.csv",
+        "training.csv",
+    ];
+    assert_eq!(files, expected);
+
+    let decided = decisions(&place.text("out/textures/decisions.csv"));
+    let mut rates = Vec::new();
+    for texture in TEXTURES {
+        let own = || decided.iter().filter(|d| d.label == texture);
+        assert!(own().count() > 0, "no decision on {texture}");
+        let hits = own().filter(|d| d.decision == texture).count();
+        rates.push(hits as f64 / own().count() as f64);
+    }
+    let rate = 100.0 * rates.iter().sum::<f64>() / rates.len() as f64;
+    println!("hit rates {rates:?}, mean {rate:.1} %");
+    assert!(rate > 50.0 && rate < 100.0, "{rate} %");
+
+    let told = ran
+        .stdout
+        .lines()
+        .find(|line| line.contains("hit rate"))
+        .unwrap();
+    let expected = format!("{} decisions, hit rate {rate:.1} %", decided.len());
+    assert!(told.starts_with(&expected), "{told}");
+    for texture in TEXTURES {
+        let row = |line: &&str| line.trim_start().starts_with(&format!("{texture} |"));
+        let row = ran.stdout.lines().find(row).unwrap();
+        assert_eq!(row.split_whitespace().count(), 2 + TEXTURES.len(), "{row}");
+    }
+    // Decisions are told as they fall.
+    let falls = ran
+        .stdout
+        .lines()
+        .filter(|line| line.contains(" samples  "));
+    assert_eq!(falls.count(), decided.len());
+
+    let svg = place.text("out/textures/textures.svg");
+    assert!(svg.trim_start().starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+    let trace = place.text("out/textures/trace.csv");
+    assert!(cells(&trace)[1][0].parse::<f64>().unwrap() > 0.0);
+
+    // What it learnt is what `train` learns from what it heard.
+    let heard = "out/textures/training.csv";
+    place.done(&["train", "--data", heard, "--out", "again.model"]);
+    assert!(place.bytes("again.model") == place.bytes("out/textures/textures.model"));
+}

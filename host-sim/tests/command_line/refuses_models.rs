@@ -1,0 +1,78 @@
+//! Models that are wrong, in a scene and on the command line: status 2, the
+//! file and why, and nothing written.
+
+use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, model};
+
+const CLASSIFY: &str = "classify --model the.model --data r.csv --rule sequential --threshold 0.9";
+
+fn place() -> Place {
+    let scene = format!("{TEXTURED}{SEQUENTIAL}");
+    Place::with(&[("s.toml", &scene), ("r.csv", RECORDING)])
+}
+
+fn classify() -> Vec<&'static str> {
+    CLASSIFY.split(' ').collect()
+}
+
+#[track_caller]
+fn refused_by_both(bytes: &[u8], naming: &str) {
+    let place = place();
+    place.write("the.model", bytes);
+    place.refuses_to_write(&["run", "s.toml"], &["the.model: ", naming]);
+    place.refuses_to_write(&classify(), &["the.model: ", naming]);
+}
+
+#[test]
+fn a_sound_model_is_taken() {
+    let place = place();
+    place.write("the.model", model(2, 20, true));
+    place.done(&["run", "s.toml", "--out", "out"]);
+    place.done(&[&classify()[..], &["--out", "d.csv"]].concat());
+}
+
+#[test]
+fn files_that_are_no_model() {
+    let place = place();
+    place.refuses_to_write(&["run", "s.toml"], &["the.model: "]);
+    place.refuses_to_write(&classify(), &["the.model: "]);
+    refused_by_both(b"", "cut short");
+    refused_by_both(RECORDING.as_bytes(), "not a likelihood model");
+    std::fs::create_dir(place.path("the.model")).unwrap();
+    place.refuses_to_write(&["run", "s.toml"], &["the.model: "]);
+    place.refuses_to_write(&classify(), &["the.model: "]);
+}
+
+#[test]
+fn models_that_have_suffered() {
+    let sound = model(2, 20, true);
+    for kept in [3, 15, 16, 60, sound.len() / 2, sound.len() - 1] {
+        refused_by_both(&sound[..kept], "cut short");
+    }
+    refused_by_both(&[&sound[..], b"\0"].concat(), "bytes follow");
+    // In the header, a quantiser, a name, the table and the checksum.
+    for (at, naming) in [
+        (0, "WLIK"),
+        (4, "version"),
+        (20, "CRC-32"),
+        (58, "CRC-32"),
+        (sound.len() / 2, "CRC-32"),
+        (sound.len() - 1, "CRC-32"),
+    ] {
+        let mut damaged = sound.clone();
+        damaged[at] ^= 0x10;
+        refused_by_both(&damaged, naming);
+    }
+}
+
+#[test]
+fn models_for_something_else() {
+    for channels in [1, 3] {
+        let naming = format!("{channels} channels");
+        refused_by_both(&model(channels, 20, true), &naming);
+    }
+    // Learnt from real numbers: good for recordings of such, not for a sensor.
+    let place = place();
+    place.write("the.model", model(2, 20, false));
+    place.refuses_to_write(&["run", "s.toml"], &["the.model: ", "codes"]);
+    place.done(&[&classify()[..], &["--out", "d.csv"]].concat());
+}

@@ -1,0 +1,114 @@
+//! Recordings that are wrong, for training and for classifying: status 2, file
+//! and line, and nothing written.
+
+use crate::common::{Place, RECORDING, model};
+
+const TRAIN: [&str; 3] = ["train", "--data", "r.csv"];
+const CLASSIFY: &str = "classify --model m --data r.csv --rule window --window 20";
+
+#[track_caller]
+fn refused_by_both(recording: impl AsRef<[u8]>, naming: &[&str]) {
+    let place = Place::new();
+    place.write("m", model(2, 20, true));
+    place.write("r.csv", recording);
+    let naming = [&["r.csv: "], naming].concat();
+    place.refuses_to_write(&TRAIN, &naming);
+    place.refuses_to_write(&CLASSIFY.split(' ').collect::<Vec<_>>(), &naming);
+}
+
+/// The recording with `row` in the place of its third.
+fn with_row(row: &[u8]) -> Vec<u8> {
+    let rows: Vec<&[u8]> = RECORDING.lines().map(str::as_bytes).collect();
+    let rows = [&rows[..3], &[row], &rows[4..]].concat();
+    rows.join(&b'\n')
+}
+
+#[test]
+fn files_that_are_no_recording() {
+    let place = Place::with(&[("folder/file", "")]);
+    place.write("m", model(2, 20, true));
+    for name in ["none.csv", "folder"] {
+        place.refuses_to_write(&["train", "--data", name], &[&format!("{name}: ")]);
+        let classify = CLASSIFY.replace("r.csv", name);
+        let classify: Vec<_> = classify.split(' ').collect();
+        place.refuses_to_write(&classify, &[&format!("{name}: ")]);
+    }
+    refused_by_both("", &["line 1", "label"]);
+    refused_by_both("\n\n\n", &["line 1", "label"]);
+    refused_by_both("label,trial,x,y\n", &["no samples"]);
+    refused_by_both(model(2, 20, true), &[]);
+}
+
+#[test]
+fn columns_that_are_missing_or_there_twice() {
+    for column in ["label", "trial", "x", "y"] {
+        let header = RECORDING.replacen(column, "other", 1);
+        refused_by_both(header, &["line 1", &format!("no column {column:?}")]);
+    }
+    let twice = "label,trial,x,y,x\nlow,0,1,2,3\nhigh,0,4,5,6\n";
+    refused_by_both(twice, &["line 1", "two columns \"x\""]);
+    refused_by_both(RECORDING.replacen("label", "Label", 1), &["no column"]);
+}
+
+#[test]
+fn rows_that_do_not_fit() {
+    for (row, naming) in [
+        (&b"low,0,nan,8000"[..], &["line 4", "x is \"nan\""][..]),
+        (b"low,0,8000,NaN", &["line 4", "y is \"NaN\""]),
+        (b"low,0,inf,8000", &["line 4", "x is \"inf\""]),
+        (b"low,0,8000,-infinity", &["line 4", "y is \"-infinity\""]),
+        (b"low,0,1e999,8000", &["line 4", "x is \"1e999\""]),
+        (b"low,0,eight,8000", &["line 4", "x is \"eight\""]),
+        (b"low,0,,8000", &["line 4", "x is \"\""]),
+        (b"low,0,0x10,8000", &["line 4", "x is \"0x10\""]),
+        (b"low,0,8000", &["line 4", "3 cells"]),
+        (b"low,0,1,2,3", &["line 4", "5 cells"]),
+        (b",0,8000,8000", &["line 4", "label is empty"]),
+        (b"l\xffw,0,8000,8000", &["line 4", "UTF-8"]),
+        (b"low,0,\xff,8000", &["line 4", "UTF-8"]),
+    ] {
+        refused_by_both(with_row(row), naming);
+    }
+}
+
+/// What can be classified but teaches nothing.
+#[test]
+fn lessons_without_content() {
+    let refused = |recording: &str, naming: &[&str]| {
+        let place = Place::with(&[("r.csv", recording)]);
+        place.write("m", model(2, 20, true));
+        place.refuses_to_write(&TRAIN, &[&["r.csv: "], naming].concat());
+        let classify: Vec<_> = CLASSIFY.split(' ').collect();
+        place.done(&[&classify[..], &["--out", "d.csv"]].concat());
+    };
+    refused(&RECORDING.replace("high", "low"), &["one class"]);
+    let many: Vec<String> = (0..33).map(|n| format!("class{n},0,{n},0")).collect();
+    let many = format!("label,trial,x,y\n{}", many.join("\n"));
+    refused(&many, &["more than 32 classes"]);
+    refused(
+        &RECORDING.replace("low", &"l".repeat(256)),
+        &["class name of 256"],
+    );
+    refused(
+        &RECORDING
+            .replace("9000", "1e308")
+            .replace("100,8000", "-1e308,8000"),
+        &["range"],
+    );
+    let narrow = RECORDING.replace("8000", "0").replace("8100", "1e-300");
+    refused(&narrow, &["range"]);
+}
+
+/// Numbers far outside what the model learnt are the edge's, not an error.
+#[test]
+fn huge_numbers_are_classified() {
+    let place = Place::with(&[("r.csv", RECORDING)]);
+    place.done(&["train", "--data", "r.csv", "--out", "m", "--block", "1"]);
+    let huge = "label,trial,x,y\nlow,0,-1e308,8000\nhigh,0,1e308,8000\nhigh,0,1.7e308,-1e308\n";
+    place.write("huge.csv", huge);
+    let classify = "classify --model m --data huge.csv --rule window --window 1 --out d.csv";
+    place.done(&classify.split(' ').collect::<Vec<_>>());
+    let decided = crate::common::decisions(&place.text("d.csv"));
+    assert_eq!(decided.len(), 3);
+    assert!(decided.iter().all(|d| d.decision == d.label), "{decided:?}");
+}

@@ -1,0 +1,91 @@
+//! A noisy line: frames lost and bits inverted at random, for as long as the
+//! module runs.
+
+mod played;
+
+use firmware::Event;
+use firmware::design_parameters::{HOLD_S, ticks};
+use played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed};
+
+/// Bad frames that are bridged.
+const HOLD: usize = ticks(HOLD_S, TICK_HZ as u32) as usize;
+
+/// What the module took for the readings of the left whisker, tick by tick:
+/// frames as they were, frames bridged, and what no sensor sent.
+fn readings(played: &Played) -> [usize; 3] {
+    let mut counts = [0; 3];
+    let mut last = [8192; 2];
+    for (tick, heard) in &played.heard {
+        let row = &played.rows[*tick as usize];
+        let sent = [row.x[0] as u16, row.y[0] as u16];
+        let kind = if *heard == sent {
+            0
+        } else if *heard == last {
+            1
+        } else {
+            2
+        };
+        counts[kind] += 1;
+        last = *heard;
+    }
+    counts
+}
+
+/// In the worst of bearable air: one frame in a hundred is lost, another has a
+/// bit inverted.
+#[test]
+fn a_disturbed_line_is_borne() {
+    let rcp = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n";
+    let scene = scene(1, &textured(100.0), rcp);
+    let length = 20 * TICK_HZ;
+    let disturbed = |lost, flipped| {
+        play(&scene, length, |tick, run| {
+            if tick == 0 {
+                for (slave, seed) in run.slaves().iter().zip(1..) {
+                    slave.disturb(lost, flipped, seed);
+                }
+            }
+        })
+    };
+    let sound = undisturbed(&scene, length);
+    assert_eq!(readings(&sound), [length as usize, 0, 0]);
+
+    let played = disturbed(0.01, 0.01);
+    assert_eq!(played.events, []);
+    let [taken, bridged, invented] = readings(&played);
+    println!("{taken} readings taken, {bridged} bridged, {invented} that no sensor sent");
+    assert_eq!(invented, 0);
+    let share = bridged as f64 / length as f64;
+    assert!((0.017..0.023).contains(&share), "{share}");
+    // It whisks on as it would have: contact is late by a tick or two at most.
+    for side in 0..2 {
+        let apart = apart(&angles(&played, side), &angles(&sound, side));
+        println!("side {side}: at most {apart:.2} degrees off the undisturbed course");
+        assert!(apart < 1.0, "{apart}");
+    }
+    for row in &played.rows {
+        let values = [row.theta_deg, row.z, row.g, row.contact, row.angle_deg];
+        assert!(values.as_flattened().iter().all(|value| value.is_finite()));
+    }
+
+    // One bit inverted in every frame: none is believed.
+    let [taken, bridged, invented] = readings(&disturbed(0.0, 1.0));
+    assert_eq!([taken + bridged, invented], [HOLD, 0]);
+}
+
+/// Half of all frames bad: lost once, and not up and down from then on.
+#[test]
+fn a_line_that_is_mostly_noise_is_given_up_once() {
+    let played = play(&free(1), 10 * TICK_HZ, |tick, run| {
+        if tick == 0 {
+            run.slaves()
+                .iter()
+                .for_each(|slave| slave.disturb(0.3, 0.3, 5));
+        }
+    });
+    let lost = |(_, event): &(u64, Event)| matches!(event, Event::SensorLost(..));
+    assert_eq!(played.events.len(), 2, "{:?}", played.events);
+    assert!(played.events.iter().all(lost));
+    let course = angles(&played, 0);
+    assert!(extent(&course[course.len() / 2..]) < 0.01);
+}

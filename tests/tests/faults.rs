@@ -1,0 +1,237 @@
+//! Sensors that fail while the module runs: short faults are bridged, long ones
+//! switch the motor of that whisker off, and nothing else suffers.
+
+mod played;
+
+use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
+use firmware::{Event, Place, SensorFault};
+use host_sim::bus::WireFault;
+use host_sim::trace::Row;
+use mlx90333::{Faults, FrameError};
+use played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
+use scene::Scene;
+
+/// Bad frames that are bridged, and good ones before a whisker moves again.
+const HOLD: u64 = ticks(HOLD_S, TICK_HZ as u32) as u64;
+const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;
+
+/// A tick at which the left side protracts fastest, at 0.35 degrees a tick.
+const AMID: u64 = 1440;
+const LEFT: Place = Place {
+    side: 0,
+    whisker: 0,
+};
+
+/// Every fault of the wire with the number of its report.
+const WIRE: [(WireFault, u8); 8] = [
+    (WireFault::Silent, 18),
+    (WireFault::LineLow, 19),
+    (WireFault::BadSum, 21),
+    (WireFault::Bus, 17),
+    (WireFault::Flip(0), 20),
+    (WireFault::Flip(8), 21),
+    (WireFault::Flip(47), 21),
+    (WireFault::Flip(63), 21),
+];
+
+/// θ' exactly, before obstacles on both sides.
+fn touching() -> Scene {
+    let plant = "kind = \"ideal\"\nobstacle_deg = [60.0, 60.0]\nstiffness = 0.02\n";
+    scene(1, plant, "")
+}
+
+fn right(row: &Row) -> [f64; 5] {
+    [row.theta_deg, row.z, row.g, row.contact, row.angle_deg].map(|pair| pair[1])
+}
+
+/// The right side must not notice: its course is that of an undisturbed run.
+#[track_caller]
+fn right_is_unaffected(played: &Played, sound: &Played) {
+    let pairs = played.rows.iter().zip(&sound.rows);
+    assert!(pairs.clone().all(|(a, b)| right(a) == right(b)));
+}
+
+#[test]
+fn short_faults_are_bridged() {
+    let scene = free(1);
+    let length = AMID + 1000;
+    let sound = undisturbed(&scene, length);
+    let course = angles(&sound, 0);
+    for (fault, _) in WIRE {
+        for frames in [1, HOLD] {
+            let played = play(&scene, length, |tick, run| {
+                if tick == AMID {
+                    run.slaves()[0].inject(fault, frames as u32);
+                }
+            });
+            assert_eq!(played.events, [], "{fault:?}");
+            let found = angles(&played, 0);
+            let bad = &found[AMID as usize..][..HOLD as usize];
+            assert!(extent(bad) > 3.0, "{fault:?}: the motor stopped");
+            assert!(apart(&found, &course) < 0.05, "{fault:?}");
+            right_is_unaffected(&played, &sound);
+        }
+    }
+    let played = play(&scene, length, |tick, run| match tick {
+        AMID => run.slaves()[0].set_error_word(Faults::FIELD_TOO_LOW),
+        _ if tick == AMID + HOLD => run.slaves()[0].set_error_word(Faults::NONE),
+        _ => {}
+    });
+    assert_eq!(played.events, []);
+    assert!(apart(&angles(&played, 0), &course) < 0.05);
+}
+
+#[test]
+fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
+    let scene = free(1);
+    let (mended, length) = (AMID + 1000, AMID + 2000);
+    let sound = undisturbed(&scene, length);
+    for (fault, code) in WIRE {
+        let played = play(&scene, length, |tick, run| match tick {
+            AMID => run.slaves()[0].set_fault(Some(fault)),
+            _ if tick == mended => run.slaves()[0].set_fault(None),
+            _ => {}
+        });
+        let (lost, back) = (AMID + HOLD, mended + RECOVER - 1);
+        let [
+            (first, Event::SensorLost(LEFT, found)),
+            (second, Event::SensorBack(LEFT)),
+        ] = played.events[..]
+        else {
+            panic!("{fault:?}: {:?}", played.events);
+        };
+        assert_eq!(
+            (first, second, found.code()),
+            (lost, back, code),
+            "{fault:?}"
+        );
+
+        // Off: friction and the shorted winding stop it, though θ' goes on.
+        let off = lost as usize + 200..back as usize;
+        let course = angles(&played, 0);
+        assert!(
+            extent(&course[off.clone()]) < 0.01,
+            "{fault:?}: it is driven"
+        );
+        let theta: Vec<f64> = played.rows.iter().map(|row| row.theta_deg[0]).collect();
+        assert!(extent(&theta[off]) > 40.0);
+
+        // Back: within 0.3 s it whisks as if nothing had been.
+        let again = back as usize + 600..;
+        let expected = angles(&sound, 0);
+        assert!(extent(&course[again.clone()]) > 40.0);
+        assert!(
+            apart(&course[again.clone()], &expected[again]) < 0.2,
+            "{fault:?}"
+        );
+        right_is_unaffected(&played, &sound);
+    }
+}
+
+#[test]
+fn the_sensor_s_own_report_is_told_bit_by_bit() {
+    let scene = touching();
+    for bit in 0..16 {
+        let faults = Faults::new(1 << bit);
+        let played = play(&scene, 400, |tick, run| match tick {
+            200 => run.slaves()[1].set_error_word(faults),
+            300 => run.slaves()[1].set_error_word(Faults::NONE),
+            _ => {}
+        });
+        let place = Place {
+            side: 1,
+            whisker: 0,
+        };
+        let fault = SensorFault::Frame(FrameError::Sensor(faults));
+        assert_eq!(fault.code(), 22);
+        let expected = [
+            (200 + HOLD, Event::SensorLost(place, fault)),
+            (300 + RECOVER - 1, Event::SensorBack(place)),
+        ];
+        assert_eq!(played.events, expected);
+    }
+}
+
+/// With motors that are exact, so that only contact shows the fault.
+#[test]
+fn a_faulty_sensor_feels_nothing() {
+    let scene = touching();
+    let sound = undisturbed(&scene, 2000);
+    let start = sound
+        .rows
+        .iter()
+        .position(|row| row.contact[0] > 0.5)
+        .unwrap() as u64;
+    for (fault, code) in WIRE {
+        let played = play(&scene, 2000, |tick, run| match tick {
+            _ if tick == start => run.slaves()[0].set_fault(Some(fault)),
+            _ if tick == start + 300 => run.slaves()[0].set_fault(None),
+            _ => {}
+        });
+        let codes: Vec<u8> = played
+            .events
+            .iter()
+            .filter_map(|(_, event)| match event {
+                Event::SensorLost(LEFT, fault) => Some(fault.code()),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(
+            (codes.as_slice(), played.events.len()),
+            (&[code][..], 2),
+            "{fault:?}"
+        );
+        let contact = |tick: u64| played.rows[tick as usize].contact[0];
+        // The last good reading is held, then falls away with the 50 Hz filter.
+        assert!(contact(start + HOLD - 1) > 0.5);
+        let quiet = start + HOLD + 2 * RECOVER..start + 300;
+        assert!(quiet.clone().all(|tick| contact(tick) < 0.002), "{fault:?}");
+        assert!(sound.rows[quiet.start as usize].contact[0] > 0.5);
+        right_is_unaffected(&played, &sound);
+        // Nothing is heard while the sensor is not believed.
+        let deaf = |tick| (start + HOLD..start + 300 + RECOVER - 1).contains(&tick);
+        let heard = played.heard.iter().filter(|(tick, _)| deaf(*tick)).count();
+        assert_eq!(heard, 0);
+        assert_eq!(played.heard.len() as u64, 2000 - (300 - HOLD + RECOVER - 1));
+    }
+}
+
+#[test]
+fn one_of_twenty_four_leaves_the_others_alone() {
+    let scene = free(12);
+    let sound = undisturbed(&scene, 2000);
+    let played = play(&scene, 2000, |tick, run| {
+        if tick == AMID {
+            run.slaves()[7].set_fault(Some(WireFault::Silent));
+        }
+    });
+    let place = Place {
+        side: 0,
+        whisker: 7,
+    };
+    let fault = SensorFault::Frame(FrameError::NoSensor);
+    let expected = [(AMID + HOLD, Event::SensorLost(place, fault))];
+    assert_eq!(played.events, expected);
+    assert!(apart(&angles(&played, 0), &angles(&sound, 0)) < 0.2);
+    right_is_unaffected(&played, &sound);
+}
+
+#[test]
+fn all_of_twenty_four_fail_and_come_back() {
+    let set = |fault: Option<WireFault>| {
+        move |run: &host_sim::run::Run<'_>| {
+            assert_eq!(run.slaves().len(), 24);
+            run.slaves().iter().for_each(|slave| slave.set_fault(fault));
+        }
+    };
+    let played = play(&free(12), 1500, |tick, run| match tick {
+        500 => set(Some(WireFault::LineLow))(run),
+        1000 => set(None)(run),
+        _ => {}
+    });
+    let fault = SensorFault::Frame(FrameError::LineLow);
+    let places = || (0..2).flat_map(|side| (0..12).map(move |whisker| Place { side, whisker }));
+    let lost = places().map(|place| (500 + HOLD, Event::SensorLost(place, fault)));
+    let back = places().map(|place| (1000 + RECOVER - 1, Event::SensorBack(place)));
+    assert_eq!(played.events, lost.chain(back).collect::<Vec<_>>());
+}

@@ -1,0 +1,111 @@
+//! A scene played tick by tick, with a hand on its sensors.
+#![allow(dead_code, reason = "each test program uses its own part")]
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use firmware::{Event, Listener};
+use host_sim::bench::AnyListener;
+use host_sim::run::{Happened, Run};
+use host_sim::trace::Row;
+use scene::Scene;
+
+/// Ticks a second of [`scene`].
+pub(crate) const TICK_HZ: u64 = 2000;
+
+/// What came of a scene; a row a tick.
+pub(crate) struct Played {
+    /// The trace.
+    pub(crate) rows: Vec<Row>,
+    /// Events with their tick, from 0.
+    pub(crate) events: Vec<(u64, Event)>,
+    /// What was listened to: tick and codes x, y of the left first whisker.
+    pub(crate) heard: Vec<(u64, [u16; 2])>,
+}
+
+/// A scene of both sides, 4 whisks a second with noise, at rest for the first
+/// quarter of a second or so; `plant` and `more` follow.
+pub(crate) fn scene(whiskers_per_side: usize, plant: &str, more: &str) -> Scene {
+    let text = format!(
+        "name = \"played\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n\
+         [head]\nwhiskers_per_side = {whiskers_per_side}\n\
+         [whisking]\nfrequency_hz = 4.0\nintegrator = \"exact\"\ncoupling = true\n\
+         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0], [0.9, 0.1]]\n\
+         [plant]\n{plant}\n{more}"
+    );
+    Scene::from_str("played.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Simulated motors, whiskers and a smooth surface at an angle.
+pub(crate) fn textured(at_deg: f64) -> String {
+    format!(
+        "kind = \"textured\"\nobstacle_deg = [{at_deg:?}, {at_deg:?}]\nstiffness = 0.1\n\
+         textures = [\"smooth\"]\npresent_s = 100000\n"
+    )
+}
+
+struct Ear(Rc<RefCell<Vec<[u16; 2]>>>);
+
+impl Listener for Ear {
+    fn push(&mut self, codes: [u16; 2]) -> Option<tactile::Decision> {
+        self.0.borrow_mut().push(codes);
+        None
+    }
+
+    fn reset(&mut self) {}
+}
+
+/// Plays `ticks` of a scene; `act` is called before each.
+pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &Run<'_>)) -> Played {
+    let ear = Rc::new(RefCell::new(Vec::new()));
+    let listener = AnyListener(Box::new(Ear(Rc::clone(&ear))));
+    let mut run = Run::new(scene, Some(listener)).unwrap();
+    let mut happened = Happened::default();
+    let mut played = Played {
+        rows: Vec::new(),
+        events: Vec::new(),
+        heard: Vec::new(),
+    };
+    for tick in 0..ticks {
+        act(tick, &run);
+        played.rows.push(*run.tick(&mut happened));
+        let events = happened.events.iter().map(|event| (tick, *event));
+        played.events.extend(events);
+        let heard = std::mem::take(&mut *ear.borrow_mut());
+        played
+            .heard
+            .extend(heard.into_iter().map(|codes| (tick, codes)));
+    }
+    played
+}
+
+/// As [`play`], with nobody's hand on it.
+pub(crate) fn undisturbed(scene: &Scene, ticks: u64) -> Played {
+    play(scene, ticks, |_, _| {})
+}
+
+/// Motors that whisk freely; contact suppresses, but there is none.
+pub(crate) fn free(whiskers_per_side: usize) -> Scene {
+    let rcp = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n";
+    scene(whiskers_per_side, &textured(300.0), rcp)
+}
+
+/// Where the first whisker of a side is, tick by tick.
+pub(crate) fn angles(played: &Played, side: usize) -> Vec<f64> {
+    played.rows.iter().map(|row| row.angle_deg[side]).collect()
+}
+
+/// Largest less smallest.
+pub(crate) fn extent(values: &[f64]) -> f64 {
+    let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    top - values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// Largest difference of two courses.
+pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,226 @@
+//! A robot's vibration over three grounds, by the commands `train` and
+//! `classify`: the figures of the data's README, and decision for decision
+//! against the independent program in double precision.
+
+mod common;
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+
+use acceptance::reference::bayes::{self, Decision, Model};
+use acceptance::reference::recording::{Sample, read_recording, streams};
+use host_sim::commands::{classify, train};
+use host_sim::progress::Verbosity;
+use scene::Rule;
+use tempfile::TempDir;
+
+/// The recordings, both programs' models, and a place for decisions.
+struct Terrain {
+    folder: TempDir,
+    model: PathBuf,
+    reference: Model,
+    test: Vec<Sample>,
+}
+
+fn data(name: &str) -> PathBuf {
+    common::project(&format!("tests/data/terrain/{name}"))
+}
+
+fn recording(name: &str) -> Vec<Sample> {
+    read_recording(&std::fs::read_to_string(data(name)).unwrap()).unwrap()
+}
+
+fn terrain() -> Terrain {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("terrain.model");
+    train::train(&data("terrain-train.csv"), &model, 100, 5.0, 20).unwrap();
+    Terrain {
+        folder,
+        model,
+        reference: bayes::train(&recording("terrain-train.csv"), 100, 5.0, 20),
+        test: recording("terrain-test.csv"),
+    }
+}
+
+/// What the product decides, and what it says about it.
+fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decision>, String) {
+    let out = terrain.folder.path().join("decisions.csv");
+    let data = data("terrain-test.csv");
+    let said = classify::classify(&terrain.model, &data, rule, &out, Verbosity::Quiet).unwrap();
+    (read_decisions(&out), said)
+}
+
+fn read_decisions(path: &Path) -> Vec<Decision> {
+    let text = std::fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("label,trial,decision,samples,posterior"));
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            Decision {
+                label: cells[0].to_owned(),
+                trial: cells[1].to_owned(),
+                decision: cells[2].to_owned(),
+                samples: cells[3].parse().unwrap(),
+                posterior: cells[4].parse().unwrap(),
+            }
+        })
+        .collect()
+}
+
+/// A row of the README's table.
+struct Figures {
+    threshold: f64,
+    sequential_percent: f64,
+    mean_samples: f64,
+    decisions: usize,
+    window: u32,
+    window_percent: f64,
+}
+
+fn figures() -> Vec<Figures> {
+    let text = std::fs::read_to_string(data("README.md")).unwrap();
+    let rows = text.lines().filter_map(|line| {
+        let cells = line.strip_prefix('|')?.strip_suffix('|')?.split('|');
+        let number = |cell: &str| cell.trim().trim_end_matches(" %").parse::<f64>();
+        let cells: Vec<f64> = cells.map(number).collect::<Result<_, _>>().ok()?;
+        let [
+            threshold,
+            sequential_percent,
+            mean_samples,
+            decisions,
+            window,
+            window_percent,
+        ] = cells[..]
+        else {
+            return None;
+        };
+        Some(Figures {
+            threshold,
+            sequential_percent,
+            mean_samples,
+            decisions: decisions as usize,
+            window: window as u32,
+            window_percent,
+        })
+    });
+    rows.collect()
+}
+
+/// Decisions by stream (label and trial) and the sample after which they fall.
+fn by_place(decisions: &[Decision]) -> BTreeMap<(&str, &str, usize), &Decision> {
+    let mut ends: HashMap<(&str, &str), usize> = HashMap::new();
+    let places = decisions.iter().map(|d| {
+        let end = ends.entry((&d.label, &d.trial)).or_default();
+        *end += d.samples;
+        ((d.label.as_str(), d.trial.as_str(), *end), d)
+    });
+    let placed: BTreeMap<_, _> = places.collect();
+    assert_eq!(placed.len(), decisions.len());
+    placed
+}
+
+/// The share of decisions that both programs make after the same samples for
+/// the same class, and the largest difference of the posterior among those.
+fn agreement(a: &[Decision], b: &[Decision]) -> (f64, f64) {
+    let (a, b) = (by_place(a), by_place(b));
+    let differences: Vec<f64> = a
+        .iter()
+        .filter_map(|(place, a)| {
+            let b = b.get(place)?;
+            let same = a.decision == b.decision && a.samples == b.samples;
+            same.then(|| (a.posterior - b.posterior).abs())
+        })
+        .collect();
+    let all = a.len() + b.len() - differences.len();
+    let worst = differences.iter().copied().fold(0.0, f64::max);
+    (differences.len() as f64 / all as f64, worst)
+}
+
+#[track_caller]
+fn agree(what: &str, product: &[Decision], reference: &[Decision]) {
+    let (share, worst) = agreement(product, reference);
+    println!(
+        "{what}: {:.2} % as the reference, posteriors within {worst:.4}",
+        100.0 * share
+    );
+    assert!(share >= 0.995, "{what}: {share}");
+    assert!(worst <= 0.01, "{what}: {worst}");
+}
+
+#[test]
+fn streams_are_told_apart_by_label_and_trial() {
+    let test = recording("terrain-test.csv");
+    let mut names: Vec<_> = streams(&test)
+        .into_iter()
+        .map(|stream| (&test[stream.start].label, &test[stream.start].trial))
+        .collect();
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!((names.len(), count), (count, 31));
+}
+
+#[test]
+fn sequential_decisions_have_the_known_figures_and_agree_with_the_reference() {
+    let terrain = terrain();
+    let figures = figures();
+    assert_eq!(figures.len(), 3);
+    for known in figures {
+        let threshold = known.threshold;
+        let (decided, said) = decide(&terrain, Rule::Sequential { threshold });
+        let percent = 100.0 * bayes::hit_rate(&decided);
+        let samples = bayes::mean_samples(&decided);
+        println!(
+            "threshold {threshold}: {percent:.2} %, mean {samples:.1} samples, {} decisions",
+            decided.len()
+        );
+        assert!(
+            (percent - known.sequential_percent).abs() <= 0.15,
+            "{percent}"
+        );
+        assert!((samples - known.mean_samples).abs() <= 1.0, "{samples}");
+        assert_eq!(decided.len(), known.decisions);
+        assert!(decided.iter().all(|d| d.posterior > threshold));
+        let told = format!(
+            "{} decisions, hit rate {percent:.1} % (mean over classes), mean {samples:.0} samples",
+            decided.len()
+        );
+        assert!(said.ends_with(&told), "{said}");
+
+        let rule = bayes::Rule::Sequential(threshold);
+        let reference = bayes::classify(&terrain.reference, &terrain.test, rule);
+        agree(&format!("threshold {threshold}"), &decided, &reference);
+    }
+}
+
+#[test]
+fn windows_have_the_known_figures_and_agree_with_the_reference() {
+    let terrain = terrain();
+    for known in figures() {
+        let window = known.window;
+        let (decided, _) = decide(&terrain, Rule::Window { samples: window });
+        let percent = 100.0 * bayes::hit_rate(&decided);
+        println!(
+            "window {window}: {percent:.2} %, {} decisions",
+            decided.len()
+        );
+        assert!((percent - known.window_percent).abs() <= 0.15, "{percent}");
+        assert!(decided.iter().all(|d| d.samples == window as usize));
+
+        let rule = bayes::Rule::Window(window as usize);
+        let reference = bayes::classify(&terrain.reference, &terrain.test, rule);
+        assert_eq!(decided.len(), reference.len());
+        agree(&format!("window {window}"), &decided, &reference);
+    }
+}
+
+/// The comparison sees what it is there for.
+#[test]
+fn a_block_that_is_off_by_one_sample_would_be_seen() {
+    let train = recording("terrain-train.csv");
+    let test = recording("terrain-test.csv");
+    let rule = bayes::Rule::Sequential(0.99);
+    let decide = |block| bayes::classify(&bayes::train(&train, 100, 5.0, block), &test, rule);
+    assert!(agreement(&decide(20), &decide(19)).0 < 0.9);
+}

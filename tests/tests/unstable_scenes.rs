@@ -1,0 +1,57 @@
+//! Scenes that forward Euler cannot carry are refused by the simulator before
+//! it writes anything: exit status 2, the file, the key, what was found and
+//! what is allowed. (Where the limits stand is for the crate `plan` to test.)
+
+mod common;
+
+use std::path::Path;
+
+use acceptance::reference::Settings;
+use host_sim::commands;
+use host_sim::progress::Verbosity;
+
+/// Runs the reference scene at other rates; the refusal, if there is one.
+fn refusal(frequency_hz: f64, tick_hz: f64, integrator: &str) -> Option<(u8, String)> {
+    let settings = Settings {
+        frequency_hz,
+        tick_hz,
+        ..Settings::papers()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, common::scene(&settings, integrator, 0.1)).unwrap();
+    let out = folder.path().join("out");
+    std::fs::create_dir(&out).unwrap();
+    let error = commands::run::run(&path, &out, Verbosity::Quiet).err()?;
+    assert!(is_empty(&out), "nothing is written");
+    let name = path.display().to_string();
+    let said = error.to_string();
+    for line in said.lines() {
+        assert!(line.starts_with(&name), "{line}");
+    }
+    Some((error.exit_status(), said.replace(&name, "scene.toml")))
+}
+
+fn is_empty(folder: &Path) -> bool {
+    std::fs::read_dir(folder).unwrap().next().is_none()
+}
+
+#[test]
+fn too_few_ticks_a_whisk_for_forward_euler() {
+    let (status, said) = refusal(20.0, 2_000.0, "euler").unwrap();
+    assert_eq!(status, 2);
+    assert_eq!(
+        said,
+        "scene.toml: whisking.integrator: found \"euler\" at 20 Hz with tick_hz = 2000: its \
+         oscillators circle at a radius of 1.65, and the limit is 1.5; allowed: integrator = \
+         \"exact\", or \"euler\" with tick_hz at least 2371"
+    );
+    assert_eq!(refusal(20.0, 2_371.0, "euler"), None);
+    assert_eq!(refusal(20.0, 2_000.0, "exact"), None);
+}
+
+#[test]
+fn every_part_that_forward_euler_cannot_carry_is_told_on_a_line_of_its_own() {
+    let (status, said) = refusal(25.0, 400.0, "euler").unwrap();
+    assert_eq!((status, said.lines().count()), (2, 2), "{said}");
+}
