@@ -227,7 +227,10 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
     parts: Parts<'m>,
 ) -> Result<Box<dyn Bench + 'm>, Error> {
     let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
-    let broken = |mismatch: plan::Mismatch| Error::Work(mismatch.to_string());
+    let broken = |mismatch: plan::Mismatch| match mismatch {
+        plan::Mismatch::Unstable(unstable) => Error::Input(unstable.to_string()),
+        mismatch => Error::Work(mismatch.to_string()),
+    };
     let tick_hz = f64::from(scene.tick_hz);
 
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;

@@ -2,5 +2,7 @@
 
 pub mod classify;
 pub mod main_job;
+pub mod record;
+pub mod report;
 pub mod run;
 pub mod train;

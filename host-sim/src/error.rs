@@ -22,9 +22,14 @@ pub enum Error {
 }
 
 impl Error {
-    /// A file that was given is wrong or cannot be read.
+    /// A file that was given is wrong or cannot be read; every line of `fault`
+    /// is told with the file's name.
     pub fn file(path: &Path, fault: impl std::fmt::Display) -> Self {
-        Self::Input(format!("{}: {fault}", path.display()))
+        let fault = fault.to_string();
+        let lines = fault
+            .lines()
+            .map(|line| format!("{}: {line}", path.display()));
+        Self::Input(lines.collect::<Vec<_>>().join("\n"))
     }
 
     /// A file could not be written.

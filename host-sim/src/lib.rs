@@ -1,6 +1,7 @@
 //! The whisker module on a PC: the firmware library runs unchanged on a mock
 //! SPI bus and a mock motor, with whisker and surface behind them.
 
+pub mod accuracy;
 pub mod bench;
 pub mod bus;
 pub mod commands;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
 use host_sim::accuracy::LongRun;
-use host_sim::commands::{classify, main_job, report as accuracy, run, train};
+use host_sim::commands::{classify, main_job, record, report as accuracy, run, train};
 use host_sim::progress::Verbosity;
 use host_sim::report;
 use scene::Rule;
@@ -40,6 +40,17 @@ enum Command {
         /// Where to write
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
+    },
+    /// Runs one scene and records what its first whisker feels, to learn from
+    Record {
+        /// The scene file
+        scene: PathBuf,
+        /// Where to write the recording
+        #[arg(long, value_name = "FILE.csv")]
+        out: PathBuf,
+        /// Another seed than the scene's
+        #[arg(long)]
+        seed: Option<u64>,
     },
     /// Learns a likelihood model from a recording
     #[command(allow_negative_numbers = true)]
@@ -130,6 +141,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
         Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity)?,
+        Some(Command::Record { scene, out, seed }) => {
+            Some(record::record(&scene, &out, seed, verbosity)?)
+        }
         Some(Command::Train {
             data,
             out,

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::run::{Fault, cargo, output, top};
+use crate::run::{Fault, cargo, output, run, top};
 
 /// Writes every generated document, or checks that they are up to date.
 ///
@@ -23,7 +23,18 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     document("docs/textures.svg", &plot, check)?;
     let model = fs::read(top().join("out/textures/textures.model"));
     let model = model.map_err(|error| format!("out/textures/textures.model: {error}"))?;
-    write("scenes/models/textures.model", &model, check)
+    write("scenes/models/textures.model", &model, check)?;
+    // It shows docs/instructions.csv, which `cargo xtask count` writes.
+    let report = [
+        "run",
+        "--release",
+        "--quiet",
+        "-p",
+        "host-sim",
+        "--",
+        "report",
+    ];
+    run(cargo(&report).args(check.then_some("--check")))
 }
 
 /// The page of the main job: what it printed at the end.

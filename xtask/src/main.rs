@@ -1,6 +1,7 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `flash`, `docs`.
 
 mod ci;
+mod count;
 mod docs;
 mod firmware;
 mod run;
@@ -27,6 +28,16 @@ enum Command {
     /// Builds the firmware of a scene, flashes it and streams its log
     /// (needs probe-rs and a board)
     Flash(Build),
+    /// Counts the instructions of every kernel on emulated processors
+    /// (needs qemu-system-arm) and writes docs/instructions.csv
+    Count {
+        /// The table to write or to check
+        #[arg(long)]
+        csv: Option<PathBuf>,
+        /// Only say whether a kernel has become dearer than the table says
+        #[arg(long)]
+        check: bool,
+    },
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -52,6 +63,7 @@ fn main() -> ExitCode {
             .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
+        Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Docs { check } => docs::all(check),
     };
     match done {

@@ -4,6 +4,10 @@
 //! them when it builds and writes them into the firmware (they print as Rust
 //! expressions): by this same code, so that both run the same numbers.
 
+mod stability;
+
+pub use stability::{Instability, Unstable};
+
 use scene::Scene;
 use whisking::{DEGREES_PER_UNIT, Error, Real, filter, pd};
 
@@ -24,12 +28,14 @@ pub struct Motion<R: Real, const S: usize, const N: usize> {
 }
 
 /// What is wrong with a scene for a module of a given shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Mismatch {
     /// The scene has another number of sides or whiskers.
     Shape,
     /// A value is out of range; a checked scene has none.
     Value(Error),
+    /// Its integrator, forward Euler, cannot carry it.
+    Unstable(Unstable),
 }
 
 impl std::fmt::Display for Mismatch {
@@ -37,6 +43,7 @@ impl std::fmt::Display for Mismatch {
         match self {
             Self::Shape => write!(f, "the scene has another number of sides or whiskers"),
             Self::Value(error) => write!(f, "{error}"),
+            Self::Unstable(unstable) => write!(f, "{unstable}"),
         }
     }
 }
@@ -70,11 +77,33 @@ pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
     })
 }
 
+/// Whether the scene's integrator can carry it: `exact` can carry any scene,
+/// forward Euler none whose muscles swing up. [`motion`] checks it too.
+///
+/// # Errors
+/// [`Mismatch::Unstable`].
+pub fn check(scene: &Scene) -> Result<(), Mismatch> {
+    let Some(settings) = settings(scene) else {
+        return Ok(());
+    };
+    match stability::check(&settings, true)? {
+        None => Ok(()),
+        Some(unstable) => Err(Mismatch::Unstable(unstable)),
+    }
+}
+
+/// What forward Euler carries badly in a scene that it can carry: oscillators
+/// and gates that live by their clamps. For a word to the user.
+pub fn cautions(scene: &Scene) -> Option<Unstable> {
+    stability::check(&settings(scene)?, false).ok()?
+}
+
 /// The constants of a module of `S` sides with `N` whiskers each; `None` for a
 /// passive scene.
 ///
 /// # Errors
-/// [`Mismatch::Shape`] if the scene's array has another shape.
+/// [`Mismatch::Shape`] if the scene's array has another shape,
+/// [`Mismatch::Unstable`] if its integrator cannot carry it.
 pub fn motion<R: Real, const S: usize, const N: usize>(
     scene: &Scene,
 ) -> Result<Option<Motion<R, S, N>>, Mismatch> {
@@ -83,6 +112,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
     else {
         return Ok(None);
     };
+    check(scene)?;
     let start: [[f64; 2]; S] = whisking
         .start
         .as_slice()

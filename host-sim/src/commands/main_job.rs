@@ -1,15 +1,11 @@
 //! `host-sim` without arguments: a whisker learns textures and tells them apart.
 
-use std::cell::RefCell;
 use std::path::Path;
-use std::rc::Rc;
 
-use firmware::Listener;
 use scene::Scene;
+use tactile::ModelBuf;
 use tactile::train::{Options, Trainer};
-use tactile::{Decision, ModelBuf};
 
-use crate::bench::AnyListener;
 use crate::decisions::{self, Confusion};
 use crate::output::write_whole;
 use crate::plot::{self, Mark, Picture, Presented};
@@ -70,18 +66,6 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     Ok(())
 }
 
-/// Listens without deciding: keeps the codes.
-struct Recorder(Rc<RefCell<Vec<[f64; 2]>>>);
-
-impl Listener for Recorder {
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
-        self.0.borrow_mut().push(codes.map(f64::from));
-        None
-    }
-
-    fn reset(&mut self) {}
-}
-
 /// What the classifier of `scene` would have heard in another run of it: the
 /// same scene with another seed, so other noise and other grit.
 ///
@@ -92,33 +76,7 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
         seed: scene.seed.wrapping_add(1),
         ..scene.clone()
     };
-    let heard = Rc::new(RefCell::new(Vec::new()));
-    let recorder = AnyListener(Box::new(Recorder(Rc::clone(&heard))));
-    let mut run = Run::new(&scene, Some(recorder))?;
-    let mut happened = Happened::default();
-    let mut streams: Vec<Stream> = Vec::new();
-    let mut progress = Progress::new(verbosity, "learning", run.ticks());
-    for n in 0..run.ticks() {
-        run.tick(&mut happened);
-        let (label, trial) = run.presented();
-        let trial = trial.to_string();
-        let samples = std::mem::take(&mut *heard.borrow_mut());
-        match streams
-            .last_mut()
-            .filter(|last| last.label == label && last.trial == trial)
-        {
-            Some(stream) => stream.samples.extend(samples),
-            None => streams.push(Stream {
-                label: label.to_owned(),
-                trial,
-                samples,
-            }),
-        }
-        if n.is_multiple_of(1024) {
-            progress.set(n);
-        }
-    }
-    Ok(streams)
+    super::record::streams(&scene, verbosity)
 }
 
 /// The model of a recording with the settings that `host-sim train` has by default.

@@ -31,7 +31,10 @@ pub fn report(
             .map(|(name, _)| out.join(name).display().to_string())
             .collect();
         return if stale.is_empty() {
-            Ok(format!("{}: the accuracy report is up to date", out.display()))
+            Ok(format!(
+                "{}: the accuracy report is up to date",
+                out.display()
+            ))
         } else {
             Err(Error::Work(format!(
                 "out of date: {}: run host-sim report",

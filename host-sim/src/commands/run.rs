@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use scene::{Rule, Scene};
+use scene::{Rule, Scene, Texture};
 
 use crate::decisions::{self, Confusion, Decided};
 use crate::listening::{self, Fault};
@@ -20,6 +20,9 @@ use crate::{Error, report};
 pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<String>, Error> {
     let scene = Scene::load(path)?;
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
+    if let Some(caution) = plan::cautions(&scene) {
+        report::warn(Error::file(path, caution));
+    }
     let folder = path.parent().unwrap_or(Path::new("."));
     let model = scene
         .model_path(folder)
@@ -39,7 +42,9 @@ pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<Strin
                 Fault::Model(fault) => Error::file(model_path, fault),
                 Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
             })?;
-            (Some(listener), listening::names(&model))
+            let classes = listening::names(&model);
+            knows_a_texture(&scene, &classes).map_err(|fault| Error::file(path, fault))?;
+            (Some(listener), classes)
         }
         _ => (None, Vec::new()),
     };
@@ -70,4 +75,25 @@ pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<Strin
         let confusion = Confusion::new(&classes, &decided);
         report::Summary(&confusion, scene.tick_hz).to_string()
     }))
+}
+
+/// A model that knows none of the textures presented is another scene's.
+fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
+    let Some(textured) = &scene.plant.textured else {
+        return Ok(());
+    };
+    let known = |texture: &Texture| classes.iter().any(|class| class == texture.name());
+    if textured.textures.iter().any(known) {
+        return Ok(());
+    }
+    let presented: Vec<_> = textured
+        .textures
+        .iter()
+        .map(|texture| texture.name())
+        .collect();
+    Err(format!(
+        "classifier.model: found the classes {}; the scene presents {}",
+        classes.join(", "),
+        presented.join(", ")
+    ))
 }

@@ -187,6 +187,33 @@ fn recordings_may_come_in_any_dress() {
 }
 
 #[test]
+fn record_writes_what_the_classifier_would_hear() {
+    let place = Place::with(&[("s.toml", TEXTURED)]);
+    let ran = place.done(&["record", "s.toml", "--out", "heard.csv"]);
+    assert!(
+        ran.stdout.contains("1000 samples in 4 streams"),
+        "{}",
+        ran.stdout
+    );
+    place.done(&["run", "s.toml", "--out", "."]);
+    let (heard, trace) = (place.text("heard.csv"), place.text("trace.csv"));
+    let (heard, trace) = (cells(&heard), cells(&trace));
+    let column = |name: &str| trace[0].iter().position(|title| *title == name).unwrap();
+    let (x, y) = (column("x_left"), column("y_left"));
+    assert_eq!(heard.len(), trace.len());
+    for (heard, trace) in heard[1..].iter().zip(&trace[1..]) {
+        assert_eq!(heard[2..], [trace[x], trace[y]]);
+    }
+    assert_eq!(
+        (heard[1][0], heard[251][0], heard[501][0]),
+        ("smooth", "carpet", "smooth")
+    );
+    assert_eq!((heard[1][1], heard[501][1]), ("0", "1"));
+    place.done(&["record", "s.toml", "--out", "other.csv", "--seed", "7"]);
+    assert_ne!(place.text("other.csv"), place.text("heard.csv"));
+}
+
+#[test]
 fn help_names_every_command_and_option() {
     let place = Place::new();
     let help = |arguments: &[&str]| place.done(arguments).stdout;

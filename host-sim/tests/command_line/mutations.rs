@@ -96,6 +96,9 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
     let Ok(scene) = Scene::from_str("s.toml", text) else {
         return Ok(());
     };
+    if plan::check(&scene).is_err() {
+        return Ok(());
+    }
     let model = model(2, 20, true);
     let model = ModelBuf::from_bytes(&model).unwrap();
     let model = model.model().unwrap();

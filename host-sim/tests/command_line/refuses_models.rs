@@ -70,8 +70,15 @@ fn models_for_something_else() {
         let naming = format!("{channels} channels");
         refused_by_both(&model(channels, 20, true), &naming);
     }
-    // Learnt from real numbers: good for recordings of such, not for a sensor.
+    // Of other textures: every decision would be wrong.
     let place = place();
+    let other = TEXTURED.replace("[\"smooth\", \"carpet\"]", "[\"p600\", \"p240\"]");
+    place.write("s.toml", format!("{other}{SEQUENTIAL}"));
+    place.write("the.model", model(2, 20, true));
+    let naming = ["s.toml: classifier.model", "smooth, carpet", "p600, p240"];
+    place.refuses_to_write(&["run", "s.toml"], &naming);
+    // Learnt from real numbers: good for recordings of such, not for a sensor.
+    let place = self::place();
     place.write("the.model", model(2, 20, false));
     place.refuses_to_write(&["run", "s.toml"], &["the.model: ", "codes"]);
     place.done(&[&classify()[..], &["--out", "d.csv"]].concat());

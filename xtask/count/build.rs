@@ -1,0 +1,238 @@
+//! Memory map of the emulated machine, and what the kernels need: constants of
+//! every number format, models to classify with, a filter for the peers.
+//!
+//! A number format is measured when it has a line in [`constants`].
+
+use std::error::Error;
+use std::fmt::Debug;
+use std::path::PathBuf;
+use std::{env, fs};
+
+use tactile::train::{Options, Trainer};
+use whisking::{DEGREES_PER_UNIT, GateSettings, Integrator, Real, Settings, filter, pd};
+
+/// Ticks a second: BIOTACT's.
+const TICK_HZ: f64 = 2000.0;
+
+/// A machine of the emulator: the target it stands for, its name, its memory.
+const MACHINES: [(&str, &str, &str); 2] = [
+    (
+        "thumbv7em-none-eabihf",
+        "mps2-an386",
+        "CODE : ORIGIN = 0, LENGTH = 4M\n  RAM : ORIGIN = 0x20000000, LENGTH = 4M",
+    ),
+    (
+        "thumbv6m-none-eabi",
+        "microbit",
+        "CODE : ORIGIN = 0, LENGTH = 256K\n  RAM : ORIGIN = 0x20000000, LENGTH = 16K",
+    ),
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-check-cfg=cfg(firmware)");
+    println!("cargo::rustc-check-cfg=cfg(machine, values(\"mps2-an386\", \"microbit\"))");
+    if env::var("CARGO_CFG_TARGET_OS")? == "none" {
+        link(&env::var("TARGET")?)?;
+    }
+    // What the firmware's boards need does not build for this target.
+    if env::var("TARGET")? != "thumbv6m-none-eabi" {
+        println!("cargo::rustc-cfg=firmware");
+    }
+    fs::write(output("constants.rs")?, constants()?)?;
+    for classes in [4, 9] {
+        // No block ends within a count, or every sample ends one.
+        for (name, block) in [("open", 10_000), ("block", 1)] {
+            let path = output(&format!("{name}{classes}.model"))?;
+            fs::write(path, model(classes, block)?)?;
+        }
+    }
+    Ok(())
+}
+
+fn output(name: &str) -> Result<PathBuf, Box<dyn Error>> {
+    Ok(PathBuf::from(env::var("OUT_DIR")?).join(name))
+}
+
+fn link(target: &str) -> Result<(), Box<dyn Error>> {
+    let (_, machine, memory) = MACHINES
+        .into_iter()
+        .find(|(known, _, _)| *known == target)
+        .ok_or_else(|| format!("no emulated machine for {target}"))?;
+    println!("cargo::rustc-cfg=machine={machine:?}");
+    println!("cargo::rerun-if-changed=count.x");
+    let script = output("count.x")?;
+    let sections = fs::read_to_string("count.x")?;
+    fs::write(&script, format!("MEMORY\n{{\n  {memory}\n}}\n\n{sections}"))?;
+    println!("cargo::rustc-link-arg-bins=--nmagic");
+    println!("cargo::rustc-link-arg-bins=-T{}", script.display());
+    Ok(())
+}
+
+/// The constants of every number format.
+fn constants() -> Result<String, Box<dyn Error>> {
+    Ok([
+        format::<f32>("f32")?,
+        format::<f64>("f64")?,
+        format::<whisking::Fix>("Fix")?,
+        sections(),
+    ]
+    .concat())
+}
+
+fn settings(integrator: Integrator) -> Settings {
+    let gate = |gain| GateSettings { gain, tau_s: 0.125 };
+    Settings {
+        tick_hz: TICK_HZ,
+        frequency_hz: 2.0,
+        integrator,
+        coupling: true,
+        noise: 0.005,
+        rcp: Some(gate(0.7)),
+        cia: Some(gate(0.5)),
+    }
+}
+
+fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
+    let euler = settings(Integrator::Euler);
+    let exact = settings(Integrator::Exact);
+    let [papers, whisking] = [euler.build::<R>()?, exact.build::<R>()?];
+    let none = "settings without a part";
+    let left = [0.6, -0.8];
+    let psi = [left, [0.0, -1.0]];
+    let pd = pd::Settings {
+        kp: 0.05,
+        kd: 0.001,
+        limit: 0.8,
+        slew_per_s: 400.0,
+        min_deg: 30.0,
+        max_deg: 160.0,
+    };
+    // BIOTACT's motor: 512 counts a turn, a gear of 11.
+    let degrees_per_count = 360.0 / (512.0 * 11.0);
+    let parts = [
+        part(
+            "H50",
+            "filter::Config<Self>",
+            &filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?,
+        ),
+        part("RCP", "gate::Rcp<Self>", &whisking.rcp.ok_or(none)?),
+        part("CIA", "gate::Cia<Self>", &whisking.cia.ok_or(none)?),
+        part("NOISE", "noise::Config<Self>", &whisking.noise.ok_or(none)?),
+        part("PEAK_GAIN", "Self", &whisking.peak_gain),
+        part(
+            "EULER_OSCILLATORS",
+            "oscillator::Config<Self>",
+            &papers.oscillators,
+        ),
+        part("EULER_MUSCLE", "muscle::Config<Self>", &papers.muscle),
+        part(
+            "EULER_START",
+            "Start<Self, 2, 1>",
+            &euler.start::<R, 2, 1>(psi, [[1.0]; 2])?,
+        ),
+        part(
+            "OSCILLATORS",
+            "oscillator::Config<Self>",
+            &whisking.oscillators,
+        ),
+        part("MUSCLE", "muscle::Config<Self>", &whisking.muscle),
+        part(
+            "START_1",
+            "Start<Self, 1, 1>",
+            &exact.start::<R, 1, 1>([left], [[1.0]])?,
+        ),
+        part(
+            "START_2",
+            "Start<Self, 2, 1>",
+            &exact.start::<R, 2, 1>(psi, [[1.0]; 2])?,
+        ),
+        part(
+            "START_24",
+            "Start<Self, 2, 12>",
+            &exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?,
+        ),
+        part("PD", "pd::Config<Self>", &pd.build::<R>(TICK_HZ)?),
+        part(
+            "THETA_PER_COUNT",
+            "Coefficient<Self>",
+            &R::coefficient(degrees_per_count / DEGREES_PER_UNIT),
+        ),
+    ];
+    Ok(format!(
+        "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{}}}\n",
+        name.to_lowercase(),
+        parts.concat()
+    ))
+}
+
+/// `const NAME: TYPE = VALUE;`, the value in a scope with the names that it
+/// prints, of which several are alike.
+fn part(name: &str, of_type: &str, value: &impl Debug) -> String {
+    let module = of_type.split_once("::").map_or("", |(module, _)| module);
+    let names = match module {
+        "oscillator" => "oscillator::{Config, Config::*, Euler, Exact, Linear}",
+        "muscle" => "muscle::{Config, Config::*, Euler, Exact}",
+        "noise" | "filter" => "filter::Config",
+        "gate" => "gate::{Rcp, Cia}",
+        "pd" => "pd::Config",
+        _ => "{Start, muscle::History}",
+    };
+    let mut value = format!("{value:?}");
+    if module == "noise" {
+        // Two types of one short name, one in the other.
+        value = value.replacen("Config", "noise::Config", 1);
+    }
+    format!(
+        "    const {name}: {of_type} = {{\n        \
+         #[allow(unused_imports, reason = \"as the value needs\")]\n        \
+         use whisking::{names};\n        {value}\n    }};\n"
+    )
+}
+
+/// H50 as two second-order sections b0, b1, b2, a1, a2 (denominator
+/// 1 + a1/z + a2/z²), for the peers: the bilinear transform, pre-warped.
+fn sections() -> String {
+    let g = (std::f64::consts::PI * filter::CORNER_HZ / TICK_HZ).tan();
+    let first = g / (1.0 + g);
+    let n = 1.0 / (1.0 + g + g * g);
+    let second = g * g * n;
+    let sections = [
+        [first, first, 0.0, (g - 1.0) / (g + 1.0), 0.0],
+        [
+            second,
+            2.0 * second,
+            second,
+            2.0 * (g * g - 1.0) * n,
+            (1.0 - g + g * g) * n,
+        ],
+    ];
+    format!("/// H50.\npub const SECTIONS: [[f64; 5]; 2] = {sections:?};\n")
+}
+
+/// A model of sensor codes of two channels whose classes overlap.
+fn model(classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
+    let options = Options {
+        block,
+        ..Options::default()
+    };
+    let mut trainer = Trainer::new(2, options)?;
+    let mut random = 1_u32;
+    let mut code = |middle: u32| {
+        // The sum of two is a triangle around the middle; a common generator
+        // for a quick recording (Numerical Recipes, 7.1).
+        let mut part = || {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            random >> 20
+        };
+        f64::from(middle + part() + part())
+    };
+    for class in 0..classes {
+        let name = format!("class {class}");
+        for _ in 0..500 {
+            let sample = [code(2_000 + 400 * class), code(5_000 - 300 * class)];
+            trainer.add(&name, &sample)?;
+        }
+    }
+    Ok(trainer.train()?.as_bytes().to_vec())
+}

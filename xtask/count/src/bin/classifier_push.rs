@@ -1,0 +1,18 @@
+//! A sample of two channels, which ends no block.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::Two;
+use count::listener::{Listener, open_4, open_9};
+use count::samples::codes;
+use count::{kernel, program};
+
+program!(kernels);
+
+fn kernels() {
+    kernel!("integer": "classifier push K=4",
+        (codes: Two<i32>, listener: &mut Listener<4>) -> u32 { listener.push([codes.0, codes.1]) },
+        codes, Listener::new(open_4()));
+    kernel!("integer": "classifier push K=9",
+        (codes: Two<i32>, listener: &mut Listener<9>) -> u32 { listener.push([codes.0, codes.1]) },
+        codes, Listener::new(open_9()));
+}

@@ -1,0 +1,52 @@
+//! The parts of a tick, with the structure-preserving integrators.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::{Three, Two};
+use count::format::Format;
+use count::samples::{drives, number, pair};
+use count::{each_format, kernel, program};
+use whisking::gate::Gate;
+use whisking::{filter, muscle, oscillator, pd};
+
+program!(kernels);
+
+fn kernels() {
+    each_format!(parts);
+}
+
+#[inline(never)]
+fn parts<R: Format>() {
+    kernel!(R: "h50",
+        (x: R, state: &mut filter::State<R>) -> R { R::H50.process(state, x) },
+        number::<R>(-1.0, 1.0), filter::State::default());
+    kernel!(R: "gates z and g",
+        (contact: R, (z, g, nominal): &mut (Gate<R>, Gate<R>, R)) {
+            R::RCP.step(z, contact);
+            R::CIA.step(g, *nominal, contact);
+        },
+        number::<R>(0.0, 1.0), (Gate::default(), Gate::new(R::ONE), R::ONE));
+    kernel!(R: "muscle",
+        (at: Three<R>, state: &mut muscle::State<R>) {
+            let Three(gain, before, after) = at;
+            R::MUSCLE.step(state, gain, before, after);
+        },
+        drives::<R>(), muscle::State::default());
+    kernel!(R: "oscillator of 1 side",
+        (_: u32, (state, drive): &mut (oscillator::State<R, 1>, [R; 1])) {
+            R::OSCILLATORS.step(state, None);
+            *drive = R::OSCILLATORS.psi(state).map(|[drive, _]| drive);
+        },
+        |call| call, (oscillator::State::new(R::START_1.oscillators), [R::ZERO; 1]));
+    kernel!(R: "oscillators of 2 sides",
+        (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
+            R::OSCILLATORS.step(state, None);
+            *drive = R::OSCILLATORS.psi(state).map(|[drive, _]| drive);
+        },
+        |call| call, (oscillator::State::new(R::START_2.oscillators), [R::ZERO; 2]));
+    kernel!(R: "pd",
+        (at: Two<R>, state: &mut pd::State<R>) -> R {
+            let Two(setpoint, measured) = at;
+            R::PD.step(state, setpoint, measured)
+        },
+        pair::<R>(-0.4, 1.2), pd::State::default());
+}

@@ -1,0 +1,30 @@
+//! The parts of a tick that differ with the papers' integrators.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::Three;
+use count::format::Format;
+use count::samples::drives;
+use count::{each_format, kernel, program};
+use whisking::{muscle, oscillator};
+
+program!(kernels);
+
+fn kernels() {
+    each_format!(parts);
+}
+
+#[inline(never)]
+fn parts<R: Format>() {
+    kernel!(R: "muscle (euler)",
+        (at: Three<R>, state: &mut muscle::State<R>) {
+            let Three(gain, before, after) = at;
+            R::EULER_MUSCLE.step(state, gain, before, after);
+        },
+        drives::<R>(), muscle::State::default());
+    kernel!(R: "oscillators of 2 sides (euler)",
+        (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
+            R::EULER_OSCILLATORS.step(state, None);
+            *drive = R::EULER_OSCILLATORS.psi(state).map(|[drive, _]| drive);
+        },
+        |call| call, (oscillator::State::new(R::EULER_START.oscillators), [R::ZERO; 2]));
+}

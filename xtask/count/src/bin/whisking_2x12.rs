@@ -1,0 +1,23 @@
+//! The whole pattern generator of two sides with twelve whiskers each.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::Two;
+use count::format::Format;
+use count::samples::pair;
+use count::{each_format, kernel, program};
+use whisking::State;
+
+program!(kernels);
+
+fn kernels() {
+    each_format!(whisking);
+}
+
+#[inline(never)]
+fn whisking<R: Format>() {
+    kernel!(R: "whisking 2 sides 12 whiskers",
+        (contact: Two<R>, state: &mut State<R, 2, 12>) {
+            R::WHISKING.step(state, [contact.0, contact.1]);
+        },
+        pair::<R>(0.0, 1.0), State::new(&R::START_24, 1));
+}

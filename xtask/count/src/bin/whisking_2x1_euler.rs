@@ -1,0 +1,23 @@
+//! The whole pattern generator of two sides with a whisker each, with the papers' integrators.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::Two;
+use count::format::Format;
+use count::samples::pair;
+use count::{each_format, kernel, program};
+use whisking::State;
+
+program!(kernels);
+
+fn kernels() {
+    each_format!(whisking);
+}
+
+#[inline(never)]
+fn whisking<R: Format>() {
+    kernel!(R: "whisking 2 sides 1 whisker (euler)",
+        (contact: Two<R>, state: &mut State<R, 2, 1>) {
+            R::EULER_WHISKING.step(state, [contact.0, contact.1]);
+        },
+        pair::<R>(0.0, 1.0), State::new(&R::EULER_START, 1));
+}

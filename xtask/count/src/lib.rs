@@ -1,0 +1,73 @@
+//! Counts the instructions of every numeric kernel on emulated processors.
+//!
+//! `cargo xtask count` builds the programs of this package for a Cortex-M4F
+//! and a Cortex-M0 (whose instruction set is also that of the Cortex-M0+), runs
+//! them in QEMU and makes the table `docs/instructions.csv` of what they print.
+//! These are instructions, not cycles: what they take depends on the part, its
+//! flash and its caches.
+//!
+//! # Glossary
+//!
+//! - *kernel*: a function that a tick calls, or a tick as a whole.
+//! - *count*: the instructions of one call of a kernel: call, body and return,
+//!   its arguments being in their registers already.
+//! - *peer*: what a user would pick instead, counted in the same way.
+//!
+//! # Where to look
+//!
+//! [`machine`] counts, `check.rs` proves that it does, [`kernel!`] enters a
+//! kernel in a program of `src/bin`. A number format is measured when it has a
+//! line in the build script and one in [`each_format`].
+//!
+//! Kernels that have a function in common stand in programs apart: the firmware
+//! calls each part once and so the compiler takes it in whole, with its
+//! constants; called from two kernels it might stay a function of its own.
+#![cfg_attr(target_os = "none", no_std)]
+
+pub mod arguments;
+#[cfg(target_os = "none")]
+pub mod check;
+pub mod format;
+pub mod listener;
+#[cfg(target_os = "none")]
+pub mod machine;
+#[cfg(not(target_os = "none"))]
+#[path = "pc.rs"]
+pub mod machine;
+#[cfg(firmware)]
+pub mod module;
+pub mod report;
+pub mod samples;
+
+/// Makes a program of a function that counts kernels.
+#[macro_export]
+macro_rules! program {
+    ($kernels:ident) => {
+        /// What the processor does after its start.
+        #[cfg(target_os = "none")]
+        #[allow(
+            unsafe_code,
+            reason = "the start finds it by its name, which no other has"
+        )]
+        #[unsafe(no_mangle)]
+        extern "C" fn start() -> ! {
+            $crate::machine::run($kernels)
+        }
+
+        /// On a PC the kernels run, and nothing is counted.
+        #[cfg(not(target_os = "none"))]
+        fn main() {
+            $kernels();
+        }
+    };
+}
+
+/// Calls a function once for every number format.
+#[macro_export]
+macro_rules! each_format {
+    ($kernels:ident) => {{
+        $kernels::<f32>();
+        $kernels::<f64>();
+        $kernels::<whisking::Fix>();
+    }};
+}

@@ -1,0 +1,192 @@
+//! A whole active module on hardware that is only memory: its sensors, motors,
+//! encoders and clock are fields, as they are registers on a board.
+
+use core::convert::Infallible;
+
+use embedded_hal::digital::{self, OutputPin};
+use embedded_hal::pwm::{self, SetDutyCycle};
+use firmware::design_parameters::{RETRY_S, patience, stall, ticks};
+use firmware::{
+    Active, ActiveConfig, AngleInput, BusError, Clock, Config, Event, Follower, FrameSource,
+    Module, Stream, Touch, TouchConfig,
+};
+use mlx90333::{Decoder, FRAME_LEN};
+use tactile::{Model, Sequential, SequentialRule};
+use whisking::motor::{HBridge, StallConfig};
+use whisking::{Start, State};
+
+use crate::format::Format;
+use crate::listener::{THRESHOLD, open_9};
+use crate::samples::frame;
+
+/// Ticks a second.
+const TICK_HZ: u32 = 2000;
+/// Counts of the clock between two ticks.
+const PERIOD: u32 = 45_000;
+/// Half of full duty counts as driven hard.
+const STALL: StallConfig = stall(TICK_HZ, i16::MAX / 2);
+
+/// A sensor that has a new frame in every tick.
+#[derive(Debug)]
+pub struct Frames {
+    next: u32,
+}
+
+impl FrameSource for Frames {
+    #[inline]
+    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+        self.next += 1;
+        Ok(Some(*frame(self.next)))
+    }
+}
+
+/// The compare register of a PWM.
+#[derive(Debug)]
+pub struct Compare(u16);
+
+impl pwm::ErrorType for Compare {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for Compare {
+    #[inline]
+    fn max_duty_cycle(&self) -> u16 {
+        2250
+    }
+
+    #[inline]
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        self.0 = duty;
+        Ok(())
+    }
+}
+
+/// The output register of a pin.
+#[derive(Debug)]
+pub struct Pin(bool);
+
+impl digital::ErrorType for Pin {
+    type Error = Infallible;
+}
+
+impl OutputPin for Pin {
+    #[inline]
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        self.0 = false;
+        Ok(())
+    }
+
+    #[inline]
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        self.0 = true;
+        Ok(())
+    }
+}
+
+/// The counter of an encoder, which turns on.
+#[derive(Debug)]
+pub struct Encoder(i32);
+
+impl AngleInput for Encoder {
+    #[inline]
+    fn counts(&mut self) -> i32 {
+        self.0 += 2;
+        self.0
+    }
+}
+
+/// A counter that runs.
+#[derive(Debug)]
+pub struct Counter(u32);
+
+impl Clock for Counter {
+    #[inline]
+    fn now(&mut self) -> u32 {
+        self.0 = self.0.wrapping_add(PERIOD / 2);
+        self.0
+    }
+}
+
+type Motor = HBridge<Compare, Pin>;
+type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
+type Perception = Touch<Stream<'static, SequentialRule, 9>>;
+
+/// A module and the last event that it told.
+#[derive(Debug)]
+pub struct Whole<R: Format, const S: usize, const N: usize> {
+    module: Module<R, Frames, Motion<R, S, N>, Perception, Counter, S, N>,
+    told: Option<Event>,
+}
+
+impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
+    /// Frame, contact filter, RCP, CIA, oscillators, muscles, position control
+    /// and a classifier of nine classes; no noise, which few scenes have.
+    const CONFIG: Config<R, ActiveConfig<R>, TouchConfig<R>> = Config {
+        decoder: Decoder::new(),
+        patience: patience(TICK_HZ),
+        contact: Some(R::H50),
+        motion: ActiveConfig {
+            whisking: R::WHISKING,
+            pd: R::PD,
+            theta_per_count: R::THETA_PER_COUNT,
+            retry: ticks(RETRY_S, TICK_HZ),
+            stall: STALL,
+        },
+        perception: TouchConfig { contact_min: None },
+        period: PERIOD,
+    };
+
+    /// A module that has not ticked yet.
+    ///
+    /// # Panics
+    /// If the build script made another model than this needs.
+    pub fn new(start: &Start<R, S, N>) -> Self {
+        let model = Model::parse(open_9()).expect("a model");
+        let classifier = Sequential::new(&model, THRESHOLD).expect("two channels, nine classes");
+        let stream = Stream::new(&model, classifier).expect("learnt from codes");
+        let followers = core::array::from_fn(|_| {
+            core::array::from_fn(|_| {
+                let motor = HBridge::new(Compare(0), Pin(false)).with_buffered_pwm();
+                Follower::new(motor, Encoder(0), STALL)
+            })
+        });
+        let sources = core::array::from_fn(|side| {
+            core::array::from_fn(|w| Frames {
+                next: (side + w) as u32,
+            })
+        });
+        let motion = Active::new(State::new(start, 1), followers);
+        Self {
+            module: Module::new(sources, motion, Touch::new(stream), Counter(0)),
+            told: None,
+        }
+    }
+
+    /// One tick.
+    #[inline]
+    pub fn tick(&mut self) {
+        let told = &mut self.told;
+        self.module
+            .tick(&Self::CONFIG, &mut |event| *told = Some(event));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Whole;
+    use crate::format::Format;
+    use crate::report::CALLS;
+
+    #[test]
+    fn what_is_counted_is_a_tick_in_which_all_is_well() {
+        fn run<R: Format>() {
+            let mut whole = Whole::<R, 1, 1>::new(&R::START_1);
+            for _ in 0..CALLS {
+                whole.tick();
+                assert_eq!(whole.told, None);
+            }
+            assert!(whole.module.contact()[0].to_f64() > 0.0);
+        }
+        crate::each_format!(run);
+    }
+}

@@ -1,0 +1,103 @@
+//! What kernels get: numbers, frames and codes that differ from call to call.
+
+use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
+use whisking::Real;
+
+use crate::arguments::{Three, Two};
+
+/// A number from `from` to `to`, well spread over the calls: the fractional
+/// parts of multiples of the golden ratio, which fall into the largest gaps.
+pub fn spread(call: u32, from: f64, to: f64) -> f64 {
+    let fraction = f64::from(call.wrapping_mul(0x9E37_79B9)) / f64::from(u32::MAX);
+    from + (to - from) * fraction
+}
+
+/// The same in a number format.
+pub fn number<R: Real>(from: f64, to: f64) -> impl Fn(u32) -> R {
+    move |call| R::from_f64(spread(call, from, to))
+}
+
+/// Two numbers from `from` to `to` that do not follow each other.
+pub fn pair<R: Real>(from: f64, to: f64) -> impl Fn(u32) -> Two<R> {
+    let number = number(from, to);
+    move |call| Two(number(call), number(call.wrapping_mul(7)))
+}
+
+/// A muscle's gain, and the drive before and after, which goes up and down
+/// once in a thousand calls.
+pub fn drives<R: Real>() -> impl Fn(u32) -> Three<R> {
+    let drive = |call: u32| {
+        let phase = f64::from(call % 1000) / 500.0;
+        R::from_f64(if phase < 1.0 { phase } else { 2.0 - phase })
+    };
+    let gain = number(1.0, 1.45);
+    move |call| Three(gain(call), drive(call), drive(call + 1))
+}
+
+/// Sensor codes over the models' range and a little beyond.
+pub fn codes(call: u32) -> Two<i32> {
+    let code = |call| spread(call, 1_000.0, 15_000.0) as i32;
+    Two(code(call), code(call.wrapping_mul(7)))
+}
+
+/// A frame of the sensor, in memory.
+pub fn frame(call: u32) -> &'static [u8; FRAME_LEN] {
+    static FRAMES: [[u8; FRAME_LEN]; 128] = {
+        let mut frames = [[0; FRAME_LEN]; 128];
+        let mut i = 0;
+        while i < frames.len() {
+            let word = (i as u16).wrapping_mul(40_503);
+            let (x, y) = (Word::new(word), Word::new(word.rotate_left(7)));
+            frames[i] = encode::alpha_beta(x, y, Faults::NONE, SumRule::SumB1B6);
+            i += 1;
+        }
+        frames
+    };
+    &FRAMES[call as usize % FRAMES.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{codes, drives, frame, spread};
+    use crate::arguments::{Three, Two};
+    use mlx90333::Decoder;
+
+    #[test]
+    fn numbers_fill_their_range_evenly() {
+        let mut bins = [0; 10];
+        for call in 0..1000 {
+            let x = spread(call, -1.0, 1.0);
+            assert!((-1.0..=1.0).contains(&x));
+            bins[(((x + 1.0) * 5.0) as usize).min(9)] += 1;
+        }
+        assert!(bins.iter().all(|n| (97..=103).contains(n)), "{bins:?}");
+    }
+
+    #[test]
+    fn frames_are_good_and_differ() {
+        let good: Vec<_> = (0..128)
+            .map(|call| Decoder::new().decode(frame(call)).unwrap().first().raw())
+            .collect();
+        assert!(good.windows(2).all(|pair| pair[0] != pair[1]));
+    }
+
+    #[test]
+    fn codes_reach_beyond_both_ends_of_the_models() {
+        let xs = (0..1000).map(|call| codes(call).0);
+        let (low, high) = xs.fold((i32::MAX, 0), |(l, h), x| (x.min(l), x.max(h)));
+        assert!(low < 2_000 && high > 13_400, "{low} {high}");
+        assert!((0..1000).any(|call| {
+            let Two(x, y) = codes(call);
+            (x - y).abs() > 5_000
+        }));
+    }
+
+    #[test]
+    fn drive_goes_on_where_it_stopped() {
+        let at = drives::<f64>();
+        for call in 0..2000 {
+            let (Three(_, _, after), Three(_, before, _)) = (at(call), at(call + 1));
+            assert_eq!(after, before);
+        }
+    }
+}
