@@ -30,14 +30,9 @@ const MACHINES: [(&str, &str, &str); 2] = [
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rustc-check-cfg=cfg(firmware)");
     println!("cargo::rustc-check-cfg=cfg(machine, values(\"mps2-an386\", \"microbit\"))");
     if env::var("CARGO_CFG_TARGET_OS")? == "none" {
         link(&env::var("TARGET")?)?;
-    }
-    // What the firmware's boards need does not build for this target.
-    if env::var("TARGET")? != "thumbv6m-none-eabi" {
-        println!("cargo::rustc-cfg=firmware");
     }
     fs::write(output("constants.rs")?, constants()?)?;
     for classes in [4, 9] {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::run::{Fault, cargo, run};
-use crate::{docs, firmware};
+use crate::{count, docs, firmware};
 
 /// Everything.
 ///
@@ -27,6 +27,9 @@ pub(crate) fn all() -> Result<(), Fault> {
             firmware::print_size(board, scene, &elf)?;
         }
     }
+
+    run(&mut cargo(&["test", "-p", "count", "--lib"]))?;
+    count::all(None, true)?;
 
     // What the README tells a newcomer to run: the main job (its output and its
     // files are what the generated documents must hold), then all tests.

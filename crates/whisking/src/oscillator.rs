@@ -202,19 +202,17 @@ impl<R: Real> Config<R> {
             Self::Euler(euler) => euler.increments(&state.kept),
             Self::Exact(exact) => exact.increments(&state.kept),
         };
-        if let Some(noise) = noise {
-            for (change, noise) in change.iter_mut().flatten().zip(noise.iter().flatten()) {
-                *change = *change + *noise;
+        // Loops over constant bounds: the compiler unrolls them, as it does not
+        // flattened iterators.
+        for side in 0..S {
+            for k in 0..2 {
+                if let Some(noise) = noise {
+                    change[side][k] = change[side][k] + noise[side][k];
+                }
+                let x = &mut state.kept[side][k];
+                x.accumulate(&mut state.carry[side][k], change[side][k]);
+                *x = x.clamp(-R::PSI_LIMIT, R::PSI_LIMIT);
             }
-        }
-        let states = state
-            .kept
-            .iter_mut()
-            .flatten()
-            .zip(state.carry.iter_mut().flatten());
-        for ((x, carry), change) in states.zip(change.iter().flatten()) {
-            x.accumulate(carry, *change);
-            *x = x.clamp(-R::PSI_LIMIT, R::PSI_LIMIT);
         }
     }
 
@@ -224,9 +222,12 @@ impl<R: Real> Config<R> {
         let mut psi = state.kept;
         if let Self::Exact(exact) = self {
             let half = exact.half.increments(&state.kept);
-            for (x, half) in psi.iter_mut().flatten().zip(half.iter().flatten()) {
-                // χ may stand in a corner of its square, from which L½ leads out.
-                *x = (*x + *half).clamp(-R::PSI_LIMIT, R::PSI_LIMIT);
+            for side in 0..S {
+                for k in 0..2 {
+                    // χ may stand in a corner of its square, from which L½ leads out.
+                    let x = psi[side][k] + half[side][k];
+                    psi[side][k] = x.clamp(-R::PSI_LIMIT, R::PSI_LIMIT);
+                }
             }
         }
         psi

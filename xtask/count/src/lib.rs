@@ -34,7 +34,6 @@ pub mod machine;
 #[cfg(not(target_os = "none"))]
 #[path = "pc.rs"]
 pub mod machine;
-#[cfg(firmware)]
 pub mod module;
 pub mod report;
 pub mod samples;

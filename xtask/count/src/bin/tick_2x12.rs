@@ -1,25 +1,19 @@
 //! A whole tick of an active module of twenty-four whiskers.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::program;
+use count::format::Format;
+use count::module::Whole;
+use count::{each_format, kernel, program};
 
 program!(kernels);
 
-#[cfg(not(firmware))]
-fn kernels() {}
-
-#[cfg(firmware)]
 fn kernels() {
-    use count::format::Format;
-    use count::module::Whole;
-    use count::{each_format, kernel};
-
-    #[inline(never)]
-    fn tick<R: Format>() {
-        kernel!(R: "tick of 24 whiskers",
-            (_: u32, whole: &mut Whole<R, 2, 12>) { whole.tick(); },
-            |call| call, Whole::new(&R::START_24));
-    }
-
     each_format!(tick);
+}
+
+#[inline(never)]
+fn tick<R: Format>() {
+    kernel!(R: "tick of 24 whiskers",
+        (_: u32, whole: &mut Whole<R, 2, 12>) { whole.tick(); },
+        |call| call, Whole::new(&R::START_24));
 }
