@@ -100,9 +100,8 @@ pub(crate) fn drive(x: i32) -> i32 {
 #[inline]
 pub(crate) fn exp_neg_square(x: i32) -> i32 {
     // The square stays below 2.25, the end of the table.
-    const LAST: i32 = (3 << 28) - 1;
-    let x = i64::from(x.clamp(-LAST, LAST));
-    let u = ((x * x) >> 29) as u32;
+    let size = u64::from(x.unsigned_abs().min((3 << 28) - 1));
+    let u = ((size * size) >> 29) as u32;
     EXP_NEG.at((u >> 26) as usize, (u << 6) >> 1) >> 1
 }
 
