@@ -4,6 +4,7 @@ mod ci;
 mod count;
 mod docs;
 mod firmware;
+mod mutants;
 mod run;
 
 use std::path::PathBuf;
@@ -38,6 +39,13 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Leaves out one term of an equation or turns round one bit of a table at
+    /// a time, and writes which tests notice to docs/mutations.md (takes hours)
+    Mutants {
+        /// Only those whose description contains this; writes no document
+        #[arg(long)]
+        only: Option<String>,
+    },
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -64,6 +72,7 @@ fn main() -> ExitCode {
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
+        Command::Mutants { only } => mutants::all(only.as_deref()),
         Command::Docs { check } => docs::all(check),
     };
     match done {

@@ -138,7 +138,7 @@ mod tests {
     use super::{Batch, medians};
 
     #[test]
-    fn twice_the_work_takes_twice_the_time_or_so() {
+    fn ten_times_the_work_takes_several_times_as_long() {
         let work = |turns: u64| -> Batch {
             Box::new(move || {
                 for n in 0..turns {
@@ -146,7 +146,7 @@ mod tests {
                 }
             })
         };
-        let times = medians(&mut [work(100_000), work(400_000)]);
-        assert!((2.0..8.0).contains(&(times[1] / times[0])), "{times:?}");
+        let times = medians(&mut [work(100_000), work(1_000_000)]);
+        assert!(times[0] > 0.0 && times[1] > 3.0 * times[0], "{times:?}");
     }
 }

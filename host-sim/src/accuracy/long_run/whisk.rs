@@ -4,20 +4,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use whisking::{Integrator, Real, State};
 
-use super::{Length, MINUTE_TICKS, PACE, Row};
+use super::{Length, MINUTE_TICKS, Row};
 use crate::Error;
 use crate::accuracy::integrators::NEAR;
-use crate::accuracy::schemes::{Format, refused};
-
-const WHISK_TICKS: u64 = 1_000;
+use crate::accuracy::schemes::{Format, Pace, refused};
 
 /// Runs one format; `done` counts minutes.
 pub(super) fn run<R: Real>(
     format: Format,
+    pace: Pace,
     length: Length,
     done: &AtomicU64,
 ) -> Result<Vec<Row>, Error> {
-    let settings = PACE.settings(Integrator::Exact);
+    let settings = pace.settings(Integrator::Exact);
     let config = settings.build::<R>().map_err(refused)?;
     let start = settings
         .start(NEAR.psi, [[NEAR.gain]; 2])
@@ -51,8 +50,9 @@ pub(super) fn run<R: Real>(
         }
         rows.push(Row {
             format: format.name().to_owned(),
+            frequency_hz: pace.frequency_hz,
             minutes: stretch * length.minutes,
-            phase_whisks: phase.ahead(),
+            phase_whisks: phase.ahead(pace.frequency_hz / pace.tick_hz),
             whisks: phase.whisks as f64,
             radius: square.map(libm::sqrt),
             theta_deg: theta.map(whisking::degrees),
@@ -91,12 +91,12 @@ impl Phase {
         self.before = now;
     }
 
-    /// Whisks ahead of one in [`WHISK_TICKS`].
-    fn ahead(&self) -> f64 {
+    /// Whisks ahead of `cycles` = f_W T a tick.
+    fn ahead(&self, cycles: f64) -> f64 {
         let (tick, part) = self.first.unwrap_or(self.last);
-        let ticks = (self.last.0 - tick) as i64 - (self.whisks * WHISK_TICKS) as i64;
-        // `part` is what is left of the tick before the crossing's.
-        -(ticks as f64 - (self.last.1 - part)) / WHISK_TICKS as f64
+        // A crossing lies its part of a tick before the tick that shows it.
+        let ticks = (self.last.0 - tick) as f64 - (self.last.1 - part);
+        self.whisks as f64 - ticks * cycles
     }
 }
 
@@ -113,7 +113,7 @@ mod tests {
             for tick in 1..=100_000_u64 {
                 phase.see(tick, (TAU * rate * tick as f64 - 1.0).sin());
             }
-            let found = 1e6 * phase.ahead() / phase.whisks as f64;
+            let found = 1e6 * phase.ahead(1e-3) / phase.whisks as f64;
             assert_eq!(phase.whisks, 99);
             assert!((found - ppm).abs() < 0.01, "{ppm}: {found}");
         }

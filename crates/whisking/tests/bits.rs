@@ -1,0 +1,73 @@
+//! The same bits on every machine: fingerprints of the elementary functions and
+//! of the noise.
+//!
+//! Errors are measured beside each function; they cannot tell one last bit of
+//! a table from another. A fingerprint can. Whoever changes a table, a
+//! coefficient or the order of operations on purpose puts the new one here.
+
+use whisking::{Fix, Integrator, Real, Settings, noise};
+
+/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits) of 32-bit words.
+fn fingerprint(words: impl Iterator<Item = u32>) -> u64 {
+    let bytes = words.flat_map(u32::to_le_bytes);
+    bytes.fold(0xCBF2_9CE4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
+    })
+}
+
+#[track_caller]
+fn same(found: u64, expected: u64) {
+    assert!(found == expected, "fingerprint {found:#x}");
+}
+
+/// Every 1/2^17 from −1.5 to 1.5, in Q29.
+fn grid() -> impl Iterator<Item = i32> {
+    (-(3 << 16)..=(3 << 16)).map(|n| n << 12)
+}
+
+fn single(x: i32) -> f32 {
+    x as f32 / 536_870_912.0
+}
+
+#[test]
+fn elementary_functions_in_fixed_point() {
+    let drive = fingerprint(grid().map(|x| Fix(x).drive().0 as u32));
+    same(drive, 0x7FF2_BA9F_6DB8_2957);
+    let exp = fingerprint(grid().map(|x| Fix(x).exp_neg_square().0 as u32));
+    same(exp, 0x4A6F_E5A1_E2E8_359D);
+    // All directions, at radii over several powers of two.
+    let unit =
+        grid().filter_map(|x| Fix::unit(Fix(x), Fix((x >> 3).wrapping_mul(5) ^ 0x0123_4567)));
+    let unit = fingerprint(unit.flatten().map(|x| x.0 as u32));
+    same(unit, 0x137D_9A60_ECE0_4B9E);
+}
+
+#[test]
+fn elementary_functions_in_single_precision() {
+    let drive = fingerprint(grid().map(|x| single(x).drive().to_bits()));
+    same(drive, 0x2662_B01A_C848_7B62);
+    let exp = fingerprint(grid().map(|x| single(x).exp_neg_square().to_bits()));
+    same(exp, 0x900C_4F7A_699F_ADEB);
+    let unit = grid().filter_map(|x| f32::unit(single(x), single(x >> 3) * 5.0 + 0.3));
+    let unit = fingerprint(unit.flatten().map(f32::to_bits));
+    same(unit, 0x0C76_7EE8_8320_D6C8);
+}
+
+#[test]
+fn noise_of_a_seed() {
+    let settings = Settings {
+        tick_hz: 2_000.0,
+        frequency_hz: 8.0,
+        integrator: Integrator::Exact,
+        coupling: true,
+        noise: 0.005,
+        rcp: None,
+        cia: None,
+    };
+    let config: noise::Config<f64> = settings.build().unwrap().noise.unwrap();
+    let mut state = noise::State::<f64, 2>::new(1);
+    let numbers = (0..200_000).flat_map(|_| config.step(&mut state)).flatten();
+    let bits = numbers.map(f64::to_bits);
+    let noise = fingerprint(bits.flat_map(|bits| [bits as u32, (bits >> 32) as u32]));
+    same(noise, 0xD36B_CEA7_5FAC_D81D);
+}

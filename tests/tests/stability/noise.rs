@@ -1,0 +1,56 @@
+//! The strongest noise that a scene may ask for drives the oscillators into
+//! their limits and nothing out of its bounds; the papers' moves all formats alike.
+
+use whisking::{Fix, Settings};
+
+use crate::axes::{Case, Worst, on_all_cores};
+use crate::rig::{Extreme, Module, start, widened};
+
+/// The papers' σ_η. All formats take their noise from the same integers, so
+/// none is far from f64. (The strongest noise throws ψ through the origin,
+/// where the least difference decides the direction.)
+const PAPERS: f64 = 0.005;
+/// The largest σ_η.
+const STRONGEST: f64 = 1.0;
+
+/// Runs `case` for two thousand ticks.
+fn run<R: Extreme>(case: Case, noise: f64, worst: &Worst) {
+    let settings = Settings {
+        noise,
+        ..case.settings()
+    };
+    let start = start::<R>(case, &settings);
+    let mut module = Module::new(&settings, &start);
+    let mut reference = Module::<f64>::new(&settings, &widened(&start));
+    for _ in 0..2_000 {
+        module.tick([R::ZERO; 2], &case);
+        reference.tick([0.0; 2], &case);
+        if noise == PAPERS && case.is_alike_in_all_formats() {
+            let distance = module.distance(&reference);
+            worst.tell(distance);
+            assert!(distance <= R::ROUNDING, "{case:?}: {distance:e}");
+        }
+    }
+}
+
+#[test]
+fn noise_stays_in_bounds() {
+    let mut cases = Vec::new();
+    for frequency in 0..8 {
+        for tick in 0..7 {
+            for integrator in 0..2 {
+                // From the origin; gates are the papers', without contact.
+                cases.push(Case([frequency, tick, integrator, 0, 1, 3, 3, 1, 1]));
+            }
+        }
+    }
+    let worst = Worst::default();
+    on_all_cores(&cases, |&case| {
+        for noise in [PAPERS, STRONGEST] {
+            run::<f64>(case, noise, &worst);
+            run::<f32>(case, noise, &worst);
+            run::<Fix>(case, noise, &worst);
+        }
+    });
+    println!("largest distance from f64: {:e}", worst.value());
+}

@@ -1,0 +1,194 @@
+//! Position control and H50 under abuse: bounded always, back soon after.
+//!
+//! *Back* for position control: once readings are sound, the duty is where its
+//! proportional part says, within 1e-3, after (a) two ticks in which the bad
+//! reading is still the last one, (b) as many ticks as the smoothed velocity
+//! (100 Hz) takes to fall from its limit of one to where k_d makes 5e-4 of it,
+//! and (c) as many as the slew takes from one limit to the other. In fixed
+//! point the smoothed velocity stands still where a step would round to
+//! nothing, which k_d makes a duty of: that much is taken off the 1e-3.
+//!
+//! *Back* for H50: 200 ms after the last bad sample what is left of it is below
+//! 1e-6.
+
+use whisking::{Fix, Real, filter, pd};
+
+use crate::axes::{TICKS_HZ, Worst, on_all_cores};
+use crate::rig::Extreme;
+
+/// The gains and limits of one run.
+fn settings() -> Vec<pd::Settings> {
+    let mut list = Vec::new();
+    for kp in [0.0, 0.05, 10.0] {
+        for kd in [0.0, 0.001, 1.0] {
+            for limit in [0.0, 0.8, 1.0] {
+                for slew_per_s in [1.0, 400.0, 1e5] {
+                    list.push(pd::Settings {
+                        kp,
+                        kd,
+                        limit,
+                        slew_per_s,
+                        min_deg: 30.0,
+                        max_deg: 150.0,
+                    });
+                }
+            }
+        }
+    }
+    list
+}
+
+/// Readings that no encoder gives, and setpoints that no muscle gives.
+fn bad<R: Extreme>() -> Vec<R> {
+    let count = R::coefficient(0.9);
+    let counts = [i32::MIN, i32::MAX, 1, -1].map(|counts| R::from_counts(counts, count));
+    let numbers = [
+        R::NOT_A_NUMBER,
+        R::HIGHEST,
+        R::LOWEST,
+        R::ZERO,
+        R::TWO,
+        -R::TWO,
+    ];
+    counts.into_iter().chain(numbers).collect()
+}
+
+/// 64 ticks of each bad reading with each bad setpoint, then sound ones.
+fn control<R: Extreme>(settings: &pd::Settings, tick_hz: f64) {
+    let config = settings.build::<R>(tick_hz).unwrap();
+    let (limit, slew) = (settings.limit, settings.slew_per_s / tick_hz);
+    // Roundings of single precision, of sizes up to one.
+    let rounding = 2.0 * f64::from(f32::EPSILON);
+    let mut state = pd::State::default();
+    let mut last = 0.0;
+    let mut step = |setpoint: R, measured: R| {
+        let duty = config.step(&mut state, setpoint, measured).to_f64();
+        assert!(
+            duty.abs() <= limit + rounding && (duty - last).abs() <= slew + rounding,
+            "{settings:?} at {tick_hz}: {last} to {duty}"
+        );
+        last = duty;
+        duty
+    };
+    let velocity_per_tick = std::f64::consts::TAU * 100.0 / tick_hz;
+    let kd_a_tick = settings.kd * 100.0 * tick_hz;
+    let fall = (kd_a_tick / 5e-4).max(1.0).ln() / velocity_per_tick;
+    let stands_still = kd_a_tick * R::STEP / 2.0 / -(-velocity_per_tick).exp_m1();
+    let ticks = (2.0 + fall + 2.0 * limit / slew).ceil() as usize + 1;
+    for measured in bad::<R>() {
+        for setpoint in bad::<R>() {
+            for _ in 0..64 {
+                step(setpoint, measured);
+                step(setpoint, R::ZERO);
+                step(R::ONE, measured);
+            }
+        }
+        // Slow slews take seconds to come back; half of them is enough of those.
+        if ticks > 40_000 {
+            continue;
+        }
+        let mut duty = 0.0;
+        for _ in 0..ticks {
+            duty = step(R::from_f64(0.51), R::from_f64(0.5));
+        }
+        let expected = settings.kp.min(limit);
+        assert!(
+            (duty - expected).abs() < 1e-3 + stands_still,
+            "{settings:?} at {tick_hz}: {duty} and not {expected} after {ticks} ticks"
+        );
+    }
+}
+
+#[test]
+fn position_control_keeps_its_limits_and_comes_back() {
+    let mut cases = Vec::new();
+    for settings in settings() {
+        for tick_hz in TICKS_HZ {
+            cases.push((settings, tick_hz));
+        }
+    }
+    on_all_cores(&cases, |(settings, tick_hz)| {
+        control::<f64>(settings, *tick_hz);
+        control::<f32>(settings, *tick_hz);
+        control::<Fix>(settings, *tick_hz);
+    });
+}
+
+#[test]
+fn counts_saturate_and_do_not_wrap() {
+    // The coarsest and the finest encoder and gear of a scene, and the papers'.
+    for counts_per_turn in [4.0, 512.0 * 11.0, 65_536.0 * 1_000.0] {
+        let factor = 360.0 / counts_per_turn / 100.0;
+        for counts in [i32::MIN, -70_000, -1, 0, 1, 3, 70_000, i32::MAX] {
+            let exact = f64::from(counts) * factor;
+            let fixed = Fix::from_counts(counts, Fix::coefficient(factor)).to_f64();
+            let expected = exact.clamp(-4.0, 4.0);
+            assert!(
+                (fixed - expected).abs() < 4e-9,
+                "{counts}: {fixed} {expected}"
+            );
+            let single = f64::from(f32::from_counts(counts, f32::coefficient(factor)));
+            assert!((single - exact).abs() <= 2e-7 * exact.abs(), "{counts}");
+        }
+    }
+}
+
+/// The largest output of H50 to any input within ±1: the sum of the magnitudes
+/// of its answer to a single one.
+fn largest(tick_hz: f64) -> f64 {
+    let config = filter::Config::<f64>::new(filter::CORNER_HZ, tick_hz).unwrap();
+    let mut state = filter::State::default();
+    let answer = (0..tick_hz as usize).map(|n| {
+        let x = if n == 0 { 1.0 } else { 0.0 };
+        config.process(&mut state, x).abs()
+    });
+    answer.sum()
+}
+
+/// H50 in `R` and in f64 through `input`, then nothing for 200 ms.
+fn smooth<R: Real>(tick_hz: f64, input: impl Fn(usize) -> f64) -> f64 {
+    let limit = largest(tick_hz) + 2e-6;
+    assert!(limit < 1.34, "{tick_hz}: {limit}");
+    let config = filter::Config::<R>::new(filter::CORNER_HZ, tick_hz).unwrap();
+    let wide = filter::Config::<f64>::new(filter::CORNER_HZ, tick_hz).unwrap();
+    let (mut state, mut wide_state) = (filter::State::default(), filter::State::default());
+    let mut worst = 0.0_f64;
+    let mut step = |x: f64| {
+        let y = config.process(&mut state, R::from_f64(x)).to_f64();
+        worst = worst.max((y - wide.process(&mut wide_state, x)).abs());
+        assert!(y.abs() <= limit, "{tick_hz}: {y}");
+        y
+    };
+    let second = tick_hz as usize;
+    for n in 0..second {
+        step(input(n));
+    }
+    let mut left = 0.0;
+    for _ in 0..second / 5 {
+        left = step(0.0);
+    }
+    assert!(left.abs() < 1e-6, "{tick_hz}: {left:e}");
+    worst
+}
+
+#[test]
+fn h50_holds_full_scale_at_any_rhythm_and_forgets_it() {
+    let [single, fixed] = [Worst::default(), Worst::default()];
+    on_all_cores(&TICKS_HZ, |&tick_hz| {
+        for period in [1, 2, 3, 7, tick_hz as usize / 100, tick_hz as usize] {
+            let square = |n: usize| {
+                if (n / period).is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                }
+            };
+            smooth::<f64>(tick_hz, square);
+            single.tell(smooth::<f32>(tick_hz, square));
+            fixed.tell(smooth::<Fix>(tick_hz, square));
+        }
+    });
+    let (single, fixed) = (single.value(), fixed.value());
+    println!("largest distance from f64: f32 {single:e}, fixed point {fixed:e}");
+    assert!(single < 1e-5 && fixed < 1e-6, "{single:e} {fixed:e}");
+}
