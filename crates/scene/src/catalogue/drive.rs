@@ -23,7 +23,7 @@ pub(super) static WHISKING: Section = Section {
             Kind::Word(Integrator::NAMES),
             "",
             "`exact` keeps to the limit cycle; `euler` is the papers' forward Euler, step for step. \
-             It needs 119 ticks a whisk, and gates no shorter than a tick.",
+             Below 18.7 ticks a whisk its muscles swing up, and the scene is refused.",
         ),
         required(
             "coupling",
