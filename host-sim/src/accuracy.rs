@@ -19,6 +19,7 @@ mod boundaries;
 mod chart;
 mod choice;
 pub(crate) mod classifier;
+mod corners;
 mod counts;
 mod functions;
 mod gates;
@@ -97,6 +98,7 @@ pub fn report(
     functions::section(&mut page, &counts)?;
     gates::section(&mut page)?;
     boundaries::section(&mut page)?;
+    corners::section(&mut page)?;
     long_run::section(&mut page, day.as_ref(), long_run == LongRun::Quick)?;
     misprints::section(&mut page)?;
     let pictures = classifier::section(&mut page.text)?;
