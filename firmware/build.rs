@@ -141,19 +141,19 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
         ),
         constant(
             "muscle",
-            "whisking::muscle::{Config, Config::*, Euler, Exact}",
+            "whisking::muscle::{Config, Config::*, Euler, Exact, Lag}",
             "Config<f32>",
             &whisking.muscle,
         ),
         constant(
             "rcp",
-            "whisking::gate::Rcp",
+            "whisking::gate::{Decay, Rcp}",
             "Option<Rcp<f32>>",
             &whisking.rcp,
         ),
         constant(
             "cia",
-            "whisking::gate::Cia",
+            "whisking::gate::{Cia, Decay}",
             "Option<Cia<f32>>",
             &whisking.cia,
         ),
@@ -172,15 +172,12 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
          pub(crate) const WHISKING: whisking::Config<f32> = whisking::Config {{\n    \
          oscillators: OSCILLATORS,\n    muscle: MUSCLE,\n    peak_gain: {:?},\n    \
          rcp: RCP,\n    cia: CIA,\n    noise: NOISE,\n}};\n\
-         /// Protraction a count of the encoder.\n\
-         pub(crate) const THETA_PER_COUNT: f32 = {:?};\n\
          /// Duty above which a motor that stands still is stalled, Q15.\n\
          pub(crate) const STALL_Q15: i16 = {};\n\
          /// Seed of the noise.\n\
          pub(crate) const SEED: u64 = {};\n",
         parts.concat(),
         whisking.peak_gain,
-        plan.theta_per_count,
         plan.stall_q15,
         scene.seed
     ))

@@ -1,7 +1,7 @@
 //! How a module moves: the pattern generator, and a motor that follows it for
 //! each whisker.
 
-use whisking::motor::{self, Duty, MotorDriver, StallConfig, StallGuard};
+use whisking::motor::{self, MotorDriver, StallConfig, StallGuard};
 use whisking::{Real, pd};
 
 use crate::io::AngleInput;
@@ -78,8 +78,6 @@ pub struct ActiveConfig<R: Real> {
     pub whisking: whisking::Config<R>,
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Protraction θ a count of the angle input.
-    pub theta_per_count: R::Coefficient,
     /// Ticks a faulty motor rests before it is tried again.
     pub retry: u16,
     /// When a motor counts as stalled.
@@ -138,35 +136,51 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
         events: &mut impl FnMut(Event),
     ) {
         let counts = self.angle.counts();
-        // A rotor that stands on an edge of its encoder flickers by a count.
-        let moved = counts.wrapping_sub(self.counts).unsigned_abs() > 1;
+        let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
-
-        if self.rest > 0 {
-            self.rest -= 1;
-            if self.rest == 0 {
-                self.motor.clear();
-                events(Event::MotorRetry(place));
-            }
-            return;
-        }
-        if !sound {
-            self.off();
+        if self.rest > 0 || !sound {
+            self.idle(place, events);
             return;
         }
 
-        let measured = R::from_counts(counts.wrapping_sub(self.home), config.theta_per_count);
-        let duty = Duty::from_q15(config.pd.step(&mut self.pd, setpoint, measured).to_q15());
-        let done = if self.guard.update(duty, moved) {
+        let at = counts.wrapping_sub(self.home);
+        let duty = config.pd.step(&mut self.pd, setpoint, at, moved);
+        // A rotor that stands on an edge of its encoder flickers by a count.
+        let done = if self.guard.update(duty, moved.unsigned_abs() > 1) {
             Err(motor::Fault::Stall)
         } else {
             self.motor.drive(duty)
         };
         if let Err(fault) = done {
-            self.off();
-            self.rest = config.retry.max(1);
-            events(Event::MotorFault(place, fault));
+            self.fail(fault, config.retry, place, events);
         }
+    }
+
+    /// One tick of a motor that rests after a fault, or whose sensor is unsound.
+    #[cold]
+    fn idle(&mut self, place: Place, events: &mut impl FnMut(Event)) {
+        if self.rest == 0 {
+            self.off();
+            return;
+        }
+        self.rest -= 1;
+        if self.rest == 0 {
+            self.motor.clear();
+            events(Event::MotorRetry(place));
+        }
+    }
+
+    #[cold]
+    fn fail(
+        &mut self,
+        fault: motor::Fault,
+        retry: u16,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        self.off();
+        self.rest = retry.max(1);
+        events(Event::MotorFault(place, fault));
     }
 }
 

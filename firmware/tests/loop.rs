@@ -104,6 +104,7 @@ fn config() -> Config<f32, ActiveConfig<f32>, ()> {
         slew_per_s: 400.0,
         min_deg: 30.0,
         max_deg: 160.0,
+        degrees_per_count: 0.1,
     };
     Config {
         decoder: Decoder::new(),
@@ -115,7 +116,6 @@ fn config() -> Config<f32, ActiveConfig<f32>, ()> {
         motion: ActiveConfig {
             whisking: SETTINGS.build().unwrap(),
             pd: pd.build(2000.0).unwrap(),
-            theta_per_count: 1.0 / 1000.0,
             retry: 10,
             stall: STALL,
         },

@@ -276,7 +276,6 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
             pd: plan.pd,
-            theta_per_count: plan.theta_per_count,
             retry: ticks(RETRY_S, scene.tick_hz),
             stall: stall(scene.tick_hz, plan.stall_q15),
         }),

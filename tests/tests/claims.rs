@@ -73,7 +73,7 @@ fn mended(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
 /// Eq. 12 as printed: lifted to σ_g ζ, not to nominal + σ_g ζ.
 fn printed(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
     if let Some(cia) = cia {
-        let returned = g.value + cia.approach * (1.0 - g.value);
+        let returned = g.value + cia.decay.tick * (1.0 - g.value);
         g.value = returned.max(cia.gain * zeta).clamp(0.0, 2.0);
     }
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 use tactile::train::{Options, Trainer};
-use whisking::{DEGREES_PER_UNIT, GateSettings, Integrator, Real, Settings, filter, pd};
+use whisking::{GateSettings, Integrator, Real, Settings, filter, pd};
 
 /// Ticks a second: BIOTACT's.
 const TICK_HZ: f64 = 2000.0;
@@ -102,9 +102,9 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         slew_per_s: 400.0,
         min_deg: 30.0,
         max_deg: 160.0,
+        // BIOTACT's motor: 512 counts a turn, a gear of 11.
+        degrees_per_count: 360.0 / (512.0 * 11.0),
     };
-    // BIOTACT's motor: 512 counts a turn, a gear of 11.
-    let degrees_per_count = 360.0 / (512.0 * 11.0);
     let parts = [
         part(
             "H50",
@@ -148,11 +148,6 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
             &exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?,
         ),
         part("PD", "pd::Config<Self>", &pd.build::<R>(TICK_HZ)?),
-        part(
-            "THETA_PER_COUNT",
-            "Coefficient<Self>",
-            &R::coefficient(degrees_per_count / DEGREES_PER_UNIT),
-        ),
     ];
     Ok(format!(
         "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{}}}\n",
@@ -167,9 +162,9 @@ fn part(name: &str, of_type: &str, value: &impl Debug) -> String {
     let module = of_type.split_once("::").map_or("", |(module, _)| module);
     let names = match module {
         "oscillator" => "oscillator::{Config, Config::*, Euler, Exact, Linear}",
-        "muscle" => "muscle::{Config, Config::*, Euler, Exact}",
+        "muscle" => "muscle::{Config, Config::*, Euler, Exact, Lag}",
         "noise" | "filter" => "filter::Config",
-        "gate" => "gate::{Rcp, Cia}",
+        "gate" => "gate::{Cia, Decay, Rcp}",
         "pd" => "pd::Config",
         _ => "{Start, muscle::History}",
     };

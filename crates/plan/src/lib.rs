@@ -9,7 +9,8 @@ mod stability;
 pub use stability::{Instability, Unstable};
 
 use scene::Scene;
-use whisking::{DEGREES_PER_UNIT, Error, Real, filter, pd};
+use whisking::motor::Duty;
+use whisking::{Error, Real, filter, pd};
 
 /// Constants of an active module of `S` sides with `N` whiskers each.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +21,6 @@ pub struct Motion<R: Real, const S: usize, const N: usize> {
     pub start: whisking::Start<R, S, N>,
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Protraction θ a count of the angle input.
-    pub theta_per_count: R::Coefficient,
     /// Duty above which a motor that does not move counts as stalled, Q15:
     /// half of what it may be driven with.
     pub stall_q15: i16,
@@ -137,10 +136,10 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
             slew_per_s: motor.slew_per_s,
             min_deg: motor.min_deg,
             max_deg: motor.max_deg,
+            degrees_per_count,
         }
         .build(tick_hz)?,
-        theta_per_count: R::coefficient(degrees_per_count / DEGREES_PER_UNIT),
-        stall_q15: (motor.duty_limit / 2.0).to_q15(),
+        stall_q15: Duty::from_f32(motor.duty_limit as f32 / 2.0).q15(),
     }))
 }
 
@@ -201,12 +200,12 @@ kind = "ideal"
             assert!((found - said).abs() < 1e-12);
         }
         let rcp = motion.whisking.rcp.unwrap();
-        assert!((1.0 - rcp.decay - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
+        assert!((1.0 - rcp.decay.tick - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
         assert_eq!(rcp.gain, 0.7);
         assert!(motion.whisking.cia.is_none() && motion.whisking.noise.is_none());
         // 512 counts a turn of the motor and a gear of 11: 0.0639 degrees a count.
         let counts_to_90_deg = 512.0 * 11.0 / 4.0;
-        let theta = motion.theta_per_count * counts_to_90_deg;
+        let theta = motion.pd.theta_per_count * counts_to_90_deg;
         assert!((theta - 0.9).abs() < 1e-12);
         assert_eq!(motion.stall_q15, 16_384, "half of a full duty");
         assert!(contact::<f64>(&scene).unwrap().is_some());

@@ -20,7 +20,7 @@
 
 use std::fmt;
 
-use whisking::{Error, GateSettings, Real, Settings, muscle, oscillator};
+use whisking::{Error, GateSettings, Integrator, Real, Settings, muscle, oscillator};
 
 /// What rounding may add to a value that stands on its limit.
 const ROUNDING: f64 = 1e-9;
@@ -151,10 +151,9 @@ pub(crate) fn check(settings: &Settings, fatal: bool) -> Result<Option<Unstable>
         muscle::Config::Euler(euler) => muscles(euler, settings.tick_hz),
         muscle::Config::Exact(_) => None,
     };
-    let rcp = config.rcp.map(|rcp| rcp.decay).zip(settings.rcp);
-    let cia = config.cia.map(|cia| cia.approach).zip(settings.cia);
-    let rcp = rcp.and_then(|(share, gate)| gates("rcp", share, gate, settings));
-    let cia = cia.and_then(|(share, gate)| gates("cia", share, gate, settings));
+    let gate =
+        |section, gate: Option<GateSettings>| gate.and_then(|gate| gates(section, gate, settings));
+    let (rcp, cia) = (gate("rcp", settings.rcp), gate("cia", settings.cia));
     let entries = [oscillators, muscles, rcp, cia];
     let list = entries
         .into_iter()
@@ -196,14 +195,10 @@ fn muscles(euler: &muscle::Euler<f64>, tick_hz: f64) -> Option<Instability> {
     })
 }
 
-fn gates(
-    section: &'static str,
-    share: f64,
-    gate: GateSettings,
-    settings: &Settings,
-) -> Option<Instability> {
+fn gates(section: &'static str, gate: GateSettings, settings: &Settings) -> Option<Instability> {
     // The exact integrator's share, 1 − exp(−T/τ), never exceeds one.
-    if share <= 1.0 + ROUNDING {
+    let share = 1.0 / (gate.tau_s * settings.tick_hz);
+    if settings.integrator == Integrator::Exact || share <= 1.0 + ROUNDING {
         return None;
     }
     let tick_hz = (1.0 / gate.tau_s - ROUNDING).ceil();

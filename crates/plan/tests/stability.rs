@@ -191,7 +191,7 @@ fn leftover(tau_s: f64) -> f64 {
         cia: None,
     };
     let config = settings.build::<f64>().unwrap();
-    1.0 - config.rcp.unwrap().decay
+    1.0 - config.rcp.unwrap().decay.tick
 }
 
 #[test]

@@ -12,11 +12,28 @@ pub struct Gate<R: Real> {
     carry: R::Carry,
 }
 
+/// What one tick takes of an exponential decay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Decay<R: Real> {
+    /// 1 − exp(−T/τ), or its first-order value T/τ in the papers' integrator,
+    /// at most 1.
+    pub tick: R::Coefficient,
+    /// The same of half a tick, where a muscle asks for the mean over the tick;
+    /// 0 in the papers' integrator.
+    pub half: R::Coefficient,
+    /// So slow that what rounding takes must be remembered.
+    pub slow: bool,
+}
+
+/// Below this share of a tick rounding would take a noticeable part of a decay
+/// in single precision.
+const SLOW: f64 = 1.0 / 1024.0;
+
 /// Rapid cessation of protraction (eq. 10): z = ⟨max(z − decay · z, σ_z π)⟩ on \[0, 1\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rcp<R: Real> {
-    /// What a tick takes of z: 1 − exp(−T/τ_z), or T/τ_z in the papers' integrator.
-    pub decay: R::Coefficient,
+    /// Decay of z with τ_z.
+    pub decay: Decay<R>,
     /// σ_z.
     pub gain: R::Coefficient,
 }
@@ -25,18 +42,36 @@ pub struct Rcp<R: Real> {
 /// and is lifted to g_nominal + σ_g ζ, on \[0, 2\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cia<R: Real> {
-    /// How much of the way to nominal a tick goes: 1 − exp(−T/τ_g), or T/τ_g.
-    pub approach: R::Coefficient,
+    /// Return of g with τ_g.
+    pub decay: Decay<R>,
     /// σ_g.
     pub gain: R::Coefficient,
 }
 
 /// The part of an exponential decay that one tick takes, 1 − exp(−T/τ) or its
-/// first-order value T/τ.
-pub(crate) fn approach(ticks: f64, integrator: Integrator) -> f64 {
+/// first-order value T/τ; `ticks` is τ/T.
+fn share(ticks: f64, integrator: Integrator) -> f64 {
     match integrator {
         Integrator::Euler => 1.0 / ticks,
         Integrator::Exact => -libm::expm1(-1.0 / ticks),
+    }
+}
+
+impl<R: Real> Decay<R> {
+    /// For `ticks` = τ/T.
+    pub(crate) fn new(ticks: f64, integrator: Integrator) -> Self {
+        // A share above 1 would take a gate below its rest, where contact, which
+        // is not negative, holds it at once: the same as a share of 1.
+        let tick = share(ticks, integrator).min(1.0);
+        let half = match integrator {
+            Integrator::Euler => 0.0,
+            Integrator::Exact => share(2.0 * ticks, integrator),
+        };
+        Self {
+            tick: R::coefficient(tick),
+            half: R::coefficient(half),
+            slow: tick < SLOW,
+        }
     }
 }
 
@@ -49,12 +84,27 @@ impl<R: Real> Gate<R> {
         }
     }
 
-    /// Relaxes to `rest`, but not below `floor`; always within 0..=`top`, NaN
-    /// included.
+    /// Relaxes to `rest`, which is within 0..=`top`, but not below `floor`;
+    /// always within 0..=`top`. A floor that is not a number raises nothing.
     #[inline]
-    fn step(&mut self, rest: R, share: R::Coefficient, floor: R, top: R) {
-        self.value.relax(&mut self.carry, rest, share);
-        self.value = self.value.max(floor).clamp(R::ZERO, top);
+    fn step(&mut self, rest: R, decay: &Decay<R>, floor: R, top: R) {
+        if decay.slow {
+            self.value.relax(&mut self.carry, rest, decay.tick);
+        } else {
+            self.value = self.value + (rest - self.value).times(decay.tick);
+        }
+        if floor > self.value {
+            self.value = floor;
+        }
+        if self.value > top {
+            self.value = top;
+        }
+    }
+
+    /// Where it is in the middle of the tick, on its way to `rest`.
+    #[inline]
+    fn between(&self, rest: R, decay: &Decay<R>) -> R {
+        self.value + (rest - self.value).times(decay.half)
     }
 }
 
@@ -62,7 +112,14 @@ impl<R: Real> Rcp<R> {
     /// A tick of z with contact `pi`. Always within \[0, 1\].
     #[inline]
     pub fn step(&self, z: &mut Gate<R>, pi: R) {
-        z.step(R::ZERO, self.decay, pi.times(self.gain), R::ONE);
+        z.step(R::ZERO, &self.decay, pi.times(self.gain), R::ONE);
+    }
+
+    /// z in the middle of the tick: contact is sampled once a tick, and z
+    /// decays until the next.
+    #[inline]
+    pub fn between(&self, z: &Gate<R>) -> R {
+        z.between(R::ZERO, &self.decay)
     }
 }
 
@@ -71,24 +128,25 @@ impl<R: Real> Cia<R> {
     /// contact `zeta` (eq. 14). Always within \[0, 2\].
     #[inline]
     pub fn step(&self, g: &mut Gate<R>, nominal: R, zeta: R) {
-        g.step(
-            nominal,
-            self.approach,
-            nominal + zeta.times(self.gain),
-            R::TWO,
-        );
+        let floor = nominal + zeta.times(self.gain);
+        g.step(nominal, &self.decay, floor, R::TWO);
+    }
+
+    /// g in the middle of the tick.
+    #[inline]
+    pub fn between(&self, g: &Gate<R>, nominal: R) -> R {
+        g.between(nominal, &self.decay)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Cia, Gate, Rcp, approach};
+    use super::{Cia, Decay, Gate, Rcp};
     use crate::{Fix, Integrator, Real};
 
     fn rcp<R: Real>(ticks: f64) -> Rcp<R> {
-        let decay = R::coefficient(approach(ticks, Integrator::Exact));
         Rcp {
-            decay,
+            decay: Decay::new(ticks, Integrator::Exact),
             gain: R::coefficient(0.7),
         }
     }
@@ -114,7 +172,7 @@ mod tests {
         let mut z = Gate::new(0.5_f32);
         for pi in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.0] {
             rcp.step(&mut z, pi);
-            assert!((0.0..=1.0).contains(&z.value));
+            assert!((0.0..=1.0).contains(&z.value), "{pi}: {z:?}");
         }
         rcp.step(&mut z, 0.5);
         for _ in 0..2_500 {
@@ -125,9 +183,8 @@ mod tests {
 
     #[test]
     fn excitation_lifts_above_nominal_and_returns() {
-        let decay = approach(250.0, Integrator::Exact);
         let cia = Cia {
-            approach: decay,
+            decay: Decay::new(250.0, Integrator::Exact),
             gain: 0.5,
         };
         let mut g = Gate::new(1.0_f64);
@@ -168,8 +225,32 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_decay_is_first_order() {
-        assert_eq!(approach(0.5, Integrator::Euler), 2.0);
-        assert!(approach(0.5, Integrator::Exact) < 1.0);
+    fn the_papers_decay_is_first_order_and_ours_is_not() {
+        assert_eq!(Decay::<f64>::new(4.0, Integrator::Euler).tick, 0.25);
+        assert!((Decay::<f64>::new(4.0, Integrator::Exact).tick - 0.221_199_2).abs() < 1e-7);
+    }
+
+    /// 1 − T/τ is negative for τ < T; the larger of that and of what contact
+    /// asks for is the latter.
+    #[test]
+    fn a_decay_shorter_than_a_tick_leaves_what_contact_asks_for() {
+        let rcp = Rcp {
+            decay: Decay::<f64>::new(0.1, Integrator::Euler),
+            gain: 0.7,
+        };
+        let mut z = Gate::new(1.0);
+        rcp.step(&mut z, 0.5);
+        assert_eq!(z.value, 0.35);
+        rcp.step(&mut z, 0.0);
+        assert_eq!(z.value, 0.0);
+    }
+
+    #[test]
+    fn the_middle_of_a_tick_is_half_a_tick_further() {
+        let rcp = rcp::<f64>(4.0);
+        let z = Gate::new(0.8);
+        assert!((rcp.between(&z) - 0.8 * (-0.125_f64).exp()).abs() < 1e-15);
+        let papers = Decay::<f64>::new(4.0, Integrator::Euler);
+        assert_eq!(Gate::new(0.8).between(0.0, &papers), 0.8);
     }
 }

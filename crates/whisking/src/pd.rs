@@ -3,12 +3,19 @@
 //!
 //! Positions are protractions θ (θ' = 100 θ + 50 degrees), the output is a duty
 //! in −1..=1: u = ⟨k_p (⟨s⟩ − x) − k_d dx/dt⟩, dx/dt smoothed by a first-order
-//! low-pass because an encoder's steps are coarse against one tick.
+//! low-pass because an encoder's steps are coarse against one tick. The duty
+//! and its limits are integers in every number format: they end in a timer's
+//! register, and integers are limited at half the cost.
 
+use crate::motor::Duty;
 use crate::{DEGREES_PER_UNIT, Error, Parameter, Real, protraction};
 
 /// Corner of the low-pass on the measured velocity, Hz.
 const VELOCITY_CORNER_HZ: f64 = 100.0;
+
+/// A duty of one, for what the controller remembers: Q24, so that the slowest
+/// slew is not lost in rounding.
+const FULL: f64 = 16_777_216.0;
 
 /// Gains and limits in physical units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +32,8 @@ pub struct Settings {
     pub min_deg: f64,
     /// Highest setpoint, degrees θ'.
     pub max_deg: f64,
+    /// Degrees of the whisker a count of the encoder.
+    pub degrees_per_count: f64,
 }
 
 /// The same a tick and a unit of protraction.
@@ -36,22 +45,23 @@ pub struct Config<R: Real> {
     pub kd: R::Coefficient,
     /// Share of a new velocity reading in the smoothed one.
     pub smooth: R::Coefficient,
-    /// Largest duty.
-    pub limit: R,
-    /// Largest change of the duty a tick.
-    pub slew: R,
+    /// Protraction a count of the encoder.
+    pub theta_per_count: R::Coefficient,
     /// Lowest setpoint.
     pub min: R,
     /// Highest setpoint.
     pub max: R,
+    /// Largest duty, Q24.
+    pub limit: i32,
+    /// Largest change of the duty a tick, Q24.
+    pub slew: i32,
 }
 
 /// What the controller remembers. The default is a motor that is off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
-    measured: Option<R>,
     velocity: R,
-    output: R,
+    output: i32,
 }
 
 impl Settings {
@@ -69,40 +79,44 @@ impl Settings {
         check(self.slew_per_s, 0.0, 1e12)?;
         check(self.min_deg, -1e4, 1e4)?;
         check(self.max_deg, self.min_deg, 1e4)?;
+        check(self.degrees_per_count, 0.0, 360.0)?;
         let smooth = -libm::expm1(-core::f64::consts::TAU * VELOCITY_CORNER_HZ / tick_hz);
         Ok(Config {
             kp: R::coefficient(self.kp * DEGREES_PER_UNIT),
             kd: R::coefficient(self.kd * DEGREES_PER_UNIT * tick_hz),
             smooth: R::coefficient(smooth),
-            limit: R::from_f64(self.limit),
-            slew: R::from_f64((self.slew_per_s / tick_hz).min(2.0)),
+            theta_per_count: R::coefficient(self.degrees_per_count / DEGREES_PER_UNIT),
             min: R::from_f64(protraction(self.min_deg)),
             max: R::from_f64(protraction(self.max_deg)),
+            limit: (self.limit * FULL) as i32,
+            slew: ((self.slew_per_s / tick_hz).min(2.0) * FULL) as i32,
         })
     }
 }
 
 impl<R: Real> Config<R> {
-    /// One tick: where the whisker should be and where it is, as protractions,
-    /// to a duty within ±`limit` that differs from the last by at most `slew`.
+    /// One tick: where the whisker should be as a protraction, where it is in
+    /// counts from θ = 0, and by how many counts it `moved` since the last
+    /// tick (0 in the first); to a duty within ±`limit` that differs from the
+    /// last by at most `slew`.
     #[inline]
-    pub fn step(&self, state: &mut State<R>, setpoint: R, measured: R) -> R {
-        let moved = measured - state.measured.unwrap_or(measured);
-        state.measured = Some(measured);
-        let velocity = state.velocity + (moved - state.velocity).times(self.smooth);
-        // No whisker turns a unit a tick; the limit is there so that no reading stays for ever.
-        state.velocity = velocity.clamp(-R::ONE, R::ONE);
+    pub fn step(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
+        let measured = R::from_counts(counts, self.theta_per_count);
+        let moved = R::from_counts(moved, self.theta_per_count);
+        state.velocity = state.velocity + (moved - state.velocity).times(self.smooth);
         let error = setpoint.clamp(self.min, self.max) - measured;
         let wanted = error.times(self.kp) - state.velocity.times(self.kd);
-        let wanted = wanted.clamp(-self.limit, self.limit);
-        state.output = state.output + (wanted - state.output).clamp(-self.slew, self.slew);
-        state.output
+        let wanted = wanted.to_q24().clamp(-self.limit, self.limit);
+        // Both are within ±2^24.
+        state.output += (wanted - state.output).clamp(-self.slew, self.slew);
+        Duty::from_q24(state.output)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Settings, State};
+    use super::{Config, Settings, State};
+    use crate::{Fix, Real};
 
     const SETTINGS: Settings = Settings {
         kp: 0.05,
@@ -111,15 +125,36 @@ mod tests {
         slew_per_s: 400.0,
         min_deg: 30.0,
         max_deg: 150.0,
+        degrees_per_count: 0.01,
     };
+    /// Half a step of the duty, and what single precision rounds.
+    const STEP: f64 = 2e-5;
+
+    fn fraction<R: Real>(
+        pd: &Config<R>,
+        state: &mut State<R>,
+        setpoint: R,
+        counts: i32,
+        moved: i32,
+    ) -> f64 {
+        f64::from(pd.step(state, setpoint, counts, moved).q15()) / 32_767.0
+    }
 
     #[test]
     fn proportional_action_has_the_sign_and_size_of_the_error() {
-        let pd = SETTINGS.build::<f64>(2_000.0).unwrap();
-        let mut state = State::default();
-        // One degree is 0.01: the duty is kp, reached within one slew step of 0.2.
-        assert!((pd.step(&mut state, 0.51, 0.5) - 0.05).abs() < 1e-12);
-        assert!((pd.step(&mut State::default(), 0.49, 0.5) + 0.05).abs() < 1e-12);
+        fn check<R: Real>() {
+            let pd = SETTINGS.build::<R>(2_000.0).unwrap();
+            // 100 degrees are θ = 0.5, 5000 counts. One degree of error gives
+            // kp, reached within one slew step of 0.2.
+            for (setpoint, duty) in [(0.51, 0.05), (0.49, -0.05)] {
+                let setpoint = R::from_f64(setpoint);
+                let found = fraction(&pd, &mut State::default(), setpoint, 5_000, 0);
+                assert!((found - duty).abs() < STEP, "{found} {duty}");
+            }
+        }
+        check::<f64>();
+        check::<f32>();
+        check::<Fix>();
     }
 
     #[test]
@@ -129,10 +164,11 @@ mod tests {
         // 100 degrees a second for long enough; the setpoint moves with it, so no error.
         let mut duty = 0.0;
         for n in 0..2_000 {
-            let x = f64::from(n) * 0.0005;
-            duty = pd.step(&mut state, x.min(1.0), x);
+            let counts = 5 * n;
+            let setpoint = f64::from(counts) * 1e-4;
+            duty = fraction(&pd, &mut state, setpoint, counts, 5);
         }
-        assert!((duty + 0.1).abs() < 1e-6, "{duty}");
+        assert!((duty + 0.1).abs() < STEP, "{duty}");
     }
 
     #[test]
@@ -141,29 +177,39 @@ mod tests {
         let mut state = State::default();
         let mut last = 0.0;
         for n in 1..=10 {
-            let duty = pd.step(&mut state, 1.0, 0.0);
-            assert!((duty - (0.2 * f64::from(n)).min(0.8)).abs() < 1e-12);
+            let duty = fraction(&pd, &mut state, 1.0, 0, 0);
+            assert!(
+                (duty - (0.2 * f64::from(n)).min(0.8)).abs() < STEP,
+                "{duty}"
+            );
             last = duty;
         }
-        assert!((last - 0.8).abs() < 1e-12);
+        assert!((last - 0.8).abs() < STEP);
         // Beyond the limits of the setpoint nothing changes: 150 degrees is θ = 1.
-        let mut far = State::default();
-        assert_eq!(
-            pd.step(&mut far, 9.0, 0.99),
-            pd.step(&mut State::default(), 1.0, 0.99)
-        );
+        for (far, end) in [(9.0, 1.0), (-9.0, -0.2)] {
+            let mut state = State::default();
+            let duty = fraction(&pd, &mut state, far, 9_900, 0);
+            assert_eq!(
+                duty,
+                fraction(&pd, &mut State::default(), end, 9_900, 0),
+                "{far}"
+            );
+        }
     }
 
+    /// A slew of one a second at 20 kHz is 838.9 in Q24 and less than two steps
+    /// of the duty.
     #[test]
-    fn a_reading_that_is_not_a_number_does_not_stay() {
-        let pd = SETTINGS.build::<f32>(2_000.0).unwrap();
+    fn the_slowest_slew_is_kept() {
+        let mut settings = SETTINGS;
+        settings.slew_per_s = 1.0;
+        let pd = settings.build::<f32>(20_000.0).unwrap();
         let mut state = State::default();
-        pd.step(&mut state, 0.5, f32::NAN);
         let mut duty = 0.0;
-        for _ in 0..1_000 {
-            duty = pd.step(&mut state, 0.51, 0.5);
+        for _ in 0..10_000 {
+            duty = fraction(&pd, &mut state, 1.0, 0, 0);
         }
-        assert!((duty - 0.05).abs() < 1e-4, "{duty}");
+        assert!((duty - 0.5).abs() < 1e-3, "{duty}");
     }
 
     #[test]
@@ -176,6 +222,7 @@ mod tests {
         assert!(bad(|s| s.kp = f64::NAN));
         assert!(bad(|s| s.limit = 1.1));
         assert!(bad(|s| s.max_deg = s.min_deg - 1.0));
+        assert!(bad(|s| s.degrees_per_count = -1.0));
         assert!(!bad(|_| ()));
     }
 }

@@ -8,7 +8,7 @@ mod float;
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-pub use fix::{Factor, Fix};
+pub use fix::{Factor, Factors, Fix};
 
 /// A number format of the tick.
 ///
@@ -31,15 +31,22 @@ pub trait Real:
     /// A constant of the tick, to multiply with.
     type Coefficient: Copy + Debug + PartialEq + 'static;
 
+    /// `K` constants of the tick that are used together and share a scale.
+    type Row<const K: usize>: Copy + Debug + PartialEq + 'static;
+
     /// What rounding took from a long sum.
     type Carry: Copy + Debug + Default + PartialEq + 'static;
 
     /// 0.
     const ZERO: Self;
+    /// 1/2.
+    const HALF: Self;
     /// 1.
     const ONE: Self;
     /// 2.
     const TWO: Self;
+    /// How far r² may be from 1 for [`Self::lack`], 1/16.
+    const NEAR: Self;
     /// Limit of an oscillator's states, ψ_lim = 1.5 (BIOTACT section III-B).
     const PSI_LIMIT: Self;
 
@@ -52,6 +59,12 @@ pub trait Real:
     /// The nearest coefficient. For configurations, not for the tick.
     fn coefficient(value: f64) -> Self::Coefficient;
 
+    /// The nearest row. For configurations, not for the tick.
+    fn row<const K: usize>(values: [f64; K]) -> Self::Row<K>;
+
+    /// Σ x_k c_k.
+    fn dot<const K: usize>(x: [Self; K], row: &Self::Row<K>) -> Self;
+
     /// The product with a constant.
     fn times(self, factor: Self::Coefficient) -> Self;
 
@@ -61,8 +74,13 @@ pub trait Real:
     /// `value` / 2^24.
     fn from_q24(value: i32) -> Self;
 
-    /// The nearest multiple of 1/32767, limited to ±1; NaN gives 0.
-    fn to_q15(self) -> i16;
+    /// `code`/8191, the normalised value of a reading of 14 bits about its
+    /// middle, |code| ≤ 8191.
+    fn from_code(code: i16) -> Self;
+
+    /// The value in Q24, rounded towards zero or downwards; saturates, and NaN
+    /// gives 0.
+    fn to_q24(self) -> i32;
 
     /// Adds `increment`, and what rounding took from the last addition: a sum
     /// of many small steps keeps its accuracy.
@@ -81,6 +99,10 @@ pub trait Real:
 
     /// (x, y)/r, or `None` where r is zero (in f32 and f64 below 1e-15); error 2e-7.
     fn unit(x: Self, y: Self) -> Option<[Self; 2]>;
+
+    /// 1/√(1 + x) − 1 for |x| ≤ [`Self::NEAR`], which is what a radius lacks to
+    /// one where x = r² − 1; error 8e-7.
+    fn lack(self) -> Self;
 
     /// |x|.
     #[inline]

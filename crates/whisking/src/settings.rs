@@ -80,7 +80,9 @@ impl Settings {
                 muscle::Config::Exact(muscle::Exact::new(cycles)),
             ),
         };
-        let ticks = |settings: GateSettings| settings.tau_s * self.tick_hz;
+        let decay = |settings: GateSettings| {
+            gate::Decay::new(settings.tau_s * self.tick_hz, self.integrator)
+        };
         let rcp = self.rcp.map(|rcp| rcp.check(Parameter::Rcp)).transpose()?;
         let cia = self.cia.map(|cia| cia.check(Parameter::Cia)).transpose()?;
         Ok(Config {
@@ -88,11 +90,11 @@ impl Settings {
             muscle,
             peak_gain: R::from_f64(muscle::PEAK_GAIN),
             rcp: rcp.map(|rcp| gate::Rcp {
-                decay: R::coefficient(gate::approach(ticks(rcp), self.integrator)),
+                decay: decay(rcp),
                 gain: R::coefficient(rcp.gain),
             }),
             cia: cia.map(|cia| gate::Cia {
-                approach: R::coefficient(gate::approach(ticks(cia), self.integrator)),
+                decay: decay(cia),
                 gain: R::coefficient(cia.gain),
             }),
             noise: (self.noise > 0.0)

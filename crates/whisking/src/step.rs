@@ -103,16 +103,34 @@ impl<R: Real> Config<R> {
         self.oscillators
             .step(&mut state.oscillators, noise.as_ref());
 
-        let psi = self.oscillators.psi(&state.oscillators);
+        let drives = self.oscillators.drives(&state.oscillators);
         for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
             let before = state.drive[side];
-            let after = psi[side][0].drive();
-            let open = self.peak_gain * (R::ONE - state.z[side].value);
+            let after = drives[side].drive();
+            let open = self.peak_gain * (R::ONE - self.suppression(&state.z[side]));
             for whisker in whiskers {
-                let gain = open * whisker.gain.value;
+                let gain = open * self.gain(whisker);
                 self.muscle.step(&mut whisker.muscle, gain, before, after);
             }
             state.drive[side] = after;
+        }
+    }
+
+    /// z over this tick: its value in the middle, or at the start for the papers.
+    #[inline]
+    fn suppression(&self, z: &Gate<R>) -> R {
+        match (&self.rcp, &self.muscle) {
+            (Some(rcp), muscle::Config::Exact(_)) => rcp.between(z),
+            _ => z.value,
+        }
+    }
+
+    /// g over this tick, likewise.
+    #[inline]
+    fn gain(&self, whisker: &Whisker<R>) -> R {
+        match (&self.cia, &self.muscle) {
+            (Some(cia), muscle::Config::Exact(_)) => cia.between(&whisker.gain, whisker.nominal),
+            _ => whisker.gain.value,
         }
     }
 }

@@ -47,7 +47,7 @@ fn elementary_functions_in_single_precision() {
     let drive = fingerprint(grid().map(|x| single(x).drive().to_bits()));
     same(drive, 0x2662_B01A_C848_7B62);
     let exp = fingerprint(grid().map(|x| single(x).exp_neg_square().to_bits()));
-    same(exp, 0x900C_4F7A_699F_ADEB);
+    same(exp, 0x83CE_425D_B4D4_9790);
     let unit = grid().filter_map(|x| f32::unit(single(x), single(x >> 3) * 5.0 + 0.3));
     let unit = fingerprint(unit.flatten().map(f32::to_bits));
     same(unit, 0x0C76_7EE8_8320_D6C8);

@@ -18,7 +18,6 @@ const STALL: StallConfig = stall(scene::TICK_HZ, scene::STALL_Q15);
 pub(crate) const CONFIG: ActiveConfig<f32> = ActiveConfig {
     whisking: scene::WHISKING,
     pd: scene::PD,
-    theta_per_count: scene::THETA_PER_COUNT,
     retry: ticks(RETRY_S, scene::TICK_HZ),
     stall: STALL,
 };

@@ -2,7 +2,7 @@
 //! driver and simulated motor.
 
 use firmware::AngleInput;
-use whisking::motor::{Duty, HBridge, MotorDriver};
+use whisking::motor::{HBridge, MotorDriver};
 use whisking::{GateSettings, Integrator, Settings, State, filter, pd};
 
 use super::{MotorSettings, SimDir, SimEncoder, SimMotor, SimPwm};
@@ -15,6 +15,7 @@ pub(crate) const PD: pd::Settings = pd::Settings {
     slew_per_s: 400.0,
     min_deg: 30.0,
     max_deg: 160.0,
+    degrees_per_count: MotorSettings::DEFAULT.degrees_per_count(),
 };
 
 /// A whisk of 2 Hz, as in all of BIOTACT.
@@ -40,6 +41,7 @@ pub(crate) struct Rig {
     follower: pd::State<f64>,
     driver: HBridge<SimPwm, SimDir>,
     encoder: SimEncoder,
+    counts: i32,
     pub(crate) motor: SimMotor,
     tick_s: f64,
 }
@@ -57,6 +59,7 @@ impl Rig {
             follower: pd::State::default(),
             driver: HBridge::new(pins.pwm, pins.dir),
             encoder: pins.encoder,
+            counts: 0,
             motor,
             tick_s: 1.0 / settings.tick_hz,
         }
@@ -67,10 +70,10 @@ impl Rig {
         let contact = self.h50.process(&mut self.smoothed, x).abs();
         self.whisking.step(&mut self.state, [contact]);
         let [[setpoint]] = self.state.theta();
-        let degrees = f64::from(self.encoder.counts()) * self.motor.settings().degrees_per_count();
-        let measured = degrees / whisking::DEGREES_PER_UNIT;
-        let duty = self.pd.step(&mut self.follower, setpoint, measured);
-        self.driver.drive(Duty::from_f32(duty as f32)).unwrap();
+        let counts = self.encoder.counts();
+        let moved = counts - std::mem::replace(&mut self.counts, counts);
+        let duty = self.pd.step(&mut self.follower, setpoint, counts, moved);
+        self.driver.drive(duty).unwrap();
         self.motor.advance(self.tick_s);
         whisking::degrees(setpoint)
     }

@@ -65,8 +65,8 @@ impl MotorSettings {
     }
 
     /// Degrees of the whisker a count of the encoder.
-    pub fn degrees_per_count(&self) -> f64 {
-        360.0 / (self.gear * f64::from(self.counts_per_rev))
+    pub const fn degrees_per_count(&self) -> f64 {
+        360.0 / (self.gear * self.counts_per_rev as f64)
     }
 
     /// Checks every setting.

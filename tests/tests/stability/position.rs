@@ -3,10 +3,11 @@
 //! *Back* for position control: once readings are sound, the duty is where its
 //! proportional part says, within 1e-3, after (a) two ticks in which the bad
 //! reading is still the last one, (b) as many ticks as the smoothed velocity
-//! (100 Hz) takes to fall from its limit of one to where k_d makes 5e-4 of it,
-//! and (c) as many as the slew takes from one limit to the other. In fixed
-//! point the smoothed velocity stands still where a step would round to
-//! nothing, which k_d makes a duty of: that much is taken off the 1e-3.
+//! (100 Hz) takes to fall from the largest jump that counts can make to where
+//! k_d makes 5e-4 of it, and (c) as many as the slew takes from one limit to
+//! the other. In fixed point the smoothed velocity stands still where a step
+//! would round to nothing, which k_d makes a duty of: that much is taken off
+//! the 1e-3.
 //!
 //! *Back* for H50: 200 ms after the last bad sample what is left of it is below
 //! 1e-6.
@@ -15,6 +16,9 @@ use whisking::{Fix, Real, filter, pd};
 
 use crate::axes::{TICKS_HZ, Worst, on_all_cores};
 use crate::rig::Extreme;
+
+/// Some encoder: 100 counts a degree, 10,000 a unit of protraction.
+const DEGREES_PER_COUNT: f64 = 0.01;
 
 /// The gains and limits of one run.
 fn settings() -> Vec<pd::Settings> {
@@ -30,6 +34,7 @@ fn settings() -> Vec<pd::Settings> {
                         slew_per_s,
                         min_deg: 30.0,
                         max_deg: 150.0,
+                        degrees_per_count: DEGREES_PER_COUNT,
                     });
                 }
             }
@@ -38,33 +43,35 @@ fn settings() -> Vec<pd::Settings> {
     list
 }
 
-/// Readings that no encoder gives, and setpoints that no muscle gives.
-fn bad<R: Extreme>() -> Vec<R> {
-    let count = R::coefficient(0.9);
-    let counts = [i32::MIN, i32::MAX, 1, -1].map(|counts| R::from_counts(counts, count));
-    let numbers = [
+/// Counts that no whisker comes to, in jumps that none makes.
+const BAD_COUNTS: [i32; 7] = [i32::MIN, i32::MAX, 1, -1, 0, 20_000, -20_000];
+
+/// Setpoints that no muscle gives.
+fn bad<R: Extreme>() -> [R; 6] {
+    [
         R::NOT_A_NUMBER,
         R::HIGHEST,
         R::LOWEST,
         R::ZERO,
         R::TWO,
         -R::TWO,
-    ];
-    counts.into_iter().chain(numbers).collect()
+    ]
 }
 
 /// 64 ticks of each bad reading with each bad setpoint, then sound ones.
 fn control<R: Extreme>(settings: &pd::Settings, tick_hz: f64) {
     let config = settings.build::<R>(tick_hz).unwrap();
     let (limit, slew) = (settings.limit, settings.slew_per_s / tick_hz);
-    // Roundings of single precision, of sizes up to one.
-    let rounding = 2.0 * f64::from(f32::EPSILON);
+    // A duty is the step below or the nearest.
+    let step_of_duty = 1.0 / 32_767.0;
     let mut state = pd::State::default();
-    let mut last = 0.0;
-    let mut step = |setpoint: R, measured: R| {
-        let duty = config.step(&mut state, setpoint, measured).to_f64();
+    let (mut last, mut before) = (0.0, 0_i32);
+    let mut step = |setpoint: R, counts: i32| {
+        let moved = counts.wrapping_sub(std::mem::replace(&mut before, counts));
+        let duty = config.step(&mut state, setpoint, counts, moved);
+        let duty = f64::from(duty.q15()) / 32_767.0;
         assert!(
-            duty.abs() <= limit + rounding && (duty - last).abs() <= slew + rounding,
+            duty.abs() <= limit + step_of_duty && (duty - last).abs() <= slew + 2.0 * step_of_duty,
             "{settings:?} at {tick_hz}: {last} to {duty}"
         );
         last = duty;
@@ -72,15 +79,16 @@ fn control<R: Extreme>(settings: &pd::Settings, tick_hz: f64) {
     };
     let velocity_per_tick = std::f64::consts::TAU * 100.0 / tick_hz;
     let kd_a_tick = settings.kd * 100.0 * tick_hz;
-    let fall = (kd_a_tick / 5e-4).max(1.0).ln() / velocity_per_tick;
+    let largest = 2_f64.powi(32) * DEGREES_PER_COUNT / 100.0;
+    let fall = (kd_a_tick * largest / 5e-4).max(1.0).ln() / velocity_per_tick;
     let stands_still = kd_a_tick * R::STEP / 2.0 / -(-velocity_per_tick).exp_m1();
     let ticks = (2.0 + fall + 2.0 * limit / slew).ceil() as usize + 1;
-    for measured in bad::<R>() {
+    for counts in BAD_COUNTS {
         for setpoint in bad::<R>() {
             for _ in 0..64 {
-                step(setpoint, measured);
-                step(setpoint, R::ZERO);
-                step(R::ONE, measured);
+                step(setpoint, counts);
+                step(setpoint, 0);
+                step(R::ONE, counts);
             }
         }
         // Slow slews take seconds to come back; half of them is enough of those.
@@ -89,7 +97,7 @@ fn control<R: Extreme>(settings: &pd::Settings, tick_hz: f64) {
         }
         let mut duty = 0.0;
         for _ in 0..ticks {
-            duty = step(R::from_f64(0.51), R::from_f64(0.5));
+            duty = step(R::from_f64(0.51), 5_000);
         }
         let expected = settings.kp.min(limit);
         assert!(

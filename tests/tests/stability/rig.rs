@@ -60,12 +60,12 @@ impl<R: Real> Module<R> {
     /// One tick; fails if it leaves the bounds.
     pub(crate) fn tick(&mut self, contact: [R; 2], case: &impl Debug) {
         self.config.step(&mut self.state, contact);
-        let [psi, theta, velocity, z, g] = self.view();
+        let [psi, theta, kept, z, g] = self.view();
         let is_within = |list: &[f64], lo: f64, hi: f64| list.iter().all(|x| (lo..=hi).contains(x));
         assert!(
             is_within(&psi, -1.5, 1.5)
                 && is_within(&theta, -2.0, 2.0)
-                && is_within(&velocity, -2.0, 2.0)
+                && is_within(&kept, -3.0, 3.0)
                 && is_within(&z, 0.0, 1.0)
                 && is_within(&g, 0.0, 2.0),
             "{case:?}: {:?}",
@@ -73,7 +73,7 @@ impl<R: Real> Module<R> {
         );
     }
 
-    /// ψ, θ, v, z (twice) and g.
+    /// ψ, θ, v or the slow lag, z (twice) and g.
     pub(crate) fn view(&self) -> [[f64; 4]; 5] {
         let psi = self.config.oscillators.psi(&self.state.oscillators);
         let [[a, b], [c, d]] = &self.state.whiskers;
@@ -82,7 +82,7 @@ impl<R: Real> Module<R> {
         [
             [psi[0][0], psi[0][1], psi[1][0], psi[1][1]],
             whiskers.map(|w| w.muscle.theta),
-            whiskers.map(|w| w.muscle.velocity),
+            whiskers.map(|w| w.muscle.kept()[0]),
             [l, l, r, r],
             whiskers.map(|w| w.gain.value),
         ]

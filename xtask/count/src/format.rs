@@ -11,16 +11,13 @@ use whisking::{Real, Start, filter, gate, muscle, noise, oscillator, pd};
     reason = "names and numbers as they print"
 )]
 mod constants {
-    use super::{Coefficient, Format};
-    use whisking::{Factor, Fix, Start, filter, gate, muscle, noise, oscillator, pd};
+    use super::Format;
+    use whisking::{Factor, Factors, Fix, Start, filter, gate, muscle, noise, oscillator, pd};
 
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
 }
 
 pub use constants::SECTIONS;
-
-/// A constant to multiply with.
-pub type Coefficient<R> = <R as Real>::Coefficient;
 
 /// A number format to be measured; both integrators at 2 kHz, 2 whisks a
 /// second, both sides coupled, RCP and CIA.
@@ -55,8 +52,6 @@ pub trait Format: Real {
     const START_24: Start<Self, 2, 12>;
     /// Position control.
     const PD: pd::Config<Self>;
-    /// Protraction a count of the encoder.
-    const THETA_PER_COUNT: Coefficient<Self>;
 
     /// A whole pattern generator with the structure-preserving integrators.
     const WHISKING: whisking::Config<Self> = whisking::Config {

@@ -128,7 +128,6 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
         motion: ActiveConfig {
             whisking: R::WHISKING,
             pd: R::PD,
-            theta_per_count: R::THETA_PER_COUNT,
             retry: ticks(RETRY_S, TICK_HZ),
             stall: STALL,
         },

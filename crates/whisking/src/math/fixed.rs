@@ -105,6 +105,15 @@ pub(crate) fn exp_neg_square(x: i32) -> i32 {
     EXP_NEG.at((u >> 26) as usize, (u << 6) >> 1) >> 1
 }
 
+/// 1/√(1 + x) − 1 of `x` in Q29, |x| ≤ 1/16, in Q29; largest error 8e-7.
+#[inline]
+pub(crate) fn lack(x: i32) -> i32 {
+    // Σ c_k x^(k+1), c in Q30.
+    const LACK: [i32; 3] = [-536_869_237, 403_606_996, -337_009_796];
+    let times_x = |c: i32| ((i64::from(c) * i64::from(x)) >> 29) as i32;
+    times_x(times_x(times_x(LACK[2]) + LACK[1]) + LACK[0]) >> 1
+}
+
 /// The direction of (`a`, `b`) as a vector of length one in Q29, from two
 /// numbers of the same scale; `None` at the origin. Relative error of the
 /// length 4e-9 where the larger number has all its bits.

@@ -23,6 +23,14 @@ impl Duty {
         }
     }
 
+    /// From a fraction of full drive in Q24, −2^24 to 2^24: the step below or the
+    /// nearest.
+    #[inline]
+    pub(crate) const fn from_q24(fraction: i32) -> Self {
+        // Full drive is 32767 steps of 2^9 and not 32768: 2^24 (1 − 2^-15).
+        Self(((fraction - (fraction >> 15) + (1 << 8)) >> 9) as i16)
+    }
+
     /// From a fraction of full drive, clipped to \[−1, 1\]; NaN gives
     /// [`Duty::ZERO`].
     ///
@@ -68,5 +76,28 @@ impl Duty {
         const ONE: u32 = i16::MAX as u32;
         // At most 32767 · 65535 + 16383 < 2^31; the quotient is at most max.
         ((self.magnitude() as u32 * max as u32 + ONE / 2) / ONE) as u16
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Duty;
+
+    #[test]
+    fn q24_gives_the_step_below_or_the_nearest_and_both_ends() {
+        for (fraction, q15) in [
+            (0, 0),
+            (1 << 24, 32_767),
+            (-(1 << 24), -32_767),
+            (1 << 23, 16_384),
+            (-(1 << 23), -16_383),
+        ] {
+            assert_eq!(Duty::from_q24(fraction).q15(), q15, "{fraction}");
+        }
+        for fraction in (-(1 << 24)..=1 << 24).step_by(997) {
+            let exact = f64::from(fraction) / 16_777_216.0 * 32_767.0;
+            let error = f64::from(Duty::from_q24(fraction).q15()) - exact;
+            assert!(error.abs() <= 1.0, "{fraction}: {error}");
+        }
     }
 }

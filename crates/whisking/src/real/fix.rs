@@ -55,6 +55,40 @@ impl Factor {
     }
 }
 
+/// Constants with a scale in common: `mantissas` · 2^-`shift`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Factors<const K: usize> {
+    /// Magnitude of the largest 2^28 to 2^29, so that sums of products stay
+    /// within 64 bits; all zero if the constants are.
+    pub mantissas: [i32; K],
+    /// 0 to 59.
+    pub shift: u32,
+}
+
+impl<const K: usize> Factors<K> {
+    fn new(values: [f64; K]) -> Self {
+        let largest = values
+            .iter()
+            .fold(0.0, |m, c| libm::fmax(m, libm::fabs(*c)));
+        let mut shift = 0;
+        let mut scale = 1.0;
+        while largest * scale < f64::from(1 << 28) && shift < 59 {
+            scale *= 2.0;
+            shift += 1;
+        }
+        Self {
+            mantissas: values.map(|c| libm::round(c * scale) as i32),
+            shift,
+        }
+    }
+
+    /// Half of the last bit that a shift leaves.
+    #[inline]
+    const fn half(&self) -> i64 {
+        (1 << self.shift) >> 1
+    }
+}
+
 #[inline]
 fn saturated(x: i64) -> i32 {
     x.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
@@ -95,9 +129,12 @@ impl Mul for Fix {
 
 impl Real for Fix {
     type Coefficient = Factor;
+    type Row<const K: usize> = Factors<K>;
     /// Bits below the last of the sum.
     type Carry = i64;
     const ZERO: Self = Self(0);
+    const HALF: Self = Self(1 << (FRACTION - 1));
+    const NEAR: Self = Self(1 << (FRACTION - 4));
     const ONE: Self = Self(1 << FRACTION);
     const TWO: Self = Self(2 << FRACTION);
     const PSI_LIMIT: Self = Self(3 << (FRACTION - 1));
@@ -112,6 +149,18 @@ impl Real for Fix {
 
     fn coefficient(value: f64) -> Factor {
         Factor::new(value)
+    }
+
+    fn row<const K: usize>(values: [f64; K]) -> Factors<K> {
+        Factors::new(values)
+    }
+
+    #[inline]
+    fn dot<const K: usize>(x: [Self; K], row: &Factors<K>) -> Self {
+        let sum: i64 = (0..K)
+            .map(|k| i64::from(x[k].0) * i64::from(row.mantissas[k]))
+            .sum();
+        Self(saturated((sum + row.half()) >> row.shift))
     }
 
     #[inline]
@@ -140,9 +189,14 @@ impl Real for Fix {
     }
 
     #[inline]
-    fn to_q15(self) -> i16 {
-        let x = i64::from(Real::clamp(self, -Self::ONE, Self::ONE).0);
-        ((x * 32_767 + (1 << (FRACTION - 1))) >> FRACTION) as i16
+    fn from_code(code: i16) -> Self {
+        // 2^29/8191 is 65544.001.
+        Self(i32::from(code) * 65_544)
+    }
+
+    #[inline]
+    fn to_q24(self) -> i32 {
+        self.0 >> (FRACTION - 24)
     }
 
     // Additions are exact; what rounding takes, it takes from the increment.
@@ -167,6 +221,11 @@ impl Real for Fix {
     #[inline]
     fn exp_neg_square(self) -> Self {
         Self(fixed::exp_neg_square(self.0))
+    }
+
+    #[inline]
+    fn lack(self) -> Self {
+        Self(fixed::lack(self.0))
     }
 
     #[inline]
@@ -233,14 +292,5 @@ mod tests {
             "{} {expected}",
             z.to_f64()
         );
-    }
-
-    #[test]
-    fn q15_is_the_nearest() {
-        for code in [-32_767_i16, -1, 0, 1, 20_000, 32_767] {
-            assert_eq!(Fix::from_f64(f64::from(code) / 32_767.0).to_q15(), code);
-        }
-        assert_eq!(Fix::from_f64(3.0).to_q15(), 32_767);
-        assert_eq!(Fix::from_f64(-3.0).to_q15(), -32_767);
     }
 }

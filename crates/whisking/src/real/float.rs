@@ -9,8 +9,11 @@ const ORIGIN: f32 = 1e-30;
 macro_rules! float {
     ($float:ident) => {
         type Coefficient = Self;
+        type Row<const K: usize> = [Self; K];
         type Carry = Self;
         const ZERO: Self = 0.0;
+        const HALF: Self = 0.5;
+        const NEAR: Self = 0.0625;
         const ONE: Self = 1.0;
         const TWO: Self = 2.0;
         const PSI_LIMIT: Self = 1.5;
@@ -30,9 +33,24 @@ macro_rules! float {
             value as $float
         }
 
+        fn row<const K: usize>(values: [f64; K]) -> [Self; K] {
+            values.map(Self::coefficient)
+        }
+
         #[inline]
         fn times(self, factor: Self) -> Self {
             self * factor
+        }
+
+        #[inline]
+        fn dot<const K: usize>(x: [Self; K], row: &[Self; K]) -> Self {
+            let mut sum = 0.0;
+            // From the first product on: adding it to zero would cost an addition.
+            for k in 0..K {
+                let product = x[k] * row[k];
+                sum = if k == 0 { product } else { sum + product };
+            }
+            sum
         }
 
         #[inline]
@@ -43,6 +61,21 @@ macro_rules! float {
         #[inline]
         fn from_q24(value: i32) -> Self {
             value as $float * (1.0 / 16_777_216.0)
+        }
+
+        #[inline]
+        fn abs(self) -> Self {
+            $float::abs(self)
+        }
+
+        #[inline]
+        fn from_code(code: i16) -> Self {
+            Self::from(code) * (1.0 / 8191.0)
+        }
+
+        #[inline]
+        fn to_q24(self) -> i32 {
+            (self * 16_777_216.0) as i32
         }
 
         // Kahan's compensated sum.
@@ -66,16 +99,6 @@ impl Real for f32 {
     float!(f32);
 
     #[inline]
-    fn to_q15(self) -> i16 {
-        if self.is_nan() {
-            return 0;
-        }
-        let scaled = Real::clamp(self, -1.0, 1.0) * 32_767.0;
-        // The offset makes truncation a rounding.
-        ((scaled + 32_768.5) as i32 - 32_768) as i16
-    }
-
-    #[inline]
     fn drive(self) -> Self {
         single::drive(self)
     }
@@ -83,6 +106,11 @@ impl Real for f32 {
     #[inline]
     fn exp_neg_square(self) -> Self {
         single::exp_neg_square(self)
+    }
+
+    #[inline]
+    fn lack(self) -> Self {
+        single::lack(self)
     }
 
     #[inline]
@@ -103,11 +131,6 @@ impl Real for f64 {
     float!(f64);
 
     #[inline]
-    fn to_q15(self) -> i16 {
-        (self as f32).to_q15()
-    }
-
-    #[inline]
     fn drive(self) -> Self {
         0.5 * libm::tanh(2.0 * self) + 0.5
     }
@@ -116,6 +139,12 @@ impl Real for f64 {
     fn exp_neg_square(self) -> Self {
         let x = Real::clamp(self, -1.5, 1.5);
         libm::exp(-x * x)
+    }
+
+    #[inline]
+    fn lack(self) -> Self {
+        let r = libm::sqrt(1.0 + self);
+        -self / (r * (1.0 + r))
     }
 
     #[inline]
@@ -141,21 +170,16 @@ mod tests {
     }
 
     #[test]
-    fn q15_rounds_and_saturates_on_both_sides() {
-        let cases = [
-            (0.0, 0),
-            (1.0, 32_767),
-            (-1.0, -32_767),
-            (7.0, 32_767),
-            (f32::NEG_INFINITY, -32_767),
+    fn q24_saturates_and_takes_nan_to_nothing() {
+        for (value, q24) in [
+            (0.5, 1 << 23),
+            (-1.0, -1 << 24),
+            (1e9, i32::MAX),
+            (f32::NEG_INFINITY, i32::MIN),
             (f32::NAN, 0),
-            (1.4 / 32_767.0, 1),
-            (-1.4 / 32_767.0, -1),
-            (-1.6 / 32_767.0, -2),
-        ];
-        for (value, code) in cases {
-            assert_eq!(Real::to_q15(value), code, "{value}");
-            assert_eq!(Real::to_q15(f64::from(value)), code, "{value}");
+        ] {
+            assert_eq!(value.to_q24(), q24);
+            assert_eq!(f64::from(value).to_q24(), q24);
         }
     }
 

@@ -84,7 +84,9 @@ fn excite(cia: &Cia<f64>, g: &mut Gate<f64>, nominal: f64, zeta: f64, printed: P
         Printed::Lift => lifted = cia.gain * zeta,
         Printed::Decay => step = 1.0 / (1.0 - g.value),
     }
-    g.value = (g.value + cia.approach * step).max(lifted).clamp(0.0, 2.0);
+    g.value = (g.value + cia.decay.tick * step)
+        .max(lifted)
+        .clamp(0.0, 2.0);
 }
 
 /// Ten seconds of `figure`.

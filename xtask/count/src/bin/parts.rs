@@ -1,9 +1,9 @@
 //! The parts of a tick, with the structure-preserving integrators.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::arguments::{Three, Two};
+use count::arguments::Three;
 use count::format::Format;
-use count::samples::{drives, number, pair};
+use count::samples::{drives, number};
 use count::{each_format, kernel, program};
 use whisking::gate::Gate;
 use whisking::{filter, muscle, oscillator, pd};
@@ -34,19 +34,19 @@ fn parts<R: Format>() {
     kernel!(R: "oscillator of 1 side",
         (_: u32, (state, drive): &mut (oscillator::State<R, 1>, [R; 1])) {
             R::OSCILLATORS.step(state, None);
-            *drive = R::OSCILLATORS.psi(state).map(|[drive, _]| drive);
+            *drive = R::OSCILLATORS.drives(state);
         },
         |call| call, (oscillator::State::new(R::START_1.oscillators), [R::ZERO; 1]));
     kernel!(R: "oscillators of 2 sides",
         (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
             R::OSCILLATORS.step(state, None);
-            *drive = R::OSCILLATORS.psi(state).map(|[drive, _]| drive);
+            *drive = R::OSCILLATORS.drives(state);
         },
         |call| call, (oscillator::State::new(R::START_2.oscillators), [R::ZERO; 2]));
     kernel!(R: "pd",
-        (at: Two<R>, state: &mut pd::State<R>) -> R {
-            let Two(setpoint, measured) = at;
-            R::PD.step(state, setpoint, measured)
+        (setpoint: R, (state, counts): &mut (pd::State<R>, i32)) -> i16 {
+            *counts += 1;
+            R::PD.step(state, setpoint, *counts, 1).q15()
         },
-        pair::<R>(-0.4, 1.2), pd::State::default());
+        number::<R>(-0.4, 1.2), (pd::State::default(), 0));
 }

@@ -24,7 +24,7 @@ fn parts<R: Format>() {
     kernel!(R: "oscillators of 2 sides (euler)",
         (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
             R::EULER_OSCILLATORS.step(state, None);
-            *drive = R::EULER_OSCILLATORS.psi(state).map(|[drive, _]| drive);
+            *drive = R::EULER_OSCILLATORS.drives(state);
         },
         |call| call, (oscillator::State::new(R::EULER_START.oscillators), [R::ZERO; 2]));
 }

@@ -1,0 +1,38 @@
+//! The papers' integrator: forward Euler, with θ, v and the force at the state
+//! before the step.
+
+use super::{DAMPING, State, pace};
+use crate::Real;
+
+/// Constants of forward Euler.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Euler<R: Real> {
+    /// h = ω_n T.
+    pub spring: R::Coefficient,
+    /// 4 h.
+    pub damping: R::Coefficient,
+}
+
+impl<R: Real> Euler<R> {
+    pub(crate) fn new(cycles: f64) -> Self {
+        Self {
+            spring: R::coefficient(pace(cycles)),
+            damping: R::coefficient(DAMPING * pace(cycles)),
+        }
+    }
+
+    /// θ and v are held within ±2, which no sane input reaches (the static
+    /// solution at full drive is 1.015), because large steps let them grow.
+    #[inline]
+    pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
+        let push = gain * (drive * state.theta.exp_neg_square());
+        let [velocity, _] = state.kept;
+        let pull = (push - state.theta).times(self.spring);
+        let next = velocity + pull - velocity.times(self.damping);
+        state
+            .theta
+            .accumulate(&mut state.carry, velocity.times(self.spring));
+        state.theta = state.theta.clamp(-R::TWO, R::TWO);
+        state.kept = [next.clamp(-R::TWO, R::TWO), R::ZERO];
+    }
+}

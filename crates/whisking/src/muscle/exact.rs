@@ -1,0 +1,108 @@
+//! The linear part propagated exactly, the force by an exponential multistep
+//! method.
+//!
+//! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is
+//! the weighted sum of two *lags* that follow the same push a f, a slow one and
+//! a fast one: dy/dt = λ (a f − y), θ = y_fast + c (y_slow − y_fast) with
+//! c = (2 + √3)/(2 √3). A lag needs no matrix, its equilibrium is the push
+//! however its constants are rounded, and as 0 ≤ f ≤ 1 nothing can make it grow.
+//!
+//! f is taken as the quartic through its last values: an exponential Adams
+//! method of fifth order, predicted and corrected once, so one exponential and
+//! one drive a tick. The gain multiplies after the differences are taken, so
+//! that a jump of z or g does not enter the history.
+
+use super::{State, pace};
+use crate::Real;
+use crate::linalg::{Matrix, exponential};
+
+/// λ/ω_n of the slow and of the fast lag, 2 ∓ √3.
+const RATES: [f64; 2] = [0.267_949_192_431_122_7, 3.732_050_807_568_877];
+
+/// Constants of the method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exact<R: Real> {
+    /// The slow lag and the fast one.
+    pub lags: [Lag<R>; 2],
+    /// Weight c of the slow one in θ.
+    pub slow: R::Coefficient,
+}
+
+/// A first-order lag over one tick, in increments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lag<R: Real> {
+    /// 1 − exp(−λ T), of the way to a f.
+    pub decay: R::Coefficient,
+    /// Weights of ∇f, ∇²f and ∇³f (predictor).
+    pub predict: R::Row<3>,
+    /// Weight of ∇⁴f at the new end (corrector).
+    pub correct: R::Coefficient,
+}
+
+impl<R: Real> Lag<R> {
+    /// For λ T = `rate`.
+    pub(super) fn new(rate: f64) -> Self {
+        // The lag driven by a chain of integrators: the exponential holds the
+        // decay and, beside it, the response to each power s^k/k! of time.
+        let mut a: Matrix<6> = [[0.0; 6]; 6];
+        a[0][..2].copy_from_slice(&[-rate, rate]);
+        for k in 1..5 {
+            a[k][k + 1] = 1.0;
+        }
+        let [response, ..] = exponential(&a);
+        let [_, _, power1, power2, power3, power4] = response;
+        // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6, s(s+1)(s+2)(s+3)/24 in
+        // powers s^k/k!.
+        Self {
+            decay: R::coefficient(-libm::expm1(-rate)),
+            predict: R::row([
+                power1,
+                power2 + power1 / 2.0,
+                power3 + power2 + power1 / 3.0,
+            ]),
+            correct: R::coefficient(power4 + 1.5 * power3 + 11.0 / 12.0 * power2 + power1 / 4.0),
+        }
+    }
+}
+
+impl<R: Real> Exact<R> {
+    /// For `cycles` = f_W T whisks a tick.
+    pub(crate) fn new(cycles: f64) -> Self {
+        let [slow, fast] = RATES;
+        Self {
+            lags: RATES.map(|rate| Lag::new(rate * pace(cycles))),
+            slow: R::coefficient(fast / (fast - slow)),
+        }
+    }
+
+    #[inline]
+    fn theta(&self, [slow, fast]: [R; 2]) -> R {
+        fast + (slow - fast).times(self.slow)
+    }
+
+    #[inline]
+    pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
+        let [f, d1, d2, d3] = state.history.force;
+        let push = gain * f;
+        let rise = |i: usize| {
+            let lag = &self.lags[i];
+            (push - state.kept[i]).times(lag.decay) + gain * R::dot([d1, d2, d3], &lag.predict)
+        };
+        let (slow, fast) = (rise(0), rise(1));
+        let predicted = self.theta([state.kept[0] + slow, state.kept[1] + fast]);
+        let force = drive * predicted.exp_neg_square();
+        let n1 = force - f;
+        let n2 = n1 - d1;
+        let n3 = n2 - d2;
+        let correction = gain * (n3 - d3);
+        // Only the slow lag sums over many ticks.
+        let [slow_lag, fast_lag] = &mut state.kept;
+        slow_lag.accumulate(
+            &mut state.carry,
+            slow + correction.times(self.lags[0].correct),
+        );
+        *fast_lag = *fast_lag + (fast + correction.times(self.lags[1].correct));
+        state.theta = self.theta(state.kept);
+        state.history.force = [force, n1, n2, n3];
+    }
+}

@@ -1,0 +1,64 @@
+//! The papers' integrator: forward Euler, every right-hand side at the state
+//! before the step. It keeps ψ itself.
+
+use super::{Psi, State, TAU_PERIODS, limited, pull};
+use crate::Real;
+
+/// Constants of forward Euler.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Euler<R: Real> {
+    /// T/τ_r.
+    pub relax: R::Coefficient,
+    /// 2π f_W T.
+    pub turn: R::Coefficient,
+    /// T/τ_11; zero without coupling.
+    pub couple: R::Coefficient,
+}
+
+impl<R: Real> Euler<R> {
+    /// For `cycles` = f_W T whisks a tick.
+    pub(crate) fn new(cycles: f64, coupling: bool) -> Self {
+        let rate = cycles / TAU_PERIODS;
+        Self {
+            relax: R::coefficient(rate),
+            turn: R::coefficient(core::f64::consts::TAU * cycles),
+            couple: R::coefficient(if coupling { rate } else { 0.0 }),
+        }
+    }
+
+    /// T dψ/dt of a side beside whose drive state the other's is `other`.
+    #[inline]
+    fn rate(&self, [a, b]: Psi<R>, other: R) -> Psi<R> {
+        let [x, y] = pull([a, b], self.relax);
+        [
+            x - b.times(self.turn) + (other - a).times(self.couple),
+            y + a.times(self.turn),
+        ]
+    }
+
+    #[inline]
+    pub(super) fn increments<const S: usize>(&self, psi: &[Psi<R>; S]) -> [Psi<R>; S] {
+        // A lone side pulls on itself, which is nothing.
+        core::array::from_fn(|side| self.rate(psi[side], psi[(side + 1) % S][0]))
+    }
+
+    #[inline]
+    pub(super) fn step<const S: usize>(
+        &self,
+        state: &mut State<R, S>,
+        noise: Option<&[Psi<R>; S]>,
+    ) {
+        let mut change = self.increments(&state.kept);
+        // Loops over constant bounds: the compiler unrolls them, as it does not
+        // flattened iterators.
+        for side in 0..S {
+            for k in 0..2 {
+                if let Some(noise) = noise {
+                    change[side][k] = change[side][k] + noise[side][k];
+                }
+                state.kept[side][k].accumulate(&mut state.carry[side][k], change[side][k]);
+            }
+            state.kept[side] = limited(state.kept[side]);
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Exact parts, symmetrically composed.
+//!
+//! - *modes*: the mean of the sides, m = (ψ_l + ψ_r)/2, and half their
+//!   difference, d = (ψ_l − ψ_r)/2. A lone side is its own mean.
+//! - *L*: the linear part of the field. It does not mix the modes: the mean
+//!   rotates, the difference rotates and decays (a 2 × 2 exponential).
+//! - *R*: the radial relaxation of each side, r → 1 + (r − 1) exp(−T/τ_r).
+//!
+//! A tick is the symmetric product L½ R L½. As each half of L meets the next
+//! tick's, what is kept is χ = L½⁻¹ ψ, by modes; a tick takes it to R L χ, and
+//! ψ = L½ χ is worked out where it is asked for. Without noise the limit cycle
+//! has radius one to rounding, at any f_W T.
+
+use super::{Psi, State, TAU_PERIODS, limited, pull};
+use crate::Real;
+use crate::linalg::{Matrix, exponential, identity, scaled};
+
+/// Constants of the structure-preserving step, in increments (coefficients
+/// near one would cost formats with few digits several of them).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exact<R: Real> {
+    /// A whole tick of L.
+    pub tick: Linear<R>,
+    /// Half a tick.
+    pub half: Linear<R>,
+    /// Half a tick back.
+    pub back: Linear<R>,
+    /// 1 − exp(−T/τ_r).
+    pub relax: R::Coefficient,
+    /// Half of it.
+    pub half_relax: R::Coefficient,
+}
+
+/// exp(A t) − 1 of either mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linear<R: Real> {
+    /// Of the mean: a rotation.
+    pub mean: [R::Row<2>; 2],
+    /// Of the difference: rotation and decay.
+    pub difference: [R::Row<2>; 2],
+}
+
+#[inline]
+fn sum<R: Real>(a: Psi<R>, b: Psi<R>) -> Psi<R> {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+#[inline]
+fn difference<R: Real>(a: Psi<R>, b: Psi<R>) -> Psi<R> {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// The sides of `modes`; of sides, twice their modes.
+#[inline]
+fn crossed<R: Real, const S: usize>(modes: &[Psi<R>; S]) -> [Psi<R>; S] {
+    let mut out = *modes;
+    if let ([m, d], [left, right]) = (&modes[..], &mut out[..]) {
+        (*left, *right) = (sum(*m, *d), difference(*m, *d));
+    }
+    out
+}
+
+/// The modes of `sides`.
+#[inline]
+fn modes<R: Real, const S: usize>(sides: &[Psi<R>; S]) -> [Psi<R>; S] {
+    crossed(&sides.map(|psi| psi.map(|x| if S == 2 { x * R::HALF } else { x })))
+}
+
+#[inline]
+fn dot<R: Real>(a: Psi<R>, b: Psi<R>) -> R {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// a + b, mode by mode or side by side.
+#[inline]
+fn sums<R: Real, const S: usize>(a: &[Psi<R>; S], b: &[Psi<R>; S]) -> [Psi<R>; S] {
+    core::array::from_fn(|n| sum(a[n], b[n]))
+}
+
+impl<R: Real> Linear<R> {
+    fn new(cycles: f64, coupling: bool, ticks: f64) -> Self {
+        let omega = core::f64::consts::TAU * cycles;
+        // Both sides pull: their difference decays twice as fast.
+        let couple = if coupling {
+            2.0 * cycles / TAU_PERIODS
+        } else {
+            0.0
+        };
+        Self {
+            mean: grown(omega, 0.0, ticks).map(R::row),
+            difference: grown(omega, couple, ticks).map(R::row),
+        }
+    }
+
+    #[inline]
+    const fn rows(&self, mode: usize) -> &[R::Row<2>; 2] {
+        if mode == 0 {
+            &self.mean
+        } else {
+            &self.difference
+        }
+    }
+
+    /// What L adds to every mode.
+    #[inline]
+    fn increments<const S: usize>(&self, modes: &[Psi<R>; S]) -> [Psi<R>; S] {
+        core::array::from_fn(|mode| {
+            let [first, second] = self.rows(mode);
+            [R::dot(modes[mode], first), R::dot(modes[mode], second)]
+        })
+    }
+}
+
+/// exp(A t) − 1 of the linear field on the mean (`couple` 0) or the difference
+/// (`couple` 2 T/τ_11), `ticks` long.
+fn grown(omega: f64, couple: f64, ticks: f64) -> Matrix<2> {
+    let mut m = exponential(&scaled(&[[-couple, -omega], [omega, 0.0]], ticks));
+    for (x, one) in m.iter_mut().flatten().zip(identity::<2>().iter().flatten()) {
+        *x -= one;
+    }
+    m
+}
+
+impl<R: Real, const S: usize> State<R, S> {
+    /// Adds `change`, and noise by sides, to the modes.
+    #[inline]
+    fn change(&mut self, change: &[Psi<R>; S], noise: Option<&[Psi<R>; S]>) {
+        let mut change = *change;
+        if let Some(noise) = noise {
+            change = sums(&change, &modes(noise));
+        }
+        // Only the mean's sum is a long one: the difference of coupled sides decays.
+        let mut modes = self.kept.iter_mut().zip(change);
+        if let Some((mean, change)) = modes.next() {
+            for ((x, carry), step) in mean.iter_mut().zip(&mut self.carry[0]).zip(change) {
+                x.accumulate(carry, step);
+            }
+        }
+        for (mode, change) in modes {
+            *mode = sum(*mode, change);
+        }
+    }
+}
+
+impl<R: Real> Exact<R> {
+    /// For `cycles` = f_W T whisks a tick.
+    pub(crate) fn new(cycles: f64, coupling: bool) -> Self {
+        let share = -libm::expm1(-cycles / TAU_PERIODS);
+        Self {
+            tick: Linear::new(cycles, coupling, 1.0),
+            half: Linear::new(cycles, coupling, 0.5),
+            back: Linear::new(cycles, coupling, -0.5),
+            relax: R::coefficient(share),
+            half_relax: R::coefficient(share / 2.0),
+        }
+    }
+
+    #[inline]
+    pub(super) fn step<const S: usize>(
+        &self,
+        state: &mut State<R, S>,
+        noise: Option<&[Psi<R>; S]>,
+    ) {
+        let linear = self.tick.increments(&state.kept);
+        match self.near(&sums(&state.kept, &linear), &linear) {
+            Some(change) => state.change(&change, noise),
+            None => self.far(state, noise),
+        }
+    }
+
+    /// What R changes at `modes`, where every side is near the circle, and
+    /// `linear`.
+    ///
+    /// The sides are m ± d, their r² − 1 is e ± 2 m d with e = m² + d² − 1, and
+    /// a pull of h_l on the left and h_r on the right is one of
+    /// (h_l + h_r) m + (h_l − h_r) d on their sum, m and d exchanged on their
+    /// difference.
+    #[inline]
+    fn near<const S: usize>(
+        &self,
+        modes: &[Psi<R>; S],
+        linear: &[Psi<R>; S],
+    ) -> Option<[Psi<R>; S]> {
+        let mut change = *linear;
+        if let ([m, d], [on_m, on_d]) = (&modes[..], &mut change[..]) {
+            let same = dot(*m, *m) + dot(*d, *d) - R::ONE;
+            let cross = dot(*m, *d);
+            let cross = cross + cross;
+            if same.abs() + cross.abs() > R::NEAR {
+                return None;
+            }
+            let (left, right) = ((same + cross).lack(), (same - cross).lack());
+            let along = (left + right).times(self.half_relax);
+            let across = (left - right).times(self.half_relax);
+            for k in 0..2 {
+                on_m[k] = on_m[k] + m[k] * along + d[k] * across;
+                on_d[k] = on_d[k] + d[k] * along + m[k] * across;
+            }
+        } else {
+            for (psi, change) in modes.iter().zip(&mut change) {
+                let e = dot(*psi, *psi) - R::ONE;
+                if e.abs() > R::NEAR {
+                    return None;
+                }
+                let along = e.lack().times(self.relax);
+                for k in 0..2 {
+                    change[k] = change[k] + psi[k] * along;
+                }
+            }
+        }
+        Some(change)
+    }
+
+    /// The same step far from the circle, where ψ may also meet its limits.
+    #[cold]
+    #[inline(never)]
+    fn far<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
+        let linear = self.tick.increments(&state.kept);
+        let turned = sums(&state.kept, &linear);
+        let pulls = crossed(&turned).map(|side| pull(side, self.relax));
+        state.change(&sums(&linear, &modes(&pulls)), noise);
+        let psi = self.psi(&state.kept);
+        let within = psi.map(limited);
+        if within != psi {
+            let modes = modes(&within);
+            *state = State::new(sums(&modes, &self.back.increments(&modes)));
+        }
+    }
+
+    /// ψ of every side.
+    pub(super) fn psi<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
+        crossed(&sums(kept, &self.half.increments(kept)))
+    }
+
+    /// ψ_1 of every side.
+    #[inline]
+    pub(super) fn drives<const S: usize>(&self, kept: &[Psi<R>; S]) -> [R; S] {
+        let now: [R; S] = core::array::from_fn(|mode| {
+            kept[mode][0] + R::dot(kept[mode], &self.half.rows(mode)[0])
+        });
+        let mut drives = now;
+        if let ([m, d], [left, right]) = (&now[..], &mut drives[..]) {
+            (*left, *right) = (*m + *d, *m - *d);
+        }
+        drives
+    }
+}
+
+/// χ = L½⁻¹ ψ by modes.
+pub(super) fn keep<const S: usize>(
+    psi: &[Psi<f64>; S],
+    cycles: f64,
+    coupling: bool,
+) -> [Psi<f64>; S] {
+    let modes = modes(psi);
+    sums(
+        &modes,
+        &Linear::<f64>::new(cycles, coupling, -0.5).increments(&modes),
+    )
+}
