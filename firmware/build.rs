@@ -135,7 +135,7 @@ fn motion(scene: &Scene) -> Result<String, Box<dyn Error>> {
     let parts = [
         constant(
             "oscillators",
-            "whisking::oscillator::{Config, Config::*, Euler, Exact, Linear}",
+            "whisking::oscillator::{Config, Config::*, Euler, Exact, Linear, Turn}",
             "Config<f32>",
             &whisking.oscillators,
         ),

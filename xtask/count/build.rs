@@ -161,7 +161,7 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
 fn part(name: &str, of_type: &str, value: &impl Debug) -> String {
     let module = of_type.split_once("::").map_or("", |(module, _)| module);
     let names = match module {
-        "oscillator" => "oscillator::{Config, Config::*, Euler, Exact, Linear}",
+        "oscillator" => "oscillator::{Config, Config::*, Euler, Exact, Linear, Turn}",
         "muscle" => "muscle::{Config, Config::*, Euler, Exact, Lag}",
         "noise" | "filter" => "filter::Config",
         "gate" => "gate::{Cia, Decay, Rcp}",

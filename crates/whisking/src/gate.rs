@@ -27,7 +27,7 @@ pub struct Decay<R: Real> {
 
 /// Below this share of a tick rounding would take a noticeable part of a decay
 /// in single precision.
-const SLOW: f64 = 1.0 / 1024.0;
+const SLOW: f64 = 1.0 / 256.0;
 
 /// Rapid cessation of protraction (eq. 10): z = ⟨max(z − decay · z, σ_z π)⟩ on \[0, 1\].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -218,7 +218,7 @@ mod tests {
         for (found, within) in [
             (after::<f64>(), 1e-9),
             (after::<f32>(), 2e-7),
-            (after::<Fix>(), 1e-8),
+            (after::<Fix>(), 3e-7),
         ] {
             assert!((found - expected).abs() < within, "{found} {expected}");
         }

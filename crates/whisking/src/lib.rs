@@ -44,7 +44,7 @@ mod start;
 mod step;
 
 pub use error::{Error, Parameter};
-pub use real::{Factor, Factors, Fix, Real};
+pub use real::{Factor, Factors, FineFactor, Fix, Real};
 pub use settings::{GateSettings, Integrator, Settings};
 pub use start::Start;
 pub use step::{Config, State, Whisker};

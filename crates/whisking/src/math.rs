@@ -2,4 +2,5 @@
 
 pub(crate) mod constant;
 pub(crate) mod fixed;
+pub(crate) mod product;
 pub(crate) mod single;

@@ -83,8 +83,8 @@ impl<R: Real> Config<R> {
     /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9, `before`
     /// and `after` the drive W at the two ends of the tick.
     ///
-    /// |θ| stays below 2 and what is kept below 4, whatever the drives and
-    /// gains in their ranges.
+    /// The force is between 0 and 1 and both integrators are bounded for bounded
+    /// forces: |θ| stays below 2.5 and what is kept below 4, at any f_W T.
     #[inline]
     pub fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
         match self {

@@ -14,7 +14,7 @@ mod exact;
 mod tests;
 
 pub use euler::Euler;
-pub use exact::{Exact, Linear};
+pub use exact::{Exact, Linear, Turn};
 
 use crate::Real;
 

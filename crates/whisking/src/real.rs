@@ -8,7 +8,7 @@ mod float;
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-pub use fix::{Factor, Factors, Fix};
+pub use fix::{Factor, Factors, FineFactor, Fix};
 
 /// A number format of the tick.
 ///
@@ -31,7 +31,10 @@ pub trait Real:
     /// A constant of the tick, to multiply with.
     type Coefficient: Copy + Debug + PartialEq + 'static;
 
-    /// `K` constants of the tick that are used together and share a scale.
+    /// A constant below one whose error would gather over many ticks.
+    type Fine: Copy + Debug + PartialEq + 'static;
+
+    /// `K` constants below one of the tick that are used together and share a scale.
     type Row<const K: usize>: Copy + Debug + PartialEq + 'static;
 
     /// What rounding took from a long sum.
@@ -45,7 +48,7 @@ pub trait Real:
     const ONE: Self;
     /// 2.
     const TWO: Self;
-    /// How far r² may be from 1 for [`Self::lack`], 1/16.
+    /// How far r² may be from 1 for [`Self::excess`], 1/16.
     const NEAR: Self;
     /// Limit of an oscillator's states, ψ_lim = 1.5 (BIOTACT section III-B).
     const PSI_LIMIT: Self;
@@ -59,8 +62,17 @@ pub trait Real:
     /// The nearest coefficient. For configurations, not for the tick.
     fn coefficient(value: f64) -> Self::Coefficient;
 
+    /// The nearest fine constant. For configurations, not for the tick.
+    fn fine(value: f64) -> Self::Fine;
+
     /// The nearest row. For configurations, not for the tick.
     fn row<const K: usize>(values: [f64; K]) -> Self::Row<K>;
+
+    /// The product with a fine constant.
+    fn times_fine(self, factor: Self::Fine) -> Self;
+
+    /// The product with a number of a magnitude up to 4 of which four digits do.
+    fn rough(self, other: Self) -> Self;
 
     /// Σ x_k c_k.
     fn dot<const K: usize>(x: [Self; K], row: &Self::Row<K>) -> Self;
@@ -100,9 +112,9 @@ pub trait Real:
     /// (x, y)/r, or `None` where r is zero (in f32 and f64 below 1e-15); error 2e-7.
     fn unit(x: Self, y: Self) -> Option<[Self; 2]>;
 
-    /// 1/√(1 + x) − 1 for |x| ≤ [`Self::NEAR`], which is what a radius lacks to
-    /// one where x = r² − 1; error 8e-7.
-    fn lack(self) -> Self;
+    /// 1 − 1/√(1 + x) for |x| ≤ [`Self::NEAR`]: the share by which a radius
+    /// exceeds one, where x = r² − 1; error 5e-6.
+    fn excess(self) -> Self;
 
     /// |x|.
     #[inline]

@@ -77,7 +77,7 @@ impl<R: Real> Config<R> {
     /// this tick: z and g follow it first, then oscillators and muscles move.
     ///
     /// Whatever comes in, NaN included, the state stays finite and in its
-    /// bounds: |ψ| ≤ 1.5 (a little more in the exact integrator's L½ χ), 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.
+    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
     #[inline]
     pub fn step<const S: usize, const N: usize>(
         &self,

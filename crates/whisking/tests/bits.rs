@@ -20,26 +20,33 @@ fn same(found: u64, expected: u64) {
     assert!(found == expected, "fingerprint {found:#x}");
 }
 
-/// Every 1/2^17 from −1.5 to 1.5, in Q29.
+/// Every 1/2^17 from −1.5 to 1.5, in Q28.
 fn grid() -> impl Iterator<Item = i32> {
-    (-(3 << 16)..=(3 << 16)).map(|n| n << 12)
+    (-(3 << 16)..=(3 << 16)).map(|n| n << 11)
+}
+
+/// Every 1/2^21 from −1/16 to 1/16, in Q28.
+fn near() -> impl Iterator<Item = i32> {
+    (-(1 << 17)..=(1 << 17)).map(|n| n << 7)
 }
 
 fn single(x: i32) -> f32 {
-    x as f32 / 536_870_912.0
+    x as f32 / 268_435_456.0
 }
 
 #[test]
 fn elementary_functions_in_fixed_point() {
     let drive = fingerprint(grid().map(|x| Fix(x).drive().0 as u32));
-    same(drive, 0x7FF2_BA9F_6DB8_2957);
+    same(drive, 0xEEC1_BF99_05F9_C3A4);
     let exp = fingerprint(grid().map(|x| Fix(x).exp_neg_square().0 as u32));
-    same(exp, 0x4A6F_E5A1_E2E8_359D);
+    same(exp, 0x21A2_A510_C408_EEA5);
+    let excess = fingerprint(near().map(|x| Fix(x).excess().0 as u32));
+    same(excess, 0x76F8_3F96_3A9A_2ACB);
     // All directions, at radii over several powers of two.
     let unit =
         grid().filter_map(|x| Fix::unit(Fix(x), Fix((x >> 3).wrapping_mul(5) ^ 0x0123_4567)));
     let unit = fingerprint(unit.flatten().map(|x| x.0 as u32));
-    same(unit, 0x137D_9A60_ECE0_4B9E);
+    same(unit, 0x92C8_9D82_EE16_24D3);
 }
 
 #[test]
@@ -48,6 +55,8 @@ fn elementary_functions_in_single_precision() {
     same(drive, 0x2662_B01A_C848_7B62);
     let exp = fingerprint(grid().map(|x| single(x).exp_neg_square().to_bits()));
     same(exp, 0x83CE_425D_B4D4_9790);
+    let excess = fingerprint(near().map(|x| single(x).excess().to_bits()));
+    same(excess, 0x04BD_F5A9_3A58_197D);
     let unit = grid().filter_map(|x| f32::unit(single(x), single(x >> 3) * 5.0 + 0.3));
     let unit = fingerprint(unit.flatten().map(f32::to_bits));
     same(unit, 0x0C76_7EE8_8320_D6C8);

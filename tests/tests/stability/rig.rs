@@ -39,7 +39,7 @@ impl Extreme for Fix {
     const NOT_A_NUMBER: Self = Self(i32::MIN);
     const HIGHEST: Self = Self(i32::MAX);
     const LOWEST: Self = Self(i32::MIN);
-    const STEP: f64 = 1.0 / 536_870_912.0;
+    const STEP: f64 = 1.0 / 268_435_456.0;
     const ROUNDING: f64 = 5e-5;
 }
 
@@ -64,7 +64,7 @@ impl<R: Real> Module<R> {
         let is_within = |list: &[f64], lo: f64, hi: f64| list.iter().all(|x| (lo..=hi).contains(x));
         assert!(
             is_within(&psi, -1.5, 1.5)
-                && is_within(&theta, -2.0, 2.0)
+                && is_within(&theta, -2.5, 2.5)
                 && is_within(&kept, -3.0, 3.0)
                 && is_within(&z, 0.0, 1.0)
                 && is_within(&g, 0.0, 2.0),

@@ -12,7 +12,9 @@ use whisking::{Real, Start, filter, gate, muscle, noise, oscillator, pd};
 )]
 mod constants {
     use super::Format;
-    use whisking::{Factor, Factors, Fix, Start, filter, gate, muscle, noise, oscillator, pd};
+    use whisking::{
+        Factor, Factors, FineFactor, Fix, Start, filter, gate, muscle, noise, oscillator, pd,
+    };
 
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
 }

@@ -27,12 +27,14 @@ impl<R: Real> Euler<R> {
     pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let push = gain * (drive * state.theta.exp_neg_square());
         let [velocity, _] = state.kept;
-        let pull = (push - state.theta).times(self.spring);
-        let next = velocity + pull - velocity.times(self.damping);
+        // Limits of what the large steps add, too, so that no sum overflows.
+        let limited = |x: R| x.clamp(-R::TWO, R::TWO);
+        let pull = limited((push - state.theta).times(self.spring));
+        let next = velocity + pull - limited(velocity.times(self.damping));
         state
             .theta
             .accumulate(&mut state.carry, velocity.times(self.spring));
-        state.theta = state.theta.clamp(-R::TWO, R::TWO);
-        state.kept = [next.clamp(-R::TWO, R::TWO), R::ZERO];
+        state.theta = limited(state.theta);
+        state.kept = [limited(next), R::ZERO];
     }
 }

@@ -3,8 +3,8 @@
 //!
 //! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is
 //! the weighted sum of two *lags* that follow the same push a f, a slow one and
-//! a fast one: dy/dt = λ (a f − y), θ = y_fast + c (y_slow − y_fast) with
-//! c = (2 + √3)/(2 √3). A lag needs no matrix, its equilibrium is the push
+//! a fast one: dy/dt = λ (a f − y), θ = y_slow + c (y_slow − y_fast) with
+//! c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the push
 //! however its constants are rounded, and as 0 ≤ f ≤ 1 nothing can make it grow.
 //!
 //! f is taken as the quartic through its last values: an exponential Adams
@@ -24,15 +24,15 @@ const RATES: [f64; 2] = [0.267_949_192_431_122_7, 3.732_050_807_568_877];
 pub struct Exact<R: Real> {
     /// The slow lag and the fast one.
     pub lags: [Lag<R>; 2],
-    /// Weight c of the slow one in θ.
-    pub slow: R::Coefficient,
+    /// c, how much more than itself the slow one counts in θ.
+    pub lead: R::Coefficient,
 }
 
 /// A first-order lag over one tick, in increments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lag<R: Real> {
     /// 1 − exp(−λ T), of the way to a f.
-    pub decay: R::Coefficient,
+    pub decay: R::Fine,
     /// Weights of ∇f, ∇²f and ∇³f (predictor).
     pub predict: R::Row<3>,
     /// Weight of ∇⁴f at the new end (corrector).
@@ -54,7 +54,7 @@ impl<R: Real> Lag<R> {
         // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6, s(s+1)(s+2)(s+3)/24 in
         // powers s^k/k!.
         Self {
-            decay: R::coefficient(-libm::expm1(-rate)),
+            decay: R::fine(-libm::expm1(-rate)),
             predict: R::row([
                 power1,
                 power2 + power1 / 2.0,
@@ -71,13 +71,13 @@ impl<R: Real> Exact<R> {
         let [slow, fast] = RATES;
         Self {
             lags: RATES.map(|rate| Lag::new(rate * pace(cycles))),
-            slow: R::coefficient(fast / (fast - slow)),
+            lead: R::coefficient(slow / (fast - slow)),
         }
     }
 
     #[inline]
     fn theta(&self, [slow, fast]: [R; 2]) -> R {
-        fast + (slow - fast).times(self.slow)
+        slow + (slow - fast).times(self.lead)
     }
 
     #[inline]
@@ -86,7 +86,8 @@ impl<R: Real> Exact<R> {
         let push = gain * f;
         let rise = |i: usize| {
             let lag = &self.lags[i];
-            (push - state.kept[i]).times(lag.decay) + gain * R::dot([d1, d2, d3], &lag.predict)
+            (push - state.kept[i]).times_fine(lag.decay)
+                + R::dot([d1, d2, d3], &lag.predict).rough(gain)
         };
         let (slow, fast) = (rise(0), rise(1));
         let predicted = self.theta([state.kept[0] + slow, state.kept[1] + fast]);
@@ -94,7 +95,7 @@ impl<R: Real> Exact<R> {
         let n1 = force - f;
         let n2 = n1 - d1;
         let n3 = n2 - d2;
-        let correction = gain * (n3 - d3);
+        let correction = (n3 - d3).rough(gain);
         // Only the slow lag sums over many ticks.
         let [slow_lag, fast_lag] = &mut state.kept;
         slow_lag.accumulate(

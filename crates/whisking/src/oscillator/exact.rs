@@ -23,6 +23,8 @@ pub struct Exact<R: Real> {
     pub tick: Linear<R>,
     /// Half a tick.
     pub half: Linear<R>,
+    /// What half a tick takes from ψ_1 of the mean and of the difference.
+    pub drive: [R::Row<2>; 2],
     /// Half a tick back.
     pub back: Linear<R>,
     /// 1 − exp(−T/τ_r).
@@ -35,9 +37,18 @@ pub struct Exact<R: Real> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linear<R: Real> {
     /// Of the mean: a rotation.
-    pub mean: [R::Row<2>; 2],
+    pub mean: Turn<R>,
     /// Of the difference: rotation and decay.
-    pub difference: [R::Row<2>; 2],
+    pub difference: Turn<R>,
+}
+
+/// (x, y) → (−a x − c y, c x − b y), what a rotation and a decay add to a vector.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn<R: Real> {
+    /// a and b, of which an error would show in the radius.
+    pub shrink: [R::Fine; 2],
+    /// c, of which an error would gather in the phase.
+    pub cross: R::Fine,
 }
 
 #[inline]
@@ -74,26 +85,21 @@ fn dot<R: Real>(a: Psi<R>, b: Psi<R>) -> R {
 /// a + b, mode by mode or side by side.
 #[inline]
 fn sums<R: Real, const S: usize>(a: &[Psi<R>; S], b: &[Psi<R>; S]) -> [Psi<R>; S] {
-    core::array::from_fn(|n| sum(a[n], b[n]))
+    let mut out = *a;
+    for (a, b) in out.iter_mut().zip(b) {
+        *a = sum(*a, *b);
+    }
+    out
 }
 
 impl<R: Real> Linear<R> {
     fn new(cycles: f64, coupling: bool, ticks: f64) -> Self {
-        let omega = core::f64::consts::TAU * cycles;
-        // Both sides pull: their difference decays twice as fast.
-        let couple = if coupling {
-            2.0 * cycles / TAU_PERIODS
-        } else {
-            0.0
-        };
-        Self {
-            mean: grown(omega, 0.0, ticks).map(R::row),
-            difference: grown(omega, couple, ticks).map(R::row),
-        }
+        let [mean, difference] = growths(cycles, coupling, ticks).map(|m| Turn::new(&m));
+        Self { mean, difference }
     }
 
     #[inline]
-    const fn rows(&self, mode: usize) -> &[R::Row<2>; 2] {
+    const fn turn(&self, mode: usize) -> &Turn<R> {
         if mode == 0 {
             &self.mean
         } else {
@@ -102,13 +108,52 @@ impl<R: Real> Linear<R> {
     }
 
     /// What L adds to every mode.
-    #[inline]
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "not inlined, it would fetch constants that the caller knows"
+    )]
     fn increments<const S: usize>(&self, modes: &[Psi<R>; S]) -> [Psi<R>; S] {
-        core::array::from_fn(|mode| {
-            let [first, second] = self.rows(mode);
-            [R::dot(modes[mode], first), R::dot(modes[mode], second)]
-        })
+        let mut out = *modes;
+        for (mode, x) in out.iter_mut().enumerate() {
+            *x = self.turn(mode).increment(*x);
+        }
+        out
     }
+}
+
+impl<R: Real> Turn<R> {
+    /// Of the matrix (−a, −c; c, −b).
+    fn new([[a, _], [c, b]]: &Matrix<2>) -> Self {
+        Self {
+            shrink: [R::fine(-*a), R::fine(-*b)],
+            cross: R::fine(*c),
+        }
+    }
+
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "not inlined, it would fetch constants that the caller knows"
+    )]
+    fn increment(&self, [x, y]: Psi<R>) -> Psi<R> {
+        [
+            -y.times_fine(self.cross) - x.times_fine(self.shrink[0]),
+            x.times_fine(self.cross) - y.times_fine(self.shrink[1]),
+        ]
+    }
+}
+
+/// exp(A t) − 1 on the mean and on the difference.
+fn growths(cycles: f64, coupling: bool, ticks: f64) -> [Matrix<2>; 2] {
+    let omega = core::f64::consts::TAU * cycles;
+    // Both sides pull: their difference decays twice as fast.
+    let couple = if coupling {
+        2.0 * cycles / TAU_PERIODS
+    } else {
+        0.0
+    };
+    [grown(omega, 0.0, ticks), grown(omega, couple, ticks)]
 }
 
 /// exp(A t) − 1 of the linear field on the mean (`couple` 0) or the difference
@@ -149,6 +194,7 @@ impl<R: Real> Exact<R> {
         Self {
             tick: Linear::new(cycles, coupling, 1.0),
             half: Linear::new(cycles, coupling, 0.5),
+            drive: growths(cycles, coupling, 0.5).map(|[first, _]| R::row(first.map(|x| -x))),
             back: Linear::new(cycles, coupling, -0.5),
             relax: R::coefficient(share),
             half_relax: R::coefficient(share / 2.0),
@@ -172,8 +218,8 @@ impl<R: Real> Exact<R> {
     /// `linear`.
     ///
     /// The sides are m ± d, their r² − 1 is e ± 2 m d with e = m² + d² − 1, and
-    /// a pull of h_l on the left and h_r on the right is one of
-    /// (h_l + h_r) m + (h_l − h_r) d on their sum, m and d exchanged on their
+    /// to take a share h_l of the left and h_r of the right takes
+    /// (h_l + h_r) m + (h_l − h_r) d of their sum, m and d exchanged of their
     /// difference.
     #[inline]
     fn near<const S: usize>(
@@ -189,12 +235,12 @@ impl<R: Real> Exact<R> {
             if same.abs() + cross.abs() > R::NEAR {
                 return None;
             }
-            let (left, right) = ((same + cross).lack(), (same - cross).lack());
-            let along = (left + right).times(self.half_relax);
-            let across = (left - right).times(self.half_relax);
+            let (left, right) = ((same + cross).excess(), (same - cross).excess());
+            let (along, across) = (left + right, left - right);
+            let pull = |m: R, d: R| (along.rough(m) + across.rough(d)).times(self.half_relax);
             for k in 0..2 {
-                on_m[k] = on_m[k] + m[k] * along + d[k] * across;
-                on_d[k] = on_d[k] + d[k] * along + m[k] * across;
+                on_m[k] = on_m[k] - pull(m[k], d[k]);
+                on_d[k] = on_d[k] - pull(d[k], m[k]);
             }
         } else {
             for (psi, change) in modes.iter().zip(&mut change) {
@@ -202,9 +248,9 @@ impl<R: Real> Exact<R> {
                 if e.abs() > R::NEAR {
                     return None;
                 }
-                let along = e.lack().times(self.relax);
+                let along = e.excess();
                 for k in 0..2 {
-                    change[k] = change[k] + psi[k] * along;
+                    change[k] = change[k] - along.rough(psi[k]).times(self.relax);
                 }
             }
         }
@@ -235,9 +281,10 @@ impl<R: Real> Exact<R> {
     /// ψ_1 of every side.
     #[inline]
     pub(super) fn drives<const S: usize>(&self, kept: &[Psi<R>; S]) -> [R; S] {
-        let now: [R; S] = core::array::from_fn(|mode| {
-            kept[mode][0] + R::dot(kept[mode], &self.half.rows(mode)[0])
-        });
+        let mut now = [R::ZERO; S];
+        for ((now, kept), half) in now.iter_mut().zip(kept).zip(&self.drive) {
+            *now = kept[0] - R::dot(*kept, half);
+        }
         let mut drives = now;
         if let ([m, d], [left, right]) = (&now[..], &mut drives[..]) {
             (*left, *right) = (*m + *d, *m - *d);

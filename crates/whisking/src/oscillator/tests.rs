@@ -51,7 +51,7 @@ fn the_limit_cycle_is_the_unit_circle_at_any_step_and_in_any_format() {
     }
     check::<f64>(1e-12);
     check::<f32>(3e-7);
-    check::<Fix>(3e-7);
+    check::<Fix>(2e-6);
 }
 
 #[test]

@@ -9,6 +9,7 @@ const ORIGIN: f32 = 1e-30;
 macro_rules! float {
     ($float:ident) => {
         type Coefficient = Self;
+        type Fine = Self;
         type Row<const K: usize> = [Self; K];
         type Carry = Self;
         const ZERO: Self = 0.0;
@@ -35,6 +36,20 @@ macro_rules! float {
 
         fn row<const K: usize>(values: [f64; K]) -> [Self; K] {
             values.map(Self::coefficient)
+        }
+
+        fn fine(value: f64) -> Self {
+            value as $float
+        }
+
+        #[inline]
+        fn times_fine(self, factor: Self) -> Self {
+            self * factor
+        }
+
+        #[inline]
+        fn rough(self, other: Self) -> Self {
+            self * other
         }
 
         #[inline]
@@ -109,8 +124,8 @@ impl Real for f32 {
     }
 
     #[inline]
-    fn lack(self) -> Self {
-        single::lack(self)
+    fn excess(self) -> Self {
+        single::excess(self)
     }
 
     #[inline]
@@ -142,9 +157,9 @@ impl Real for f64 {
     }
 
     #[inline]
-    fn lack(self) -> Self {
+    fn excess(self) -> Self {
         let r = libm::sqrt(1.0 + self);
-        -self / (r * (1.0 + r))
+        self / (r * (1.0 + r))
     }
 
     #[inline]

@@ -1,0 +1,93 @@
+//! Products of 32-bit integers of which the high part is wanted.
+//!
+//! The Cortex-M3 and larger have instructions for them. The Cortex-M0+
+//! multiplies 32 by 32 bits to the low 32 only, and the compiler calls a
+//! function of some forty instructions for more; there the same numbers, to
+//! the last bit, are put together from products of halves.
+
+/// Whether the processor is a Cortex-M0+: of the targets without a PC, those
+/// without an atomic exchange are.
+const IS_SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// ⌊x y / 2^16⌋.
+#[inline]
+pub(crate) const fn by_half(x: i32, y: i16) -> i32 {
+    scaled::<16>(x, y)
+}
+
+/// ⌊x y / 2^`DOWN`⌋, `DOWN` from 1 to 16, where that fits.
+#[inline]
+pub(crate) const fn scaled<const DOWN: u32>(x: i32, y: i16) -> i32 {
+    if IS_SMALL {
+        scaled_in_parts::<DOWN>(x, y)
+    } else {
+        ((x as i64 * y as i64) >> DOWN) as i32
+    }
+}
+
+/// ⌊x y / 2^32⌋.
+#[inline]
+pub(crate) const fn high(x: i32, y: i32) -> i32 {
+    if IS_SMALL {
+        high_in_parts(x, y)
+    } else {
+        ((x as i64 * y as i64) >> 32) as i32
+    }
+}
+
+#[inline]
+const fn scaled_in_parts<const DOWN: u32>(x: i32, y: i16) -> i32 {
+    let y = y as i32;
+    (((x >> 16) * y) << (16 - DOWN)).wrapping_add(((x & 0xFFFF) * y) >> DOWN)
+}
+
+#[inline]
+const fn high_in_parts(x: i32, y: i32) -> i32 {
+    let (xh, xl) = (x >> 16, x as u32 & 0xFFFF);
+    let (yh, yl) = (y >> 16, y as u32 & 0xFFFF);
+    // Each sum stays within 32 bits: a product of halves leaves room for one half more.
+    let low = xh * yl as i32 + ((xl * yl) >> 16) as i32;
+    let middle = xl as i32 * yh + (low & 0xFFFF);
+    xh * yh + (low >> 16) + (middle >> 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{high, high_in_parts, scaled, scaled_in_parts};
+    use proptest::prelude::*;
+
+    const EDGES: [i32; 9] = [
+        i32::MIN,
+        i32::MIN + 1,
+        -65_537,
+        -1,
+        0,
+        1,
+        65_535,
+        65_536,
+        i32::MAX,
+    ];
+
+    fn same(x: i32, y: i32) {
+        assert_eq!(high_in_parts(x, y), high(x, y), "{x} {y}");
+        let y = y as i16;
+        assert_eq!(scaled_in_parts::<16>(x, y), scaled::<16>(x, y), "{x} {y}");
+        assert_eq!(scaled_in_parts::<13>(x, y), scaled::<13>(x, y), "{x} {y}");
+    }
+
+    #[test]
+    fn parts_give_the_same_at_the_edges() {
+        for x in EDGES {
+            for y in EDGES {
+                same(x, y);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn parts_give_the_same(x in any::<i32>(), y in any::<i32>()) {
+            same(x, y);
+        }
+    }
+}

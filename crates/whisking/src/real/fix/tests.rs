@@ -1,0 +1,110 @@
+//! Products, constants and limits of fixed point against f64.
+
+use super::{FRACTION, Factor, Factors, FineFactor, Fix};
+use crate::Real;
+use proptest::prelude::*;
+
+const STEP: f64 = 1.0 / (1_u64 << FRACTION) as f64;
+/// Relative error of a constant of 16 bits.
+const FACTOR: f64 = 3.1e-5;
+
+proptest! {
+    #[test]
+    fn products_with_constants_are_close_or_saturate(
+        x in -4.0..4.0_f64, power in -18.0..20.0_f64, up in any::<bool>()
+    ) {
+        let c = if up { libm::exp2(power) } else { -libm::exp2(power) };
+        let found = Fix::from_f64(x).times(Fix::coefficient(c)).to_f64();
+        let exact = x * c;
+        // A constant of one half and more costs the bits that it raises by.
+        let error = FACTOR * exact.abs() + STEP * (1.0 + 4.0 * c.abs());
+        if exact.abs() + error < 4.0 {
+            prop_assert!((found - exact).abs() <= error, "{found} {exact}");
+        } else {
+            prop_assert!(found.abs() <= 4.0 && found.abs() > 4.0 - error - FACTOR * 8.0 && found * exact > 0.0, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn products_with_fine_constants_are_the_nearest(x in -7.9..7.9_f64, c in -0.999_999..0.999_999_f64) {
+        let found = Fix::from_f64(x).times_fine(Fix::fine(c)).to_f64();
+        prop_assert!((found - x * c).abs() <= 3.0 * STEP, "{found} {}", x * c);
+    }
+
+    #[test]
+    fn rows_share_a_scale(x in prop::array::uniform3(-3.9..3.9_f64), c in prop::array::uniform3(-0.9..0.9_f64)) {
+        let largest = c.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let found = Fix::dot(x.map(Fix::from_f64), &Fix::row(c)).to_f64();
+        let exact: f64 = x.iter().zip(c).map(|(x, c)| x * c).sum();
+        prop_assert!((found - exact).abs() <= 3.0 * (3.9 * FACTOR * largest + 2.0 * STEP), "{found} {exact}");
+    }
+
+    #[test]
+    fn products_of_numbers_have_their_stated_error(a in -2.8..2.8_f64, b in -2.8..2.8_f64) {
+        let (x, y) = (Fix::from_f64(a), Fix::from_f64(b));
+        let error = ((x * y).to_f64() - a * b).abs();
+        prop_assert!(error < 4.5e-8, "{error:e}");
+        let error = (x.rough(y).to_f64() - a * b).abs();
+        prop_assert!(error <= 6.2e-5 * a.abs() + 10.0 * STEP, "{error:e}");
+    }
+
+    /// Whatever two products or readings are, their sum and their difference fit.
+    #[test]
+    fn sums_of_two_saturated_numbers_do_not_wrap(a in any::<i32>(), b in any::<i32>()) {
+        let per_count = Fix::coefficient(0.37);
+        let (x, y) = (Fix::from_counts(a, per_count), Fix::from_counts(b, per_count));
+        prop_assert!(((x + y).to_f64() - (x.to_f64() + y.to_f64())).abs() < STEP);
+        prop_assert!(((x - y).to_f64() - (x.to_f64() - y.to_f64())).abs() < STEP);
+        let x = Fix::from_q24(a);
+        prop_assert!((x - y).to_f64().abs() <= 8.0);
+    }
+}
+
+#[test]
+fn constants_keep_their_digits_at_any_scale() {
+    for value in [1.0, -1.0, 1e-9, 3.3e-5, -0.7, 120.0, 5000.0, 1e8] {
+        let Factor { mantissa, shift } = Factor::new(value);
+        let back = f64::from(mantissa) / libm::exp2(f64::from(16 + shift));
+        // Below 2^-32 digits go.
+        let error = FACTOR.max(2e-14 / f64::abs(value));
+        assert!((back / value - 1.0).abs() < error, "{value}: {back}");
+    }
+    for value in [0.999, -0.7, 6.3e-3, 3.3e-5] {
+        let FineFactor { mantissa, shift } = FineFactor::new(value);
+        let back = f64::from(mantissa) / libm::exp2(f64::from(32 + shift));
+        assert!((back / value - 1.0).abs() < 5e-10, "{value}: {back}");
+    }
+    assert_eq!(Factor::new(0.0).mantissa, 0);
+    assert_eq!(Factor::new(f64::NAN).mantissa, 0);
+    assert_eq!(FineFactor::new(0.0).mantissa, 0);
+    assert_eq!(Factors::new([0.0; 2]).mantissas, [0; 2]);
+}
+
+#[test]
+fn counts_become_numbers_and_saturate() {
+    // From the coarsest encoder to the finest: 4 counts a turn, BIOTACT's, and
+    // 65,536 with a gear of 1000.
+    for counts_per_turn in [4.0, 512.0 * 11.0, 65_536.0, 65_536.0 * 1_000.0] {
+        let per_count = 360.0 / counts_per_turn / 100.0;
+        let factor = Fix::coefficient(per_count);
+        let quarter = Fix::from_counts((counts_per_turn / 4.0) as i32, factor).to_f64();
+        assert!((quarter - 0.9).abs() < 3e-5, "{counts_per_turn}: {quarter}");
+        for (counts, end) in [(i32::MAX, 4.0), (i32::MIN, -4.0)] {
+            let found = Fix::from_counts(counts, factor).to_f64();
+            assert!((found - end).abs() < 4e-3 && found.abs() <= 4.0, "{found}");
+        }
+    }
+    assert!(Fix::from_counts(3, Fix::coefficient(1e9)).to_f64() > 3.99);
+}
+
+#[test]
+fn a_share_too_small_for_one_step_still_arrives() {
+    let (mut z, mut carry) = (Fix::from_f64(0.25), 0);
+    let approach = Fix::coefficient(2e-9);
+    for _ in 0..10_000_000 {
+        z.relax(&mut carry, Fix::ZERO, approach);
+    }
+    let expected = 0.25 * (-0.02_f64).exp();
+    let error = (z.to_f64() - expected).abs();
+    assert!(error < 0.25 * 0.02 * FACTOR + 1e-8, "{error:e}");
+}
