@@ -69,15 +69,23 @@ impl SumRule {
     #[inline]
     pub const fn expected(self, bytes: &[u8; FRAME_LEN]) -> Option<u8> {
         let [b0, ..] = *bytes;
-        let [first, second, last] = words(bytes);
-        let inner = byte_sum(first)
-            .wrapping_add(byte_sum(second))
-            .wrapping_add(byte_sum(last));
+        match self.sum(b0, words(bytes)) {
+            Some(sum) => Some(sum as u8),
+            None => None,
+        }
+    }
+
+    /// The same of B0 and the words B1..B6, in the low byte: what stands above
+    /// it is of no use, and cutting it off can wait.
+    #[inline]
+    const fn sum(self, b0: u8, [first, second, last]: [u16; 3]) -> Option<u32> {
+        // At most 1021 · 257.
+        let inner = byte_sum(first) + byte_sum(second) + byte_sum(last);
         match self {
             SumRule::SumB1B6 => Some(inner),
-            SumRule::SumB0B6 => Some(inner.wrapping_add(b0)),
+            SumRule::SumB0B6 => Some(inner + b0 as u32),
             SumRule::ComplementB1B6 => Some(!inner),
-            SumRule::ComplementB0B6 => Some(!inner.wrapping_add(b0)),
+            SumRule::ComplementB0B6 => Some(!(inner + b0 as u32)),
             SumRule::Ignore => None,
         }
     }
@@ -219,12 +227,21 @@ impl Decoder {
     /// The first [`FrameError`] that applies, in the order they are listed.
     #[inline]
     pub const fn decode(&self, bytes: &[u8; FRAME_LEN]) -> Result<Frame, FrameError> {
-        let [b0, ..] = *bytes;
+        let [b0, .., found] = *bytes;
         let [first, second, last] = words(bytes);
         let alpha_beta = matches!(self.mode, Mode::AlphaBeta);
-        // The error word comes before the sum, which is shorter once that is
-        // known to be 0. The order of the reports is `reject`'s affair.
-        if (alpha_beta && last != 0) || b0 != START_BYTE || !self.sum_holds(bytes) {
+        // A frame with faults does not pass anyhow, and those without are
+        // shorter to sum.
+        let (faults, z) = if alpha_beta { (last, 0) } else { (0, last) };
+        let wrong_sum = match self.sum_rule.sum(b0, [first, second, z]) {
+            Some(sum) => sum.wrapping_sub(found as u32),
+            // All-0xFF is no frame. The four sums of it are 0xFA, 0xF9, 0x05
+            // and 0x06, so that no other rule lets it pass.
+            None => (u64::from_le_bytes(*bytes) == u64::MAX) as u32,
+        };
+        // All that can be wrong in one word, for one branch: zero where nothing
+        // is. The order of the reports is `reject`'s affair.
+        if (b0 ^ START_BYTE) as u32 | faults as u32 | wrong_sum << 24 != 0 {
             return Err(self.reject(bytes));
         }
         Ok(if alpha_beta {
@@ -239,21 +256,6 @@ impl Decoder {
                 z: Word::new(last),
             }
         })
-    }
-
-    /// Whether the sum byte lets the frame pass. No rule lets all-0xFF pass:
-    /// the four sums of 0xFF bytes are 0xFA, 0xF9, 0x05 and 0x06.
-    #[inline]
-    #[allow(
-        clippy::trivially_copy_pass_by_ref,
-        reason = "a copy hides that the words lie in memory"
-    )]
-    const fn sum_holds(self, bytes: &[u8; FRAME_LEN]) -> bool {
-        let [.., found] = *bytes;
-        match self.sum_rule.expected(bytes) {
-            Some(expected) => expected == found,
-            None => u64::from_le_bytes(*bytes) != u64::MAX,
-        }
     }
 
     /// Names what is wrong with a frame that did not pass.
@@ -297,8 +299,8 @@ const fn words(bytes: &[u8; FRAME_LEN]) -> [u16; 3] {
     ]
 }
 
-/// The sum of a word's two bytes modulo 256.
+/// The sum of a word's two bytes modulo 256, in the low byte.
 #[inline]
-const fn byte_sum(word: u16) -> u8 {
-    word.wrapping_add(word >> 8) as u8
+const fn byte_sum(word: u16) -> u32 {
+    word as u32 + (word >> 8) as u32
 }

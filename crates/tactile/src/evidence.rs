@@ -44,6 +44,26 @@ impl Scale {
         exp2_neg(u64::from(deficit) * u64::from(self.rate), gain)
     }
 
+    /// The least deficit whose [`Self::term`] is below `bound`, which is at
+    /// most 2²⁵ where `gain` > 0; [`MAX_DEFICIT`] + 1 where none is.
+    pub(crate) fn first_below(self, gain: u8, bound: u32) -> u32 {
+        let gain = i32::from(gain);
+        if self.term(0, gain) < bound {
+            return 0;
+        }
+        // Terms never rise with the deficit but where the gain lifts them
+        // above one, and there all are above the bound: so the last that is
+        // not below it is found bit by bit.
+        let mut last = 0;
+        for bit in (0..MAX_DEFICIT.count_ones()).rev() {
+            let further = last | (1 << bit);
+            if self.term(further, gain) >= bound {
+                last = further;
+            }
+        }
+        last + 1
+    }
+
     /// Odds against the leader, Σ over the others of 2^−d, times 2^gain, Q26:
     /// but None as soon as they reach `bound`, which is at most 2³¹. One or
     /// two rivals usually show it.
@@ -155,6 +175,37 @@ mod tests {
         assert_eq!(scale.odds_below(&[0; 32], 0, 31 * ONE), None);
         assert_eq!(scale.posteriors(&[0; 32]), [1 << 27; 32]);
         assert_eq!(leader(&[0; 32]), 0);
+    }
+
+    #[test]
+    fn a_near_rival_alone_reaches_the_bound_and_a_far_one_does_not() {
+        for (block, gain, bound) in [
+            (1, 0, ONE),
+            (1, 0, ONE / 4 + 1),
+            (20, 6, (1 << 25) - 1_234_567),
+            (20, 40, 1 << 25),
+            (10_000, 7, (1 << 24) + 1),
+        ] {
+            let scale = Scale::per_samples(block);
+            let far = scale.first_below(gain, bound);
+            assert!(far > 0);
+            assert_eq!(scale.odds_below(&[far - 1, 0], gain, bound), None);
+            assert!(scale.odds_below(&[far, 0], gain, bound).is_some());
+            for near in (0..far).step_by(997) {
+                assert_eq!(scale.odds_below(&[0, near], gain, bound), None);
+            }
+            // 2^(gain − far / (1024 · block)) is the bound.
+            let units = f64::from(far) / f64::from(ENTRIES_PER_BIT * block);
+            let exact = f64::from(gain) - (f64::from(bound) / f64::from(ONE)).log2();
+            assert!(
+                (units / exact - 1.0).abs() < 2e-5 || (units - exact).abs() < 2e-3,
+                "{units} {exact}"
+            );
+        }
+        let scale = Scale::per_samples(20);
+        assert_eq!(scale.first_below(0, MAX_ODDS), 0, "even a tie decides");
+        let scale = Scale::per_samples(10_000);
+        assert_eq!(scale.first_below(60, 1 << 25), MAX_DEFICIT + 1);
     }
 
     #[test]

@@ -37,7 +37,7 @@
 //! - Sums and evidence are exact integers: nothing drifts, however long. In
 //!   the sequential rule a class is held once it is 2²⁹ units behind (26214 bit
 //!   in blocks of 20 samples, 52 bit in blocks of 10000).
-//! - 2⁻ˣ is within 4e-6 relative (`exp2.rs`); x itself is scaled by a
+//! - 2⁻ˣ is within 4.1e-6 relative (`exp2.rs`); x itself is scaled by a
 //!   reciprocal of the block within 1e-5 relative (2e-8 for blocks of 20).
 //!
 //! # Features

@@ -11,7 +11,12 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 use crate::error::SetupError;
 use crate::model::Model;
-use crate::quantiser::{Binner, Quantiser};
+use crate::quantiser::{Binner, Edge, Quantiser};
+
+/// Whether the target multiplies 32 bits by 32 to 64 in one instruction. Of the
+/// Arm cores those without (ARMv6-M: Cortex-M0 and M0+) are those without
+/// atomic read-modify-write.
+const LONG_MULTIPLY: bool = cfg!(any(not(target_arch = "arm"), target_has_atomic = "32"));
 
 /// Channels whose entries add in half a word without a carry: 3 · 20480 < 2¹⁶.
 const CHANNELS_PER_ADD: usize = 3;
@@ -100,9 +105,8 @@ where
 {
     binners: [Binner; C],
     table: &'m [[Row<K>; C]],
-    // For values below and above the range.
-    first: &'m [Row<K>; C],
-    last: &'m [Row<K>; C],
+    // For values above and below the range.
+    edges: [&'m [Row<K>; C]; 2],
 }
 
 impl<'m, const C: usize, const K: usize> Likelihoods<'m, C, K>
@@ -146,8 +150,7 @@ where
         Ok(Self {
             binners,
             table,
-            first,
-            last,
+            edges: [last, first],
         })
     }
 
@@ -172,18 +175,48 @@ where
 
     #[inline]
     fn row(&self, channel: usize, code: i32) -> &'m Row<K> {
-        let bin = self.binners[channel].bin_unclamped(code);
+        let binner = &self.binners[channel];
+        let rows = if LONG_MULTIPLY {
+            self.rows(binner, code)
+        } else {
+            self.rows_by_halves(binner, code)
+        };
+        &rows[channel]
+    }
+
+    #[inline]
+    fn rows(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
+        let bin = binner.bin_unclamped(code);
         // A negative bin turns into a huge index, so that one comparison
         // finds both edges and values inside the range pay for nothing else.
-        match self.table.get(bin as u32 as usize) {
-            Some(rows) => &rows[channel],
-            None => &self.edge(bin)[channel],
-        }
+        self.table
+            .get(bin as u32 as usize)
+            .unwrap_or_else(|| self.edge(bin < 0))
+    }
+
+    #[inline]
+    fn rows_by_halves(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
+        binner
+            .bin_by_halves(code)
+            .and_then(|bin| self.table.get(bin as usize))
+            .unwrap_or_else(|| self.rows_far_off(binner, code))
     }
 
     #[cold]
-    fn edge(&self, bin: i32) -> &'m [Row<K>; C] {
-        if bin < 0 { self.first } else { self.last }
+    fn edge(&self, below: bool) -> &'m [Row<K>; C] {
+        self.edges[usize::from(below)]
+    }
+
+    /// For what lies outside the range, or too far from its lower edge for
+    /// [`Binner::bin_by_halves`].
+    #[cold]
+    #[inline(never)]
+    fn rows_far_off(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
+        match binner.outside(code) {
+            Some(Edge::Low) => self.edge(true),
+            Some(Edge::High) => self.edge(false),
+            None => self.rows(binner, code),
+        }
     }
 }
 

@@ -100,8 +100,21 @@ impl Quantiser {
         Ok(Binner {
             low: self.low,
             slope: slope as i32,
+            reach: self.low.abs_diff(i32::MAX).min(u32::from(u16::MAX)),
+            top: if self.high == self.low {
+                i32::MAX
+            } else {
+                self.high - 1
+            },
         })
     }
+}
+
+/// An end of the range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Edge {
+    Low,
+    High,
 }
 
 /// Finds a bin by one multiplication: floor((code − low) · slope / 2³²) with
@@ -114,7 +127,13 @@ impl Quantiser {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Binner {
     low: i32,
+    /// Not negative.
     slope: i32,
+    /// Differences from `low` that multiply by halves: below 2¹⁶, and such that
+    /// no code below `low` wraps into them.
+    reach: u32,
+    /// The last code in the range; the largest for a constant channel.
+    top: i32,
 }
 
 impl Binner {
@@ -125,6 +144,29 @@ impl Binner {
         // Saturation keeps the sign where the difference exceeds 32 bits.
         let d = code.saturating_sub(self.low);
         ((i64::from(d) * i64::from(self.slope)) >> 32) as i32
+    }
+
+    /// The same by multiplications of 32 bits, for cores that have no other:
+    /// None below the range, or too far above its lower edge for them, which
+    /// no code of a sensor is. May be B or more.
+    #[inline]
+    pub(crate) fn bin_by_halves(&self, code: i32) -> Option<u32> {
+        let d = code.wrapping_sub(self.low) as u32;
+        if d > self.reach {
+            return None;
+        }
+        let slope = self.slope as u32;
+        let low = (d * (slope & 0xFFFF)) >> 16;
+        Some((d * (slope >> 16) + low) >> 16)
+    }
+
+    /// Whether a code lies below or above the range, if it does.
+    #[inline]
+    pub(crate) fn outside(&self, code: i32) -> Option<Edge> {
+        if code < self.low {
+            return Some(Edge::Low);
+        }
+        (code > self.top).then_some(Edge::High)
     }
 
     /// The bin, 0 to `bins` − 1.
@@ -244,6 +286,37 @@ mod tests {
                 let exact = (f64::from(code - low) * bins as f64 / f64::from(span)).floor();
                 let expected = exact.clamp(0.0, bins as f64 - 1.0) as usize;
                 prop_assert_eq!(b.bin(code, bins), expected);
+            }
+        }
+
+        #[test]
+        fn halves_and_edges_agree_with_the_whole_product(
+            low in any::<i32>(),
+            high in any::<i32>(),
+            narrow in 5_i32..70_000,
+            near in -80_000_i32..80_000,
+            anywhere in any::<i32>(),
+        ) {
+            const BINS: usize = 2;
+            let spans = [high.saturating_sub(low), narrow, 0].map(|span| low.saturating_add(span));
+            for high in spans {
+                let Ok(b) = raw(low, high).binner(BINS) else { continue };
+                let around = [low, high, 0].map(|place| place.saturating_add(near));
+                let ends = [low, low.saturating_sub(1), high, high.saturating_sub(1), i32::MIN, i32::MAX];
+                for code in around.into_iter().chain(ends).chain([anywhere]) {
+                    let whole = b.bin_unclamped(code);
+                    if let Some(bin) = b.bin_by_halves(code) {
+                        prop_assert_eq!(i64::from(bin), i64::from(whole));
+                    } else {
+                        prop_assert!(code < low || i64::from(code) - i64::from(low) > 65_535
+                            || low > i32::MAX - 65_536);
+                    }
+                    match b.outside(code) {
+                        Some(Edge::Low) => prop_assert!(whole <= 0 && code < low),
+                        Some(Edge::High) => prop_assert!(whole >= BINS as i32),
+                        None => prop_assert!((0..=BINS as i32).contains(&whole)),
+                    }
+                }
             }
         }
 

@@ -2,7 +2,11 @@
 //! exceeds a threshold; otherwise wait for more evidence.
 //!
 //! The comparison needs neither logarithm nor division: p > θ is the same as
-//! Σ_{j ≠ max} 2^(−d_j) < (1 − θ)/θ, where the right side is a constant.
+//! Σ_{j ≠ max} 2^(−d_j) < (1 − θ)/θ, where the right side is a constant. Nor
+//! does it often need the sum: one rival whose term alone is no smaller keeps
+//! a decision off, and from which deficit on a rival's is smaller is a constant
+//! too. So the end of a block adds up exponentials only where every rival is
+//! far behind, and then mostly decides.
 
 use crate::decision::{Decision, Posterior};
 use crate::error::SetupError;
@@ -64,6 +68,8 @@ pub struct SequentialRule {
     block: u32,
     scale: Scale,
     threshold: Threshold,
+    /// The least deficit of a rival that does not keep a decision off alone.
+    far: u32,
 }
 
 /// By how much each class lies behind the leader, and since how many blocks.
@@ -92,27 +98,36 @@ where
 
 impl SequentialRule {
     pub(crate) fn new(model: &Model<'_>, threshold: Threshold) -> Self {
+        let scale = Scale::per_samples(model.block());
         Self {
             block: model.block(),
-            scale: Scale::per_samples(model.block()),
+            scale,
             threshold,
+            far: scale.first_below(threshold.gain, threshold.bound),
         }
     }
 
-    /// Apart from the end of a block, which then keeps no deficits at hand
-    /// for the rare decision.
+    /// Decides, if the posterior exceeds the threshold. Apart from the end of a
+    /// block, which is shorter for it and rarely comes here.
     #[cold]
     #[inline(never)]
-    fn decide<const K: usize>(
-        &self,
-        against: u32,
-        evidence: &mut SequentialEvidence<K>,
-    ) -> Decision {
-        let posterior = Posterior::from_odds_against(against, self.threshold.gain);
+    fn weigh<const K: usize>(&self, evidence: &mut SequentialEvidence<K>) -> Option<Decision> {
+        let Threshold { bound, gain } = self.threshold;
+        let against = self.scale.odds_below(&evidence.deficits, gain, bound)?;
+        let posterior = Posterior::from_odds_against(against, gain);
         let samples = evidence.blocks.saturating_mul(self.block);
         let class = leader(&evidence.deficits);
         *evidence = self.start();
-        Decision::new(class, samples, posterior)
+        Some(Decision::new(class, samples, posterior))
+    }
+}
+
+/// Holds back what has fallen too far behind.
+#[cold]
+#[inline(never)]
+fn hold(deficits: &mut [u32]) {
+    for deficit in deficits {
+        *deficit = MAX_DEFICIT.min(*deficit);
     }
 }
 
@@ -146,14 +161,23 @@ impl<const K: usize> Rule<K> for SequentialRule {
             *level -= deficit as i32;
             lead = lead.max(*level);
         }
+        let (mut near, mut bits) = (0, 0);
         for (deficit, level) in evidence.deficits.iter_mut().zip(levels) {
-            *deficit = (lead - level).clamp(0, MAX_DEFICIT as i32) as u32;
+            *deficit = (lead - level) as u32;
+            // The sign of the difference is `deficit < far` in one instruction
+            // less: deficits are below 2³¹ here, and `far` is at most 2²⁹.
+            near += deficit.wrapping_sub(self.far) >> 31;
+            bits |= *deficit;
+        }
+        if bits > MAX_DEFICIT {
+            hold(&mut evidence.deficits);
         }
         evidence.blocks = evidence.blocks.saturating_add(1);
-
-        let Threshold { bound, gain } = self.threshold;
-        let against = self.scale.odds_below(&evidence.deficits, gain, bound)?;
-        Some(self.decide(against, evidence))
+        // The leader is near itself.
+        if near > 1 {
+            return None;
+        }
+        self.weigh(evidence)
     }
 
     fn deficits(&self, evidence: &SequentialEvidence<K>) -> [u32; K] {
