@@ -119,7 +119,9 @@ where
 {
     classifier: Streaming<'m, R, 2, K>,
     state: State<R::Evidence, K>,
-    shifts: [u32; 2],
+    /// The model's codes a code of the sensor: powers of two, for which a
+    /// product is shorter than a shift of any length.
+    factors: [i32; 2],
 }
 
 /// The model was not learnt from a sensor's integer codes (or has fewer than
@@ -165,12 +167,13 @@ where
     /// # Errors
     /// [`NotCodes`] if the model was not learnt from a sensor's codes.
     pub fn new(model: &Model<'m>, classifier: Streaming<'m, R, 2, K>) -> Result<Self, NotCodes> {
-        let shifts = shifts(model)?;
+        // At most 17 bits.
+        let factors = shifts(model)?.map(|shift| 1 << shift);
         let state = classifier.state();
         Ok(Self {
             classifier,
             state,
-            shifts,
+            factors,
         })
     }
 }
@@ -183,8 +186,8 @@ where
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
         let [x, y] = codes;
         let codes = [
-            i32::from(x) << self.shifts[0],
-            i32::from(y) << self.shifts[1],
+            i32::from(x).wrapping_mul(self.factors[0]),
+            i32::from(y).wrapping_mul(self.factors[1]),
         ];
         self.classifier.push(&mut self.state, &codes)
     }

@@ -46,6 +46,7 @@ pub struct Patience {
     pub recover: u16,
 }
 
+#[inline]
 fn decode(
     decoder: Decoder,
     taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
@@ -83,45 +84,68 @@ impl<F: FrameSource> Sensor<F> {
         place: Place,
         events: &mut impl FnMut(Event),
     ) -> Reading {
-        let decoded = decode(decoder, self.source.take());
-        match (decoded, self.last.sound) {
-            (Ok((x, y)), true) => {
-                self.run = 0;
-                self.last = Reading {
-                    x,
-                    y,
-                    fresh: true,
-                    sound: true,
-                };
-            }
-            (Err(fault), true) => {
-                self.run = self.run.saturating_add(1);
-                self.last.fresh = false;
-                if self.run > patience.hold {
-                    self.run = 0;
-                    self.last = Reading {
-                        sound: false,
-                        ..Reading::REST
-                    };
-                    events(Event::SensorLost(place, fault));
-                }
-            }
-            (Ok((x, y)), false) => {
-                self.run = self.run.saturating_add(1);
-                if self.run >= patience.recover {
-                    self.run = 0;
-                    self.last = Reading {
-                        x,
-                        y,
-                        fresh: true,
-                        sound: true,
-                    };
-                    events(Event::SensorBack(place));
-                }
-            }
-            (Err(_), false) => self.run = 0,
+        match decode(decoder, self.source.take()) {
+            Ok((x, y)) if self.last.sound => self.keep(x, y),
+            Ok((x, y)) => self.recover(x, y, patience, place, events),
+            Err(fault) => self.bridge(fault, patience, place, events),
         }
         self.last
+    }
+
+    /// A good frame of a trusted sensor.
+    #[inline]
+    const fn keep(&mut self, x: Word, y: Word) {
+        self.run = 0;
+        self.last = Reading {
+            x,
+            y,
+            fresh: true,
+            sound: true,
+        };
+    }
+
+    /// A good frame of a faulty sensor.
+    #[cold]
+    #[inline(never)]
+    fn recover(
+        &mut self,
+        x: Word,
+        y: Word,
+        patience: Patience,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        self.run = self.run.saturating_add(1);
+        if self.run >= patience.recover {
+            self.keep(x, y);
+            events(Event::SensorBack(place));
+        }
+    }
+
+    /// No good frame.
+    #[cold]
+    #[inline(never)]
+    fn bridge(
+        &mut self,
+        fault: SensorFault,
+        patience: Patience,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        if !self.last.sound {
+            self.run = 0;
+            return;
+        }
+        self.run = self.run.saturating_add(1);
+        self.last.fresh = false;
+        if self.run > patience.hold {
+            self.run = 0;
+            self.last = Reading {
+                sound: false,
+                ..Reading::REST
+            };
+            events(Event::SensorLost(place, fault));
+        }
     }
 }
 
