@@ -65,25 +65,20 @@ impl Scale {
     }
 
     /// Odds against the leader, Σ over the others of 2^−d, times 2^gain, Q26:
-    /// but None as soon as they reach `bound`, which is at most 2³¹. One or
-    /// two rivals usually show it.
+    /// but None where they reach `bound`, which is at most 2³¹.
     ///
     /// Apart and for a slice: as a loop it keeps its constants in registers
     /// and is shared by all numbers of classes.
     #[inline(never)]
     pub(crate) fn odds_below(self, deficits: &[u32], gain: u8, bound: u32) -> Option<u32> {
         let gain = i32::from(gain);
-        // The leader's own term is exactly one, and in the sum. At most
-        // 32 · 2²⁶ = 2³¹, and the limit is no more than 2³¹ + 2²⁶.
-        let limit = bound.saturating_add(ONE);
-        let mut sum = 0_u32;
-        for &deficit in deficits {
-            sum = sum.wrapping_add(self.term(deficit, gain));
-            if sum >= limit {
-                return None;
-            }
-        }
-        Some(sum.wrapping_sub(ONE))
+        // The leader's own term is exactly one, and in the sum: at most
+        // 32 · 2²⁶ = 2³¹.
+        let sum = deficits
+            .iter()
+            .fold(0_u32, |sum, &d| sum.wrapping_add(self.term(d, gain)));
+        let odds = sum.wrapping_sub(ONE);
+        (odds < bound).then_some(odds)
     }
 
     /// Posterior of each class, in units of 2⁻³², at most 2³² − 1. For display:

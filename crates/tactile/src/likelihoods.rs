@@ -11,7 +11,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 use crate::error::SetupError;
 use crate::model::Model;
-use crate::quantiser::{Binner, Edge, Quantiser};
+use crate::quantiser::{Binner, Quantiser};
 
 /// Whether the target multiplies 32 bits by 32 to 64 in one instruction. Of the
 /// Arm cores those without (ARMv6-M: Cortex-M0 and M0+) are those without
@@ -158,65 +158,41 @@ where
     #[inline]
     pub fn add(&self, codes: &[i32; C], sums: &mut Sums<K>) {
         if C <= CHANNELS_PER_ADD {
-            return sums.add::<_, C>(core::array::from_fn(|c| self.row(c, codes[c])));
+            return sums.add(self.rows(0, codes));
         }
         let (groups, rest) = codes.as_chunks::<CHANNELS_PER_ADD>();
         for (g, codes) in groups.iter().enumerate() {
-            let first = g * CHANNELS_PER_ADD;
-            sums.add::<_, CHANNELS_PER_ADD>(core::array::from_fn(|i| {
-                self.row(first + i, codes[i])
-            }));
+            sums.add(self.rows(g * CHANNELS_PER_ADD, codes));
         }
         let first = groups.len() * CHANNELS_PER_ADD;
         for (i, &code) in rest.iter().enumerate() {
-            sums.add([self.row(first + i, code)]);
+            sums.add(self.rows(first + i, &[code]));
         }
     }
 
+    /// The rows of some channels, from `first` on. All bins are found before
+    /// the first row: the two need different registers.
     #[inline]
-    fn row(&self, channel: usize, code: i32) -> &'m Row<K> {
-        let binner = &self.binners[channel];
-        let rows = if LONG_MULTIPLY {
-            self.rows(binner, code)
-        } else {
-            self.rows_by_halves(binner, code)
-        };
-        &rows[channel]
-    }
-
-    #[inline]
-    fn rows(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
-        let bin = binner.bin_unclamped(code);
-        // A negative bin turns into a huge index, so that one comparison
-        // finds both edges and values inside the range pay for nothing else.
-        self.table
-            .get(bin as u32 as usize)
-            .unwrap_or_else(|| self.edge(bin < 0))
-    }
-
-    #[inline]
-    fn rows_by_halves(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
-        binner
-            .bin_by_halves(code)
-            .and_then(|bin| self.table.get(bin as usize))
-            .unwrap_or_else(|| self.rows_far_off(binner, code))
+    fn rows<const N: usize>(&self, first: usize, codes: &[i32; N]) -> [&'m Row<K>; N] {
+        let bins: [i32; N] = core::array::from_fn(|i| {
+            let binner = &self.binners[first + i];
+            if LONG_MULTIPLY {
+                binner.bin_unclamped(codes[i])
+            } else {
+                binner.bin_by_halves(codes[i])
+            }
+        });
+        core::array::from_fn(|i| {
+            // A negative bin turns into a huge index, so that one comparison
+            // finds both edges and values inside the range pay for nothing else.
+            let rows = self.table.get(bins[i] as u32 as usize);
+            &rows.unwrap_or_else(|| self.edge(bins[i] < 0))[first + i]
+        })
     }
 
     #[cold]
     fn edge(&self, below: bool) -> &'m [Row<K>; C] {
         self.edges[usize::from(below)]
-    }
-
-    /// For what lies outside the range, or too far from its lower edge for
-    /// [`Binner::bin_by_halves`].
-    #[cold]
-    #[inline(never)]
-    fn rows_far_off(&self, binner: &Binner, code: i32) -> &'m [Row<K>; C] {
-        match binner.outside(code) {
-            Some(Edge::Low) => self.edge(true),
-            Some(Edge::High) => self.edge(false),
-            None => self.rows(binner, code),
-        }
     }
 }
 

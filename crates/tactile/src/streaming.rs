@@ -41,8 +41,10 @@ pub trait Rule<const K: usize> {
     fn scale(&self) -> Scale;
 }
 
-/// What changes as samples come in.
+/// What changes as samples come in. What every sample changes stands first,
+/// where the short offsets of small cores reach.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[repr(C)]
 pub struct State<E, const K: usize> {
     /// Samples to the end of the open block; not zero.
     left: u32,
