@@ -53,7 +53,7 @@ const LEAST_EXPONENT: u32 = MANTISSA_BITS + TERM_BITS - 32;
 /// a p near one keeps its precision; converted only when read.
 ///
 /// Against exact arithmetic on the same table the odds are off by at most
-/// 5e-6 + |ln odds| · block / 2³⁰ of themselves (the exponential, the mantissa
+/// 5.1e-6 + |ln odds| · block / 2³⁰ of themselves (the exponential, the mantissa
 /// and the scale of the argument) and, under a threshold θ, K · 2⁻²⁴ of
 /// (1 − θ)/θ (truncation); p is off by less than 1e-5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
