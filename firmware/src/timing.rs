@@ -19,10 +19,17 @@ impl Timing {
         {
             // Half a period of jitter is none; more means that whole ticks are lost.
             let elapsed = now.wrapping_sub(last);
-            let late = elapsed.saturating_add(period / 2) / period;
-            self.missed = self.missed.saturating_add(late.saturating_sub(1));
+            if elapsed >= period.saturating_add(period / 2) {
+                self.miss(elapsed, period);
+            }
         }
         self.begun = Some(now);
+    }
+
+    #[cold]
+    fn miss(&mut self, elapsed: u32, period: u32) {
+        let late = elapsed.saturating_add(period / 2) / period;
+        self.missed = self.missed.saturating_add(late.saturating_sub(1));
     }
 
     /// The tick that began last ends at `now`.

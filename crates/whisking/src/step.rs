@@ -91,8 +91,11 @@ impl<R: Real> Config<R> {
         }
         if let Some(cia) = &self.cia {
             let zeta = contact.iter().fold(R::ZERO, |zeta, pi| pi.max(zeta));
-            for whisker in state.whiskers.iter_mut().flatten() {
-                cia.step(&mut whisker.gain, whisker.nominal, zeta);
+            // Loop in loop: a flattened iterator is not unrolled.
+            for side in &mut state.whiskers {
+                for whisker in side {
+                    cia.step(&mut whisker.gain, whisker.nominal, zeta);
+                }
             }
         }
 
