@@ -169,9 +169,7 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
             *place = z.value.to_f64();
         }
         for (place, whiskers) in snapshot.g.iter_mut().zip(&state.whiskers) {
-            *place = whiskers
-                .first()
-                .map_or(f64::NAN, |whisker| whisker.gain.value.to_f64());
+            *place = whiskers.first().map_or(f64::NAN, whisking::Whisker::gain);
         }
     }
 

@@ -60,21 +60,22 @@ fn the_claims_in_words_hold_with_the_exact_integrator() {
     );
 }
 
-/// How g of a whisker follows the array's contact: (g, ζ) to g.
+/// How g − 1 of a whisker follows the array's contact ζ.
 type Excite = fn(Option<gate::Cia<f64>>, &mut Gate<f64>, f64);
 
 /// Eqs. 12 and 13 as mended: the product's.
-fn mended(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
+fn mended(cia: Option<gate::Cia<f64>>, lift: &mut Gate<f64>, zeta: f64) {
     if let Some(cia) = cia {
-        cia.step(g, 1.0, zeta);
+        cia.step(lift, 1.0, zeta);
     }
 }
 
 /// Eq. 12 as printed: lifted to σ_g ζ, not to nominal + σ_g ζ.
-fn printed(cia: Option<gate::Cia<f64>>, g: &mut Gate<f64>, zeta: f64) {
+fn printed(cia: Option<gate::Cia<f64>>, lift: &mut Gate<f64>, zeta: f64) {
     if let Some(cia) = cia {
-        let returned = g.value + cia.decay.tick * (1.0 - g.value);
-        g.value = returned.max(cia.gain * zeta).clamp(0.0, 2.0);
+        let returned = 1.0 + lift.value * (1.0 - cia.decay.tick);
+        let g = returned.max(cia.gain * zeta).clamp(0.0, 2.0);
+        *lift = Gate::new(g - 1.0);
     }
 }
 
@@ -119,7 +120,7 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
             }
             let zeta = contact[0].max(contact[1]);
             for side in &mut state.whiskers {
-                excite(cia, &mut side[0].gain, zeta);
+                excite(cia, &mut side[0].lift, zeta);
             }
             config.step(&mut state, contact);
             theta_deg = state.theta().map(|side| degrees(side[0]));
@@ -127,7 +128,7 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
                 t_s: n as f64 * tick_s,
                 theta_deg,
                 z: state.z.map(|z| z.value),
-                g: state.whiskers.map(|side| side[0].gain.value),
+                g: state.whiskers.map(|side| side[0].gain()),
                 contact,
             }
         })

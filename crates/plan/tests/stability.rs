@@ -3,7 +3,7 @@
 
 use plan::{Instability, Mismatch, Unstable, cautions, check, motion};
 use scene::Scene;
-use whisking::{GateSettings, Integrator, Settings, State, oscillator::Psi};
+use whisking::{Integrator, Settings, State, oscillator::Psi};
 
 fn scene(frequency_hz: f64, tick_hz: u32, integrator: &str, tau_s: [f64; 2]) -> Scene {
     let [rcp, cia] = tau_s;
@@ -179,19 +179,9 @@ fn muscles_swing_up_beyond_their_pole() {
     assert!(swings(1.01 * cycles));
 }
 
-/// z after one tick without contact, from one.
+/// z after one tick without contact, from one: 1 − T/τ (eq. 10).
 fn leftover(tau_s: f64) -> f64 {
-    let settings = Settings {
-        tick_hz: 2_000.0,
-        frequency_hz: 2.0,
-        integrator: Integrator::Euler,
-        coupling: true,
-        noise: 0.0,
-        rcp: Some(GateSettings { gain: 1.0, tau_s }),
-        cia: None,
-    };
-    let config = settings.build::<f64>().unwrap();
-    1.0 - config.rcp.unwrap().decay.tick
+    1.0 - 1.0 / (tau_s * 2_000.0)
 }
 
 #[test]

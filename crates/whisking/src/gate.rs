@@ -3,12 +3,15 @@
 
 use crate::{Integrator, Real};
 
-/// A gating variable, z of a side or g of a whisker, and what rounding took
-/// from its decay.
+/// By how much contact has raised z of a side above 0, or g of a whisker above
+/// its nominal value; and what rounding took from its decay.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gate<R: Real> {
-    /// Its value.
+    /// Its value, not negative.
     pub value: R,
+    /// Its mean over this tick: it decays until contact is sampled again, or
+    /// stays where contact holds it.
+    pub mean: R,
     carry: R::Carry,
 }
 
@@ -17,9 +20,8 @@ pub struct Gate<R: Real> {
 pub struct Decay<R: Real> {
     /// 1 − exp(−T/τ), or its first-order value T/τ in the papers' integrator,
     /// at most 1.
-    pub tick: R::Coefficient,
-    /// The same of half a tick, where a muscle asks for the mean over the tick;
-    /// 0 in the papers' integrator.
+    pub tick: R::Fine,
+    /// The same of half a tick, for the mean; 0 in the papers' integrator.
     pub half: R::Coefficient,
     /// So slow that what rounding takes must be remembered.
     pub slow: bool,
@@ -68,7 +70,7 @@ impl<R: Real> Decay<R> {
             Integrator::Exact => share(2.0 * ticks, integrator),
         };
         Self {
-            tick: R::coefficient(tick),
+            tick: R::fine(tick),
             half: R::coefficient(half),
             slow: tick < SLOW,
         }
@@ -80,31 +82,25 @@ impl<R: Real> Gate<R> {
     pub fn new(value: R) -> Self {
         Self {
             value,
+            mean: value,
             carry: R::Carry::default(),
         }
     }
 
-    /// Relaxes to `rest`, which is within 0..=`top`, but not below `floor`;
-    /// always within 0..=`top`. A floor that is not a number raises nothing.
+    /// Decays, but not below `floor`; always within 0..=`top`. A floor that is
+    /// not a number raises nothing.
     #[inline]
-    fn step(&mut self, rest: R, decay: &Decay<R>, floor: R, top: R) {
+    fn step(&mut self, decay: &Decay<R>, floor: R, top: R) {
         if decay.slow {
-            self.value.relax(&mut self.carry, rest, decay.tick);
+            self.value.decay(&mut self.carry, decay.tick);
         } else {
-            self.value = self.value + (rest - self.value).times(decay.tick);
+            self.value = self.value - self.value.times_fine(decay.tick);
         }
+        self.mean = self.value - self.value.times(decay.half);
         if floor > self.value {
-            self.value = floor;
+            let held = if floor < top { floor } else { top };
+            (self.value, self.mean) = (held, held);
         }
-        if self.value > top {
-            self.value = top;
-        }
-    }
-
-    /// Where it is in the middle of the tick, on its way to `rest`.
-    #[inline]
-    fn between(&self, rest: R, decay: &Decay<R>) -> R {
-        self.value + (rest - self.value).times(decay.half)
     }
 }
 
@@ -112,30 +108,16 @@ impl<R: Real> Rcp<R> {
     /// A tick of z with contact `pi`. Always within \[0, 1\].
     #[inline]
     pub fn step(&self, z: &mut Gate<R>, pi: R) {
-        z.step(R::ZERO, &self.decay, pi.times(self.gain), R::ONE);
-    }
-
-    /// z in the middle of the tick: contact is sampled once a tick, and z
-    /// decays until the next.
-    #[inline]
-    pub fn between(&self, z: &Gate<R>) -> R {
-        z.between(R::ZERO, &self.decay)
+        z.step(&self.decay, pi.times(self.gain), R::ONE);
     }
 }
 
 impl<R: Real> Cia<R> {
-    /// A tick of g of a whisker of gain `nominal`, with the array's strongest
-    /// contact `zeta` (eq. 14). Always within \[0, 2\].
+    /// A tick of what lifts g of a whisker above `nominal`, with the array's
+    /// strongest contact `zeta` (eq. 14). g is always within \[0, 2\].
     #[inline]
-    pub fn step(&self, g: &mut Gate<R>, nominal: R, zeta: R) {
-        let floor = nominal + zeta.times(self.gain);
-        g.step(nominal, &self.decay, floor, R::TWO);
-    }
-
-    /// g in the middle of the tick.
-    #[inline]
-    pub fn between(&self, g: &Gate<R>, nominal: R) -> R {
-        g.between(nominal, &self.decay)
+    pub fn step(&self, lift: &mut Gate<R>, nominal: R, zeta: R) {
+        lift.step(&self.decay, zeta.times(self.gain), R::TWO - nominal);
     }
 }
 
@@ -187,21 +169,15 @@ mod tests {
             decay: Decay::new(250.0, Integrator::Exact),
             gain: 0.5,
         };
-        let mut g = Gate::new(1.0_f64);
-        cia.step(&mut g, 1.0, 0.8);
-        assert!((g.value - 1.4).abs() < 1e-15);
+        let mut lift = Gate::new(0.0_f64);
+        cia.step(&mut lift, 1.0, 0.8);
+        assert!((lift.value - 0.4).abs() < 1e-15);
         for _ in 0..250 {
-            cia.step(&mut g, 1.0, 0.0);
+            cia.step(&mut lift, 1.0, 0.0);
         }
-        assert!((g.value - (1.0 + 0.4 * (-1.0_f64).exp())).abs() < 1e-12);
-        let mut low = Gate::new(0.3);
-        cia.step(&mut low, 1.0, 0.0);
-        assert_eq!(
-            low.value, 1.0,
-            "without contact g is not below nominal (eq. 12)"
-        );
-        cia.step(&mut g, 1.0, 100.0);
-        assert_eq!(g.value, 2.0);
+        assert!((lift.value - 0.4 * (-1.0_f64).exp()).abs() < 1e-12);
+        cia.step(&mut lift, 1.5, 100.0);
+        assert_eq!(lift.value, 0.5, "g is at most 2");
     }
 
     #[test]
@@ -218,7 +194,7 @@ mod tests {
         for (found, within) in [
             (after::<f64>(), 1e-9),
             (after::<f32>(), 2e-7),
-            (after::<Fix>(), 3e-7),
+            (after::<Fix>(), 1e-8),
         ] {
             assert!((found - expected).abs() < within, "{found} {expected}");
         }
@@ -246,11 +222,19 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_a_tick_is_half_a_tick_further() {
-        let rcp = rcp::<f64>(4.0);
-        let z = Gate::new(0.8);
-        assert!((rcp.between(&z) - 0.8 * (-0.125_f64).exp()).abs() < 1e-15);
-        let papers = Decay::<f64>::new(4.0, Integrator::Euler);
-        assert_eq!(Gate::new(0.8).between(0.0, &papers), 0.8);
+    fn the_mean_is_half_a_tick_further_unless_contact_holds_the_gate() {
+        let (ours, mut z) = (rcp::<f64>(4.0), Gate::new(0.8));
+        ours.step(&mut z, 0.0);
+        assert!((z.value - 0.8 * (-0.25_f64).exp()).abs() < 1e-15);
+        assert!((z.mean - 0.8 * (-0.375_f64).exp()).abs() < 1e-15);
+        ours.step(&mut z, 1.0);
+        assert_eq!((z.value, z.mean), (0.7, 0.7));
+        let papers = Rcp {
+            decay: Decay::<f64>::new(4.0, Integrator::Euler),
+            gain: 0.7,
+        };
+        papers.step(&mut z, 0.0);
+        assert!((z.value - 0.525).abs() < 1e-15);
+        assert_eq!(z.value, z.mean);
     }
 }

@@ -82,7 +82,7 @@ fn normal_q24(word: u32) -> i32 {
 pub struct Config<R: Real> {
     /// 4 T σ_η √(tick rate/2 kHz): what is filtered is a quarter of η, so that
     /// no format has to hold 4.9.
-    pub amplitude: R::Coefficient,
+    pub amplitude: R::Fine,
     /// H50 at this tick rate.
     pub filter: filter::Config<R>,
 }
@@ -102,7 +102,7 @@ impl<R: Real> Config<R> {
     pub(crate) fn new(sigma: f64, tick_hz: f64) -> Result<Self, Error> {
         let amplitude = 4.0 * sigma / tick_hz * libm::sqrt(tick_hz / REFERENCE_TICK_HZ);
         Ok(Self {
-            amplitude: R::coefficient(amplitude),
+            amplitude: R::fine(amplitude),
             filter: filter::Config::new(CORNER_HZ, tick_hz)?,
         })
     }
@@ -114,7 +114,7 @@ impl<R: Real> Config<R> {
         let mut out = [[R::ZERO; 2]; S];
         for (o, f) in out.iter_mut().flatten().zip(filters.iter_mut().flatten()) {
             let white = R::from_q24(normal_q24(random.next_u32()) >> 2);
-            *o = self.filter.process(f, white).times(self.amplitude);
+            *o = self.filter.process(f, white).times_fine(self.amplitude);
         }
         out
     }

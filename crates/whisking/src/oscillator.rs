@@ -90,10 +90,10 @@ fn limited<R: Real>(psi: Psi<R>) -> Psi<R> {
 
 /// The pull of `share` of the way towards the unit circle; along +ψ_1 at the origin.
 #[inline]
-fn pull<R: Real>([a, b]: Psi<R>, share: R::Coefficient) -> Psi<R> {
+fn pull<R: Real>([a, b]: Psi<R>, share: R::Fine) -> Psi<R> {
     match R::unit(a, b) {
-        Some([x, y]) => [(x - a).times(share), (y - b).times(share)],
-        None => [R::ONE.times(share), R::ZERO],
+        Some([x, y]) => [(x - a).times_fine(share), (y - b).times_fine(share)],
+        None => [R::ONE.times_fine(share), R::ZERO],
     }
 }
 

@@ -42,8 +42,6 @@ pub trait Real:
 
     /// 0.
     const ZERO: Self;
-    /// 1/2.
-    const HALF: Self;
     /// 1.
     const ONE: Self;
     /// 2.
@@ -70,6 +68,13 @@ pub trait Real:
 
     /// The product with a fine constant.
     fn times_fine(self, factor: Self::Fine) -> Self;
+
+    /// Half of it.
+    fn halved(self) -> Self;
+
+    /// Itself, or the nearest number within ±1/2 in a format whose sums would
+    /// else overflow.
+    fn within_half(self) -> Self;
 
     /// The product with a number of a magnitude up to 4 of which four digits do.
     fn rough(self, other: Self) -> Self;
@@ -98,9 +103,9 @@ pub trait Real:
     /// of many small steps keeps its accuracy.
     fn accumulate(&mut self, carry: &mut Self::Carry, increment: Self);
 
-    /// Goes the share `approach` of the way to `target`, however small a share:
-    /// what rounding takes is remembered.
-    fn relax(&mut self, carry: &mut Self::Carry, target: Self, approach: Self::Coefficient);
+    /// Loses the share `share` of itself, however small: what rounding takes is
+    /// remembered.
+    fn decay(&mut self, carry: &mut Self::Carry, share: Self::Fine);
 
     /// Muscle drive W = (tanh 2x + 1)/2 (BIOTACT eq. 6) for |x| ≤ 1.5; error 2e-7.
     fn drive(self) -> Self;

@@ -26,9 +26,9 @@ pub struct Config<R: Real> {
 pub struct Whisker<R: Real> {
     /// θ, v and the integrator's past.
     pub muscle: muscle::State<R>,
-    /// g of eqs. 12 and 13, 0 to 2.
-    pub gain: Gate<R>,
-    /// Its nominal value.
+    /// By how much contact lifts g above its nominal value (eqs. 12 and 13).
+    pub lift: Gate<R>,
+    /// Nominal value of g.
     pub nominal: R,
 }
 
@@ -45,6 +45,13 @@ pub struct State<R: Real, const S: usize, const N: usize> {
     noise: noise::State<R, S>,
 }
 
+impl<R: Real> Whisker<R> {
+    /// g of eqs. 12 and 13, 0 to 2.
+    pub fn gain(&self) -> f64 {
+        self.nominal.to_f64() + self.lift.value.to_f64()
+    }
+}
+
 impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
     /// A module at its start; `seed` is that of the noise.
     pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
@@ -55,7 +62,7 @@ impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
             whiskers: core::array::from_fn(|side| {
                 core::array::from_fn(|w| Whisker {
                     muscle: muscles[side][w],
-                    gain: Gate::new(start.gain[side][w]),
+                    lift: Gate::default(),
                     nominal: start.gain[side][w],
                 })
             }),
@@ -94,7 +101,7 @@ impl<R: Real> Config<R> {
             // Loop in loop: a flattened iterator is not unrolled.
             for side in &mut state.whiskers {
                 for whisker in side {
-                    cia.step(&mut whisker.gain, whisker.nominal, zeta);
+                    cia.step(&mut whisker.lift, whisker.nominal, zeta);
                 }
             }
         }
@@ -110,30 +117,12 @@ impl<R: Real> Config<R> {
         for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
             let before = state.drive[side];
             let after = drives[side].drive();
-            let open = self.peak_gain * (R::ONE - self.suppression(&state.z[side]));
+            let open = self.peak_gain * (R::ONE - state.z[side].mean);
             for whisker in whiskers {
-                let gain = open * self.gain(whisker);
+                let gain = open * (whisker.nominal + whisker.lift.mean);
                 self.muscle.step(&mut whisker.muscle, gain, before, after);
             }
             state.drive[side] = after;
-        }
-    }
-
-    /// z over this tick: its value in the middle, or at the start for the papers.
-    #[inline]
-    fn suppression(&self, z: &Gate<R>) -> R {
-        match (&self.rcp, &self.muscle) {
-            (Some(rcp), muscle::Config::Exact(_)) => rcp.between(z),
-            _ => z.value,
-        }
-    }
-
-    /// g over this tick, likewise.
-    #[inline]
-    fn gain(&self, whisker: &Whisker<R>) -> R {
-        match (&self.cia, &self.muscle) {
-            (Some(cia), muscle::Config::Exact(_)) => cia.between(&whisker.gain, whisker.nominal),
-            _ => whisker.gain.value,
         }
     }
 }

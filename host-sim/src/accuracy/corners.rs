@@ -117,7 +117,7 @@ impl Extremes {
             note(|e| &mut e.z, z.value.to_f64(), 0.0);
         }
         for whisker in state.whiskers.iter().flatten() {
-            note(|e| &mut e.g, whisker.gain.value.to_f64(), 0.0);
+            note(|e| &mut e.g, whisker.gain(), 0.0);
             note(|e| &mut e.theta, whisker.muscle.theta.to_f64(), -2.5);
             for kept in whisker.muscle.kept() {
                 note(|e| &mut e.kept, kept.to_f64(), -4.0);

@@ -241,7 +241,8 @@ mod tests {
         let found = decay(Euler, Format::F64).unwrap();
         assert!((found / (2.0 / 250.0) - 1.0).abs() < 0.01, "{found}");
         for format in Format::ALL {
-            assert!(decay(Exact, format).unwrap() < 1e-6);
+            // In fixed point what is left, 0.018, has steps of 2e-7 of itself.
+            assert!(decay(Exact, format).unwrap() < 5e-6);
         }
     }
 }

@@ -4,7 +4,7 @@
 use std::fmt::Debug;
 
 use whisking::muscle::History;
-use whisking::{Config, Fix, Real, Settings, Start, State, filter};
+use whisking::{Config, Fix, Real, Settings, Start, State, Whisker, filter};
 
 use crate::axes::{Case, INPUTS, Input, NOMINAL, Random};
 
@@ -40,7 +40,8 @@ impl Extreme for Fix {
     const HIGHEST: Self = Self(i32::MAX);
     const LOWEST: Self = Self(i32::MIN);
     const STEP: f64 = 1.0 / 268_435_456.0;
-    const ROUNDING: f64 = 5e-5;
+    // Constants of 16 bits, within 3e-5 of their values.
+    const ROUNDING: f64 = 3e-4;
 }
 
 /// The module.
@@ -79,14 +80,15 @@ impl<R: Real> Module<R> {
         let [[a, b], [c, d]] = &self.state.whiskers;
         let whiskers = [a, b, c, d];
         let [l, r] = self.state.z.map(|z| z.value);
-        [
+        let numbers = [
             [psi[0][0], psi[0][1], psi[1][0], psi[1][1]],
             whiskers.map(|w| w.muscle.theta),
             whiskers.map(|w| w.muscle.kept()[0]),
             [l, l, r, r],
-            whiskers.map(|w| w.gain.value),
         ]
-        .map(|list| list.map(R::to_f64))
+        .map(|list: [R; 4]| list.map(R::to_f64));
+        let [psi, theta, kept, z] = numbers;
+        [psi, theta, kept, z, whiskers.map(Whisker::gain)]
     }
 
     /// The largest difference to another module's states.

@@ -27,10 +27,10 @@ impl<R: Real> Euler<R> {
     pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let push = gain * (drive * state.theta.exp_neg_square());
         let [velocity, _] = state.kept;
-        // Limits of what the large steps add, too, so that no sum overflows.
         let limited = |x: R| x.clamp(-R::TWO, R::TWO);
-        let pull = limited((push - state.theta).times(self.spring));
-        let next = velocity + pull - limited(velocity.times(self.damping));
+        let pull = (push - state.theta).times(self.spring);
+        // Limited in between too, so that no format's sum overflows.
+        let next = limited(velocity + pull) - velocity.times(self.damping);
         state
             .theta
             .accumulate(&mut state.carry, velocity.times(self.spring));

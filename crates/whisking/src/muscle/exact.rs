@@ -93,16 +93,17 @@ impl<R: Real> Exact<R> {
         let predicted = self.theta([state.kept[0] + slow, state.kept[1] + fast]);
         let force = drive * predicted.exp_neg_square();
         let n1 = force - f;
-        let n2 = n1 - d1;
-        let n3 = n2 - d2;
-        let correction = (n3 - d3).rough(gain);
-        // Only the slow lag sums over many ticks.
+        // With less than ten ticks a whisk a jump of the gain can make these
+        // as large as eight.
+        let n2 = (n1 - d1).within_half();
+        let n3 = (n2 - d2).within_half();
+        // The weight before the gain: the difference alone may be large.
+        let n4 = (n3 - d3).within_half();
+        let correction = |i: usize| n4.times(self.lags[i].correct).rough(gain);
         let [slow_lag, fast_lag] = &mut state.kept;
-        slow_lag.accumulate(
-            &mut state.carry,
-            slow + correction.times(self.lags[0].correct),
-        );
-        *fast_lag = *fast_lag + (fast + correction.times(self.lags[1].correct));
+        // Only the slow lag sums over many ticks.
+        slow_lag.accumulate(&mut state.carry, slow + correction(0));
+        *fast_lag = *fast_lag + (fast + correction(1));
         state.theta = self.theta(state.kept);
         state.history.force = [force, n1, n2, n3];
     }

@@ -8,9 +8,9 @@ use crate::Real;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Euler<R: Real> {
     /// T/τ_r.
-    pub relax: R::Coefficient,
+    pub relax: R::Fine,
     /// 2π f_W T.
-    pub turn: R::Coefficient,
+    pub turn: R::Fine,
     /// T/τ_11; zero without coupling.
     pub couple: R::Coefficient,
 }
@@ -20,8 +20,8 @@ impl<R: Real> Euler<R> {
     pub(crate) fn new(cycles: f64, coupling: bool) -> Self {
         let rate = cycles / TAU_PERIODS;
         Self {
-            relax: R::coefficient(rate),
-            turn: R::coefficient(core::f64::consts::TAU * cycles),
+            relax: R::fine(rate),
+            turn: R::fine(core::f64::consts::TAU * cycles),
             couple: R::coefficient(if coupling { rate } else { 0.0 }),
         }
     }
@@ -31,8 +31,8 @@ impl<R: Real> Euler<R> {
     fn rate(&self, [a, b]: Psi<R>, other: R) -> Psi<R> {
         let [x, y] = pull([a, b], self.relax);
         [
-            x - b.times(self.turn) + (other - a).times(self.couple),
-            y + a.times(self.turn),
+            x - b.times_fine(self.turn) + (other - a).times(self.couple),
+            y + a.times_fine(self.turn),
         ]
     }
 

@@ -28,7 +28,7 @@ pub struct Exact<R: Real> {
     /// Half a tick back.
     pub back: Linear<R>,
     /// 1 − exp(−T/τ_r).
-    pub relax: R::Coefficient,
+    pub relax: R::Fine,
     /// Half of it.
     pub half_relax: R::Coefficient,
 }
@@ -74,7 +74,7 @@ fn crossed<R: Real, const S: usize>(modes: &[Psi<R>; S]) -> [Psi<R>; S] {
 /// The modes of `sides`.
 #[inline]
 fn modes<R: Real, const S: usize>(sides: &[Psi<R>; S]) -> [Psi<R>; S] {
-    crossed(&sides.map(|psi| psi.map(|x| if S == 2 { x * R::HALF } else { x })))
+    crossed(&sides.map(|psi| psi.map(|x| if S == 2 { x.halved() } else { x })))
 }
 
 #[inline]
@@ -196,7 +196,7 @@ impl<R: Real> Exact<R> {
             half: Linear::new(cycles, coupling, 0.5),
             drive: growths(cycles, coupling, 0.5).map(|[first, _]| R::row(first.map(|x| -x))),
             back: Linear::new(cycles, coupling, -0.5),
-            relax: R::coefficient(share),
+            relax: R::fine(share),
             half_relax: R::coefficient(share / 2.0),
         }
     }
@@ -250,7 +250,7 @@ impl<R: Real> Exact<R> {
                 }
                 let along = e.excess();
                 for k in 0..2 {
-                    change[k] = change[k] - along.rough(psi[k]).times(self.relax);
+                    change[k] = change[k] - along.rough(psi[k]).times_fine(self.relax);
                 }
             }
         }

@@ -73,7 +73,6 @@ impl Real for Fix {
     /// Bits below the last of the sum.
     type Carry = i64;
     const ZERO: Self = Self(0);
-    const HALF: Self = Self(1 << (FRACTION - 1));
     const NEAR: Self = Self(1 << (FRACTION - 4));
     const ONE: Self = Self(1 << FRACTION);
     const TWO: Self = Self(2 << FRACTION);
@@ -114,6 +113,17 @@ impl Real for Fix {
         Self(row.dot(x.map(|x| x.0)))
     }
 
+    #[inline]
+    fn halved(self) -> Self {
+        Self(self.0 >> 1)
+    }
+
+    #[inline]
+    fn within_half(self) -> Self {
+        let half = 1 << (FRACTION - 1);
+        Self(self.0.clamp(-half, half - 1))
+    }
+
     /// Within 6e-5 of `self`.
     #[inline]
     fn rough(self, other: Self) -> Self {
@@ -150,10 +160,10 @@ impl Real for Fix {
     }
 
     #[inline]
-    fn relax(&mut self, carry: &mut i64, target: Self, approach: Factor) {
-        let (step, left) = approach.of_way((target - *self).0, *carry);
+    fn decay(&mut self, carry: &mut i64, share: FineFactor) {
+        let (step, left) = share.of(self.0, *carry);
         *carry = left;
-        self.0 += step;
+        self.0 -= step;
     }
 
     #[inline]

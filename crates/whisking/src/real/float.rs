@@ -13,7 +13,6 @@ macro_rules! float {
         type Row<const K: usize> = [Self; K];
         type Carry = Self;
         const ZERO: Self = 0.0;
-        const HALF: Self = 0.5;
         const NEAR: Self = 0.0625;
         const ONE: Self = 1.0;
         const TWO: Self = 2.0;
@@ -45,6 +44,16 @@ macro_rules! float {
         #[inline]
         fn times_fine(self, factor: Self) -> Self {
             self * factor
+        }
+
+        #[inline]
+        fn halved(self) -> Self {
+            0.5 * self
+        }
+
+        #[inline]
+        fn within_half(self) -> Self {
+            self
         }
 
         #[inline]
@@ -103,8 +112,8 @@ macro_rules! float {
         }
 
         #[inline]
-        fn relax(&mut self, carry: &mut Self, target: Self, approach: Self) {
-            let step = approach * (target - *self);
+        fn decay(&mut self, carry: &mut Self, share: Self) {
+            let step = -share * *self;
             self.accumulate(carry, step);
         }
     };
@@ -203,7 +212,7 @@ mod tests {
         let (mut z, mut carry) = (0.75_f32, 0.0);
         // Each step is a thirtieth of the last bit of z.
         for _ in 0..10_000_000 {
-            z.relax(&mut carry, 0.0, 2e-9);
+            z.decay(&mut carry, 2e-9);
         }
         let expected = 0.75 * (-0.02_f64).exp();
         assert!((f64::from(z) - expected).abs() < 1e-6, "{z} {expected}");

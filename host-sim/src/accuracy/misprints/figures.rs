@@ -75,18 +75,18 @@ pub(super) struct Row {
     pub(super) g: [f64; 2],
 }
 
-/// One tick of g of a whisker of nominal gain `nominal`; the coefficient
-/// `approach` is T/τ_g.
-fn excite(cia: &Cia<f64>, g: &mut Gate<f64>, nominal: f64, zeta: f64, printed: Printed) {
-    let [mut step, mut lifted] = [nominal - g.value, nominal + cia.gain * zeta];
+/// One tick of what lifts g of a whisker above `nominal`; the share of the
+/// decay is T/τ_g.
+fn excite(cia: &Cia<f64>, lift: &mut Gate<f64>, nominal: f64, zeta: f64, printed: Printed) {
+    let g = nominal + lift.value;
+    let [mut step, mut lifted] = [nominal - g, nominal + cia.gain * zeta];
     match printed {
-        Printed::Nothing | Printed::Mass => return cia.step(g, nominal, zeta),
+        Printed::Nothing | Printed::Mass => return cia.step(lift, nominal, zeta),
         Printed::Lift => lifted = cia.gain * zeta,
-        Printed::Decay => step = 1.0 / (1.0 - g.value),
+        Printed::Decay => step = 1.0 / (1.0 - g),
     }
-    g.value = (g.value + cia.decay.tick * step)
-        .max(lifted)
-        .clamp(0.0, 2.0);
+    let g = (g + cia.decay.tick * step).max(lifted).clamp(0.0, 2.0);
+    *lift = Gate::new(g - nominal);
 }
 
 /// Ten seconds of `figure`.
@@ -127,7 +127,7 @@ pub(super) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> 
         let zeta = contact.iter().copied().fold(0.0, f64::max);
         if let Some(cia) = &cia {
             for whisker in state.whiskers.iter_mut().flatten() {
-                excite(cia, &mut whisker.gain, figure.gain, zeta, printed);
+                excite(cia, &mut whisker.lift, figure.gain, zeta, printed);
             }
         }
         config.step(&mut state, contact);
@@ -135,7 +135,7 @@ pub(super) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> 
         Row {
             theta_deg: state.theta().map(|[theta]| degrees(theta)),
             contact,
-            g: gains.map(|[whisker]| whisker.gain.value),
+            g: gains.map(|[whisker]| whisker.gain()),
         }
     };
     Ok((0..RUN_TICKS).map(tick).collect())

@@ -20,11 +20,11 @@ fn parts<R: Format>() {
         (x: R, state: &mut filter::State<R>) -> R { R::H50.process(state, x) },
         number::<R>(-1.0, 1.0), filter::State::default());
     kernel!(R: "gates z and g",
-        (contact: R, (z, g, nominal): &mut (Gate<R>, Gate<R>, R)) {
+        (contact: R, (z, lift, nominal): &mut (Gate<R>, Gate<R>, R)) {
             R::RCP.step(z, contact);
-            R::CIA.step(g, *nominal, contact);
+            R::CIA.step(lift, *nominal, contact);
         },
-        number::<R>(0.0, 1.0), (Gate::default(), Gate::new(R::ONE), R::ONE));
+        number::<R>(0.0, 1.0), (Gate::default(), Gate::default(), R::ONE));
     kernel!(R: "muscle",
         (at: Three<R>, state: &mut muscle::State<R>) {
             let Three(gain, before, after) = at;

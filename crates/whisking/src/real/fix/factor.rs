@@ -63,6 +63,12 @@ const fn lowered(x: i32, shift: i32) -> i32 {
     }
 }
 
+/// x / 2^shift, rounded to the nearest.
+#[inline]
+const fn nearest(x: i64, shift: u32) -> i32 {
+    ((x + (1 << (shift - 1))) >> shift) as i32
+}
+
 /// x · 2^shift, saturated at ±4.
 #[inline]
 fn raised(x: i32, shift: u32) -> i32 {
@@ -86,10 +92,9 @@ impl Factor {
     /// The product with `x` in Q28, in Q28.
     #[inline]
     pub(super) fn times(self, x: i32) -> i32 {
-        let product = by_half(x, self.mantissa);
-        match u32::try_from(self.shift) {
-            Ok(shift) => rounded(product, shift),
-            Err(_) => raised(product, self.shift.unsigned_abs()),
+        match self.shift {
+            0.. => rounded(by_half(x, self.mantissa), self.shift.unsigned_abs()),
+            _ => raised(by_half(x, self.mantissa), self.shift.unsigned_abs()),
         }
     }
 
@@ -101,16 +106,6 @@ impl Factor {
         let within = x.clamp(-(1 << bits), 1 << bits);
         // ... and 2^30 is left for the product, whose steps are 2^-26 then.
         raised(by_half(within << (30 - bits), self.mantissa), 2)
-    }
-
-    /// What this share takes of `way`, and what is left of `carry` below the
-    /// last bit.
-    #[inline]
-    pub(super) fn of_way(self, way: i32, carry: i64) -> (i32, i64) {
-        let bits = (16 + self.shift).unsigned_abs();
-        let product = i64::from(way) * i64::from(self.mantissa) + carry;
-        let step = product >> bits;
-        (step as i32, product - (step << bits))
     }
 }
 
@@ -127,7 +122,20 @@ impl FineFactor {
     /// The product with `x`.
     #[inline]
     pub(super) const fn times(self, x: i32) -> i32 {
-        lowered(high(x, self.mantissa), self.shift)
+        if self.shift < 0 {
+            // A share of more than half must not take more than all.
+            return nearest(x as i64 * self.mantissa as i64, 31);
+        }
+        rounded(high(x, self.mantissa), self.shift.unsigned_abs())
+    }
+
+    /// What this share takes of `x`, and what is left of `carry` below the last bit.
+    #[inline]
+    pub(super) fn of(self, x: i32, carry: i64) -> (i32, i64) {
+        let bits = (32 + self.shift).unsigned_abs();
+        let product = i64::from(x) * i64::from(self.mantissa) + carry;
+        let step = product >> bits;
+        (step as i32, product - (step << bits))
     }
 }
 
