@@ -29,9 +29,9 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
     let settings = case.settings();
     let start = start::<R>(case, &settings);
     let mut module = Module::new(&settings, &start);
-    // With less than twenty ticks a whisk fixed point limits the differences
+    // With twenty ticks a whisk and fewer fixed point limits the differences
     // of a force that jumps.
-    let is_limited = R::STEP > 0.0 && case.frequency_hz() / case.tick_hz() > 0.05;
+    let is_limited = R::STEP > 0.0 && case.frequency_hz() / case.tick_hz() >= 0.05;
     let mut reference = (R::ROUNDING > 0.0 && !is_limited && case.is_alike_in_all_formats())
         .then(|| Module::<f64>::new(&settings, &widened(&start)));
     let mut abuse = Abuse::new(case.input(), case.tick_hz());
