@@ -1,29 +1,52 @@
 //! The firmware of a scene: building, measuring and flashing it.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Fault, cargo, output, run, top};
+use object::{Object, ObjectSection};
+
+use crate::run::{Fault, cargo, run, target, top};
 
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Board {
-    name: &'static str,
+    /// Its name, and its feature in `firmware/Cargo.toml`.
+    pub(crate) name: &'static str,
     /// The program in `firmware/src/bin`.
     program: &'static str,
     target: &'static str,
     /// What probe-rs calls its chip.
     chip: &'static str,
+    /// Whether its core computes f32 by itself.
+    pub(crate) has_fpu: bool,
 }
 
 impl Board {
     /// Every board.
-    pub(crate) const ALL: [Self; 1] = [Self {
-        name: "nucleo-f446re",
-        program: "nucleo_f446re",
-        target: "thumbv7em-none-eabihf",
-        chip: "STM32F446RETx",
-    }];
+    pub(crate) const ALL: [Self; 3] = [
+        Self {
+            name: "nucleo-f446re",
+            program: "nucleo_f446re",
+            target: "thumbv7em-none-eabihf",
+            chip: "STM32F446RETx",
+            has_fpu: true,
+        },
+        Self {
+            name: "nucleo-f103rb",
+            program: "nucleo_f103rb",
+            target: "thumbv7m-none-eabi",
+            chip: "STM32F103RBTx",
+            has_fpu: false,
+        },
+        Self {
+            name: "nucleo-g071rb",
+            program: "nucleo_g071rb",
+            target: "thumbv6m-none-eabi",
+            chip: "STM32G071RBTx",
+            has_fpu: false,
+        },
+    ];
 
     /// The board of that name.
     pub(crate) fn named(name: &str) -> Result<Self, Fault> {
@@ -32,14 +55,21 @@ impl Board {
         board.ok_or_else(|| format!("no such board; there is: {}", names()))
     }
 
+    /// Whether the emulator models its chip.
+    pub(crate) fn is_emulated(self) -> bool {
+        self.name == "nucleo-f446re"
+    }
+
     /// What cargo needs to build its program.
-    pub(crate) fn build_arguments(self) -> [&'static str; 9] {
+    pub(crate) fn build_arguments(self) -> [&'static str; 11] {
         [
             "--locked",
             "--profile",
             "firmware",
             "-p",
             "firmware",
+            "--features",
+            self.name,
             "--bin",
             self.program,
             "--target",
@@ -53,27 +83,64 @@ impl Board {
 /// # Errors
 /// If the scene does not exist or the build fails.
 pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
-    let scene = std::path::absolute(scene)
+    let scene = find(scene)?;
+    run(&mut compiler(board, &scene))?;
+    Ok(elf(board))
+}
+
+/// The same, quietly, and told apart: the ELF file, or why the board does not
+/// take the scene.
+///
+/// # Errors
+/// If the scene does not exist, or the build fails for another reason.
+pub(crate) fn try_build(board: Board, scene: &Path) -> Result<Result<PathBuf, String>, Fault> {
+    let scene = find(scene)?;
+    let mut command = compiler(board, &scene);
+    let done = command.output().map_err(|error| error.to_string())?;
+    if done.status.success() {
+        return Ok(Ok(elf(board)));
+    }
+    let said = String::from_utf8_lossy(&done.stderr);
+    // What the build script says, and cargo puts its package before.
+    let reason = said
+        .lines()
+        .find_map(|line| line.strip_prefix("error: firmware@")?.split_once(": "));
+    match reason {
+        Some((_, reason)) => Ok(Err(reason.to_owned())),
+        None => Err(said.into_owned()),
+    }
+}
+
+/// A scene, seen from here or from the top of the workspace.
+fn find(scene: &Path) -> Result<PathBuf, Fault> {
+    std::path::absolute(scene)
         .ok()
         .filter(|path| path.is_file())
         .or_else(|| Some(top().join(scene)).filter(|path| path.is_file()))
-        .ok_or_else(|| format!("{}: no such scene", scene.display()))?;
-    run(cargo(&["build"])
+        .ok_or_else(|| format!("{}: no such scene", scene.display()))
+}
+
+fn compiler(board: Board, scene: &Path) -> Command {
+    let mut command = cargo(&["build"]);
+    command
         .args(board.build_arguments())
         .env("WHISKER_SCENE", scene)
-        .env("RUSTFLAGS", "-D warnings"))?;
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);
-    Ok(target
+        .env("RUSTFLAGS", "-D warnings");
+    command
+}
+
+/// Where the program of a board is.
+fn elf(board: Board) -> PathBuf {
+    target()
         .join(board.target)
         .join("firmware")
-        .join(board.program))
+        .join(board.program)
 }
 
 /// Prints flash and static RAM of an ELF file in bytes.
 ///
 /// # Errors
-/// If llvm-size cannot be run or says something else.
+/// If it cannot be read.
 pub(crate) fn print_size(board: Board, scene: &Path, elf: &Path) -> Result<(), Fault> {
     let size = Size::of(elf)?;
     println!(
@@ -87,56 +154,38 @@ pub(crate) fn print_size(board: Board, scene: &Path, elf: &Path) -> Result<(), F
 }
 
 /// Bytes that a program takes.
-struct Size {
-    flash: u64,
-    ram: u64,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Size {
+    /// Code, constants, and the first values of variables.
+    pub(crate) flash: u64,
+    /// Variables; the stack apart.
+    pub(crate) ram: u64,
 }
 
 impl Size {
-    /// Sections that stand in flash: code, constants, and the first values of `.data`.
+    /// Sections that stand in flash; `.data` is there too, as first values.
     const FLASH: [&str; 5] = [".vector_table", ".text", ".rodata", ".data", ".gnu.sgstubs"];
     /// Sections that stand in RAM.
     const RAM: [&str; 3] = [".data", ".bss", ".uninit"];
 
-    fn of(elf: &Path) -> Result<Self, Fault> {
-        let text = output(Command::new(llvm_size()?).arg("-A").arg(elf))?;
+    /// Of an ELF file.
+    ///
+    /// # Errors
+    /// If it cannot be read or has no code.
+    pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
+        let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
+        let bytes = fs::read(elf).map_err(|error| wrong(&error))?;
+        let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
         let sum = |names: &[&str]| -> u64 {
-            text.lines()
-                .filter_map(|line| {
-                    let mut words = line.split_whitespace();
-                    names
-                        .contains(&words.next()?)
-                        .then(|| words.next()?.parse::<u64>().ok())?
-                })
+            file.sections()
+                .filter(|section| section.name().is_ok_and(|name| names.contains(&name)))
+                .map(|section| section.size())
                 .sum()
         };
-        let size = Self {
-            flash: sum(&Self::FLASH),
-            ram: sum(&Self::RAM),
-        };
-        if size.flash == 0 {
-            return Err(format!(
-                "{}: llvm-size found no code:\n{text}",
-                elf.display()
-            ));
+        match (sum(&Self::FLASH), sum(&Self::RAM)) {
+            (0, _) => Err(wrong(&"there is no code")),
+            (flash, ram) => Ok(Self { flash, ram }),
         }
-        Ok(size)
-    }
-}
-
-/// llvm-size of the pinned toolchain (component llvm-tools).
-fn llvm_size() -> Result<PathBuf, Fault> {
-    let rustc = || Command::new("rustc");
-    let sysroot = output(rustc().args(["--print", "sysroot"]).current_dir(top()))?;
-    let host = output(rustc().args(["--print", "host-tuple"]).current_dir(top()))?;
-    let path = Path::new(sysroot.trim())
-        .join("lib/rustlib")
-        .join(host.trim())
-        .join("bin/llvm-size");
-    if path.is_file() {
-        Ok(path)
-    } else {
-        Err("llvm-size is missing: rustup component add llvm-tools".to_owned())
     }
 }
 

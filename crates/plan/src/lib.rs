@@ -139,8 +139,14 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
             degrees_per_count,
         }
         .build(tick_hz)?,
-        stall_q15: Duty::from_f32(motor.duty_limit as f32 / 2.0).q15(),
+        stall_q15: stall_q15(motor),
     }))
+}
+
+/// Duty above which a motor that does not move counts as stalled, Q15: half of
+/// what it may be driven with.
+pub fn stall_q15(motor: &scene::Motor) -> i16 {
+    Duty::from_f32(motor.duty_limit as f32 / 2.0).q15()
 }
 
 /// H50 for the contact signals, where the scene has something that uses them:

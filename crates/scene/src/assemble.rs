@@ -105,7 +105,8 @@ fn read_whisking(part: Part<'_>, whiskers: usize) -> Option<Whisking> {
         return None;
     };
     let integrator = Integrator::from_name(&part.text("integrator")?)?;
-    let numbers = match (Numbers::from_name(&part.text("numbers")?)?, integrator) {
+    let numbers_said = Numbers::from_name(&part.text("numbers")?)?;
+    let numbers = match (numbers_said, integrator) {
         (Numbers::Auto, Integrator::Exact) => Numbers::Single,
         (Numbers::Auto, Integrator::Euler) => Numbers::Double,
         (said, _) => said,
@@ -118,6 +119,7 @@ fn read_whisking(part: Part<'_>, whiskers: usize) -> Option<Whisking> {
         gain,
         start: start.clone(),
         numbers,
+        numbers_said,
     })
 }
 

@@ -168,6 +168,9 @@ pub struct Whisking {
     pub start: Vec<[f64; 2]>,
     /// Number format of the simulated tick, never [`Numbers::Auto`].
     pub numbers: Numbers,
+    /// Number format as the file has it, for a board, whose [`Numbers::Auto`]
+    /// is another: `f32` with an FPU, else fixed point.
+    pub numbers_said: Numbers,
 }
 
 /// A contact-driven gate: a gain on contact and an exponential recovery.

@@ -24,6 +24,13 @@ impl Decision {
         }
     }
 
+    /// The decision whose two words a debugger reads as `samples` and `packed`;
+    /// `None` if `samples` is zero.
+    pub fn from_memory(samples: u32, packed: u32) -> Option<Self> {
+        let samples = NonZeroU32::new(samples)?;
+        Some(Self { samples, packed })
+    }
+
     /// The class decided for: its index in the model.
     pub fn class(&self) -> usize {
         (self.packed >> ODDS_BITS) as usize
@@ -136,6 +143,9 @@ mod tests {
                 let exact = f64::from(against) / 2.0_f64.powi(26 + i32::from(gain));
                 assert!(found <= exact && exact - found <= exact * 2.0_f64.powi(-20));
                 let decision = Decision::new(31, 9, Posterior::from_odds_against(against, gain));
+                let Decision { samples, packed } = decision;
+                let read = Decision::from_memory(samples.get(), packed);
+                assert_eq!(read, Some(decision));
                 assert_eq!(decision.class(), 31);
                 assert_eq!(
                     decision.posterior(),

@@ -1,58 +1,66 @@
-//! Time: TIM3 makes the ticks, TIM5 runs freely to measure them.
-//!
-//! Not the core's cycle counter, which may stand still while the core sleeps.
+//! Time: one timer makes the ticks, and something that counts on while the
+//! core sleeps measures them (not the core's cycle counter, which may stand
+//! still then).
 
+use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use firmware::Clock;
-use stm32f4xx_hal::pac::{RCC, TIM3, TIM5};
-use stm32f4xx_hal::rcc::{Enable, Reset};
+use stm32_metapac::timer::vals::Urs;
 
 use super::timing::TickPeriod;
+use crate::here::TICKER;
 
-/// TIM3, interrupting once a tick.
-pub(crate) struct Ticker {
-    timer: TIM3,
-}
+/// The timer that interrupts once a tick.
+pub(crate) struct Ticker(());
 
 impl Ticker {
     /// The first tick comes one period from now.
-    pub(crate) fn start(timer: TIM3, period: TickPeriod, rcc: &mut RCC) -> Self {
-        TIM3::enable(rcc);
-        TIM3::reset(rcc);
-        timer.psc().write(|w| w.psc().set(period.prescaler - 1));
-        timer.arr().write(|w| w.arr().set(period.period - 1));
+    pub(crate) fn start(period: TickPeriod) -> Self {
+        TICKER.psc().write_value(period.prescaler - 1);
+        TICKER.arr().write(|w| w.set_arr(period.period - 1));
         // The prescaler takes effect with an update; that one is no tick.
-        timer.cr1().write(|w| w.urs().set_bit());
-        timer.egr().write(|w| w.ug().set_bit());
-        timer.dier().write(|w| w.uie().set_bit());
-        timer.cr1().modify(|_, w| w.cen().set_bit());
-        Self { timer }
+        TICKER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
+        TICKER.egr().write(|w| w.set_ug(true));
+        TICKER.dier().write(|w| w.set_uie(true));
+        TICKER.cr1().modify(|w| w.set_cen(true));
+        Self(())
     }
 
     /// The interrupt has been seen.
     #[inline]
     pub(crate) fn acknowledge(&mut self) {
-        self.timer.sr().write(|w| w.uif().clear_bit());
+        TICKER.sr().write(|w| w.set_uif(false));
     }
 }
 
-/// TIM5, counting at [`APB1_TIMER_HZ`](super::timing::APB1_TIMER_HZ) through 32 bits.
-pub struct Counter {
-    timer: TIM5,
+/// The core's SysTick, 24 bits at the core's clock, widened to 32 by whoever
+/// asks. Right as long as it is asked within its round (0.2 s at 80 MHz); each
+/// tick asks twice.
+pub(crate) struct SysTick {
+    last: u32,
+    now: u32,
 }
 
-impl Counter {
+impl SysTick {
+    const MASK: u32 = 0x00FF_FFFF;
+
     /// Counts from now on.
-    pub(crate) fn start(timer: TIM5, rcc: &mut RCC) -> Self {
-        TIM5::enable(rcc);
-        TIM5::reset(rcc);
-        timer.cr1().write(|w| w.cen().set_bit());
-        Self { timer }
+    pub(crate) fn start(mut timer: SYST) -> Self {
+        timer.set_clock_source(SystClkSource::Core);
+        timer.set_reload(Self::MASK);
+        timer.clear_current();
+        timer.enable_counter();
+        Self { last: 0, now: 0 }
     }
 }
 
-impl Clock for Counter {
+impl Clock for SysTick {
     #[inline]
     fn now(&mut self) -> u32 {
-        self.timer.cnt().read().bits()
+        let current = SYST::get_current();
+        // It counts down.
+        let elapsed = self.last.wrapping_sub(current) & Self::MASK;
+        self.last = current;
+        self.now = self.now.wrapping_add(elapsed);
+        self.now
     }
 }

@@ -1,41 +1,71 @@
-//! The whisker's angle: a quadrature encoder on TIM2, four counts a line,
-//! 32 bits.
+//! The whisker's angle: a quadrature encoder on a timer of 16 or 32 bits, four
+//! counts a line.
 
 use firmware::AngleInput;
-use stm32f4xx_hal::gpio::{PA0, PA1, Pull};
-use stm32f4xx_hal::pac::{RCC, TIM2};
-use stm32f4xx_hal::rcc::{Enable, Reset};
+use stm32_metapac::timer::vals::{CcmrInputCcs, FilterValue, Sms};
 
-/// Input filter setting 3: a level counts after eight equal samples of the
-/// timer's clock, 100 ns.
-const FILTER: u8 = 3;
+use crate::here::{ENCODER, encoder_count};
 
-/// TIM2 as encoder input.
-pub struct Encoder {
-    timer: TIM2,
+/// A level counts after eight equal samples of the timer's clock: 100 ns at 80 MHz.
+const FILTER: FilterValue = FilterValue::FCK_INT_N8;
+/// A capture channel listens to its own input (the register description names
+/// the setting after channel 4's).
+const OWN_INPUT: CcmrInputCcs = CcmrInputCcs::TI4;
+
+/// What a timer counts; wraps around.
+pub(crate) trait Count: Copy {
+    /// From `earlier` to now, the short way round.
+    fn since(self, earlier: Self) -> i32;
 }
 
+impl Count for u16 {
+    #[inline]
+    fn since(self, earlier: Self) -> i32 {
+        self.wrapping_sub(earlier).cast_signed().into()
+    }
+}
+
+impl Count for u32 {
+    #[inline]
+    fn since(self, earlier: Self) -> i32 {
+        self.wrapping_sub(earlier).cast_signed()
+    }
+}
+
+/// A timer as encoder input, widened to 32 bits: right as long as less than
+/// half of its round passes between two ticks.
+pub(crate) struct Widened<C> {
+    last: C,
+    counts: i32,
+}
+
+/// What the board's encoder timer makes of it.
+pub(crate) type Encoder = Widened<crate::here::EncoderCount>;
+
 impl Encoder {
-    /// Counts from zero at the whisker's present angle. Channels A and B are
-    /// pulled up, for encoders with open collectors.
-    pub(crate) fn start(timer: TIM2, a: PA0, b: PA1, rcc: &mut RCC) -> Self {
-        a.into_alternate::<1>().internal_resistor(Pull::Up);
-        b.into_alternate::<1>().internal_resistor(Pull::Up);
-        TIM2::enable(rcc);
-        TIM2::reset(rcc);
-        timer.ccmr1_input().write(|w| {
-            w.cc1s().ti1().cc2s().ti2();
-            w.ic1f().set(FILTER).ic2f().set(FILTER)
+    /// Counts from zero at the whisker's present angle.
+    pub(crate) fn start() -> Self {
+        ENCODER.ccmr_input(0).write(|w| {
+            for channel in 0..2 {
+                w.set_ccs(channel, OWN_INPUT);
+                w.set_icf(channel, FILTER);
+            }
         });
-        timer.smcr().write(|w| w.sms().encoder_mode_3());
-        timer.cr1().write(|w| w.cen().set_bit());
-        Self { timer }
+        ENCODER.smcr().write(|w| w.set_sms(Sms::ENCODER_MODE_3));
+        ENCODER.cr1().write(|w| w.set_cen(true));
+        Self {
+            last: encoder_count(),
+            counts: 0,
+        }
     }
 }
 
 impl AngleInput for Encoder {
     #[inline]
     fn counts(&mut self) -> i32 {
-        self.timer.cnt().read().bits().cast_signed()
+        let now = encoder_count();
+        self.counts = self.counts.wrapping_add(now.since(self.last));
+        self.last = now;
+        self.counts
     }
 }

@@ -7,7 +7,6 @@
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
 
 use super::{outputs, watchdog};
@@ -19,7 +18,11 @@ static DYING: AtomicBool = AtomicBool::new(false);
 pub(crate) fn die(last_words: impl FnOnce()) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
-    if !DYING.swap(true, Ordering::Relaxed) {
+    // Not in one step, which a Cortex-M0+ has not; only a fault within a fault
+    // can come between.
+    let first = !DYING.load(Ordering::Relaxed);
+    DYING.store(true, Ordering::Relaxed);
+    if first {
         last_words();
     }
     watchdog::wait_for_reset()
@@ -39,9 +42,7 @@ fn panic(info: &PanicInfo<'_>) -> ! {
 #[exception]
 unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
     die(|| {
-        #[allow(unsafe_code, reason = "nobody owns the SCB in a fault")]
-        // SAFETY: status registers; reading them has no effect.
-        let (configurable, hard) = unsafe { ((*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()) };
+        let [configurable, hard] = crate::here::fault_status();
         defmt::error!(
             "hard fault at {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}, HFSR {=u32:#x}",
             frame.pc(),
@@ -56,7 +57,7 @@ unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
 unsafe fn NonMaskableInt() -> ! {
-    die(|| defmt::error!("the 8 MHz clock from the ST-LINK stopped"))
+    die(|| defmt::error!("the clock stopped"))
 }
 
 #[allow(unsafe_code, reason = "cortex-m-rt asks for it")]

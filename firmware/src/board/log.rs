@@ -4,14 +4,18 @@
 //! Only idle writes here. A line that finds no room in the ring is dropped
 //! whole, and nothing waits for the probe.
 
-use core::sync::atomic::{AtomicU32, Ordering};
+use core::sync::atomic::Ordering;
 
 use firmware::{Event, Place, SensorFault};
 use mlx90333::{Faults, FrameError};
+use whisking::motor;
 
-use super::clock::{ClockError, ResetCause};
-use super::scene;
-use super::timing::APB1_TIMER_HZ;
+use super::motion::Moves as _;
+use super::program::TICKS;
+use super::reset::{Cause, ClockError};
+use super::scene::{self, Moving};
+use super::touch::Names;
+use crate::here::CLOCKS;
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {
@@ -23,14 +27,11 @@ defmt::timestamp!("{=u32:ms}", {
         .wrapping_add(part * 1_000 / scene::TICK_HZ)
 });
 
-/// Ticks since the start; the tick counts, idle and the log read.
-pub(crate) static TICKS: AtomicU32 = AtomicU32::new(0);
-
-/// Counts of the clock in a tenth of a microsecond.
-const TENTH_US: u32 = APB1_TIMER_HZ / 10_000_000;
+/// Counts of the clock in a microsecond.
+const US: u32 = CLOCKS.counter_hz / 1_000_000;
 
 /// The first lines after a reset.
-pub(crate) fn start(cause: ResetCause) {
+pub(crate) fn start(cause: Cause) {
     defmt::info!(
         "whisker {=str}: scene {=str}, {=u32} ticks a second",
         env!("CARGO_PKG_VERSION"),
@@ -38,15 +39,15 @@ pub(crate) fn start(cause: ResetCause) {
         scene::TICK_HZ
     );
     match cause {
-        ResetCause::Watchdog => {
+        Cause::Watchdog => {
             defmt::warn!(
                 "reset by the watchdog: a fault (told above), or tick or idle stood still"
             );
         }
-        ResetCause::Software => defmt::info!("reset by software"),
-        ResetCause::Power => defmt::info!("reset by power-up"),
-        ResetCause::Pin => defmt::info!("reset by the reset pin"),
-        ResetCause::Other => defmt::info!("reset, cause unknown"),
+        Cause::Software => defmt::info!("reset by software"),
+        Cause::Power => defmt::info!("reset by power-up"),
+        Cause::Pin => defmt::info!("reset by the reset pin"),
+        Cause::Other => defmt::info!("reset, cause unknown"),
     }
 }
 
@@ -59,7 +60,6 @@ pub(crate) fn clock(error: ClockError) {
 }
 
 /// Last words where the classifier cannot start.
-#[cfg(not(perception = "none"))]
 pub(crate) fn model() {
     defmt::error!("the model in flash is damaged: flash again");
 }
@@ -77,7 +77,8 @@ pub(crate) struct Health {
 
 /// Once a second: the longest tick, and the limits that were passed since `before`.
 pub(crate) fn health(now: &Health, before: &Health) {
-    let tenths = now.worst / TENTH_US;
+    // In two steps, lest ten times the worst overflow.
+    let tenths = now.worst / US * 10 + now.worst % US * 10 / US;
     defmt::info!(
         "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
         tenths / 10,
@@ -95,15 +96,15 @@ pub(crate) fn health(now: &Health, before: &Health) {
 }
 
 /// One event of a tick.
-pub(crate) fn event(event: Event, names: &Names) {
+pub(crate) fn event(event: Event, names: &impl Names) {
     match event {
-        Event::Decision(decided) => names.decision(decided),
+        Event::Decision(decided) => names.tell(decided),
         Event::SensorLost(place, fault) => sensor_lost(place, fault),
         Event::SensorBack(place) => {
             defmt::info!("{=str} {=u8}: sensor is back", side(place), place.whisker);
         }
-        Event::MotorFault(place, fault) => motor_fault(place, fault),
-        Event::MotorRetry(place) => motor_retry(place),
+        Event::MotorFault(place, fault) => Moving::tell_fault(place, fault),
+        Event::MotorRetry(place) => Moving::tell_retry(place),
     }
 }
 
@@ -111,66 +112,45 @@ const fn side(place: Place) -> &'static str {
     if place.side == 0 { "left" } else { "right" }
 }
 
-/// What classes are called.
-pub(crate) struct Names {
-    /// The model in flash, which knows.
-    #[cfg(not(perception = "none"))]
-    pub(crate) model: tactile::Model<'static>,
+/// A decision for the class of that name.
+pub(crate) fn decision(name: &str, decided: tactile::Decision) {
+    // Percent with four decimals, rounded down: at most 99.9999.
+    let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
+    defmt::info!(
+        "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
+        name,
+        posterior / 10_000,
+        posterior % 10_000,
+        decided.samples()
+    );
 }
 
-impl Names {
-    #[cfg(not(perception = "none"))]
-    fn decision(&self, decided: tactile::Decision) {
-        // Percent with four decimals, rounded down: at most 99.9999.
-        let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
-        defmt::info!(
-            "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
-            self.model.name(decided.class()).unwrap_or("?"),
-            posterior / 10_000,
-            posterior % 10_000,
-            decided.samples()
-        );
-    }
-
-    #[cfg(perception = "none")]
-    #[allow(clippy::unused_self, reason = "with perception it is used")]
-    fn decision(&self, _: tactile::Decision) {}
-}
-
-#[cfg(motor = "none")]
-fn motor_fault(_: Place, _: whisking::motor::Fault) {}
-
-#[cfg(motor = "none")]
-fn motor_retry(_: Place) {}
-
-#[cfg(not(motor = "none"))]
-fn motor_fault(place: Place, fault: whisking::motor::Fault) {
-    use whisking::motor::Fault;
-
+/// A motor was switched off.
+pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
     let (side, whisker) = (side(place), place.whisker);
     let code = fault.code();
     match fault {
-        Fault::Pin => defmt::error!(
+        motor::Fault::Pin => defmt::error!(
             "{=str} {=u8}: fault {=u8}, a motor pin",
             side,
             whisker,
             code
         ),
-        Fault::Pwm => defmt::error!("{=str} {=u8}: fault {=u8}, PWM", side, whisker, code),
-        Fault::InvalidHall(hall) => defmt::error!(
+        motor::Fault::Pwm => defmt::error!("{=str} {=u8}: fault {=u8}, PWM", side, whisker, code),
+        motor::Fault::InvalidHall(hall) => defmt::error!(
             "{=str} {=u8}: fault {=u8}, impossible Hall code {=u8} (supply or cable of the Halls?)",
             side,
             whisker,
             code,
             hall
         ),
-        Fault::SkippedSector => defmt::error!(
+        motor::Fault::SkippedSector => defmt::error!(
             "{=str} {=u8}: fault {=u8}, Hall sectors skipped (too fast, noise, lines exchanged?)",
             side,
             whisker,
             code
         ),
-        Fault::Stall => defmt::error!(
+        motor::Fault::Stall => defmt::error!(
             "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)",
             side,
             whisker,
@@ -179,8 +159,8 @@ fn motor_fault(place: Place, fault: whisking::motor::Fault) {
     }
 }
 
-#[cfg(not(motor = "none"))]
-fn motor_retry(place: Place) {
+/// A motor is tried again after its rest.
+pub(crate) fn motor_retry(place: Place) {
     defmt::info!(
         "{=str} {=u8}: motor is tried again",
         side(place),

@@ -1,53 +1,56 @@
 //! Motor PWM: TIM1, edge aligned, one compare channel a phase.
 //!
 //! Compare values are buffered: a new duty takes effect at the next period.
-//! Written here rather than taken from the HAL because that lets the timer
-//! raise its outputs again by itself (AOE) after they were switched off.
+//! The timer may raise its outputs again by itself (AOE) in no case: what
+//! [`outputs`](super::outputs) took low stays low.
 
 use core::convert::Infallible;
 
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
-use stm32f4xx_hal::pac::{RCC, TIM1};
-use stm32f4xx_hal::rcc::{Enable, Reset};
+use stm32_metapac::TIM1;
+use stm32_metapac::timer::vals::{Ossi, Ossr};
 
-use super::timing::PWM_COUNTS;
+use crate::here::CLOCKS;
+
+const COUNTS: u16 = CLOCKS.pwm_counts();
+/// PWM mode 1: high while the count is below the compare value. As a number,
+/// because its type has another name in each version of the timer.
+const PWM_MODE_1: u8 = 6;
+/// Channels in use.
+const CHANNELS: usize = 3;
 
 /// Channel `C` + 1 of TIM1.
-pub struct Channel<const C: usize> {
-    timer: TIM1,
-}
+pub(crate) struct Channel<const C: usize>(());
 
 /// Starts the timer with all duties zero. The pins are the caller's.
-pub(crate) fn start(timer: TIM1, rcc: &mut RCC) -> (Channel<0>, Channel<1>, Channel<2>) {
-    TIM1::enable(rcc);
-    TIM1::reset(rcc);
-    timer.arr().write(|w| w.arr().set(PWM_COUNTS - 1));
-    timer.ccmr1_output().write(|w| {
-        w.oc1m().pwm_mode1().oc1pe().set_bit();
-        w.oc2m().pwm_mode1().oc2pe().set_bit()
+pub(crate) fn start() -> (Channel<0>, Channel<1>, Channel<2>) {
+    TIM1.arr().write(|w| w.set_arr(COUNTS - 1));
+    for pair in 0..CHANNELS.div_ceil(2) {
+        TIM1.ccmr_output(pair).write(|w| {
+            for channel in 0..2.min(CHANNELS - 2 * pair) {
+                w.set_ocm(channel, PWM_MODE_1.into());
+                w.set_ocpe(channel, true);
+            }
+        });
+    }
+    TIM1.ccer().write(|w| {
+        for channel in 0..CHANNELS {
+            w.set_cce(channel, true);
+        }
     });
-    timer
-        .ccmr2_output()
-        .write(|w| w.oc3m().pwm_mode1().oc3pe().set_bit());
-    timer
-        .ccer()
-        .write(|w| w.cc1e().set_bit().cc2e().set_bit().cc3e().set_bit());
     // With outputs off (a fault, a debugger) the timer drives its idle level,
     // low, instead of letting the pins float.
-    timer
-        .bdtr()
-        .write(|w| w.ossi().set_bit().ossr().set_bit().moe().set_bit());
-    timer.egr().write(|w| w.ug().set_bit());
-    timer.cr1().write(|w| w.arpe().set_bit().cen().set_bit());
-
-    #[allow(unsafe_code, reason = "one timer is shared by its channels")]
-    // SAFETY: from here on each channel writes its own compare register only.
-    let [second, third] = unsafe { [TIM1::steal(), TIM1::steal()] };
-    (
-        Channel { timer },
-        Channel { timer: second },
-        Channel { timer: third },
-    )
+    TIM1.bdtr().write(|w| {
+        w.set_ossi(Ossi::IDLE_LEVEL);
+        w.set_ossr(Ossr::IDLE_LEVEL);
+        w.set_moe(true);
+    });
+    TIM1.egr().write(|w| w.set_ug(true));
+    TIM1.cr1().write(|w| {
+        w.set_arpe(true);
+        w.set_cen(true);
+    });
+    (Channel(()), Channel(()), Channel(()))
 }
 
 impl<const C: usize> ErrorType for Channel<C> {
@@ -57,13 +60,13 @@ impl<const C: usize> ErrorType for Channel<C> {
 impl<const C: usize> SetDutyCycle for Channel<C> {
     #[inline]
     fn max_duty_cycle(&self) -> u16 {
-        PWM_COUNTS
+        COUNTS
     }
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        const { assert!(C < 4) };
-        self.timer.ccr(C).write(|w| w.ccr().set(duty));
+        const { assert!(C < CHANNELS) };
+        TIM1.ccr(C).write(|w| w.set_ccr(duty));
         Ok(())
     }
 }

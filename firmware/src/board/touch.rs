@@ -1,58 +1,125 @@
-//! What the module decides, as the scene names it: its type, its constants,
-//! and the names of the classes.
+//! What the module decides, as the scene names it: its type, its constants, its
+//! start, and the names of the classes.
 
-#[cfg(perception = "none")]
-mod perception {
-    /// No perception.
-    pub(crate) type Perception = ();
+use core::marker::PhantomData;
+
+use firmware::{Perception, Stream, Touch, TouchConfig};
+use tactile::{Classes, Decision, Model, SequentialRule, Supported, Threshold, WindowRule};
+
+use super::log;
+use super::scene::Number;
+
+/// Constants of a [`Decides`].
+pub(crate) type Config<D> = <<D as Decides>::Perception as Perception<Number, 1, 1>>::Config;
+
+/// How a module with one whisker decides what it touches.
+pub(crate) trait Decides {
+    /// Its type in the library.
+    type Perception: Perception<Number, 1, 1>;
+    /// What the classes are called.
+    type Names: Names;
 
     /// Its constants.
-    pub(crate) const CONFIG: () = ();
+    const CONFIG: Config<Self>;
+
+    /// Perception before its first sample; `None` if the flash is damaged: the
+    /// build has checked everything else.
+    fn start() -> Option<(Self::Perception, Self::Names)>;
 }
 
-#[cfg(not(perception = "none"))]
-mod perception {
-    use firmware::{Stream, Touch, TouchConfig};
-    use tactile::Model;
+/// What classes are called.
+pub(crate) trait Names: Send + 'static {
+    /// A line for a decision.
+    fn tell(&self, decided: Decision);
+}
 
-    use crate::board::scene;
+/// It does not.
+pub(crate) struct Nothing;
 
-    #[cfg(perception = "sequential")]
-    type Rule = tactile::SequentialRule;
-    #[cfg(perception = "window")]
-    type Rule = tactile::WindowRule;
+impl Decides for Nothing {
+    type Perception = ();
+    type Names = ();
 
-    /// One whisker and a classifier that reads its model in flash.
-    pub(crate) type Perception = Touch<Stream<'static, Rule, { scene::CLASSES }>>;
+    const CONFIG: () = ();
 
-    /// Its constants.
-    pub(crate) const CONFIG: TouchConfig<f32> = TouchConfig {
-        contact_min: scene::CONTACT_MIN,
+    fn start() -> Option<((), ())> {
+        Some(((), ()))
+    }
+}
+
+impl Names for () {
+    // What cannot happen has no words.
+    fn tell(&self, _: Decision) {}
+}
+
+/// The model in flash knows.
+impl Names for Model<'static> {
+    fn tell(&self, decided: Decision) {
+        log::decision(self.name(decided.class()).unwrap_or("?"), decided);
+    }
+}
+
+/// What a scene with a classifier says.
+pub(crate) trait Classifies {
+    /// Least contact during which samples count.
+    const CONTACT_MIN: Option<Number>;
+
+    /// The model in flash.
+    fn model() -> &'static [u8];
+}
+
+/// The posterior at which a scene's decisions fall.
+pub(crate) trait AtThreshold: Classifies {
+    /// The posterior.
+    const THRESHOLD: Threshold;
+}
+
+/// The samples that a scene's decisions take.
+pub(crate) trait ByWindow: Classifies {
+    /// Samples a decision, a multiple of the model's block.
+    const SAMPLES: u32;
+}
+
+/// One whisker, and a sequential classifier of `K` classes.
+pub(crate) struct Sequential<S, const K: usize>(PhantomData<S>);
+
+impl<S: AtThreshold, const K: usize> Decides for Sequential<S, K>
+where
+    Classes<K>: Supported,
+{
+    type Perception = Touch<Stream<'static, SequentialRule, K>>;
+    type Names = Model<'static>;
+
+    const CONFIG: TouchConfig<Number> = TouchConfig {
+        contact_min: S::CONTACT_MIN,
     };
 
-    /// The classifier before its first sample, and its model; `None` if the
-    /// flash is damaged: the build has checked everything else.
-    pub(crate) fn listen() -> Option<(Perception, Model<'static>)> {
-        let model = Model::parse(scene::model()).ok()?;
-        let stream = Stream::new(&model, classifier(&model)?).ok()?;
+    fn start() -> Option<(Self::Perception, Self::Names)> {
+        let model = Model::parse(S::model()).ok()?;
+        let classifier = tactile::Sequential::new(&model, S::THRESHOLD).ok()?;
+        let stream = Stream::new(&model, classifier).ok()?;
         Some((Touch::new(stream), model))
-    }
-
-    #[cfg(perception = "sequential")]
-    fn classifier(
-        model: &Model<'static>,
-    ) -> Option<tactile::Sequential<'static, 2, { scene::CLASSES }>> {
-        tactile::Sequential::new(model, scene::THRESHOLD).ok()
-    }
-
-    #[cfg(perception = "window")]
-    fn classifier(
-        model: &Model<'static>,
-    ) -> Option<tactile::Window<'static, 2, { scene::CLASSES }>> {
-        tactile::Window::new(model, scene::WINDOW).ok()
     }
 }
 
-#[cfg(not(perception = "none"))]
-pub(crate) use perception::listen;
-pub(crate) use perception::{CONFIG, Perception};
+/// One whisker, and a classifier of `K` classes by windows.
+pub(crate) struct Window<S, const K: usize>(PhantomData<S>);
+
+impl<S: ByWindow, const K: usize> Decides for Window<S, K>
+where
+    Classes<K>: Supported,
+{
+    type Perception = Touch<Stream<'static, WindowRule, K>>;
+    type Names = Model<'static>;
+
+    const CONFIG: TouchConfig<Number> = TouchConfig {
+        contact_min: S::CONTACT_MIN,
+    };
+
+    fn start() -> Option<(Self::Perception, Self::Names)> {
+        let model = Model::parse(S::model()).ok()?;
+        let classifier = tactile::Window::new(&model, S::SAMPLES).ok()?;
+        let stream = Stream::new(&model, classifier).ok()?;
+        Some((Touch::new(stream), model))
+    }
+}

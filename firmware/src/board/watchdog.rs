@@ -1,27 +1,26 @@
 //! The independent watchdog: resets the chip, and with it takes the motor's
 //! outputs off, when tick or idle stand still.
 
-use stm32f4xx_hal::pac::IWDG;
+use stm32_metapac::IWDG;
+use stm32_metapac::iwdg::vals::{Key, Pr};
 
-use super::timing::{CORE_HZ, WATCHDOG_COUNTS};
+use crate::here::CLOCKS;
 
 /// The running watchdog.
-pub(crate) struct Watchdog {
-    dog: IWDG,
-}
+pub(crate) struct Watchdog(());
 
 impl Watchdog {
     /// Starts it; nothing but a reset stops it.
-    pub(crate) fn start(dog: IWDG) -> Self {
-        dog.kr().write(|w| w.key().start());
-        dog.kr().write(|w| w.key().unlock());
-        dog.pr().write(|w| w.pr().divide_by4());
-        dog.rlr().write(|w| w.rl().set(WATCHDOG_COUNTS - 1));
+    pub(crate) fn start() -> Self {
+        key(Key::START);
+        key(Key::ENABLE);
+        IWDG.pr().write(|w| w.set_pr(Pr::DIVIDE_BY4));
+        IWDG.rlr().write(|w| w.set_rl(CLOCKS.watchdog_counts() - 1));
         // The settings cross into the watchdog's clock within five of its
         // cycles, 300 µs at most. Should they not, the settings after reset
         // hold, half a second.
-        let _ = (0..100_000).any(|_| dog.sr().read().bits() == 0);
-        let mut dog = Self { dog };
+        let _ = (0..100_000).any(|_| IWDG.sr().read().0 == 0);
+        let mut dog = Self(());
         dog.feed();
         dog
     }
@@ -29,8 +28,13 @@ impl Watchdog {
     /// Lets it begin its count anew.
     #[inline]
     pub(crate) fn feed(&mut self) {
-        self.dog.kr().write(|w| w.key().feed());
+        key(Key::RESET);
     }
+}
+
+#[inline]
+fn key(key: Key) {
+    IWDG.kr().write(|w| w.set_key(key));
 }
 
 /// How often a fault handler feeds before the reset, every quarter of a
@@ -38,18 +42,15 @@ impl Watchdog {
 const LAST_WORDS: u32 = 1_000;
 
 /// Gives the probe time to fetch the last words, then waits for the watchdog,
-/// started now if it was not: 13 to 38 ms more if it runs, up to a second
-/// otherwise.
+/// started now if it was not: some ten milliseconds more if it runs, up to a
+/// second otherwise.
 pub(crate) fn wait_for_reset() -> ! {
-    #[allow(unsafe_code, reason = "the owner of the watchdog will not run again")]
-    // SAFETY: the register takes keys only; starting a running watchdog changes nothing.
-    let dog = unsafe { IWDG::steal() };
     for _ in 0..LAST_WORDS {
-        dog.kr().write(|w| w.key().feed());
+        key(Key::RESET);
         // At a tenth of the clock, should the PLL have gone, this is in time too.
-        cortex_m::asm::delay(CORE_HZ / 4_000);
+        cortex_m::asm::delay(CLOCKS.core_hz / 4_000);
     }
-    dog.kr().write(|w| w.key().start());
+    key(Key::START);
     loop {
         cortex_m::asm::nop();
     }

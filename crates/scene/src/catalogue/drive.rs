@@ -54,9 +54,9 @@ pub(super) static WHISKING: Section = Section {
             Kind::Word(Numbers::NAMES),
             "",
             "\"auto\"",
-            "Number format of the simulated tick. `auto`: `f64` for `euler`, whose point is to be \
-             the papers', `f32` for `exact`, as on a board with an FPU; `fixed` is a board's \
-             without. A board has its own format.",
+            "Number format of the tick. `auto` in a simulation: `f64` for `euler`, whose point is \
+             to be the papers', `f32` for `exact`; `auto` on a board: `f32` with an FPU, else \
+             `fixed`. No board has `f64`, and only one with an FPU `f32`.",
         ),
     ],
 };

@@ -39,6 +39,7 @@ fn every_key_reaches_its_field() {
             gain: vec![0.5, 2.0],
             start: vec![[1.0, -1.5], [0.25, 0.5]],
             numbers: Numbers::Single,
+            numbers_said: Numbers::Auto,
         }),
         rcp: Some(Gate {
             gain: 0.7,

@@ -1,0 +1,18 @@
+//! The whisker module on a NUCLEO-G071RB: one whisker, the left. The board is
+//! `board/nucleo_g071rb.rs`, the program `board/program.rs`.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+#[path = "../board/mod.rs"]
+pub mod board;
+#[cfg(target_os = "none")]
+#[allow(dead_code, reason = "the build script asks for some of it")]
+#[path = "../board/nucleo_g071rb.rs"]
+mod here;
+
+#[cfg(target_os = "none")]
+program!(tick: TIM3, end_of_frame: DMA1_CHANNEL1);
+
+/// On a PC there is nothing to do: this program is for the board.
+#[cfg(not(target_os = "none"))]
+fn main() {}

@@ -1,0 +1,204 @@
+//! The NUCLEO-F103RB: STM32F103RB, Cortex-M3 at 72 MHz, no FPU.
+//!
+//! | for | peripheral | pins |
+//! |---|---|---|
+//! | sensor | SPI1, paced by TIM4, moved by DMA1 channels 2 and 7 | PA5 PA6 PA7, /SS PB6 |
+//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
+//! | angle | TIM2, 16 bits | PA0 PA1 |
+//! | tick | TIM3 | |
+//! | time | SysTick | |
+
+use crate::board::timing::Clocks;
+
+/// What messages call it.
+pub(crate) const NAME: &str = "NUCLEO-F103RB";
+/// Whether the core computes f32 by itself.
+pub(crate) const HAS_FPU: bool = false;
+
+/// The clock that the ST-LINK puts on the HSE input, Hz.
+const HSE_HZ: u32 = 8_000_000;
+/// PLL multiplier.
+const PLL_MUL: u8 = 9;
+/// Core clock, Hz: the chip's highest. The fast bus APB2 has it too.
+const CORE_HZ: u32 = HSE_HZ * PLL_MUL as u32;
+/// Clock of the slow peripheral bus APB1, Hz: half the core's, its highest.
+const APB1_HZ: u32 = CORE_HZ / 2;
+/// Wait states of the flash: one for each 24 MHz begun after the first.
+const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
+
+const _: () = assert!(CORE_HZ == 72_000_000 && APB1_HZ <= 36_000_000);
+
+/// Timers on APB1 count at twice the clock of their bus, those on APB2 at the
+/// bus clock itself, which is not divided.
+pub(crate) const CLOCKS: Clocks = Clocks {
+    core_hz: CORE_HZ,
+    spi_bus_hz: CORE_HZ,
+    pacer_hz: 2 * APB1_HZ,
+    ticker_hz: 2 * APB1_HZ,
+    counter_hz: CORE_HZ,
+    pwm_hz: CORE_HZ,
+    watchdog_hz: [30_000, 40_000, 60_000],
+}
+.checked();
+
+// 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
+const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_647);
+
+#[cfg(target_os = "none")]
+#[path = "gpio_v1.rs"]
+pub(crate) mod gpio;
+#[cfg(target_os = "none")]
+#[path = "mover_channels.rs"]
+pub(crate) mod mover;
+#[cfg(target_os = "none")]
+#[path = "spi_v1.rs"]
+pub(crate) mod spi;
+
+#[cfg(target_os = "none")]
+pub(crate) use chip::*;
+
+#[cfg(target_os = "none")]
+mod chip {
+    use cortex_m::peripheral::SCB;
+    use stm32_metapac::afio::vals::SwjCfg;
+    use stm32_metapac::flash::vals::Latency;
+    use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
+    use stm32_metapac::timer::TimGp16;
+    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, TIM2, TIM3, TIM4};
+
+    use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
+    use crate::board::counter::SysTick;
+    use crate::board::gpio::Function;
+    use crate::board::reset::{Cause, ClockError, wait};
+
+    /// Lets the SPI send a byte.
+    pub(crate) const PACER: TimGp16 = TIM4;
+    /// Makes the ticks.
+    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Counts the encoder's edges.
+    pub(crate) const ENCODER: TimGp16 = TIM2;
+    /// DMA1 channel 2, counted from 0: requested by SPI1_RX (RM0008, table 78).
+    pub(crate) const COLLECTOR: usize = 1;
+    /// DMA1 channel 7: requested by TIM4_UP.
+    pub(crate) const FEEDER: usize = 6;
+    /// Each pin has one alternate function without remapping: SPI1, TIM2, TIM1.
+    pub(crate) const SPI_PINS: Function = 0;
+    pub(crate) const ENCODER_PINS: Function = 0;
+    pub(crate) const MOTOR_PINS: Function = 0;
+
+    /// What [`ENCODER`] counts.
+    pub(crate) type EncoderCount = u16;
+
+    /// The encoder's count.
+    #[inline]
+    pub(crate) fn encoder_count() -> EncoderCount {
+        ENCODER.cnt().read().cnt()
+    }
+
+    /// Measures the ticks.
+    pub(crate) type Counter = SysTick;
+
+    /// Counts from now on.
+    pub(crate) fn start_counter(core: cortex_m::Peripherals) -> Counter {
+        SysTick::start(core.SYST)
+    }
+
+    /// Reads why the chip started and forgets it, so that the next start tells its own.
+    pub(crate) fn reset_cause() -> Cause {
+        let flags = RCC.csr().read();
+        RCC.csr().modify(|w| w.set_rmvf(true));
+        Cause::first([
+            (flags.iwdgrstf(), Cause::Watchdog),
+            (flags.sftrstf(), Cause::Software),
+            (flags.porrstf(), Cause::Power),
+            (flags.pinrstf(), Cause::Pin),
+        ])
+    }
+
+    /// Goes from the internal 8 MHz to [`super::CLOCKS`], has the chip raise
+    /// the non-maskable interrupt should the ST-LINK's clock stop, and lets the
+    /// timer of the tick run.
+    ///
+    /// # Errors
+    /// The clock that did not come.
+    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+        RCC.cr().modify(|w| w.set_hsebyp(true));
+        RCC.cr().modify(|w| w.set_hseon(true));
+        wait(ClockError::NoHse, || RCC.cr().read().hserdy())?;
+
+        // Wait states before the clock that needs them.
+        FLASH.acr().modify(|w| {
+            w.set_prftbe(true);
+            w.set_latency(Latency::from_bits(FLASH_WAIT_STATES));
+        });
+        const { assert!(PLL_MUL == 9 && APB1_HZ * 2 == CORE_HZ) };
+        RCC.cfgr().modify(|w| {
+            w.set_pllsrc(Pllsrc::HSE_DIV_PREDIV);
+            w.set_pllmul(Pllmul::MUL9);
+            w.set_ppre1(Ppre::DIV2);
+        });
+        RCC.cr().modify(|w| w.set_pllon(true));
+        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+        RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_P));
+        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_P)?;
+        RCC.cr().modify(|w| w.set_csson(true));
+
+        RCC.apb1enr().modify(|w| w.set_tim3en(true));
+        Ok(())
+    }
+
+    /// Clock for the ports, and for what says which pin does what.
+    pub(crate) fn clock_ports() {
+        RCC.apb2enr().modify(|w| {
+            w.set_gpioaen(true);
+            w.set_gpioben(true);
+            w.set_gpiocen(true);
+            w.set_afioen(true);
+        });
+    }
+
+    /// Clock for what reads the sensor.
+    pub(crate) fn clock_sensor() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apb1enr().modify(|w| w.set_tim4en(true));
+        RCC.apb2enr().modify(|w| w.set_spi1en(true));
+    }
+
+    /// Clock for motor and encoder.
+    pub(crate) fn clock_motor() {
+        RCC.apb1enr().modify(|w| w.set_tim2en(true));
+        RCC.apb2enr().modify(|w| w.set_tim1en(true));
+    }
+
+    /// The SPI as after a reset.
+    pub(crate) fn reset_spi() {
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+    }
+
+    /// PA15 and PB3 are the debugger's after a reset, for JTAG. The ST-LINK
+    /// needs the two other wires only.
+    pub(crate) fn free_hall_pins() {
+        AFIO.mapr().modify(|w| w.set_swj_cfg(SwjCfg::JTAG_DISABLE));
+    }
+
+    /// Keeps the log readable while the core sleeps, and lets a debugger that
+    /// halts the core stop the motor (TIM1 then takes its outputs low) and the
+    /// watchdog.
+    pub(crate) fn prepare_for_debuggers() {
+        DBGMCU.cr().modify(|w| {
+            w.set_dbg_sleep(true);
+            w.set_tim1(true);
+            w.set_iwdg(true);
+        });
+    }
+
+    /// What the core says of a hard fault: CFSR and HFSR.
+    pub(crate) fn fault_status() -> [u32; 2] {
+        #[allow(unsafe_code, reason = "nobody owns the SCB in a fault")]
+        // SAFETY: status registers; reading them has no effect.
+        unsafe {
+            [(*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()]
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The NUCLEO-F446RE: STM32F446RE, Cortex-M4F at 160 MHz.
+//!
+//! | for | peripheral | pins |
+//! |---|---|---|
+//! | sensor | SPI1, paced by TIM8, moved by DMA2 streams 0 and 1 | PA5 PA6 PA7, /SS PB6 |
+//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
+//! | angle | TIM2, 32 bits | PA0 PA1 |
+//! | tick | TIM3 | |
+//! | time | TIM5, 32 bits | |
+
+use crate::board::timing::Clocks;
+
+/// What messages call it.
+pub(crate) const NAME: &str = "NUCLEO-F446RE";
+/// Whether the core computes f32 by itself.
+pub(crate) const HAS_FPU: bool = true;
+
+/// The clock that the ST-LINK puts on the HSE input, Hz.
+const HSE_HZ: u32 = 8_000_000;
+/// PLL input divider: 2 MHz, the upper end of what the PLL takes, for least jitter.
+const PLL_M: u8 = 4;
+/// PLL multiplier: 320 MHz, inside the oscillator's 100 to 432 MHz.
+const PLL_N: u16 = 160;
+/// PLL output divider, towards the core.
+const PLL_P: u32 = 2;
+/// Core clock, Hz. Not the chip's 180 MHz: with 160 MHz the SPI clock is just
+/// under the sensor's limit, and the supply needs no over-drive.
+const CORE_HZ: u32 = HSE_HZ / PLL_M as u32 * PLL_N as u32 / PLL_P;
+/// Clock of the slow peripheral bus APB1, Hz: a quarter of the core's.
+const APB1_HZ: u32 = CORE_HZ / 4;
+/// Clock of the fast peripheral bus APB2, Hz: half the core's.
+const APB2_HZ: u32 = CORE_HZ / 2;
+/// Wait states of the flash: one for each 30 MHz begun after the first, at 2.7
+/// to 3.6 V.
+const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 30_000_000) as u8;
+
+const _: () = assert!(CORE_HZ == 160_000_000 && CORE_HZ <= 168_000_000);
+const _: () = assert!(APB1_HZ <= 45_000_000 && APB2_HZ <= 90_000_000);
+
+/// Timers count at twice the clock of their bus.
+pub(crate) const CLOCKS: Clocks = Clocks {
+    core_hz: CORE_HZ,
+    spi_bus_hz: APB2_HZ,
+    pacer_hz: 2 * APB2_HZ,
+    ticker_hz: 2 * APB1_HZ,
+    counter_hz: 2 * APB1_HZ,
+    pwm_hz: 2 * APB2_HZ,
+    watchdog_hz: [17_000, 32_000, 47_000],
+}
+.checked();
+
+// 25.6 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 75.6 µs at 1 kHz.
+const _: () = assert!(CLOCKS.slot_counts(2_000) == 8_000 && CLOCKS.slot_counts(1_000) == 12_096);
+
+#[cfg(target_os = "none")]
+#[path = "gpio_v2.rs"]
+pub(crate) mod gpio;
+#[cfg(target_os = "none")]
+#[path = "mover_streams.rs"]
+pub(crate) mod mover;
+#[cfg(target_os = "none")]
+#[path = "spi_v1.rs"]
+pub(crate) mod spi;
+
+#[cfg(target_os = "none")]
+pub(crate) use chip::*;
+
+#[cfg(target_os = "none")]
+mod chip {
+    use cortex_m::peripheral::SCB;
+    use firmware::Clock;
+    use stm32_metapac::flash::vals::Latency;
+    use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
+    use stm32_metapac::timer::{TimAdv, TimGp16, TimGp32};
+    use stm32_metapac::{DBGMCU, FLASH, RCC, TIM2, TIM3, TIM5, TIM8};
+
+    use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
+    use crate::board::gpio::Function;
+    use crate::board::reset::{Cause, ClockError, wait};
+
+    /// Lets the SPI send a byte.
+    pub(crate) const PACER: TimAdv = TIM8;
+    /// Makes the ticks.
+    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Counts the encoder's edges.
+    pub(crate) const ENCODER: TimGp32 = TIM2;
+    /// Alternate function of the SPI's pins, SPI1.
+    pub(crate) const SPI_PINS: Function = 5;
+    /// Of the encoder's pins, TIM2.
+    pub(crate) const ENCODER_PINS: Function = 1;
+    /// Of the PWM's pins, TIM1.
+    pub(crate) const MOTOR_PINS: Function = 1;
+
+    /// What [`ENCODER`] counts.
+    pub(crate) type EncoderCount = u32;
+
+    /// The encoder's count.
+    #[inline]
+    pub(crate) fn encoder_count() -> EncoderCount {
+        ENCODER.cnt().read()
+    }
+
+    /// TIM5, counting through 32 bits.
+    pub(crate) struct Counter(());
+
+    impl Clock for Counter {
+        #[inline]
+        fn now(&mut self) -> u32 {
+            TIM5.cnt().read()
+        }
+    }
+
+    /// Counts from now on.
+    pub(crate) fn start_counter(_: cortex_m::Peripherals) -> Counter {
+        TIM5.cr1().write(|w| w.set_cen(true));
+        Counter(())
+    }
+
+    /// Reads why the chip started and forgets it, so that the next start tells its own.
+    pub(crate) fn reset_cause() -> Cause {
+        let flags = RCC.csr().read();
+        RCC.csr().modify(|w| w.set_rmvf(true));
+        Cause::first([
+            (flags.wdgrstf(), Cause::Watchdog),
+            (flags.sftrstf(), Cause::Software),
+            (flags.porrstf() || flags.borrstf(), Cause::Power),
+            (flags.padrstf(), Cause::Pin),
+        ])
+    }
+
+    /// Goes from the internal 16 MHz to [`super::CLOCKS`], has the chip raise
+    /// the non-maskable interrupt should the ST-LINK's clock stop, and lets the
+    /// timers of the tick run.
+    ///
+    /// # Errors
+    /// The clock that did not come.
+    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+        RCC.cr().modify(|w| w.set_hsebyp(true));
+        RCC.cr().modify(|w| w.set_hseon(true));
+        wait(ClockError::NoHse, || RCC.cr().read().hserdy())?;
+
+        const { assert!(PLL_P == 2) };
+        RCC.pllcfgr().modify(|w| {
+            w.set_pllsrc(Pllsrc::HSE);
+            w.set_pllm(PLL_M.into());
+            w.set_plln(PLL_N.into());
+            w.set_pllp(Pllp::DIV2);
+        });
+        RCC.cr().modify(|w| w.set_pllon(true));
+        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+
+        // Wait states before the clock that needs them.
+        let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
+        FLASH.acr().modify(|w| {
+            w.set_prften(true);
+            w.set_icen(true);
+            w.set_dcen(true);
+            w.set_latency(wait_states);
+        });
+        wait(ClockError::NoPll, || {
+            FLASH.acr().read().latency() == wait_states
+        })?;
+        const { assert!(APB1_HZ * 4 == CORE_HZ && APB2_HZ * 2 == CORE_HZ) };
+        RCC.cfgr().modify(|w| {
+            w.set_ppre1(Ppre::DIV4);
+            w.set_ppre2(Ppre::DIV2);
+            w.set_sw(Sw::PLL1_P);
+        });
+        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_P)?;
+        RCC.cr().modify(|w| w.set_csson(true));
+
+        RCC.apb1enr().modify(|w| {
+            w.set_tim3en(true);
+            w.set_tim5en(true);
+        });
+        settle();
+        Ok(())
+    }
+
+    /// A peripheral answers two cycles after its clock came (errata sheet).
+    fn settle() {
+        cortex_m::asm::dsb();
+    }
+
+    /// Clock for the ports.
+    pub(crate) fn clock_ports() {
+        RCC.ahb1enr().modify(|w| {
+            w.set_gpioaen(true);
+            w.set_gpioben(true);
+            w.set_gpiocen(true);
+        });
+        settle();
+    }
+
+    /// Clock for what reads the sensor.
+    pub(crate) fn clock_sensor() {
+        RCC.ahb1enr().modify(|w| w.set_dma2en(true));
+        RCC.apb2enr().modify(|w| {
+            w.set_tim8en(true);
+            w.set_spi1en(true);
+        });
+        settle();
+    }
+
+    /// Clock for motor and encoder.
+    pub(crate) fn clock_motor() {
+        RCC.apb1enr().modify(|w| w.set_tim2en(true));
+        RCC.apb2enr().modify(|w| w.set_tim1en(true));
+        settle();
+    }
+
+    /// The SPI as after a reset.
+    pub(crate) fn reset_spi() {
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+    }
+
+    /// Setting a pin's mode takes it from the debugger on this chip.
+    pub(crate) fn free_hall_pins() {}
+
+    /// Keeps the log readable while the core sleeps, and lets a debugger that
+    /// halts the core stop the motor (TIM1 then takes its outputs low) and the
+    /// watchdog.
+    pub(crate) fn prepare_for_debuggers() {
+        DBGMCU.cr().modify(|w| w.set_dbg_sleep(true));
+        DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
+        DBGMCU.apb1fzr().modify(|w| w.set_iwdg(true));
+    }
+
+    /// What the core says of a hard fault: CFSR and HFSR.
+    pub(crate) fn fault_status() -> [u32; 2] {
+        #[allow(unsafe_code, reason = "nobody owns the SCB in a fault")]
+        // SAFETY: status registers; reading them has no effect.
+        unsafe {
+            [(*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()]
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! The NUCLEO-G071RB: STM32G071RB, Cortex-M0+ at 64 MHz, no FPU.
+//!
+//! | for | peripheral | pins |
+//! |---|---|---|
+//! | sensor | SPI1, paced by TIM6, moved by DMA1 channels 1 and 2 | PA5 PA6 PA7, /SS PB6 |
+//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
+//! | angle | TIM2, 32 bits | PA0 PA1 |
+//! | tick | TIM3 | |
+//! | time | SysTick | |
+
+use crate::board::timing::Clocks;
+
+/// What messages call it.
+pub(crate) const NAME: &str = "NUCLEO-G071RB";
+/// Whether the core computes f32 by itself.
+pub(crate) const HAS_FPU: bool = false;
+
+/// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
+/// board comes without a clock on the HSE input; so the tick is as exact as this.
+const HSI_HZ: u32 = 16_000_000;
+/// PLL multiplier: 128 MHz, inside the oscillator's 96 to 344 MHz. Its input
+/// is not divided: 2.66 to 16 MHz are allowed.
+const PLL_N: u8 = 8;
+/// PLL output divider, towards the core.
+const PLL_R: u32 = 2;
+/// Core clock, Hz: the chip's highest. Buses and timers have it too.
+const CORE_HZ: u32 = HSI_HZ * PLL_N as u32 / PLL_R;
+/// Wait states of the flash: one for each 24 MHz begun after the first, at the
+/// supply's range 1.
+const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
+
+const _: () = assert!(CORE_HZ == 64_000_000);
+
+/// All the same: no bus is divided.
+pub(crate) const CLOCKS: Clocks = Clocks {
+    core_hz: CORE_HZ,
+    spi_bus_hz: CORE_HZ,
+    pacer_hz: CORE_HZ,
+    ticker_hz: CORE_HZ,
+    counter_hz: CORE_HZ,
+    pwm_hz: CORE_HZ,
+    watchdog_hz: [29_500, 32_000, 34_000],
+}
+.checked();
+
+// 32 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 82 µs at 1 kHz.
+const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_200 && CLOCKS.slot_counts(1_000) == 5_248);
+
+#[cfg(target_os = "none")]
+#[path = "gpio_v2.rs"]
+pub(crate) mod gpio;
+#[cfg(target_os = "none")]
+#[path = "mover_channels.rs"]
+pub(crate) mod mover;
+#[cfg(target_os = "none")]
+#[path = "spi_v2.rs"]
+pub(crate) mod spi;
+
+#[cfg(target_os = "none")]
+pub(crate) use chip::*;
+
+#[cfg(target_os = "none")]
+mod chip {
+    use stm32_metapac::flash::vals::Latency;
+    use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
+    use stm32_metapac::timer::{TimBasic, TimGp16, TimGp32};
+    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, TIM2, TIM3, TIM6};
+
+    use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
+    use crate::board::counter::SysTick;
+    use crate::board::gpio::Function;
+    use crate::board::reset::{Cause, ClockError, wait};
+
+    /// Lets the SPI send a byte.
+    pub(crate) const PACER: TimBasic = TIM6;
+    /// Makes the ticks.
+    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Counts the encoder's edges.
+    pub(crate) const ENCODER: TimGp32 = TIM2;
+    /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
+    pub(crate) const COLLECTOR: usize = 0;
+    /// DMA1 channel 2.
+    pub(crate) const FEEDER: usize = 1;
+    /// Number of the request SPI1_RX (RM0444, table of the DMAMUX inputs).
+    const SPI1_RX: u8 = 16;
+    /// Of TIM6_UP.
+    const TIM6_UP: u8 = 38;
+    /// Alternate function of the SPI's pins, SPI1.
+    pub(crate) const SPI_PINS: Function = 0;
+    /// Of the encoder's pins, TIM2.
+    pub(crate) const ENCODER_PINS: Function = 2;
+    /// Of the PWM's pins, TIM1.
+    pub(crate) const MOTOR_PINS: Function = 2;
+
+    /// What [`ENCODER`] counts.
+    pub(crate) type EncoderCount = u32;
+
+    /// The encoder's count.
+    #[inline]
+    pub(crate) fn encoder_count() -> EncoderCount {
+        ENCODER.cnt().read()
+    }
+
+    /// Measures the ticks.
+    pub(crate) type Counter = SysTick;
+
+    /// Counts from now on.
+    pub(crate) fn start_counter(core: cortex_m::Peripherals) -> Counter {
+        SysTick::start(core.SYST)
+    }
+
+    /// Reads why the chip started and forgets it, so that the next start tells its own.
+    pub(crate) fn reset_cause() -> Cause {
+        let flags = RCC.csr().read();
+        RCC.csr().modify(|w| w.set_rmvf(true));
+        Cause::first([
+            (flags.iwdgrstf(), Cause::Watchdog),
+            (flags.sftrstf(), Cause::Software),
+            (flags.pwrrstf(), Cause::Power),
+            (flags.pinrstf(), Cause::Pin),
+        ])
+    }
+
+    /// Goes from the internal 16 MHz to [`super::CLOCKS`], and lets the timer
+    /// of the tick run.
+    ///
+    /// # Errors
+    /// The clock that did not come.
+    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+        const { assert!(PLL_N == 8 && PLL_R == 2) };
+        RCC.pllcfgr().write(|w| {
+            w.set_pllsrc(Pllsrc::HSI);
+            w.set_pllm(Pllm::DIV1);
+            w.set_plln(Plln::MUL8);
+            w.set_pllr(Pllr::DIV2);
+            w.set_pllren(true);
+        });
+        RCC.cr().modify(|w| w.set_pllon(true));
+        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+
+        // Wait states before the clock that needs them.
+        let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
+        FLASH.acr().modify(|w| {
+            w.set_prften(true);
+            w.set_icen(true);
+            w.set_latency(wait_states);
+        });
+        wait(ClockError::NoPll, || {
+            FLASH.acr().read().latency() == wait_states
+        })?;
+        RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_R));
+        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_R)?;
+
+        RCC.apbenr1().modify(|w| w.set_tim3en(true));
+        settle();
+        Ok(())
+    }
+
+    /// A peripheral answers two cycles after its clock came (RM0444).
+    fn settle() {
+        cortex_m::asm::dsb();
+    }
+
+    /// Clock for the ports.
+    pub(crate) fn clock_ports() {
+        RCC.gpioenr().modify(|w| {
+            w.set_gpioaen(true);
+            w.set_gpioben(true);
+            w.set_gpiocen(true);
+        });
+        settle();
+    }
+
+    /// Clock for what reads the sensor, and the routes of its DMA requests.
+    pub(crate) fn clock_sensor() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apbenr1().modify(|w| w.set_tim6en(true));
+        RCC.apbenr2().modify(|w| w.set_spi1en(true));
+        settle();
+        DMAMUX1.ccr(COLLECTOR).write(|w| w.set_dmareq_id(SPI1_RX));
+        DMAMUX1.ccr(FEEDER).write(|w| w.set_dmareq_id(TIM6_UP));
+    }
+
+    /// Clock for motor and encoder.
+    pub(crate) fn clock_motor() {
+        RCC.apbenr1().modify(|w| w.set_tim2en(true));
+        RCC.apbenr2().modify(|w| w.set_tim1en(true));
+        settle();
+    }
+
+    /// The SPI as after a reset.
+    pub(crate) fn reset_spi() {
+        RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
+        RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
+    }
+
+    /// The debugger has no claim to them on this chip.
+    pub(crate) fn free_hall_pins() {}
+
+    /// Keeps the log readable while the core sleeps, and lets a debugger that
+    /// halts the core stop the motor (TIM1 then takes its outputs low) and the
+    /// watchdog.
+    pub(crate) fn prepare_for_debuggers() {
+        RCC.apbenr1().modify(|w| w.set_dbgen(true));
+        settle();
+        // Sleep needs no bit here: the debug port has its clock in sleep too.
+        DBGMCU.apb1fzr().modify(|w| w.set_iwdg(true));
+        DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
+    }
+
+    /// What the core says of a hard fault: nothing, on a Cortex-M0+.
+    pub(crate) fn fault_status() -> [u32; 2] {
+        [0; 2]
+    }
+}

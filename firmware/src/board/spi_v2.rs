@@ -1,0 +1,39 @@
+//! SPI controllers with a queue of four bytes (STM32G0).
+
+use stm32_metapac::SPI1;
+use stm32_metapac::spi::vals::{Br, Cpha, Ds, Frxth, Mstr};
+
+/// Mode 1, most significant bit first, bytes, the slowest clock
+/// ([`SPI_DIVIDER`](crate::board::timing::SPI_DIVIDER)); /SS is ours.
+pub(crate) fn set_up() {
+    SPI1.cr2().write(|w| {
+        w.set_ds(Ds::BITS8);
+        // Each byte is reported, not each pair.
+        w.set_frxth(Frxth::QUARTER);
+        w.set_rxdmaen(true);
+    });
+    SPI1.cr1().write(|w| {
+        w.set_mstr(Mstr::MASTER);
+        w.set_ssm(true);
+        w.set_ssi(true);
+        w.set_cpha(Cpha::SECOND_EDGE);
+        w.set_br(Br::DIV256);
+        w.set_spe(true);
+    });
+}
+
+/// Where bytes go and come from.
+pub(crate) fn data_register() -> u32 {
+    // Pointers have 32 bits on these chips.
+    SPI1.dr8().as_ptr() as u32
+}
+
+/// Throws away bytes that were left over, at most the four of the queue.
+#[inline]
+pub(crate) fn drain() {
+    for _ in 0..4 {
+        if SPI1.sr().read().rxne() {
+            let _ = SPI1.dr8().read();
+        }
+    }
+}
