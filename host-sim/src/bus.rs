@@ -191,6 +191,18 @@ impl Slave {
         });
     }
 
+    /// Latches a frame, for a master that clocks it byte by byte itself. On
+    /// those wires there is no controller to fail: [`WireFault::Bus`] reads as
+    /// [`WireFault::Silent`].
+    pub fn select(&self) -> Exchange {
+        let (frame, fault) = self.0.borrow_mut().select();
+        let frame = match fault {
+            Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
+            _ => frame,
+        };
+        Exchange::new(frame, fault)
+    }
+
     /// What has gone over the bus so far.
     pub fn traffic(&self) -> Traffic {
         self.0.borrow().traffic
@@ -221,7 +233,8 @@ pub struct SimSpi {
 }
 
 /// One transaction: the frame latched at its start, byte by byte.
-struct Exchange {
+#[derive(Debug)]
+pub struct Exchange {
     frame: std::array::IntoIter<u8, FRAME_LEN>,
     held_low: bool,
     /// What noise inverts, in the same positions.
@@ -244,7 +257,7 @@ impl Exchange {
     }
 
     /// Eight clocks: what the master reads while it sends a byte.
-    fn byte(&mut self, sent: u8) -> u8 {
+    pub fn byte(&mut self, sent: u8) -> u8 {
         self.bytes += 1;
         let answered = self.frame.next().unwrap_or(RELEASED);
         let line = if self.held_low { 0 } else { sent & answered };

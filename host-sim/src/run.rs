@@ -84,25 +84,32 @@ impl<'m> Run<'m> {
     /// # Errors
     /// [`Error::Work`] if the module cannot be put together.
     pub fn new(scene: &Scene, listener: Option<AnyListener<'m>>) -> Result<Self, Error> {
-        let sides = scene.head.sides.count();
-        let whiskers = scene.head.whiskers_per_side;
-        let slaves: Vec<Slave> = (0..sides * whiskers).map(|_| Slave::new()).collect();
+        let slaves: Vec<Slave> = (0..scene.whiskers()).map(|_| Slave::new()).collect();
         let (world, drives) = World::new(scene)?;
         let parts = Parts {
             slaves: slaves.clone(),
             drives,
             listener,
         };
+        let bench = bench::build(scene, parts)?;
+        Ok(Self::of(scene, bench, slaves, world))
+    }
+
+    /// A scene before its first tick, its module being `bench`: with a sensor
+    /// in `slaves` for every whisker, left side first, in `world`.
+    pub fn of(scene: &Scene, bench: Box<dyn Bench + 'm>, slaves: Vec<Slave>, world: World) -> Self {
+        let sides = scene.head.sides.count();
+        let whiskers = scene.head.whiskers_per_side;
         let absent = |side: usize, value: f64| if side < sides { value } else { f64::NAN };
         let pair = |value: f64| [absent(0, value), absent(1, value)];
         let rest = pair(whisking::REST_DEG);
-        Ok(Self {
+        Self {
             tick_hz: f64::from(scene.tick_hz),
             ticks: scene.ticks(),
             done: 0,
             sides,
             whiskers,
-            bench: bench::build(scene, parts)?,
+            bench,
             slaves,
             world,
             presented: Presented::new(scene),
@@ -122,7 +129,7 @@ impl<'m> Run<'m> {
                 x: pair(0.0),
                 y: pair(0.0),
             },
-        })
+        }
     }
 
     /// How many ticks the scene lasts.

@@ -1,11 +1,12 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
+use firmware::design_parameters::stall;
 use scene::{Driver, PlantKind, Scene, Texture};
-use whisking::motor::{HBridge, SixStep, SixStepConfig};
+use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 
 use crate::Error;
 use crate::bench::{AnyAngle, AnyMotor, IdealMotor};
-use crate::motor::{MotorSettings, SimMotor};
+use crate::motor::{Brushed, Brushless, MotorSettings, SimMotor};
 use crate::plant::{self, Ideal, Plant, Textured, TexturedSettings};
 
 /// The motors of all whiskers and the surface they meet.
@@ -30,12 +31,59 @@ enum Motors {
 
 type Drives = Vec<(AnyMotor, AnyAngle)>;
 
+/// The ends of a motor's wires that a board has.
+#[derive(Debug)]
+pub enum Pins {
+    /// None: the motor is wherever it should be, and only counts.
+    Ideal(IdealMotor),
+    /// An H-bridge and an encoder.
+    Brushed(Brushed),
+    /// Three half-bridges, three Hall sensors and an encoder.
+    Brushless(Brushless),
+}
+
+impl Pins {
+    /// The firmware's driver and angle input on these pins, set up as on a board.
+    fn driven(self, stall: StallConfig) -> (AnyMotor, AnyAngle) {
+        match self {
+            Self::Ideal(motor) => (AnyMotor(Box::new(motor.clone())), AnyAngle(Box::new(motor))),
+            Self::Brushed(pins) => {
+                let driver = HBridge::new(pins.pwm, pins.dir).with_buffered_pwm();
+                (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))
+            }
+            Self::Brushless(pins) => {
+                let config = SixStepConfig {
+                    stall,
+                    ..SixStepConfig::DEFAULT
+                };
+                let driver = SixStep::new(pins.pwms, pins.enables, pins.halls, config);
+                let driver = driver.with_buffered_pwm();
+                (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))
+            }
+        }
+    }
+}
+
 impl World {
     /// The world of `scene`, and the module's side of its motors, left side first.
     ///
     /// # Errors
     /// [`Error::Work`] if the simulation refuses a setting.
     pub fn new(scene: &Scene) -> Result<(Self, Drives), Error> {
+        let (world, pins) = Self::wired(scene)?;
+        let threshold = scene.motor.as_ref().map_or(0, plan::stall_q15);
+        let drives = pins
+            .into_iter()
+            .map(|pins| pins.driven(stall(scene.tick_hz, threshold)));
+        Ok((world, drives.collect()))
+    }
+
+    /// The world of `scene`, and the wires of its motors, left side first; none
+    /// where the whiskers are passive.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the simulation refuses a setting.
+    pub fn wired(scene: &Scene) -> Result<(Self, Vec<Pins>), Error> {
         let broken = |error: &dyn std::error::Error| Error::Work(error.to_string());
         let sides = scene.head.sides.count();
         let mut head = plant::Head::free(sides, scene.head.whiskers_per_side);
@@ -43,18 +91,18 @@ impl World {
             head.obstacle_deg.clone_from(&obstacle.deg);
             head.stiffness = obstacle.stiffness;
         }
-        let (surface, motors, drives) = match scene.plant.kind {
+        let (surface, motors, pins) = match scene.plant.kind {
             PlantKind::Ideal => {
                 let surface = Ideal::new(head).map_err(|error| broken(&error))?;
-                let (motors, drives) = ideal_motors(scene);
-                (Surface::Ideal(surface), motors, drives)
+                let (motors, pins) = ideal_motors(scene);
+                (Surface::Ideal(surface), motors, pins)
             }
             PlantKind::Textured => {
                 let settings = TexturedSettings::default();
                 let surface =
                     Textured::new(head, settings, scene.seed).map_err(|error| broken(&error))?;
-                let (motors, drives) = real_motors(scene)?;
-                (Surface::Textured(Box::new(surface)), motors, drives)
+                let (motors, pins) = real_motors(scene)?;
+                (Surface::Textured(Box::new(surface)), motors, pins)
             }
         };
         let angles_deg = vec![whisking::REST_DEG; scene.whiskers()];
@@ -64,7 +112,7 @@ impl World {
                 motors,
                 angles_deg,
             },
-            drives,
+            pins,
         ))
     }
 
@@ -118,7 +166,7 @@ impl World {
     }
 }
 
-fn ideal_motors(scene: &Scene) -> (Motors, Drives) {
+fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     let Some(motor) = &scene.motor else {
         return (Motors::None, Vec::new());
     };
@@ -126,19 +174,11 @@ fn ideal_motors(scene: &Scene) -> (Motors, Drives) {
     let motors: Vec<_> = (0..scene.whiskers())
         .map(|_| IdealMotor::new(counts_per_deg))
         .collect();
-    let drives = motors
-        .iter()
-        .map(|motor| {
-            (
-                AnyMotor(Box::new(motor.clone())),
-                AnyAngle(Box::new(motor.clone())),
-            )
-        })
-        .collect();
-    (Motors::Ideal(motors), drives)
+    let pins = motors.iter().cloned().map(Pins::Ideal).collect();
+    (Motors::Ideal(motors), pins)
 }
 
-fn real_motors(scene: &Scene) -> Result<(Motors, Drives), Error> {
+fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {
     let Some(motor) = &scene.motor else {
         return Ok((Motors::None, Vec::new()));
     };
@@ -148,26 +188,20 @@ fn real_motors(scene: &Scene) -> Result<(Motors, Drives), Error> {
         ..MotorSettings::default()
     };
     let refused = |error| Error::Work(format!("motor: {error}"));
-    let (mut motors, mut drives): (Vec<SimMotor>, Drives) = (Vec::new(), Vec::new());
+    let (mut motors, mut all): (Vec<SimMotor>, Vec<Pins>) = (Vec::new(), Vec::new());
     for _ in 0..scene.whiskers() {
-        let (sim, driver, encoder): (_, AnyMotor, _) = match motor.driver {
+        let (sim, pins) = match motor.driver {
             Driver::HBridge => {
                 let (sim, pins) = SimMotor::brushed(settings).map_err(refused)?;
-                (
-                    sim,
-                    AnyMotor(Box::new(HBridge::new(pins.pwm, pins.dir))),
-                    pins.encoder,
-                )
+                (sim, Pins::Brushed(pins))
             }
             Driver::SixStep => {
                 let (sim, pins) = SimMotor::brushless(settings).map_err(refused)?;
-                let config = SixStepConfig::DEFAULT;
-                let driver = SixStep::new(pins.pwms, pins.enables, pins.halls, config);
-                (sim, AnyMotor(Box::new(driver)), pins.encoder)
+                (sim, Pins::Brushless(pins))
             }
         };
         motors.push(sim);
-        drives.push((driver, AnyAngle(Box::new(encoder))));
+        all.push(pins);
     }
-    Ok((Motors::Real(motors), drives))
+    Ok((Motors::Real(motors), all))
 }

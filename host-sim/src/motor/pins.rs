@@ -13,8 +13,9 @@ use firmware::AngleInput;
 
 use super::Wire;
 
-/// Duty of a PWM channel that is fully on: a 180 MHz timer at 45 kHz.
-pub const PWM_MAX: u16 = 4000;
+/// Duty of a PWM channel that is fully on: the NUCLEO-F446RE's timer of 160 MHz
+/// at 20 kHz, so that its steps are the board's.
+pub const PWM_MAX: u16 = 8000;
 
 /// What the pins carry.
 #[derive(Debug)]

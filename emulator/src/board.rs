@@ -1,0 +1,291 @@
+//! The machine with host-sim's sensor and motor on its pins, as a module that
+//! host-sim's runs can drive.
+//!
+//! A tick of the simulation is from the return of the tick's handler to its
+//! next return. Between two, the core asleep, the world moves on by a tick at
+//! once, as in host-sim: the motor follows the pins as the tick left them, the
+//! plant follows the motor, and the sensor is set. The frame that was begun in
+//! the tick before clocks its first byte a slot (50 µs or more) after /SS has
+//! fallen, so it latches the new deflection, as long as a tick is shorter than
+//! that; the next tick uses it. So tick n uses the deflection after tick n − 1
+//! on the board as on the PC. In the first tick there is no frame yet, and the
+//! module takes the sensor to be at rest, which in host-sim's first tick it is.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use embedded_hal::digital::{InputPin, OutputPin};
+use embedded_hal::pwm::SetDutyCycle;
+use firmware::{AngleInput, Event};
+use host_sim::bench::{Bench, Snapshot};
+use host_sim::bus::{Exchange, Slave};
+use host_sim::motor::{PWM_MAX, SimPwm};
+use host_sim::world::Pins;
+
+use crate::chip::{Fault, Ps, ResetCause, Sensor};
+use crate::machine::{Machine, Observer, Stop};
+use crate::meter::{Figures, Meter};
+use crate::program::Program;
+use crate::watch::Watch;
+
+/// The sensor on its wires: host-sim's slave.
+#[derive(Debug)]
+struct Wired {
+    slave: Slave,
+    exchange: Option<Exchange>,
+}
+
+impl Sensor for Wired {
+    fn latch(&mut self) {
+        self.exchange = Some(self.slave.select());
+    }
+
+    fn exchange(&mut self, sent: u8) -> u8 {
+        self.exchange
+            .as_mut()
+            .map_or(0xFF, |exchange| exchange.byte(sent))
+    }
+}
+
+/// The emulated board and what hangs on it.
+#[derive(Debug)]
+pub struct Board {
+    machine: Machine,
+    watch: Watch,
+    sensor: Wired,
+    pins: Option<Pins>,
+    log: Vec<u8>,
+    reset: Option<ResetCause>,
+}
+
+/// Longer than the slowest tick with anything that may delay it.
+const PATIENCE: Ps = 1_000_000_000_000;
+
+fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
+    let scaled = u64::from(on) * u64::from(PWM_MAX) / u64::from(period.max(1));
+    let Ok(()) = pwm.set_duty_cycle(scaled as u16);
+}
+
+impl Board {
+    /// A board with `program` in its flash, a sensor, and a motor where the
+    /// program drives one; started, and before its first tick.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] if the program is not what the emulator needs; what
+    /// the machine cannot go along with.
+    pub fn new(program: &Program, slave: Slave, pins: Option<Pins>) -> Result<Self, Fault> {
+        let mut board = Self {
+            machine: Machine::new(program)?,
+            watch: Watch::new(program)?,
+            sensor: Wired {
+                slave,
+                exchange: None,
+            },
+            pins,
+            log: Vec::new(),
+            reset: None,
+        };
+        match board.machine.run(PATIENCE, &mut board.sensor, &mut ())? {
+            Stop::Ready => {}
+            Stop::Reset(cause) => return Err(Fault::Reset(cause)),
+            Stop::Tick | Stop::Time => return Err(Fault::Asleep),
+        }
+        board.watch.keep_evidence(board.machine.memories())?;
+        Ok(board)
+    }
+
+    /// Runs to the end of the next tick, through resets if they are borne.
+    ///
+    /// # Errors
+    /// What the machine cannot go along with, or no tick within a second.
+    pub fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
+        self.inputs();
+        let limit = self.machine.now() + PATIENCE;
+        loop {
+            let stop = self.machine.run(limit, &mut self.sensor, observer)?;
+            match stop {
+                Stop::Tick => break,
+                Stop::Ready => {}
+                Stop::Time => return Err(Fault::Asleep),
+                Stop::Reset(cause) => {
+                    self.reset = Some(cause);
+                    self.watch.restart();
+                }
+            }
+            self.drain()?;
+        }
+        self.outputs();
+        self.drain()
+    }
+
+    /// Ticks that the module has counted as missed since it started.
+    ///
+    /// # Errors
+    /// [`Fault::Memory`] if that is not in RAM.
+    pub fn missed(&self) -> Result<u32, Fault> {
+        self.watch.missed(self.machine.memories())
+    }
+
+    /// The machine, for whoever wants to disturb or measure it.
+    pub const fn machine_mut(&mut self) -> &mut Machine {
+        &mut self.machine
+    }
+
+    /// What reset the chip since the last call.
+    pub const fn take_reset(&mut self) -> Option<ResetCause> {
+        self.reset.take()
+    }
+
+    /// What has been logged since the last call, as the probe fetched it.
+    pub fn take_log(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.log)
+    }
+
+    fn drain(&mut self) -> Result<(), Fault> {
+        self.log.extend(self.machine.drain_log()?);
+        Ok(())
+    }
+
+    /// Brings angle and Hall sensors to the chip's pins.
+    fn inputs(&mut self) {
+        let (position, halls) = match &mut self.pins {
+            None => return,
+            Some(Pins::Ideal(motor)) => (motor.counts(), None),
+            Some(Pins::Brushed(pins)) => (pins.encoder.counts(), None),
+            Some(Pins::Brushless(pins)) => {
+                let (a, b, c) = &mut pins.halls;
+                let halls = [a.is_high(), b.is_high(), c.is_high()];
+                (pins.encoder.counts(), Some(halls.map(|Ok(high)| high)))
+            }
+        };
+        self.machine.with_chip(|chip| {
+            chip.set_encoder(position);
+            if let Some(halls) = halls {
+                chip.set_halls(halls);
+            }
+        });
+    }
+
+    /// Brings the chip's motor pins to the motor.
+    fn outputs(&mut self) {
+        let (duties, (direction, enables)) = self
+            .machine
+            .with_chip(|chip| (chip.motor_duties(), chip.motor_pins()));
+        match &mut self.pins {
+            None | Some(Pins::Ideal(_)) => {}
+            Some(Pins::Brushed(pins)) => {
+                set_pwm(&mut pins.pwm, duties[0]);
+                let Ok(()) = pins.dir.set_state(direction.into());
+            }
+            Some(Pins::Brushless(pins)) => {
+                let (a, b, c) = &mut pins.pwms;
+                for (pwm, duty) in [a, b, c].into_iter().zip(duties) {
+                    set_pwm(pwm, duty);
+                }
+                let (a, b, c) = &mut pins.enables;
+                for (pin, high) in [a, b, c].into_iter().zip(enables) {
+                    let Ok(()) = pin.set_state(high.into());
+                }
+            }
+        }
+    }
+}
+
+/// The board as host-sim's runs see it. What goes wrong is kept for
+/// [`Emulated::check`]; after that the board stands still.
+#[derive(Debug, Clone)]
+pub struct Emulated(Rc<RefCell<Inner>>);
+
+#[derive(Debug)]
+struct Inner {
+    board: Board,
+    meter: Meter,
+    bears_resets: bool,
+    fault: Option<Fault>,
+}
+
+impl Emulated {
+    /// A board before its first tick.
+    pub fn new(board: Board) -> Self {
+        Self(Rc::new(RefCell::new(Inner {
+            board,
+            meter: Meter::default(),
+            bears_resets: false,
+            fault: None,
+        })))
+    }
+
+    /// The fault that has stopped the board.
+    ///
+    /// # Errors
+    /// That fault; a reset is one too.
+    pub fn check(&self) -> Result<(), Fault> {
+        self.0.borrow().fault.clone().map_or(Ok(()), Err)
+    }
+
+    /// What has been logged since the last call.
+    pub fn take_log(&self) -> Vec<u8> {
+        self.0.borrow_mut().board.take_log()
+    }
+
+    /// From now on a reset is no fault.
+    pub fn bear_resets(&self) {
+        self.0.borrow_mut().bears_resets = true;
+    }
+
+    /// Works on the board between two ticks.
+    pub fn with_board<T>(&self, work: impl FnOnce(&mut Board) -> T) -> T {
+        work(&mut self.0.borrow_mut().board)
+    }
+
+    /// How the ticks have kept their time.
+    pub fn figures(&self) -> Figures {
+        self.0.borrow().meter.figures().clone()
+    }
+}
+
+impl Inner {
+    fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {
+        if self.fault.is_some() {
+            return T::default();
+        }
+        work(self).unwrap_or_else(|fault| {
+            self.fault = Some(fault);
+            T::default()
+        })
+    }
+
+    fn tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
+        self.board.tick(&mut self.meter)?;
+        let board = &mut self.board;
+        if let Some(cause) = board.reset
+            && !self.bears_resets
+        {
+            return Err(Fault::Reset(cause));
+        }
+        self.meter.logged(board.machine.log_position()?);
+        let decisions = board.watch.decisions(board.machine.memories())?;
+        events.extend(decisions.into_iter().map(Event::Decision));
+        Ok(())
+    }
+}
+
+impl Bench for Emulated {
+    fn tick(&mut self, events: &mut Vec<Event>) {
+        self.0.borrow_mut().attempt(|inner| inner.tick(events));
+    }
+
+    fn look(&self, snapshot: &mut Snapshot) {
+        self.0.borrow_mut().attempt(|inner| {
+            let board = &inner.board;
+            board.watch.look(board.machine.memories(), snapshot)
+        });
+    }
+
+    fn forget(&mut self) {
+        self.0.borrow_mut().attempt(|inner| {
+            let board = &inner.board;
+            board.watch.forget(board.machine.memories())
+        });
+    }
+}

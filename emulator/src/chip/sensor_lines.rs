@@ -1,0 +1,97 @@
+//! The sensor's wires as the chip drives them, and whether the sensor bears it.
+//!
+//! The driver's waits are held against the sensor's data: start-up, clock,
+//! gaps between bytes. (The time that /SS must be high between frames is not
+//! known for this sensor; what stands in its sister's data is for the first.)
+
+use mlx90333::timing::{BYTE_GAP_FAST_NS, CLOCK_MAX_HZ, START_UP_US};
+
+use super::Ps;
+use super::fault::Fault;
+
+/// The sensor's end of the wires.
+pub trait Sensor {
+    /// A frame begins: the sensor takes what it will answer with.
+    fn latch(&mut self);
+
+    /// Eight clocks: what is on the line while the master sends `sent`.
+    fn exchange(&mut self, sent: u8) -> u8;
+}
+
+const fn ps(nanoseconds: u32) -> Ps {
+    nanoseconds as Ps * 1_000
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct SensorLines {
+    selected: bool,
+    /// No byte has been clocked since /SS fell.
+    fresh: bool,
+    /// When the last byte ended.
+    ended: Option<Ps>,
+    /// When the byte that the sensor has been told of began.
+    told: Option<Ps>,
+    powered: Ps,
+}
+
+impl SensorLines {
+    pub(super) const fn new(powered: Ps) -> Self {
+        Self {
+            selected: false,
+            fresh: false,
+            ended: None,
+            told: None,
+            powered,
+        }
+    }
+
+    /// /SS is at this level now.
+    pub(super) const fn select(&mut self, low: bool) {
+        if low && !self.selected {
+            self.fresh = true;
+            self.ended = None;
+        }
+        self.selected = low;
+    }
+
+    /// A byte began: the first of a frame makes the sensor latch.
+    ///
+    /// # Errors
+    /// [`Fault::Wires`] if it comes too early or too fast.
+    pub(super) fn begin(
+        &mut self,
+        began: Ps,
+        bit: Ps,
+        sensor: &mut dyn Sensor,
+    ) -> Result<(), Fault> {
+        if self.told == Some(began) || !self.selected {
+            return Ok(());
+        }
+        self.told = Some(began);
+        if bit * Ps::from(CLOCK_MAX_HZ) < 1_000_000_000_000 {
+            return Err(Fault::Wires("the clock is too fast"));
+        }
+        if began < self.powered + ps(START_UP_US * 1_000) {
+            return Err(Fault::Wires("a frame within the sensor's start-up"));
+        }
+        let gap = self.ended.map(|ended| began.saturating_sub(ended));
+        if gap.is_some_and(|gap| gap < ps(BYTE_GAP_FAST_NS)) {
+            return Err(Fault::Wires("the gap between two bytes is too short"));
+        }
+        if self.fresh {
+            self.fresh = false;
+            sensor.latch();
+        }
+        Ok(())
+    }
+
+    /// A byte ended: what the master has read.
+    pub(super) fn end(&mut self, sent: u8, now: Ps, heard: bool, sensor: &mut dyn Sensor) -> u8 {
+        self.ended = Some(now);
+        if self.selected && heard {
+            sensor.exchange(sent)
+        } else {
+            0xFF
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Peripherals against their reference manual, as a driver sees them.
+
+mod frame;
+mod time;
+
+use std::cell::RefCell;
+
+use super::{Chip, Fault, Memory, Ps, ResetCause, Sensor};
+
+const RCC: u32 = 0x4002_3800;
+const FLASH: u32 = 0x4002_3C00;
+const TIM1: u32 = 0x4001_0000;
+const GPIOA: u32 = 0x4002_0000;
+const RAM: u32 = 0x2000_0000;
+
+const MS: Ps = 1_000_000_000;
+const US: Ps = 1_000_000;
+
+/// A sensor that answers with what it is told, and keeps what it hears.
+#[derive(Default)]
+struct Script {
+    answers: Vec<u8>,
+    heard: Vec<u8>,
+    latched: usize,
+}
+
+impl Sensor for Script {
+    fn latch(&mut self) {
+        self.latched += 1;
+    }
+
+    fn exchange(&mut self, sent: u8) -> u8 {
+        self.heard.push(sent);
+        let answer = self.answers.get(self.heard.len() - 1);
+        answer.copied().unwrap_or(0xFF)
+    }
+}
+
+/// A little RAM.
+struct Ram(RefCell<[u8; 64]>);
+
+impl Memory for Ram {
+    fn get(&self, address: u32) -> Option<u8> {
+        let offset = address.checked_sub(RAM)? as usize;
+        self.0.borrow().get(offset).copied()
+    }
+
+    fn put(&self, address: u32, byte: u8) -> Option<()> {
+        let offset = address.checked_sub(RAM)? as usize;
+        *self.0.borrow_mut().get_mut(offset)? = byte;
+        Some(())
+    }
+}
+
+struct Rig {
+    chip: Chip,
+    ram: Ram,
+    sensor: Script,
+    now: Ps,
+}
+
+impl Rig {
+    fn new() -> Self {
+        Self {
+            chip: Chip::new().unwrap(),
+            ram: Ram(RefCell::new([0; 64])),
+            sensor: Script::default(),
+            now: 0,
+        }
+    }
+
+    /// A chip with every peripheral's clock on.
+    fn clocked() -> Self {
+        let mut rig = Self::new();
+        for gates in [0x30, 0x40, 0x44] {
+            rig.write(RCC + gates, u32::MAX);
+        }
+        rig
+    }
+
+    fn write(&mut self, address: u32, value: u32) {
+        self.try_write(address, value).unwrap();
+    }
+
+    fn try_write(&mut self, address: u32, value: u32) -> Result<(), Fault> {
+        self.chip.set_now(self.now);
+        self.chip.write(address, value, u32::MAX)
+    }
+
+    fn read(&mut self, address: u32) -> u32 {
+        self.chip.set_now(self.now);
+        self.chip.read(address).unwrap()
+    }
+
+    fn try_pass(&mut self, time: Ps) -> Result<Option<ResetCause>, Fault> {
+        self.now += time;
+        self.chip.advance(self.now, &self.ram, &mut self.sensor)
+    }
+
+    fn pass(&mut self, time: Ps) {
+        assert_eq!(self.try_pass(time), Ok(None));
+    }
+
+    /// The clocks of the board: 8 MHz from outside to 160 MHz, buses at 40 and 80.
+    fn run_fast(&mut self) {
+        self.write(RCC, 0x0005_0083);
+        self.write(RCC + 0x04, 4 | 160 << 6 | 1 << 22);
+        self.write(RCC, 0x0105_0083);
+        self.write(FLASH, 0x705);
+        self.write(RCC + 0x08, 2 | 5 << 10 | 4 << 13);
+    }
+}
+
+#[test]
+fn the_clock_tree_is_worked_out_from_its_registers() {
+    let mut rig = Rig::new();
+    assert_eq!(rig.chip.cycle(), 62_500, "16 MHz after reset");
+    rig.run_fast();
+    assert_eq!(rig.chip.cycle(), 6_250, "160 MHz");
+    assert_eq!(rig.read(RCC + 0x08) & 0xC, 0x8, "the PLL drives the core");
+}
+
+#[test]
+fn a_clock_that_does_not_run_or_is_too_fast_is_refused() {
+    let mut rig = Rig::new();
+    let fault = rig.try_write(RCC + 0x08, 2);
+    assert!(matches!(fault, Err(Fault::Clock(_))), "{fault:?}");
+
+    let mut rig = Rig::new();
+    rig.write(RCC, 0x0105_0083);
+    rig.write(RCC + 0x04, 4 | 200 << 6 | 1 << 22);
+    let fault = rig.try_write(RCC + 0x08, 2 | 5 << 10 | 4 << 13);
+    assert!(matches!(fault, Err(Fault::Clock(_))), "200 MHz: {fault:?}");
+
+    let mut rig = Rig::new();
+    rig.write(RCC, 0x0105_0083);
+    rig.write(RCC + 0x04, 4 | 160 << 6 | 1 << 22);
+    let fault = rig.try_write(RCC + 0x08, 2 | 4 << 13);
+    assert!(
+        matches!(fault, Err(Fault::Clock(_))),
+        "APB1 at 160 MHz: {fault:?}"
+    );
+}
+
+#[test]
+fn what_is_not_modelled_is_told_and_not_guessed() {
+    let mut rig = Rig::clocked();
+    // PWR, the ADC, a register that TIM1 has not, one-pulse mode.
+    for address in [0x4000_7000, 0x4001_2000, TIM1 + 0x50] {
+        let fault = rig.chip.read(address);
+        assert!(
+            matches!(fault, Err(Fault::Unmodelled { .. })),
+            "{address:#x}"
+        );
+        let fault = rig.try_write(address, 0);
+        assert!(
+            matches!(fault, Err(Fault::Unmodelled { .. })),
+            "{address:#x}"
+        );
+    }
+    let fault = rig.try_write(TIM1, 1 << 3);
+    assert!(matches!(fault, Err(Fault::Unmodelled { .. })), "{fault:?}");
+}
+
+#[test]
+fn a_peripheral_without_its_clock_is_deaf_and_reads_zero() {
+    let mut rig = Rig::new();
+    rig.write(GPIOA + 0x14, 0xFFFF);
+    assert_eq!(rig.read(GPIOA), 0);
+    rig.write(RCC + 0x30, 1);
+    assert_eq!(
+        rig.read(GPIOA),
+        0xA800_0000,
+        "the debugger's pins after reset"
+    );
+    assert_eq!(rig.read(GPIOA + 0x14), 0);
+}
+
+#[test]
+fn half_words_of_a_port_leave_the_other_half() {
+    let mut rig = Rig::clocked();
+    rig.write(GPIOA + 0x14, 0x00FF);
+    rig.chip.write(GPIOA, 0x0001_0000, 0xFFFF_0000).unwrap();
+    assert_eq!(rig.read(GPIOA), 0x0001_0000, "upper half of MODER alone");
+    rig.write(GPIOA + 0x18, 0x000F_0F00);
+    assert_eq!(rig.read(GPIOA + 0x14), 0x0FF0);
+}
+
+#[test]
+fn a_peripheral_reset_puts_its_registers_back() {
+    let mut rig = Rig::clocked();
+    rig.write(TIM1 + 0x2C, 7_999);
+    rig.write(GPIOA + 0x14, 1);
+    rig.write(RCC + 0x24, 1);
+    rig.write(RCC + 0x24, 0);
+    assert_eq!(rig.read(TIM1 + 0x2C), 0xFFFF);
+    assert_eq!(
+        rig.read(GPIOA + 0x14),
+        1,
+        "another peripheral is left alone"
+    );
+}
+
+#[test]
+fn motor_pins_carry_the_duty_only_while_everything_says_so() {
+    let mut rig = Rig::clocked();
+    rig.write(TIM1 + 0x2C, 7_999);
+    rig.write(TIM1 + 0x18, 6 << 4);
+    rig.write(TIM1 + 0x20, 1);
+    rig.write(TIM1 + 0x34, 2_000);
+    rig.write(TIM1, 1);
+    rig.write(TIM1 + 0x44, 1 << 15);
+    assert_eq!(
+        rig.chip.motor_duties()[0],
+        (0, 8_000),
+        "the pin is an input"
+    );
+    rig.write(GPIOA, 0xA800_0000 | 2 << 16);
+    assert_eq!(
+        rig.chip.motor_duties()[0],
+        (0, 8_000),
+        "function 0 is no timer"
+    );
+    rig.write(GPIOA + 0x24, 1);
+    assert_eq!(rig.chip.motor_duties()[0], (2_000, 8_000));
+    rig.write(TIM1 + 0x34, 9_000);
+    assert_eq!(rig.chip.motor_duties()[0], (8_000, 8_000), "always on");
+    rig.write(TIM1 + 0x44, 0);
+    assert_eq!(rig.chip.motor_duties()[0], (0, 8_000), "no main output");
+    rig.write(TIM1 + 0x44, 1 << 15);
+    rig.write(GPIOA, 0xA800_0000 | 1 << 16);
+    assert_eq!(
+        rig.chip.motor_duties()[0],
+        (0, 8_000),
+        "a plain output, low"
+    );
+}

@@ -1,0 +1,133 @@
+//! Timers and the watchdog.
+
+use super::{MS, RCC, Rig, US};
+use crate::chip::{ResetCause, TICK_IRQ};
+
+const TIM2: u32 = 0x4000_0000;
+const TIM3: u32 = 0x4000_0400;
+const TIM5: u32 = 0x4000_0C00;
+const IWDG: u32 = 0x4000_3000;
+const CR1: u32 = 0x00;
+const SMCR: u32 = 0x08;
+const DIER: u32 = 0x0C;
+const SR: u32 = 0x10;
+const EGR: u32 = 0x14;
+const CNT: u32 = 0x24;
+const PSC: u32 = 0x28;
+const ARR: u32 = 0x2C;
+
+fn ticks(rig: &Rig) -> bool {
+    rig.chip.interrupts().contains(&(TICK_IRQ, true))
+}
+
+#[test]
+fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
+    let mut rig = Rig::clocked();
+    rig.run_fast();
+    rig.write(TIM3 + PSC, 0);
+    rig.write(TIM3 + ARR, 39_999);
+    rig.write(TIM3 + CR1, 1 << 2);
+    rig.write(TIM3 + EGR, 1);
+    assert_eq!(rig.read(TIM3 + SR), 0, "URS: that update is no tick");
+    rig.write(TIM3 + DIER, 1);
+    rig.write(TIM3 + CR1, 1 << 2 | 1);
+    assert_eq!(rig.chip.next_event(), Some(500 * US));
+    rig.pass(500 * US - 1);
+    assert!(!ticks(&rig));
+    rig.pass(1);
+    assert!(ticks(&rig));
+    rig.pass(100 * US);
+    assert!(ticks(&rig), "a level");
+    assert_eq!(rig.chip.tick_began(), 500 * US);
+    rig.write(TIM3 + SR, 0);
+    assert!(!ticks(&rig));
+    assert_eq!(rig.read(TIM3 + CNT), 8_000, "100 us at 80 MHz");
+    rig.pass(400 * US);
+    assert!(ticks(&rig), "without drift");
+}
+
+#[test]
+fn a_prescaler_divides_from_the_next_update_on() {
+    let mut rig = Rig::clocked();
+    rig.run_fast();
+    rig.write(TIM3 + PSC, 9);
+    rig.write(TIM3 + CR1, 1);
+    rig.pass(US);
+    assert_eq!(rig.read(TIM3 + CNT), 80, "not yet");
+    rig.write(TIM3 + EGR, 1);
+    rig.pass(US);
+    assert_eq!(rig.read(TIM3 + CNT), 8);
+}
+
+#[test]
+fn the_free_counter_has_32_bits() {
+    let mut rig = Rig::clocked();
+    rig.run_fast();
+    rig.write(TIM5 + CR1, 1);
+    rig.pass(1_000 * MS);
+    assert_eq!(rig.read(TIM5 + CNT), 80_000_000);
+    rig.pass(60_000 * MS);
+    let expected = 80_000_000_u64 * 61 % (1 << 32);
+    assert_eq!(u64::from(rig.read(TIM5 + CNT)), expected);
+}
+
+#[test]
+fn the_encoder_counts_both_ways_and_through_zero() {
+    let mut rig = Rig::clocked();
+    rig.write(TIM2 + SMCR, 3);
+    rig.chip.set_encoder(5);
+    assert_eq!(rig.read(TIM2 + CNT), 0, "not enabled");
+    rig.write(TIM2 + CR1, 1);
+    rig.chip.set_encoder(12);
+    assert_eq!(rig.read(TIM2 + CNT), 7);
+    rig.chip.set_encoder(-4);
+    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9);
+    rig.pass(MS);
+    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9, "time moves it not");
+}
+
+/// Starts it as the board does: 160 counts of 8 kHz.
+fn start_watchdog(rig: &mut Rig) {
+    for key in [0xCCCC, 0x5555] {
+        rig.write(IWDG, key);
+    }
+    rig.write(IWDG + 0x04, 0);
+    rig.write(IWDG + 0x08, 159);
+    rig.write(IWDG, 0xAAAA);
+}
+
+#[test]
+fn the_watchdog_bites_20_ms_after_it_was_fed() {
+    let mut rig = Rig::new();
+    start_watchdog(&mut rig);
+    assert_eq!(rig.read(IWDG + 0x0C), 3, "settings on their way");
+    rig.pass(157 * US);
+    assert_eq!(rig.read(IWDG + 0x0C), 0);
+    rig.pass(15 * MS);
+    rig.write(IWDG, 0xAAAA);
+    rig.pass(20 * MS - 1);
+    assert_eq!(rig.try_pass(1), Ok(Some(ResetCause::Watchdog)));
+}
+
+#[test]
+fn the_watchdog_keeps_its_settings_without_the_key() {
+    let mut rig = Rig::new();
+    start_watchdog(&mut rig);
+    rig.write(IWDG + 0x08, 0xFFF);
+    assert_eq!(rig.chip.watchdog_bites(), Some(20 * MS));
+}
+
+#[test]
+fn the_cause_of_a_reset_is_kept_until_it_is_cleared() {
+    let mut rig = Rig::new();
+    let cause = |rig: &mut Rig| rig.read(RCC + 0x74) >> 25;
+    assert_eq!(cause(&mut rig), 0b111, "power: POR, pin, BOR");
+    rig.write(RCC + 0x74, 1 << 24);
+    assert_eq!(cause(&mut rig), 0);
+    rig.chip.reset(ResetCause::Watchdog).unwrap();
+    assert_eq!(cause(&mut rig), 0b1_0010, "IWDG, pin");
+    rig.chip.reset(ResetCause::Software).unwrap();
+    assert_eq!(cause(&mut rig), 0b1_1010, "and software");
+    assert_eq!(rig.chip.cycle(), 62_500, "back on 16 MHz");
+    assert_eq!(rig.chip.watchdog_bites(), None);
+}

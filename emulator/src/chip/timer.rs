@@ -1,0 +1,255 @@
+//! A timer, TIM1 to TIM5 and TIM8 (RM0390, chapters 16 to 18): counting up,
+//! updates with interrupt and DMA request, PWM mode 1 and encoder mode 3.
+//!
+//! The count is worked out when somebody looks; only updates that interrupt or
+//! make a DMA request are events. Compare values act at once: the buffering of
+//! a PWM period, 50 µs, is not modelled.
+
+use super::Ps;
+
+const CR1: u32 = 0x00;
+const CR2: u32 = 0x04;
+const SMCR: u32 = 0x08;
+const DIER: u32 = 0x0C;
+const SR: u32 = 0x10;
+const EGR: u32 = 0x14;
+const CCMR1: u32 = 0x18;
+const CCMR2: u32 = 0x1C;
+const CCER: u32 = 0x20;
+const CNT: u32 = 0x24;
+const PSC: u32 = 0x28;
+const ARR: u32 = 0x2C;
+const CCR1: u32 = 0x34;
+const CCR4: u32 = 0x40;
+const BDTR: u32 = 0x44;
+
+const CEN: u32 = 1 << 0;
+const UDIS: u32 = 1 << 1;
+const URS: u32 = 1 << 2;
+const ARPE: u32 = 1 << 7;
+const UIE: u32 = 1 << 0;
+const UDE: u32 = 1 << 8;
+const UIF: u32 = 1 << 0;
+const MOE: u32 = 1 << 15;
+
+#[derive(Debug, Clone)]
+pub(super) struct Timer {
+    /// Largest count: 16 or 32 bits.
+    mask: u32,
+    /// Whether outputs need BDTR.MOE.
+    advanced: bool,
+    cr1: u32,
+    cr2: u32,
+    smcr: u32,
+    dier: u32,
+    sr: u32,
+    ccmr: [u32; 2],
+    ccer: u32,
+    psc: u32,
+    arr: u32,
+    ccr: [u32; 4],
+    bdtr: u32,
+    /// The prescaler and period in effect.
+    active: [u32; 2],
+    /// The count at `since`, with the prescaler at zero.
+    count: u32,
+    since: Ps,
+    /// When the last update was.
+    updated: Ps,
+    request: bool,
+    /// The encoder's position outside, counts.
+    position: i32,
+}
+
+impl Timer {
+    pub(super) fn new(mask: u32, advanced: bool) -> Self {
+        Self {
+            mask,
+            advanced,
+            cr1: 0,
+            cr2: 0,
+            smcr: 0,
+            dier: 0,
+            sr: 0,
+            ccmr: [0; 2],
+            ccer: 0,
+            psc: 0,
+            arr: mask,
+            ccr: [0; 4],
+            bdtr: 0,
+            active: [0, mask],
+            count: 0,
+            since: 0,
+            updated: 0,
+            request: false,
+            position: 0,
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        *self = Self {
+            position: self.position,
+            ..Self::new(self.mask, self.advanced)
+        };
+    }
+
+    const fn is_encoder(&self) -> bool {
+        matches!(self.smcr & 7, 1..=3)
+    }
+
+    const fn counts_time(&self) -> bool {
+        self.cr1 & CEN != 0 && !self.is_encoder()
+    }
+
+    /// A count of the timer in time.
+    fn step(&self, clock: Ps) -> Ps {
+        clock * (Ps::from(self.active[0]) + 1)
+    }
+
+    /// Brings count and flags up to `now`.
+    pub(super) fn sync(&mut self, now: Ps, clock: Ps) {
+        if !self.counts_time() {
+            self.since = now;
+            return;
+        }
+        let step = self.step(clock);
+        let period = Ps::from(self.active[1]) + 1;
+        let steps = now.saturating_sub(self.since) / step;
+        let total = Ps::from(self.count) + steps;
+        let wraps = total / period;
+        if wraps > 0 {
+            let wrapped = wraps * period - Ps::from(self.count);
+            self.updated = self.since + wrapped * step;
+            self.update(false);
+        }
+        self.count = (total % period) as u32;
+        self.since += steps * step;
+    }
+
+    /// An update, by the counter or by software.
+    fn update(&mut self, by_software: bool) {
+        if self.cr1 & UDIS != 0 {
+            return;
+        }
+        self.active = [self.psc, self.arr];
+        if by_software && self.cr1 & URS != 0 {
+            return;
+        }
+        self.sr |= UIF;
+        self.request |= self.dier & UDE != 0;
+    }
+
+    /// The next update that somebody will hear of.
+    pub(super) fn next(&self, clock: Ps) -> Option<Ps> {
+        let heard = self.counts_time() && self.dier & (UIE | UDE) != 0;
+        let left = (Ps::from(self.active[1]) + 1).saturating_sub(Ps::from(self.count));
+        heard.then(|| self.since + left.max(1) * self.step(clock))
+    }
+
+    /// When the last update was.
+    pub(super) const fn updated(&self) -> Ps {
+        self.updated
+    }
+
+    pub(super) const fn interrupts(&self) -> bool {
+        self.sr & self.dier & UIF != 0
+    }
+
+    pub(super) const fn requests(&self) -> bool {
+        self.request
+    }
+
+    pub(super) const fn serve_request(&mut self) {
+        self.request = false;
+    }
+
+    /// Moves the encoder to `position` counts.
+    pub(super) const fn set_position(&mut self, position: i32) {
+        let moved = position.wrapping_sub(self.position);
+        self.position = position;
+        if self.is_encoder() && self.cr1 & CEN != 0 {
+            self.count = self.count.wrapping_add_signed(moved) & self.mask;
+        }
+    }
+
+    /// Duty of channel 0 to 3, as a fraction: on and of how many counts.
+    pub(super) fn duty(&self, channel: usize) -> (u32, u32) {
+        let mode = (self.ccmr[channel / 2] >> (8 * (channel % 2) + 4)) & 7;
+        let enabled = self.cr1 & CEN != 0
+            && self.ccer & (1 << (4 * channel)) != 0
+            && (self.bdtr & MOE != 0 || !self.advanced);
+        let period = self.arr.saturating_add(1);
+        let on = if enabled && mode == 6 {
+            self.ccr[channel].min(period)
+        } else {
+            0
+        };
+        (on, period)
+    }
+
+    pub(super) fn read(&mut self, offset: u32, now: Ps, clock: Ps) -> Option<u32> {
+        self.sync(now, clock);
+        Some(match offset {
+            CR1 => self.cr1,
+            CR2 => self.cr2,
+            SMCR => self.smcr,
+            DIER => self.dier,
+            SR => self.sr,
+            EGR => 0,
+            CCMR1 => self.ccmr[0],
+            CCMR2 => self.ccmr[1],
+            CCER => self.ccer,
+            CNT => self.count,
+            PSC => self.psc,
+            ARR => self.arr,
+            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize],
+            BDTR if self.advanced => self.bdtr,
+            _ => return None,
+        })
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, clock: Ps) -> bool {
+        self.sync(now, clock);
+        match offset {
+            // Up-counting, edge aligned, without one-pulse mode.
+            CR1 if value & !(CEN | UDIS | URS | ARPE) != 0 => return false,
+            CR1 => self.cr1 = value,
+            CR2 => self.cr2 = value,
+            // The other modes of synchronisation are not modelled.
+            SMCR if !matches!(value, 0 | 3) => return false,
+            SMCR => self.smcr = value,
+            DIER if value & !(UIE | UDE) != 0 => return false,
+            DIER => {
+                self.dier = value;
+                self.request &= value & UDE != 0;
+            }
+            SR => self.sr &= value,
+            EGR => {
+                if value & 1 != 0 {
+                    self.count = 0;
+                    self.since = now;
+                    self.update(true);
+                }
+            }
+            CCMR1 => self.ccmr[0] = value,
+            CCMR2 => self.ccmr[1] = value,
+            CCER => self.ccer = value,
+            CNT => {
+                self.count = value & self.mask;
+                self.since = now;
+            }
+            PSC => self.psc = value & 0xFFFF,
+            ARR => {
+                self.arr = value & self.mask;
+                if self.cr1 & ARPE == 0 {
+                    self.active[1] = self.arr;
+                }
+            }
+            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize] = value & self.mask,
+            BDTR if self.advanced => self.bdtr = value & 0xFFFF,
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,138 @@
+//! host-sim and the emulated board side by side, tick by tick.
+
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::commands::run::Loaded;
+use host_sim::decisions::Decided;
+use host_sim::run::{Happened, Run};
+use host_sim::trace::Row;
+use scene::Numbers;
+
+use crate::emulate::start;
+use crate::program::Program;
+
+/// By how much the mean period of the ticks may be off: the tick rates that no
+/// divider makes exactly are met within 2e-5.
+const PERIOD_ERROR: f64 = 3e-5;
+
+/// What was compared, and found equal to the last bit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Agreement {
+    /// Rows of the trace.
+    pub ticks: u64,
+    /// Decisions.
+    pub decisions: u64,
+}
+
+/// Runs the scene in `path` on the PC, in the board's number format, and on the
+/// board; every number of every row of the trace and every decision must be the same,
+/// to the last bit. The board's ticks must come at the scene's rate.
+///
+/// Contact is compared where the scene uses it: host-sim's trace shows it
+/// wherever there is an obstacle, the board computes it only for RCP, CIA or a
+/// classifier that listens during contact.
+///
+/// # Errors
+/// [`Error::Work`] names the first tick and column that differ.
+pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
+    let mut loaded = Loaded::new(path)?;
+    if let Some(whisking) = &mut loaded.scene.whisking
+        && whisking.numbers == Numbers::Double
+    {
+        whisking.numbers = Numbers::Single;
+    }
+    let scene = &loaded.scene;
+    let feels = matches!(plan::contact::<f32>(scene), Ok(Some(_)));
+    let (listener, classes) = loaded.listener()?;
+    let mut host = Run::new(scene, listener)?;
+    let program = Program::load(program)?;
+    let (mut target, board) = start(scene, &program)?;
+
+    let mut agreement = Agreement::default();
+    let (mut on_host, mut on_target) = (Happened::default(), Happened::default());
+    for n in 1..=host.ticks() {
+        let mut expected = *host.tick(&mut on_host);
+        let mut found = *target.tick(&mut on_target);
+        board.check()?;
+        if !feels {
+            expected.contact = [0.0; 2];
+            found.contact = [0.0; 2];
+        }
+        if let Some(column) = difference(&expected, &found) {
+            return Err(Error::Work(format!(
+                "{}: tick {n}: {column} on the PC, on the board\n  {expected:?}\n  {found:?}",
+                path.display()
+            )));
+        }
+        let decided =
+            |run: &Run<'_>, happened| -> Option<Decided> { run.decided(happened, &classes) };
+        let (expected, found) = (decided(&host, &on_host), decided(&target, &on_target));
+        if expected != found {
+            return Err(Error::Work(format!(
+                "{}: tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}",
+                path.display()
+            )));
+        }
+        agreement.ticks = n;
+        agreement.decisions += u64::from(found.is_some());
+    }
+    let period = board.figures().period.mean() * 1e-12 * f64::from(scene.tick_hz);
+    if (period - 1.0).abs() > PERIOD_ERROR {
+        return Err(Error::Work(format!(
+            "{}: a tick lasts {period} times as long as it should",
+            path.display()
+        )));
+    }
+    Ok(agreement)
+}
+
+/// The first column whose bits differ; one that is not a number equals another.
+fn difference(a: &Row, b: &Row) -> Option<&'static str> {
+    let columns = |row: &Row| {
+        [
+            ("t", [row.t_s; 2]),
+            ("theta", row.theta_deg),
+            ("z", row.z),
+            ("g", row.g),
+            ("contact", row.contact),
+            ("angle", row.angle_deg),
+            ("x", row.x),
+            ("y", row.y),
+        ]
+    };
+    let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+    let pairs = columns(a).into_iter().zip(columns(b));
+    let mut different = pairs.filter(|((_, a), (_, b))| !(same(a[0], b[0]) && same(a[1], b[1])));
+    different.next().map(|((name, _), _)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Row, difference};
+
+    const ROW: Row = Row {
+        t_s: 0.0005,
+        theta_deg: [50.0, f64::NAN],
+        z: [0.25, f64::NAN],
+        g: [1.0, f64::NAN],
+        contact: [0.0, f64::NAN],
+        angle_deg: [50.5, f64::NAN],
+        x: [8192.0, f64::NAN],
+        y: [8191.0, f64::NAN],
+    };
+
+    #[test]
+    fn one_bit_is_a_difference_and_what_is_absent_is_none() {
+        assert_eq!(difference(&ROW, &ROW), None);
+        let mut other = ROW;
+        other.theta_deg[0] = f64::from_bits(50.0_f64.to_bits() + 1);
+        assert_eq!(difference(&ROW, &other), Some("theta"));
+        let mut other = ROW;
+        other.y[1] = 0.0;
+        assert_eq!(difference(&ROW, &other), Some("y"));
+        let mut other = ROW;
+        other.contact[0] = -0.0;
+        assert_eq!(difference(&ROW, &other), Some("contact"));
+    }
+}

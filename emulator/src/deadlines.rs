@@ -1,0 +1,96 @@
+//! How a board keeps its time over minutes of a scene.
+
+use std::fmt;
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::commands::run::Loaded;
+use host_sim::progress::{Progress, Verbosity};
+use host_sim::run::Happened;
+
+use crate::chip::Ps;
+use crate::emulate::start;
+use crate::meter::{Extent, Figures};
+use crate::program::Program;
+
+/// What was measured.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Deadlines {
+    /// Ticks that happened.
+    pub ticks: u64,
+    /// Ticks that did not, as the module itself counts them.
+    pub missed: u32,
+    /// A cycle of the core.
+    pub cycle: Ps,
+    /// The figures.
+    pub figures: Figures,
+}
+
+/// Runs the scene in `path` on the board for `minutes` of its time, whatever its
+/// own duration, and measures every tick.
+///
+/// # Errors
+/// [`Error::Input`] for a scene that is wrong, [`Error::Work`] for what the
+/// board cannot go along with, a reset among it.
+pub fn measure(
+    path: &Path,
+    program: &Path,
+    minutes: f64,
+    verbosity: Verbosity,
+) -> Result<Deadlines, Error> {
+    let mut loaded = Loaded::new(path)?;
+    loaded.scene.duration_s = 60.0 * minutes;
+    let program = Program::load(program)?;
+    let (mut run, board) = start(&loaded.scene, &program)?;
+    let mut happened = Happened::default();
+    let mut progress = Progress::new(verbosity, "measuring", run.ticks());
+    for n in 0..run.ticks() {
+        run.tick(&mut happened);
+        board.check()?;
+        // The probe keeps up.
+        drop(board.take_log());
+        if n.is_multiple_of(1024) {
+            progress.set(n);
+        }
+    }
+    Ok(Deadlines {
+        ticks: run.ticks(),
+        missed: board.with_board(|board| board.missed())?,
+        cycle: board.with_board(|board| board.machine_mut().cycle()),
+        figures: board.figures(),
+    })
+}
+
+impl fmt::Display for Deadlines {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let figures = &self.figures;
+        let cycles = |ps: Ps| ps / self.cycle.max(1);
+        writeln!(f, "{} ticks, {} missed", self.ticks, self.missed)?;
+        writeln!(
+            f,
+            "interrupt latency: worst {} cycles ({:.2} us)",
+            cycles(figures.latency.worst()),
+            figures.latency.worst() as f64 / 1e6
+        )?;
+        writeln!(
+            f,
+            "longest tick: {} cycles ({:.2} us) by the cycle model",
+            cycles(figures.length.worst()),
+            figures.length.worst() as f64 / 1e6
+        )?;
+        writeln!(f, "instructions{:>32} {:>8}", "mean", "worst")?;
+        let mut line = |name: &str, extent: &Extent| {
+            writeln!(
+                f,
+                "  {name:<32} {:>9.1} {:>8}",
+                extent.mean(),
+                extent.worst()
+            )
+        };
+        line("tick's handler", &figures.tick)?;
+        line("other handlers, a tick", &figures.handlers)?;
+        line("idle, a tick", &figures.idle)?;
+        line("whole tick", &figures.whole)?;
+        line("idle in a tick in which it logs", &figures.logging)
+    }
+}

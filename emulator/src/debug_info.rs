@@ -1,0 +1,159 @@
+//! Where variables and their members stand in memory, from the program's DWARF
+//! as a debugger reads it.
+
+mod place;
+
+use gimli::{
+    AttributeValue, DW_AT_data_member_location, DW_AT_location, DW_AT_name, DW_AT_type,
+    DW_TAG_member, DW_TAG_variable, DebuggingInformationEntry, DwAt, Dwarf, EndianRcSlice,
+    LittleEndian, Operation, Unit, UnitOffset,
+};
+use object::{Object, ObjectSection};
+
+use crate::chip::Fault;
+use crate::program::Program;
+
+pub(crate) use place::{Number, Place};
+
+type Reader = EndianRcSlice<LittleEndian>;
+type Entry<'a> = DebuggingInformationEntry<'a, 'a, Reader>;
+
+/// The program's debug information.
+#[derive(Debug)]
+pub(crate) struct DebugInfo {
+    dwarf: Dwarf<Reader>,
+    units: Vec<Unit<Reader>>,
+}
+
+/// A type: a unit and an entry in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Type {
+    unit: usize,
+    at: UnitOffset,
+}
+
+fn bad(what: impl std::fmt::Display) -> Fault {
+    Fault::Program(format!("debug information: {what}"))
+}
+
+impl DebugInfo {
+    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
+        let file = object::File::parse(program.bytes()).map_err(bad)?;
+        let section = |id: gimli::SectionId| -> Result<Reader, gimli::Error> {
+            let data = file
+                .section_by_name(id.name())
+                .and_then(|section| section.uncompressed_data().ok())
+                .unwrap_or_default();
+            Ok(EndianRcSlice::new(data.as_ref().into(), LittleEndian))
+        };
+        let dwarf = Dwarf::load(section).map_err(bad)?;
+        let mut units = Vec::new();
+        let mut headers = dwarf.units();
+        while let Some(header) = headers.next().map_err(bad)? {
+            units.push(dwarf.unit(header).map_err(bad)?);
+        }
+        Ok(Self { dwarf, units })
+    }
+
+    /// The static variable of that name.
+    pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
+        for unit in 0..self.units.len() {
+            let mut entries = self.units[unit].entries();
+            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
+                if entry.tag() == DW_TAG_variable
+                    && self.name(unit, entry)?.as_deref() == Some(name)
+                    && let Some(address) = self.address(unit, entry)?
+                    && let Some(of) = self.type_of(unit, entry)?
+                {
+                    return Ok(Place {
+                        info: self,
+                        address,
+                        of,
+                    });
+                }
+            }
+        }
+        Err(bad(format!("no variable {name}")))
+    }
+
+    fn name(&self, unit: usize, entry: &Entry<'_>) -> Result<Option<String>, Fault> {
+        let Some(name) = entry.attr_value(DW_AT_name).map_err(bad)? else {
+            return Ok(None);
+        };
+        let name = self
+            .dwarf
+            .attr_string(&self.units[unit], name)
+            .map_err(bad)?;
+        Ok(Some(String::from_utf8_lossy(&name).into_owned()))
+    }
+
+    /// The address of a static variable: DW_OP_addr, perhaps with an offset
+    /// where the linker has merged several.
+    fn address(&self, unit: usize, entry: &Entry<'_>) -> Result<Option<u32>, Fault> {
+        let Some(AttributeValue::Exprloc(expression)) =
+            entry.attr_value(DW_AT_location).map_err(bad)?
+        else {
+            return Ok(None);
+        };
+        let encoding = self.units[unit].encoding();
+        let mut operations = expression.operations(encoding);
+        let mut found = None;
+        while let Some(operation) = operations.next().map_err(bad)? {
+            found = match (operation, found) {
+                (Operation::Address { address }, None) => Some(address),
+                (Operation::PlusConstant { value }, Some(address)) => Some(address + value),
+                // Not in one place.
+                _ => return Ok(None),
+            };
+        }
+        Ok(found.map(|address| address as u32))
+    }
+
+    fn type_of(&self, unit: usize, entry: &Entry<'_>) -> Result<Option<Type>, Fault> {
+        Ok(match entry.attr_value(DW_AT_type).map_err(bad)? {
+            Some(AttributeValue::UnitRef(at)) => Some(Type { unit, at }),
+            Some(AttributeValue::DebugInfoRef(offset)) => {
+                let mut units = self.units.iter().enumerate();
+                units.find_map(|(unit, u)| {
+                    let at = offset.to_unit_offset(&u.header)?;
+                    Some(Type { unit, at })
+                })
+            }
+            _ => None,
+        })
+    }
+
+    /// Walks over the entries directly below `of`, until `visit` has found something.
+    fn children<T>(
+        &self,
+        of: Type,
+        mut visit: impl FnMut(&Entry<'_>) -> Result<Option<T>, Fault>,
+    ) -> Result<Option<T>, Fault> {
+        let mut tree = self.units[of.unit].entries_tree(Some(of.at)).map_err(bad)?;
+        let mut children = tree.root().map_err(bad)?.children();
+        while let Some(child) = children.next().map_err(bad)? {
+            if let Some(found) = visit(child.entry())? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The member of that name, directly below `of`, and its offset.
+    fn member(&self, of: Type, name: &str) -> Result<Option<(u32, Type)>, Fault> {
+        self.children(of, |entry| {
+            if entry.tag() != DW_TAG_member || self.name(of.unit, entry)?.as_deref() != Some(name) {
+                return Ok(None);
+            }
+            let offset = number(entry, DW_AT_data_member_location)?.unwrap_or(0);
+            let found = self.type_of(of.unit, entry)?;
+            Ok(found.map(|found| (offset as u32, found)))
+        })
+    }
+}
+
+/// An unsigned attribute of an entry.
+fn number(entry: &Entry<'_>, attribute: DwAt) -> Result<Option<u64>, Fault> {
+    let value = entry.attr_value(attribute).map_err(bad)?;
+    Ok(value.and_then(|value| value.udata_value()))
+}

@@ -1,0 +1,184 @@
+//! Walking from a variable to its parts by their names.
+
+use gimli::{
+    AttributeValue, DW_AT_byte_size, DW_AT_count, DW_AT_data_member_location, DW_AT_discr_value,
+    DW_AT_encoding, DW_AT_upper_bound, DW_ATE_float, DW_TAG_array_type, DW_TAG_base_type,
+    DW_TAG_member, DW_TAG_structure_type, DW_TAG_subrange_type, DW_TAG_union_type, DW_TAG_variant,
+    DW_TAG_variant_part,
+};
+
+use super::{DebugInfo, Type, bad, number};
+use crate::chip::Fault;
+
+/// A variable, or a part of one: where it is and what it is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place<'d> {
+    pub(super) info: &'d DebugInfo,
+    /// Where it begins.
+    pub(crate) address: u32,
+    pub(super) of: Type,
+}
+
+/// A number in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Number {
+    /// IEEE single precision.
+    Single,
+    /// An integer of four bytes: fixed point.
+    Word,
+}
+
+/// Members that only wrap one other.
+const WRAPPERS: [&str; 3] = ["value", "__0", "inner"];
+
+impl Place<'_> {
+    fn part(self, offset: u32, of: Type) -> Self {
+        Self {
+            info: self.info,
+            address: self.address + offset,
+            of,
+        }
+    }
+
+    /// The member of that name; cells and other wrappers around it are seen
+    /// through.
+    pub(crate) fn member(self, name: &str) -> Result<Self, Fault> {
+        self.find(name)?
+            .ok_or_else(|| bad(format!("no member {name}")))
+    }
+
+    /// As [`Self::member`]; `None` if there is none.
+    pub(crate) fn find(self, name: &str) -> Result<Option<Self>, Fault> {
+        if let Some((offset, of)) = self.info.member(self.of, name)? {
+            return Ok(Some(self.part(offset, of)));
+        }
+        match self.unwrapped()? {
+            Some(inner) => inner.find(name),
+            None => Ok(None),
+        }
+    }
+
+    /// What a wrapper wraps.
+    fn unwrapped(self) -> Result<Option<Self>, Fault> {
+        for name in WRAPPERS {
+            if let Some((offset, of)) = self.info.member(self.of, name)? {
+                return Ok(Some(self.part(offset, of)));
+            }
+        }
+        Ok(None)
+    }
+
+    fn tag(self) -> Result<gimli::DwTag, Fault> {
+        let unit = &self.info.units[self.of.unit];
+        Ok(unit.entry(self.of.at).map_err(bad)?.tag())
+    }
+
+    /// Bytes it takes.
+    pub(crate) fn size(self) -> Result<u32, Fault> {
+        if self.tag()? == DW_TAG_array_type {
+            let (stride, length) = (self.element(0)?.size()?, self.length()?);
+            return Ok(stride * length);
+        }
+        let unit = &self.info.units[self.of.unit];
+        let entry = unit.entry(self.of.at).map_err(bad)?;
+        let size = number(&entry, DW_AT_byte_size)?;
+        size.map(|size| size as u32)
+            .ok_or_else(|| bad("a type without a size"))
+    }
+
+    /// How many elements an array has.
+    pub(crate) fn length(self) -> Result<u32, Fault> {
+        let length = self.info.children(self.of, |entry| {
+            if entry.tag() != DW_TAG_subrange_type {
+                return Ok(None);
+            }
+            if let Some(count) = number(entry, DW_AT_count)? {
+                return Ok(Some(count));
+            }
+            let last = number(entry, DW_AT_upper_bound)?;
+            Ok(last.map(|last| last + 1))
+        })?;
+        length
+            .map(|length| length as u32)
+            .ok_or_else(|| bad("an array without a length"))
+    }
+
+    /// An element of an array.
+    pub(crate) fn element(self, index: u32) -> Result<Self, Fault> {
+        if self.tag()? != DW_TAG_array_type {
+            return match self.unwrapped()? {
+                Some(inner) => inner.element(index),
+                None => Err(bad("not an array")),
+            };
+        }
+        let unit = &self.info.units[self.of.unit];
+        let entry = unit.entry(self.of.at).map_err(bad)?;
+        let of = self.info.type_of(self.of.unit, &entry)?;
+        let first = self.part(0, of.ok_or_else(|| bad("an array of nothing"))?);
+        let stride = first.size()?;
+        Ok(first.part(index * stride, first.of))
+    }
+
+    /// What kind of number it is; structures around a single number are seen through.
+    pub(crate) fn scalar(self) -> Result<(u32, Number), Fault> {
+        match self.tag()? {
+            tag if tag == DW_TAG_base_type => {
+                let unit = &self.info.units[self.of.unit];
+                let entry = unit.entry(self.of.at).map_err(bad)?;
+                let encoding = entry.attr_value(DW_AT_encoding).map_err(bad)?;
+                let float = encoding == Some(AttributeValue::Encoding(DW_ATE_float));
+                match (self.size()?, float) {
+                    (4, true) => Ok((self.address, Number::Single)),
+                    (4, false) => Ok((self.address, Number::Word)),
+                    _ => Err(bad("not a number of four bytes")),
+                }
+            }
+            tag if tag == DW_TAG_structure_type || tag == DW_TAG_union_type => {
+                match self.unwrapped()? {
+                    Some(inner) => inner.scalar(),
+                    None => Err(bad("not a number")),
+                }
+            }
+            _ => Err(bad("not a number")),
+        }
+    }
+
+    /// The variant of that name of an enum: its tag's place and value, and
+    /// what it holds.
+    pub(crate) fn variant(self, name: &str) -> Result<(u32, u8, Self), Fault> {
+        let info = self.info;
+        let unit = self.of.unit;
+        let missing = || bad(format!("no variant {name}"));
+        let part = info.children(self.of, |entry| {
+            Ok((entry.tag() == DW_TAG_variant_part).then(|| entry.offset()))
+        })?;
+        let Some(part) = part else {
+            return match self.unwrapped()? {
+                Some(inner) => inner.variant(name),
+                None => Err(missing()),
+            };
+        };
+        let part = Type { unit, at: part };
+        let tag = info.children(part, |entry| {
+            if entry.tag() != DW_TAG_member {
+                return Ok(None);
+            }
+            number(entry, DW_AT_data_member_location)
+        })?;
+        let found = info.children(part, |entry| {
+            if entry.tag() != DW_TAG_variant {
+                return Ok(None);
+            }
+            let value = number(entry, DW_AT_discr_value)?;
+            let at = Type {
+                unit,
+                at: entry.offset(),
+            };
+            let member = info.member(at, name)?;
+            Ok(value.zip(member))
+        })?;
+        let (value, (offset, of)) = found.ok_or_else(missing)?;
+        let tag = self.address + tag.ok_or_else(missing)? as u32;
+        Ok((tag, value as u8, self.part(offset, of)))
+    }
+}

@@ -1,0 +1,71 @@
+//! One scene on the emulated board, to the files that host-sim writes.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::bus::Slave;
+use host_sim::commands::run::{Loaded, play};
+use host_sim::output::write_whole;
+use host_sim::progress::Verbosity;
+use host_sim::run::Run;
+use host_sim::world::World;
+use scene::Scene;
+
+use crate::board::{Board, Emulated};
+use crate::chip::Fault;
+use crate::program::Program;
+use crate::rtt::LogDecoder;
+
+impl From<Fault> for Error {
+    fn from(fault: Fault) -> Self {
+        Self::Work(format!("emulated board: {fault}"))
+    }
+}
+
+/// A scene on the emulated board before its first tick, and a handle on the board.
+///
+/// # Errors
+/// [`Error::Work`] if the world or the board cannot be put together.
+pub fn start<'m>(scene: &Scene, program: &Program) -> Result<(Run<'m>, Emulated), Error> {
+    let (world, pins) = World::wired(scene)?;
+    let slaves: Vec<Slave> = (0..scene.whiskers()).map(|_| Slave::new()).collect();
+    let [slave] = slaves.as_slice() else {
+        return Err(Error::Work("the board carries one whisker".to_owned()));
+    };
+    let board = Board::new(program, slave.clone(), pins.into_iter().next())?;
+    let board = Emulated::new(board);
+    let run = Run::of(scene, Box::new(board.clone()), slaves, world);
+    Ok((run, board))
+}
+
+/// Runs the scene in `path` on the board that `program` was built for; writes
+/// `out/trace.csv`, `out/log.txt`, and `out/decisions.csv` where the scene
+/// classifies. Returns the score of the decisions, where there are any to score.
+///
+/// # Errors
+/// [`Error::Input`] for a scene or model that is wrong, [`Error::Work`] for
+/// what the board cannot go along with, otherwise what writing brings.
+pub fn emulate(
+    path: &Path,
+    program: &Path,
+    out: &Path,
+    verbosity: Verbosity,
+) -> Result<Option<String>, Error> {
+    let loaded = Loaded::new(path)?;
+    let (_, classes) = loaded.listener()?;
+    let program = Program::load(program)?;
+    let mut decoder = LogDecoder::new(&program)?;
+    let (run, board) = start(&loaded.scene, &program)?;
+    let mut log = String::new();
+    let done = play(run, &loaded.scene, &classes, out, verbosity, || {
+        for line in decoder.lines(&board.take_log()) {
+            // Writing to a string does not fail.
+            let _ = writeln!(log, "{line}");
+        }
+        Ok(board.check()?)
+    });
+    // Where something went wrong the log tells what led to it.
+    write_whole(&out.join("log.txt"), log.as_bytes())?;
+    done
+}

@@ -1,0 +1,36 @@
+//! The board's own program, unchanged, on an emulated STM32F446.
+//!
+//! # Glossary
+//!
+//! - *core*: an emulated Cortex-M4F with NVIC and FPU (rsemu);
+//! - *chip*: the peripherals around it, modelled here register by register;
+//! - *machine*: core, memories and chip in one time;
+//! - *board*: the machine with host-sim's sensor, motor and plant on its pins;
+//! - *watch*: the module's variables, read from RAM by their names in the
+//!   debug information, as a debugger does.
+//!
+//! What runs is the ELF file that is flashed. `docs/emulator.md` says what is
+//! modelled and what is not.
+
+mod board;
+mod chip;
+pub mod compare;
+pub mod deadlines;
+mod debug_info;
+pub mod emulate;
+mod machine;
+mod memory;
+mod meter;
+pub mod overload;
+mod program;
+mod rtt;
+pub mod sensor_loss;
+mod trouble;
+mod watch;
+
+pub use board::{Board, Emulated};
+pub use chip::{Chip, Fault, Memory, Ps, ResetCause, Sensor};
+pub use machine::{Machine, Observer, Spent, Stop};
+pub use meter::{Extent, Figures};
+pub use program::Program;
+pub use rtt::LogDecoder;

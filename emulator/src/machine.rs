@@ -1,0 +1,287 @@
+//! Core, memories and chip in one time.
+//!
+//! One step of rsemu is one instruction; its cycles, by rsemu's model of the
+//! Cortex-M4 (flash without wait states), are the time. While the core sleeps
+//! time jumps to the next event of a peripheral.
+
+use std::sync::Arc;
+
+use rsemu::cpu::arm::v7m::{ArmV7m, Config};
+
+use crate::chip::{Chip, FRAME_IRQ, Fault, Ps, ResetCause, Sensor, TICK_IRQ};
+use crate::memory::{Memories, Shared};
+use crate::program::Program;
+use crate::rtt::Ring;
+
+/// Exception numbers begin sixteen before those of the interrupts.
+const TICK: u32 = TICK_IRQ as u32 + 16;
+const FRAME: u32 = FRAME_IRQ as u32 + 16;
+/// The exception number in xPSR.
+const EXCEPTION: u32 = 0x1FF;
+
+/// Instructions of the tick's handler before it is held.
+const HOLD_AFTER: u64 = 200;
+
+/// Why [`Machine::run`] came back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// The tick's handler has returned.
+    Tick,
+    /// The core sleeps for the first time since it started.
+    Ready,
+    /// The time is up.
+    Time,
+    /// The chip has been reset, and the program starts anew.
+    Reset(ResetCause),
+}
+
+/// What the core has executed, instructions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Spent {
+    /// In the tick's handler.
+    pub tick: u64,
+    /// In the handler at the end of a frame.
+    pub frame: u64,
+    /// In idle, and before it.
+    pub thread: u64,
+    /// In other handlers.
+    pub other: u64,
+}
+
+/// What happens in the core, as it happens.
+pub trait Observer {
+    /// The tick's handler begins `latency` after its timer's update.
+    fn tick_begins(&mut self, _now: Ps, _latency: Ps, _spent: &Spent) {}
+
+    /// The tick's handler has returned.
+    fn tick_ends(&mut self, _now: Ps, _spent: &Spent) {}
+}
+
+/// Nobody looks.
+impl Observer for () {}
+
+/// The emulated board, without what hangs on its pins.
+#[derive(Debug)]
+pub struct Machine {
+    core: ArmV7m,
+    shared: Arc<Shared>,
+    memories: Memories,
+    ring: Ring,
+    now: Ps,
+    /// The next event of a peripheral.
+    due: Option<Ps>,
+    cycle: Ps,
+    exception: u32,
+    ready: bool,
+    /// For how long the core is to be held, and before which instruction of the tick.
+    hold: Ps,
+    hold_at: u64,
+    spent: Spent,
+}
+
+impl Machine {
+    /// A board with `program` in its flash, as its supply comes.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] or [`Fault::Memory`] if it does not fit.
+    pub fn new(program: &Program) -> Result<Self, Fault> {
+        let memories = Memories::new(program)?;
+        let shared = Shared::new(Chip::new()?);
+        let core = core(&memories, &shared)?;
+        let cycle = shared.chip().cycle();
+        Ok(Self {
+            core,
+            memories,
+            ring: Ring::new(program)?,
+            now: 0,
+            due: None,
+            cycle,
+            shared,
+            exception: 0,
+            ready: false,
+            hold: 0,
+            hold_at: u64::MAX,
+            spent: Spent::default(),
+        })
+    }
+
+    /// Time since power-up.
+    pub const fn now(&self) -> Ps {
+        self.now
+    }
+
+    /// A cycle of the core.
+    pub const fn cycle(&self) -> Ps {
+        self.cycle
+    }
+
+    /// What the core has executed since power-up.
+    pub const fn spent(&self) -> &Spent {
+        &self.spent
+    }
+
+    /// Works on the chip from outside.
+    pub fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
+        let mut chip = self.shared.chip();
+        chip.set_now(self.now);
+        work(&mut chip)
+    }
+
+    pub(crate) const fn memories(&self) -> &Memories {
+        &self.memories
+    }
+
+    /// Where the log's writer stands: changes with every line.
+    ///
+    /// # Errors
+    /// [`Fault::Memory`] if the program has broken its log.
+    pub fn log_position(&self) -> Result<u32, Fault> {
+        self.ring.writer(&self.memories)
+    }
+
+    /// Fetches what has been logged, as a probe does.
+    ///
+    /// # Errors
+    /// [`Fault::Memory`] if the program has broken its log.
+    pub fn drain_log(&self) -> Result<Vec<u8>, Fault> {
+        self.ring.drain(&self.memories)
+    }
+
+    /// Holds the core for `time` in the middle of the next tick while the
+    /// peripherals go on: a tick that is too long.
+    pub const fn hold_next_tick(&mut self, time: Ps) {
+        self.hold = time;
+    }
+
+    /// Runs until the tick's handler has returned, the chip has been reset, the
+    /// program is ready, or the time is `until`.
+    ///
+    /// # Errors
+    /// What the chip cannot go along with.
+    pub fn run(
+        &mut self,
+        until: Ps,
+        sensor: &mut dyn Sensor,
+        observer: &mut impl Observer,
+    ) -> Result<Stop, Fault> {
+        loop {
+            if let Some(cause) = self.look(sensor)? {
+                self.reset(cause)?;
+                return Ok(Stop::Reset(cause));
+            }
+            if self.now >= until {
+                return Ok(Stop::Time);
+            }
+            let asleep = self.core.is_asleep();
+            let cycles = self.core.step();
+            if asleep && self.core.is_asleep() {
+                if !self.ready {
+                    self.ready = true;
+                    return Ok(Stop::Ready);
+                }
+                // Nothing was pending: on to the next event.
+                let due = self.due.ok_or(Fault::Asleep)?;
+                self.now = self.now.max(due.min(until));
+                self.shared.set_now(self.now);
+                continue;
+            }
+            self.now += cycles * self.cycle;
+            self.shared.set_now(self.now);
+            if self.account(observer)? {
+                return Ok(Stop::Tick);
+            }
+        }
+    }
+
+    /// Counts the step that was just made; whether the tick's handler has returned.
+    fn account(&mut self, observer: &mut impl Observer) -> Result<bool, Fault> {
+        let before = self.exception;
+        self.exception = self.core.xpsr() & EXCEPTION;
+        if self.exception != 0 && before != self.exception && (before == 0 || self.exception < 16) {
+            // An entry is no instruction.
+            if self.exception == TICK {
+                let latency = self.now - self.shared.chip().tick_began();
+                observer.tick_begins(self.now, latency, &self.spent);
+                if self.hold > 0 {
+                    self.hold_at = self.spent.tick + HOLD_AFTER;
+                }
+            }
+            return Ok(false);
+        }
+        let counter = match before {
+            TICK => &mut self.spent.tick,
+            FRAME => &mut self.spent.frame,
+            0 => &mut self.spent.thread,
+            _ => &mut self.spent.other,
+        };
+        *counter += 1;
+        if self.spent.tick == self.hold_at {
+            self.hold_at = u64::MAX;
+            self.now += std::mem::take(&mut self.hold);
+        }
+        if before == TICK && self.exception == 0 {
+            observer.tick_ends(self.now, &self.spent);
+            return Ok(true);
+        }
+        if before != 0 && before < 16 && self.core.is_locked_up() {
+            return Err(Fault::LockUp { pc: self.core.pc() });
+        }
+        Ok(false)
+    }
+
+    /// Lets the chip do what is due and sets the core's interrupt lines.
+    fn look(&mut self, sensor: &mut dyn Sensor) -> Result<Option<ResetCause>, Fault> {
+        let due = self.due.is_some_and(|due| due <= self.now);
+        if !self.shared.take_touched() && !due {
+            return Ok(None);
+        }
+        let mut chip = self.shared.chip();
+        let reset = match chip.advance(self.now, &self.memories, sensor) {
+            Ok(reset) => reset,
+            Err(Fault::Unmodelled { address, write, .. }) => {
+                let pc = self.core.pc();
+                return Err(Fault::Unmodelled { address, write, pc });
+            }
+            Err(fault) => return Err(fault),
+        };
+        self.due = chip.next_event();
+        self.cycle = chip.cycle();
+        for (irq, up) in chip.interrupts() {
+            self.core.set_irq(irq, up);
+        }
+        drop(chip);
+        if self.core.reset_requested() {
+            self.core.clear_reset_request();
+            return Ok(Some(ResetCause::Software));
+        }
+        Ok(reset)
+    }
+
+    fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
+        self.core = core(&self.memories, &self.shared)?;
+        let mut chip = self.shared.chip();
+        chip.reset(cause)?;
+        // A core that was held knows nothing of the time since.
+        self.now = chip.now();
+        self.shared.set_now(self.now);
+        self.due = chip.next_event();
+        self.cycle = chip.cycle();
+        for (irq, up) in chip.interrupts() {
+            self.core.set_irq(irq, up);
+        }
+        drop(chip);
+        self.exception = 0;
+        self.ready = false;
+        Ok(())
+    }
+}
+
+/// A core of the STM32F446 before its first instruction.
+fn core(memories: &Memories, shared: &Arc<Shared>) -> Result<ArmV7m, Fault> {
+    let config = Config::CORTEX_M4F
+        .with_reset_vtor(0x0800_0000)
+        .with_priority_bits(4);
+    let core = ArmV7m::new(config);
+    core.attach_space(Arc::new(memories.space(shared)?));
+    Ok(core)
+}

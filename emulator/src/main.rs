@@ -1,0 +1,135 @@
+//! The emulated board's command line; `cargo xtask emulate` builds the program
+//! and calls it.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use emulator::{compare, deadlines, emulate, overload, sensor_loss};
+use host_sim::progress::Verbosity;
+use host_sim::{Error, report};
+
+/// Runs a board's program, as it is flashed, on an emulated chip.
+///
+/// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// No progress on standard error
+    #[arg(long, global = true)]
+    quiet: bool,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs one scene: writes DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv
+    /// where the scene classifies
+    Run {
+        /// The scene file
+        scene: PathBuf,
+        /// The program that was built for it
+        #[arg(long, value_name = "ELF")]
+        program: PathBuf,
+        /// Where to write
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
+    /// Runs one scene on PC and board and compares every tick
+    Compare {
+        /// The scene file
+        scene: PathBuf,
+        /// The program that was built for it
+        #[arg(long, value_name = "ELF")]
+        program: PathBuf,
+    },
+    /// Measures how the board keeps its time; fails if it misses a tick
+    Deadlines {
+        /// The scene file
+        scene: PathBuf,
+        /// The program that was built for it
+        #[arg(long, value_name = "ELF")]
+        program: PathBuf,
+        /// Over how many minutes of simulated time
+        #[arg(long, default_value_t = 10.0)]
+        minutes: f64,
+    },
+    /// Breaks the sensor's wires; fails if the motor is not switched off, or stays off
+    SensorLoss {
+        /// The scene file; it must whisk
+        scene: PathBuf,
+        /// The program that was built for it
+        #[arg(long, value_name = "ELF")]
+        program: PathBuf,
+    },
+    /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
+    Overload {
+        /// The scene file
+        scene: PathBuf,
+        /// The program that was built for it
+        #[arg(long, value_name = "ELF")]
+        program: PathBuf,
+    },
+}
+
+fn work(arguments: Arguments) -> Result<(), Error> {
+    let verbosity = if arguments.quiet {
+        Verbosity::Quiet
+    } else {
+        Verbosity::Normal
+    };
+    match arguments.command {
+        Command::Run {
+            scene,
+            program,
+            out,
+        } => {
+            if let Some(summary) = emulate::emulate(&scene, &program, &out, verbosity)? {
+                report::say(summary);
+            }
+        }
+        Command::Compare { scene, program } => {
+            let agreed = compare::compare(&scene, &program)?;
+            report::say(format_args!(
+                "{}: PC and board agree to the last bit in {} ticks, {} decisions",
+                scene.display(),
+                agreed.ticks,
+                agreed.decisions
+            ));
+        }
+        Command::Deadlines {
+            scene,
+            program,
+            minutes,
+        } => {
+            let measured = deadlines::measure(&scene, &program, minutes, verbosity)?;
+            report::say(&measured);
+            if measured.missed > 0 {
+                return Err(Error::Work(format!("{} ticks missed", measured.missed)));
+            }
+        }
+        Command::Overload { scene, program } => {
+            for line in overload::overload(&scene, &program)? {
+                report::say(line);
+            }
+        }
+        Command::SensorLoss { scene, program } => {
+            for line in sensor_loss::lose(&scene, &program)? {
+                report::say(line);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match work(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            report::warn(format_args!("emulator: {error}"));
+            ExitCode::from(error.exit_status())
+        }
+    }
+}

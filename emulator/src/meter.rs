@@ -1,0 +1,165 @@
+//! How the ticks keep their time: latency, length, and what the core executes
+//! from one tick to the next.
+
+use crate::chip::Ps;
+use crate::machine::{Observer, Spent};
+
+/// A figure over many ticks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Extent {
+    count: u64,
+    sum: u64,
+    worst: u64,
+}
+
+impl Extent {
+    const fn add(&mut self, value: u64) {
+        self.count += 1;
+        self.sum += value;
+        if value > self.worst {
+            self.worst = value;
+        }
+    }
+
+    /// The mean; 0 without a value.
+    pub fn mean(&self) -> f64 {
+        self.sum as f64 / self.count.max(1) as f64
+    }
+
+    /// The largest.
+    pub const fn worst(&self) -> u64 {
+        self.worst
+    }
+
+    /// How many there were.
+    pub const fn count(&self) -> u64 {
+        self.count
+    }
+}
+
+/// What was measured. A whole tick is from the first instruction of its handler
+/// to that of the next; idle's sleep executes nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Figures {
+    /// From the timer's update to the first instruction of the tick's handler, ps.
+    pub latency: Extent,
+    /// From there to the handler's return, ps.
+    pub length: Extent,
+    /// From the first instruction of a handler to that of the next, ps.
+    pub period: Extent,
+    /// Instructions of the tick's handler.
+    pub tick: Extent,
+    /// Instructions of the handlers beside it, a whole tick.
+    pub handlers: Extent,
+    /// Instructions of idle in whole ticks in which it logs nothing.
+    pub idle: Extent,
+    /// Instructions of idle in whole ticks in which it logs.
+    pub logging: Extent,
+    /// Instructions of a whole tick but for the log: where idle logs, its mean
+    /// without logging stands for it.
+    pub whole: Extent,
+}
+
+/// Takes the figures.
+#[derive(Debug, Default)]
+pub(crate) struct Meter {
+    figures: Figures,
+    began: Option<(Ps, Spent)>,
+    /// The whole tick that has ended last, until it is known whether it logged.
+    ended: Option<Spent>,
+    writer: u32,
+}
+
+impl Meter {
+    pub(crate) const fn figures(&self) -> &Figures {
+        &self.figures
+    }
+
+    /// Where the log's writer stands after a tick: idle has moved it, if at all,
+    /// before that tick began.
+    pub(crate) fn logged(&mut self, writer: u32) {
+        let moved = writer != self.writer;
+        self.writer = writer;
+        let Some(spent) = self.ended.take() else {
+            return;
+        };
+        let figures = &mut self.figures;
+        let handlers = spent.frame + spent.other;
+        figures.tick.add(spent.tick);
+        figures.handlers.add(handlers);
+        let idle = if moved {
+            figures.logging.add(spent.thread);
+            figures.idle.mean().round() as u64
+        } else {
+            figures.idle.add(spent.thread);
+            spent.thread
+        };
+        figures.whole.add(spent.tick + handlers + idle);
+    }
+}
+
+impl Observer for Meter {
+    fn tick_begins(&mut self, now: Ps, latency: Ps, spent: &Spent) {
+        self.figures.latency.add(latency);
+        if let Some((began, before)) = self.began.replace((now, *spent)) {
+            self.figures.period.add(now - began);
+            self.ended = Some(Spent {
+                tick: spent.tick - before.tick,
+                frame: spent.frame - before.frame,
+                thread: spent.thread - before.thread,
+                other: spent.other - before.other,
+            });
+        }
+    }
+
+    fn tick_ends(&mut self, now: Ps, _spent: &Spent) {
+        if let Some((began, _)) = self.began {
+            self.figures.length.add(now - began);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Extent, Meter};
+    use crate::machine::{Observer, Spent};
+
+    #[test]
+    fn whole_ticks_are_taken_apart_and_the_log_is_kept_out() {
+        let mut meter = Meter::default();
+        let mut spent = Spent::default();
+        let mut writer = 0;
+        // Handler, frame, idle, and whether idle logs, from tick to tick.
+        let ticks = [
+            (100, 30, 40, false),
+            (120, 30, 900, true),
+            (90, 0, 40, false),
+        ];
+        for (n, (tick, frame, thread, logs)) in (0_u64..).zip(ticks) {
+            meter.tick_begins(500 * n, 7 + n, &spent);
+            spent.tick += tick;
+            meter.tick_ends(500 * n + 50 + n, &spent);
+            meter.logged(writer);
+            spent.frame += frame;
+            spent.thread += thread;
+            writer += u32::from(logs);
+        }
+        meter.tick_begins(1_600, 3, &spent);
+        meter.logged(writer);
+
+        let figures = meter.figures();
+        let is = |extent: Extent, sum, worst| {
+            assert_eq!((extent.sum, extent.worst), (sum, worst));
+        };
+        is(figures.tick, 310, 120);
+        is(figures.handlers, 60, 30);
+        is(figures.idle, 80, 40);
+        is(figures.logging, 900, 900);
+        // 170, 190 with idle's mean for its logging, 130.
+        is(figures.whole, 490, 190);
+        is(figures.latency, 27, 9);
+        is(figures.length, 153, 52);
+        is(figures.period, 1_600, 600);
+        assert_eq!(figures.whole.count(), 3);
+    }
+}

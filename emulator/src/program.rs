@@ -1,0 +1,72 @@
+//! The program file of a board: what is flashed, where its symbols are.
+
+use std::path::Path;
+
+use object::elf::{FileHeader32, PT_LOAD};
+use object::read::elf::{FileHeader, ProgramHeader};
+use object::{Endianness, Object, ObjectSymbol};
+
+use crate::chip::Fault;
+
+/// An ELF file as it came from the linker.
+#[derive(Debug, Clone)]
+pub struct Program {
+    bytes: Vec<u8>,
+    /// Where in memory what stands, by load address.
+    segments: Vec<(u32, Vec<u8>)>,
+}
+
+fn bad(what: impl std::fmt::Display) -> Fault {
+    Fault::Program(what.to_string())
+}
+
+impl Program {
+    /// Reads an ELF file.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] if it cannot be read or is no 32-bit ELF file.
+    pub fn load(path: &Path) -> Result<Self, Fault> {
+        let told = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
+        let bytes = std::fs::read(path).map_err(|error| told(&error))?;
+        Self::parse(bytes).map_err(|fault| told(&fault))
+    }
+
+    fn parse(bytes: Vec<u8>) -> Result<Self, Fault> {
+        let data = bytes.as_slice();
+        let header = FileHeader32::<Endianness>::parse(data).map_err(bad)?;
+        let endian = header.endian().map_err(bad)?;
+        let mut segments = Vec::new();
+        for segment in header.program_headers(endian, data).map_err(bad)? {
+            let contents = segment
+                .data(endian, data)
+                .map_err(|()| bad("a segment lies outside the file"))?;
+            if segment.p_type(endian) == PT_LOAD && !contents.is_empty() {
+                segments.push((segment.p_paddr(endian), contents.to_vec()));
+            }
+        }
+        Ok(Self { bytes, segments })
+    }
+
+    /// The file.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// What is flashed, by address.
+    pub fn segments(&self) -> impl Iterator<Item = (u32, &[u8])> {
+        self.segments
+            .iter()
+            .map(|(at, contents)| (*at, contents.as_slice()))
+    }
+
+    /// The address of a symbol.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] if there is none of that name.
+    pub fn symbol(&self, name: &str) -> Result<u32, Fault> {
+        let file = object::File::parse(self.bytes.as_slice()).map_err(bad)?;
+        let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
+        let symbol = symbol.ok_or_else(|| bad(format!("it has no symbol {name}")))?;
+        Ok(symbol.address() as u32)
+    }
+}

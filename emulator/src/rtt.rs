@@ -1,0 +1,121 @@
+//! The log as a probe fetches it: the RTT up-channel in RAM, decoded by defmt.
+
+use std::fmt::Write as _;
+
+use defmt_decoder::{DecodeError, Table};
+
+use crate::chip::Fault;
+use crate::memory::Memories;
+use crate::program::Program;
+
+/// Offsets in the control block: the first up-channel's buffer, its length,
+/// and the offsets of writer and reader.
+const BUFFER: u32 = 28;
+const LENGTH: u32 = 32;
+const WRITER: u32 = 36;
+const READER: u32 = 40;
+
+/// The ring in RAM.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ring {
+    block: u32,
+}
+
+impl Ring {
+    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
+        let block = program.symbol("_SEGGER_RTT")?;
+        Ok(Self { block })
+    }
+
+    /// Where the writer stands; changes with every line.
+    pub(crate) fn writer(self, ram: &Memories) -> Result<u32, Fault> {
+        ram.word(self.block + WRITER)
+    }
+
+    /// Fetches what has been written.
+    pub(crate) fn drain(self, ram: &Memories) -> Result<Vec<u8>, Fault> {
+        let field = |offset| ram.word(self.block + offset);
+        let (buffer, length) = (field(BUFFER)?, field(LENGTH)?);
+        let (writer, mut reader) = (field(WRITER)?, field(READER)?);
+        let mut bytes = Vec::new();
+        // Before the program has set it up the block is zero.
+        if length == 0 || writer >= length || reader >= length {
+            return Ok(bytes);
+        }
+        while reader != writer {
+            let end = if writer > reader { writer } else { length };
+            let start = bytes.len();
+            bytes.resize(start + (end - reader) as usize, 0);
+            ram.read(buffer + reader, &mut bytes[start..])?;
+            reader = if end == length { 0 } else { end };
+        }
+        ram.write(self.block + READER, &reader.to_le_bytes())?;
+        Ok(bytes)
+    }
+}
+
+/// Turns the bytes of the log into lines.
+#[derive(Debug)]
+pub struct LogDecoder {
+    table: Table,
+    encoded: Vec<u8>,
+}
+
+impl LogDecoder {
+    /// The decoder for a program's log.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] if the program does not log by defmt.
+    pub fn new(program: &Program) -> Result<Self, Fault> {
+        let bad = |fault: String| Fault::Program(format!("defmt: {fault}"));
+        let table = Table::parse(program.bytes())
+            .map_err(|error| bad(error.to_string()))?
+            .ok_or_else(|| bad("the program does not log".to_owned()))?;
+        Ok(Self {
+            table,
+            encoded: Vec::new(),
+        })
+    }
+
+    /// Takes bytes of the log and returns the lines that are whole by now.
+    pub fn lines(&mut self, bytes: &[u8]) -> Vec<String> {
+        if bytes.is_empty() {
+            return Vec::new();
+        }
+        self.encoded.extend_from_slice(bytes);
+        // Frames end with a zero; what follows the last is not yet whole.
+        let whole = self
+            .encoded
+            .iter()
+            .rposition(|&byte| byte == 0)
+            .map_or(0, |end| end + 1);
+        let rest = self.encoded.split_off(whole);
+        let frames = std::mem::replace(&mut self.encoded, rest);
+        let mut decoder = self.table.new_stream_decoder();
+        decoder.received(&frames);
+        let mut lines = Vec::new();
+        loop {
+            match decoder.decode() {
+                Ok(frame) => {
+                    let mut line = String::new();
+                    if let Some(time) = frame.display_timestamp() {
+                        // Writing to a string does not fail.
+                        let _ = write!(line, "{time} ");
+                    }
+                    if let Some(level) = frame.level() {
+                        let _ = write!(line, "{:5} ", level.as_str().to_uppercase());
+                    }
+                    let _ = write!(line, "{}", frame.display_message());
+                    lines.push(line);
+                }
+                Err(DecodeError::UnexpectedEof) => return lines,
+                Err(DecodeError::Malformed) => lines.push("(a broken line)".to_owned()),
+            }
+        }
+    }
+
+    /// Forgets a line that a reset has cut off.
+    pub fn cut(&mut self) {
+        self.encoded.clear();
+    }
+}

@@ -1,0 +1,71 @@
+//! A board in trouble, and what its log says of it.
+
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::run::{Happened, Run};
+use scene::Scene;
+
+use crate::board::Emulated;
+use crate::chip::Ps;
+use crate::emulate::start;
+use crate::program::Program;
+use crate::rtt::LogDecoder;
+
+/// A board in trouble.
+pub(crate) struct Trouble<'m> {
+    pub(crate) run: Run<'m>,
+    pub(crate) board: Emulated,
+    decoder: LogDecoder,
+    pub(crate) log: Vec<String>,
+}
+
+impl Trouble<'_> {
+    /// A board that runs `scene`, for which `program` was built.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if it cannot be put together.
+    pub(crate) fn new(scene: &Scene, program: &Path) -> Result<Self, Error> {
+        let program = Program::load(program)?;
+        let (run, board) = start(scene, &program)?;
+        Ok(Self {
+            run,
+            board,
+            decoder: LogDecoder::new(&program)?,
+            log: Vec::new(),
+        })
+    }
+
+    /// Lets so many ticks pass.
+    ///
+    /// # Errors
+    /// [`Error::Work`] for what the board cannot go along with.
+    pub(crate) fn pass(&mut self, ticks: u32) -> Result<(), Error> {
+        let mut happened = Happened::default();
+        for _ in 0..ticks {
+            self.run.tick(&mut happened);
+            self.board.check()?;
+            let bytes = self.board.take_log();
+            self.log.extend(self.decoder.lines(&bytes));
+        }
+        Ok(())
+    }
+
+    /// Holds the core for `time` in the middle of the next tick.
+    pub(crate) fn hold(&self, time: Ps) {
+        self.board
+            .with_board(|board| board.machine_mut().hold_next_tick(time));
+    }
+
+    /// The line of the log that says `text`.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if none does.
+    pub(crate) fn hear(&self, text: &str) -> Result<String, Error> {
+        let line = self.log.iter().find(|line| line.contains(text)).cloned();
+        line.ok_or_else(|| {
+            let said = self.log.join("\n  ");
+            Error::Work(format!("no line of the log says \"{text}\":\n  {said}"))
+        })
+    }
+}

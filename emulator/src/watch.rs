@@ -1,0 +1,249 @@
+//! The module's state in the board's RAM, read as a debugger would: by the
+//! names of its members, while the core is between two ticks.
+//!
+//! It costs the firmware nothing. What a scene leaves out is not there.
+
+use host_sim::bench::Snapshot;
+use tactile::Decision;
+use whisking::{Fix, Real};
+
+use crate::chip::Fault;
+use crate::debug_info::{DebugInfo, Number, Place};
+use crate::memory::Memories;
+use crate::program::Program;
+
+/// Every name that is looked up, in one place.
+mod name {
+    /// The module, a shared resource of RTIC.
+    pub(super) const MODULE: &str = "__rtic_internal_shared_resource_module";
+    /// The queue from the tick to idle.
+    pub(super) const QUEUE: &str = "__rtic_internal_local_init_queue";
+    /// Contact π of each side.
+    pub(super) const CONTACT: &str = "contact";
+    /// The pattern generator.
+    pub(super) const STATE: [&str; 2] = ["motion", "state"];
+    /// In it: the gate of each side.
+    pub(super) const Z: &str = "z";
+    /// In it: the whiskers of each side.
+    pub(super) const WHISKERS: &str = "whiskers";
+    /// In a whisker: its protraction.
+    pub(super) const THETA: [&str; 2] = ["muscle", "theta"];
+    /// What contact adds to its nominal gain, and that.
+    pub(super) const LIFT: &str = "lift";
+    pub(super) const NOMINAL: &str = "nominal";
+    /// Ticks that did not happen in time.
+    pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
+    /// What the classifier has heard.
+    pub(super) const EVIDENCE: [&str; 3] = ["perception", "listener", "state"];
+    /// In the queue.
+    pub(super) const TAIL: &str = "tail";
+    pub(super) const BUFFER: &str = "buffer";
+    /// The event, and what stands in it.
+    pub(super) const DECISION: &str = "Decision";
+    pub(super) const SAMPLES: &str = "samples";
+    pub(super) const PACKED: &str = "packed";
+}
+
+/// A number at an address.
+#[derive(Debug, Clone, Copy)]
+struct Variable {
+    address: u32,
+    number: Number,
+}
+
+impl Variable {
+    fn at(place: Place<'_>) -> Result<Self, Fault> {
+        let (address, number) = place.scalar()?;
+        Ok(Self { address, number })
+    }
+
+    fn read(self, ram: &Memories) -> Result<f64, Fault> {
+        let word = ram.word(self.address)?;
+        Ok(match self.number {
+            Number::Single => f32::from_bits(word).into(),
+            Number::Word => Fix(word.cast_signed()).to_f64(),
+        })
+    }
+}
+
+/// The events that the tick has queued.
+#[derive(Debug)]
+struct Queue {
+    tail: u32,
+    length: u32,
+    buffer: u32,
+    stride: u32,
+    /// In an event: where its tag stands and what it is for a decision, and
+    /// where the decision's words stand.
+    tag: (u32, u8),
+    samples: u32,
+    packed: u32,
+    seen: u32,
+}
+
+/// A stretch of memory.
+#[derive(Debug)]
+struct Block {
+    address: u32,
+    bytes: Vec<u8>,
+}
+
+/// Where everything is.
+#[derive(Debug)]
+pub(crate) struct Watch {
+    contact: Vec<Variable>,
+    z: Vec<Variable>,
+    /// θ and g of every whisker, left side first; g counts for the first of a side.
+    theta: Vec<Variable>,
+    gain: Vec<[Variable; 2]>,
+    missed: u32,
+    queue: Queue,
+    evidence: Option<Block>,
+}
+
+fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Option<Place<'d>>, Fault> {
+    let mut place = from;
+    for name in names {
+        match place.find(name)? {
+            Some(found) => place = found,
+            None => return Ok(None),
+        }
+    }
+    Ok(Some(place))
+}
+
+fn elements(array: Place<'_>) -> Result<Vec<Place<'_>>, Fault> {
+    (0..array.length()?).map(|n| array.element(n)).collect()
+}
+
+impl Watch {
+    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
+        let info = DebugInfo::new(program)?;
+        let module = info.variable(name::MODULE)?;
+        let numbers = |array: Place<'_>| -> Result<Vec<Variable>, Fault> {
+            elements(array)?.into_iter().map(Variable::at).collect()
+        };
+        let missing = |what: &str| Fault::Program(format!("debug information: no {what}"));
+        let missed = along(module, &name::MISSED)?.ok_or_else(|| missing("count of ticks"))?;
+        let mut watch = Self {
+            missed: missed.scalar()?.0,
+            contact: numbers(module.member(name::CONTACT)?)?,
+            z: Vec::new(),
+            theta: Vec::new(),
+            gain: Vec::new(),
+            queue: Queue::new(&info)?,
+            evidence: None,
+        };
+        if let Some(state) = along(module, &name::STATE)? {
+            watch.z = numbers(state.member(name::Z)?)?;
+            for side in elements(state.member(name::WHISKERS)?)? {
+                for (w, whisker) in elements(side)?.into_iter().enumerate() {
+                    let theta = along(whisker, &name::THETA)?.ok_or_else(|| missing("θ"))?;
+                    watch.theta.push(Variable::at(theta)?);
+                    if w == 0 {
+                        let parts = [name::NOMINAL, name::LIFT];
+                        let [nominal, lift] =
+                            parts.map(|part| whisker.member(part).and_then(Variable::at));
+                        watch.gain.push([nominal?, lift?]);
+                    }
+                }
+            }
+        }
+        if let Some(evidence) = along(module, &name::EVIDENCE)? {
+            watch.evidence = Some(Block {
+                address: evidence.address,
+                bytes: vec![0; evidence.size()? as usize],
+            });
+        }
+        Ok(watch)
+    }
+
+    /// Fills in what the module shows of itself.
+    pub(crate) fn look(&self, ram: &Memories, snapshot: &mut Snapshot) -> Result<(), Fault> {
+        let fill = |places: &mut [f64], variables: &[Variable]| -> Result<(), Fault> {
+            for (place, variable) in places.iter_mut().zip(variables) {
+                *place = variable.read(ram)?;
+            }
+            Ok(())
+        };
+        fill(&mut snapshot.contact, &self.contact)?;
+        fill(&mut snapshot.z, &self.z)?;
+        for (place, [nominal, lift]) in snapshot.g.iter_mut().zip(&self.gain) {
+            *place = nominal.read(ram)? + lift.read(ram)?;
+        }
+        for (place, theta) in snapshot.theta_deg.iter_mut().zip(&self.theta) {
+            *place = whisking::degrees(theta.read(ram)?);
+        }
+        Ok(())
+    }
+
+    /// Ticks that the module has missed since it started.
+    pub(crate) fn missed(&self, ram: &Memories) -> Result<u32, Fault> {
+        ram.word(self.missed)
+    }
+
+    /// The program starts anew, with an empty queue.
+    pub(crate) const fn restart(&mut self) {
+        self.queue.seen = 0;
+    }
+
+    /// Keeps the classifier's evidence as it is before the first tick.
+    pub(crate) fn keep_evidence(&mut self, ram: &Memories) -> Result<(), Fault> {
+        match &mut self.evidence {
+            Some(Block { address, bytes }) => ram.read(*address, bytes),
+            None => Ok(()),
+        }
+    }
+
+    /// Puts the evidence back to that.
+    pub(crate) fn forget(&self, ram: &Memories) -> Result<(), Fault> {
+        match &self.evidence {
+            Some(Block { address, bytes }) => ram.write(*address, bytes),
+            None => Ok(()),
+        }
+    }
+
+    /// The decisions that have been queued since the last call.
+    pub(crate) fn decisions(&mut self, ram: &Memories) -> Result<Vec<Decision>, Fault> {
+        self.queue.take(ram)
+    }
+}
+
+impl Queue {
+    fn new(info: &DebugInfo) -> Result<Self, Fault> {
+        let queue = info.variable(name::QUEUE)?;
+        let buffer = queue.member(name::BUFFER)?;
+        let first = buffer.element(0)?;
+        let (tag, value, decision) = first.variant(name::DECISION)?;
+        let offset =
+            |place: Place<'_>| -> Result<u32, Fault> { Ok(place.scalar()?.0 - first.address) };
+        Ok(Self {
+            tail: queue.member(name::TAIL)?.address,
+            length: buffer.length()?,
+            buffer: first.address,
+            stride: first.size()?,
+            tag: (tag - first.address, value),
+            samples: offset(decision.member(name::SAMPLES)?)?,
+            packed: offset(decision.member(name::PACKED)?)?,
+            seen: 0,
+        })
+    }
+
+    fn take(&mut self, ram: &Memories) -> Result<Vec<Decision>, Fault> {
+        let tail = ram.word(self.tail)?;
+        let mut decisions = Vec::new();
+        while self.seen != tail && self.seen < self.length {
+            let event = self.buffer + self.seen * self.stride;
+            let mut tag = [0];
+            ram.read(event + self.tag.0, &mut tag)?;
+            if tag == [self.tag.1] {
+                let samples = ram.word(event + self.samples)?;
+                let packed = ram.word(event + self.packed)?;
+                decisions.extend(Decision::from_memory(samples, packed));
+            }
+            self.seen = (self.seen + 1) % self.length;
+        }
+        self.seen = tail;
+        Ok(decisions)
+    }
+}

@@ -1,0 +1,85 @@
+//! A scene on the emulated board: builds the board's program and runs it there.
+
+mod variants;
+
+use std::path::{Path, PathBuf};
+
+use crate::firmware::{self, Board};
+use crate::run::{Fault, cargo, run, target, top};
+
+/// What is done with a scene.
+#[derive(Debug, Clone)]
+pub(crate) enum Task {
+    /// Writes its files there.
+    Run(PathBuf),
+    /// Compares every tick with host-sim.
+    Compare,
+    /// Measures how the board keeps its time, over so many minutes.
+    Deadlines(f64),
+    /// Makes ticks too long on purpose.
+    Overload,
+    /// Breaks the sensor's wires on purpose.
+    SensorLoss,
+}
+
+/// Builds the program of `scene` and does `task` with it.
+///
+/// # Errors
+/// If it cannot be built, or the emulated board says that something is wrong.
+pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fault> {
+    if !board.is_emulated() {
+        return Err("only the nucleo-f446re is emulated".to_owned());
+    }
+    let program = firmware::build(board, scene)?;
+    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
+    let scene =
+        std::path::absolute(scene).map_err(|error| format!("{}: {error}", scene.display()))?;
+    match task {
+        Task::Run(out) => {
+            let out =
+                std::path::absolute(out).map_err(|error| format!("{}: {error}", out.display()))?;
+            command.arg("run").arg(scene).arg("--out").arg(out);
+        }
+        Task::Compare => {
+            command.arg("compare").arg(scene);
+        }
+        Task::Deadlines(minutes) => {
+            command.arg("deadlines").arg(scene);
+            command.arg("--minutes").arg(minutes.to_string());
+        }
+        Task::Overload => {
+            command.arg("overload").arg(scene);
+        }
+        Task::SensorLoss => {
+            command.arg("sensor-loss").arg(scene);
+        }
+    }
+    run(command.arg("--program").arg(program))
+}
+
+/// Compares every scene in `scenes` with host-sim; those that the board does
+/// not take, because they have two sides, by their left half. The scene that has
+/// everything is compared in fixed point too.
+///
+/// # Errors
+/// The first scene that differs, or that cannot be built.
+pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
+    let folder = top().join("scenes");
+    let listing = std::fs::read_dir(&folder);
+    let listing = listing.map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut scenes: Vec<_> = listing
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| {
+            path.extension()
+                .is_some_and(|extension| extension == "toml")
+        })
+        .collect();
+    scenes.sort();
+    for scene in scenes {
+        let taken = variants::half(&scene, &target().join("left"))?.unwrap_or(scene);
+        emulate(board, &taken, &Task::Compare)?;
+    }
+    let fixed = variants::in_fixed_point(&folder.join("full.toml"), &target().join("fixed"))?;
+    emulate(board, &fixed, &Task::Compare)?;
+    Ok(())
+}
