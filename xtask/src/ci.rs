@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use crate::emulate::Task;
 use crate::run::{Fault, cargo, run};
-use crate::{count, docs, firmware};
+use crate::{count, docs, emulate, firmware, size};
 
 /// Everything.
 ///
@@ -17,14 +18,19 @@ pub(crate) fn all() -> Result<(), Fault> {
 
     for board in firmware::Board::ALL {
         run(cargo(&["clippy"]).args(board.build_arguments()).args(deny))?;
-        for scene in [
-            "scenes/passive.toml",
-            "scenes/rcp-left.toml",
-            "scenes/textures.toml",
-        ] {
-            let scene = Path::new(scene);
-            let elf = firmware::build(board, scene)?;
-            firmware::print_size(board, scene, &elf)?;
+    }
+    // Builds every scene for every board.
+    size::all(None, true)?;
+
+    // The same binary on the emulated chip: PC and board agree, no tick is missed,
+    // and ticks that are too long and a sensor that is lost are noticed.
+    for board in firmware::Board::ALL {
+        if board.is_emulated() {
+            emulate::compare_all(board)?;
+            let scene = Path::new("scenes/full.toml");
+            emulate::emulate(board, scene, &Task::Deadlines(0.25))?;
+            emulate::emulate(board, scene, &Task::Overload)?;
+            emulate::emulate(board, scene, &Task::SensorLoss)?;
         }
     }
 

@@ -3,9 +3,11 @@
 mod ci;
 mod count;
 mod docs;
+mod emulate;
 mod firmware;
 mod mutants;
 mod run;
+mod size;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,6 +31,9 @@ enum Command {
     /// Builds the firmware of a scene, flashes it and streams its log
     /// (needs probe-rs and a board)
     Flash(Build),
+    /// Builds the firmware of a scene and runs it on an emulated board: writes
+    /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
+    Emulate(Emulate),
     /// Counts the instructions of every kernel on emulated processors
     /// (needs qemu-system-arm) and writes docs/instructions.csv
     Count {
@@ -36,6 +41,18 @@ enum Command {
         #[arg(long)]
         csv: Option<PathBuf>,
         /// Only say whether a kernel has become dearer than the table says
+        #[arg(long)]
+        check: bool,
+    },
+    /// Builds the firmware of every scene for every board that takes it, and
+    /// prints flash, static RAM, stack, and the time that host-sim takes; writes
+    /// docs/sizes.csv
+    Size {
+        /// The table to write or to check; - prints it alone
+        #[arg(long)]
+        csv: Option<PathBuf>,
+        /// Only say whether a program has grown, misses a goal or holds what its
+        /// scene leaves out
         #[arg(long)]
         check: bool,
     },
@@ -64,6 +81,58 @@ struct Build {
     board: firmware::Board,
 }
 
+#[derive(clap::Args)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch of the command line"
+)]
+struct Emulate {
+    /// The scene to run
+    #[arg(required_unless_present = "all")]
+    scene: Option<PathBuf>,
+    /// The board to build for
+    #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
+    board: firmware::Board,
+    /// Where to write
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss"])]
+    out: Option<PathBuf>,
+    /// Write nothing; compare every tick with host-sim
+    #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
+    check: bool,
+    /// Compare every scene in scenes/
+    #[arg(long, requires = "check", conflicts_with = "scene")]
+    all: bool,
+    /// Write nothing; measure latency and length of the ticks
+    #[arg(long, conflicts_with_all = ["out", "overload"])]
+    deadlines: bool,
+    /// Over how many minutes of simulated time
+    #[arg(long, requires = "deadlines", default_value_t = 10.0)]
+    minutes: f64,
+    /// Write nothing; make ticks too long on purpose and see the deadline counter and
+    /// the watchdog act
+    #[arg(long, conflicts_with = "out")]
+    overload: bool,
+    /// Write nothing; break the sensor's wires and see the motor switched off
+    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload"])]
+    sensor_loss: bool,
+}
+
+impl Emulate {
+    fn run(self) -> Result<(), run::Fault> {
+        let task = match self.out {
+            _ if self.check => emulate::Task::Compare,
+            _ if self.overload => emulate::Task::Overload,
+            _ if self.sensor_loss => emulate::Task::SensorLoss,
+            Some(out) => emulate::Task::Run(out),
+            None => emulate::Task::Deadlines(self.minutes),
+        };
+        match self.scene {
+            Some(scene) => emulate::emulate(self.board, &scene, &task),
+            None => emulate::compare_all(self.board),
+        }
+    }
+}
+
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci => ci::all(),
@@ -71,7 +140,9 @@ fn main() -> ExitCode {
             .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
+        Command::Emulate(emulate) => emulate.run(),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
+        Command::Size { csv, check } => size::all(csv.as_deref(), check),
         Command::Mutants { only } => mutants::all(only.as_deref()),
         Command::Docs { check } => docs::all(check),
     };

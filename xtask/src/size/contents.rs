@@ -1,0 +1,178 @@
+//! What code is in a program: the functions that have instructions in flash,
+//! by name. Whole-program optimisation inlines nearly all of them, so symbols
+//! alone prove little; the debug information says where each instruction came
+//! from, whether its function stands by itself or inside another.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+
+use gimli::{AttributeValue, Dwarf, EndianSlice, LittleEndian};
+use object::{Object, ObjectSection};
+
+use crate::run::Fault;
+
+type Bytes<'a> = EndianSlice<'a, LittleEndian>;
+type Unit<'a> = gimli::Unit<Bytes<'a>>;
+type Entry<'u, 'a> = gimli::DebuggingInformationEntry<'u, 'u, Bytes<'a>>;
+
+/// Flash of every board, and room for more of it. What the linker dropped has
+/// addresses outside.
+const FLASH: Range<u64> = 0x0800_0000..0x0900_0000;
+
+/// Code and constants.
+const SECTIONS: [&str; 2] = [".text", ".rodata"];
+
+/// Steps from an instance of a function to its declaration; in practice two.
+const REFERENCES: usize = 8;
+
+/// Names of the functions of `elf` that have instructions: paths without their
+/// generic arguments, such as `whisking::gate::Rcp<R>::step`.
+///
+/// # Errors
+/// If the file cannot be read or has no debug information.
+pub(super) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
+    let names = debug_information(elf, collect)?;
+    if names.is_empty() {
+        return Err(format!("{}: no function is named", elf.display()));
+    }
+    Ok(names)
+}
+
+/// The numbers of sides for which `elf` has a module, ascending.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(super) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
+    let types = debug_information(elf, types)?;
+    // Module<number, frames, motion, perception, clock, sides, whiskers>
+    let sides = types.iter().filter_map(|name| {
+        let arguments = name.strip_prefix("Module<")?.strip_suffix('>')?;
+        arguments.rsplit(", ").nth(1)?.parse().ok()
+    });
+    let sides: BTreeSet<usize> = sides.collect();
+    Ok(sides.into_iter().collect())
+}
+
+/// How often `bytes` stand in flash.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(super) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
+    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
+    let content = fs::read(elf).map_err(|error| wrong(&error))?;
+    let file = object::File::parse(&*content).map_err(|error| wrong(&error))?;
+    let mut found = 0;
+    for name in SECTIONS {
+        let data = file.section_by_name(name).map(|section| section.data());
+        let data = data.transpose().map_err(|error| wrong(&error))?;
+        let windows = data.unwrap_or_default().windows(bytes.len().max(1));
+        found += windows.filter(|window| *window == bytes).count();
+    }
+    Ok(found)
+}
+
+/// What `ask` says of the debug information of `elf`.
+fn debug_information<T>(
+    elf: &Path,
+    ask: impl Fn(&Dwarf<Bytes<'_>>) -> Result<T, gimli::Error>,
+) -> Result<T, Fault> {
+    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
+    let bytes = fs::read(elf).map_err(|error| wrong(&error))?;
+    let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
+    let section = |id: gimli::SectionId| -> Result<Bytes<'_>, gimli::Error> {
+        let data = file.section_by_name(id.name()).map(|s| s.data());
+        let data = data.and_then(Result::ok).unwrap_or_default();
+        Ok(EndianSlice::new(data, LittleEndian))
+    };
+    let said = Dwarf::load(section).and_then(|dwarf| ask(&dwarf));
+    said.map_err(|error| wrong(&error))
+}
+
+/// Names of all structures.
+fn types(dwarf: &Dwarf<Bytes<'_>>) -> Result<BTreeSet<String>, gimli::Error> {
+    let mut names = BTreeSet::new();
+    let mut headers = dwarf.units();
+    while let Some(header) = headers.next()? {
+        let unit = dwarf.unit(header)?;
+        let mut entries = unit.entries();
+        while let Some((_, entry)) = entries.next_dfs()? {
+            let name = entry.attr_value(gimli::DW_AT_name)?;
+            if let (gimli::DW_TAG_structure_type, Some(name)) = (entry.tag(), name) {
+                let name = dwarf.attr_string(&unit, name)?;
+                names.insert(name.to_string_lossy().into_owned());
+            }
+        }
+    }
+    Ok(names)
+}
+
+fn collect(dwarf: &Dwarf<Bytes<'_>>) -> Result<BTreeSet<String>, gimli::Error> {
+    let mut units = Vec::new();
+    let mut headers = dwarf.units();
+    while let Some(header) = headers.next()? {
+        units.push(dwarf.unit(header)?);
+    }
+    let mut names = BTreeSet::new();
+    for unit in &units {
+        let mut entries = unit.entries();
+        while let Some((_, entry)) = entries.next_dfs()? {
+            let is_code = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
+            if is_code.contains(&entry.tag()) && is_in_flash(dwarf, unit, entry)? {
+                names.extend(name(dwarf, &units, unit, entry)?);
+            }
+        }
+    }
+    Ok(names)
+}
+
+fn is_in_flash<'a>(
+    dwarf: &Dwarf<Bytes<'a>>,
+    unit: &Unit<'a>,
+    entry: &Entry<'_, 'a>,
+) -> Result<bool, gimli::Error> {
+    let mut ranges = dwarf.die_ranges(unit, entry)?;
+    while let Some(range) = ranges.next()? {
+        if FLASH.contains(&range.begin) && range.end > range.begin {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The demangled name of a function, which may stand with what the entry is an
+/// instance of.
+fn name<'a, 'u>(
+    dwarf: &Dwarf<Bytes<'a>>,
+    units: &'u [Unit<'a>],
+    unit: &'u Unit<'a>,
+    entry: &Entry<'_, 'a>,
+) -> Result<Option<String>, gimli::Error> {
+    let (mut unit, mut entry) = (unit, entry.clone());
+    for _ in 0..REFERENCES {
+        if let Some(value) = entry.attr_value(gimli::DW_AT_linkage_name)? {
+            let mangled = dwarf.attr_string(unit, value)?.to_string_lossy();
+            return Ok(Some(format!("{:#}", rustc_demangle::demangle(&mangled))));
+        }
+        let reference = match entry.attr_value(gimli::DW_AT_abstract_origin)? {
+            None => entry.attr_value(gimli::DW_AT_specification)?,
+            origin => origin,
+        };
+        let (next, offset) = match reference {
+            Some(AttributeValue::UnitRef(offset)) => (unit, offset),
+            Some(AttributeValue::DebugInfoRef(offset)) => {
+                let within =
+                    |unit: &'u Unit<'a>| Some((unit, offset.to_unit_offset(&unit.header)?));
+                let Some(found) = units.iter().find_map(within) else {
+                    return Ok(None);
+                };
+                found
+            }
+            _ => return Ok(None),
+        };
+        unit = next;
+        entry = unit.entry(offset)?;
+    }
+    Ok(None)
+}
