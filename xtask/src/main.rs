@@ -58,11 +58,7 @@ enum Command {
     },
     /// Leaves out one term of an equation or turns round one bit of a table at
     /// a time, and writes which tests notice to docs/mutations.md (takes hours)
-    Mutants {
-        /// Only those whose description contains this; writes no document
-        #[arg(long)]
-        only: Option<String>,
-    },
+    Mutants(mutants::Choice),
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -143,7 +139,7 @@ fn main() -> ExitCode {
         Command::Emulate(emulate) => emulate.run(),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
-        Command::Mutants { only } => mutants::all(only.as_deref()),
+        Command::Mutants(choice) => mutants::all(&choice),
         Command::Docs { check } => docs::all(check),
     };
     match done {

@@ -2,9 +2,10 @@
 //! entry of the list is put into a copy of the workspace, alone, and the tests
 //! are run until some fail; which did is written down in docs/mutations.md.
 //!
-//! It builds everything anew for each entry and takes an hour or two, so CI
-//! does not run it; CI checks that every entry still has its place in the
-//! source. What it changes is a copy under target/.
+//! It builds anew for each entry and takes an hour or two, so CI does not run
+//! it; CI checks that every entry still has its place in the source. What it
+//! changes is a copy under target/. The page is written after every entry, so
+//! that a run may be cut short and taken up again.
 
 mod list;
 
@@ -15,43 +16,117 @@ use std::process::Command;
 use crate::run::{Fault, cargo, top};
 use list::{LIST, Mutant};
 
-/// The packages whose tests are asked, the quick one first.
-const ASKED: [&str; 2] = ["whisking", "acceptance"];
+/// Tests that are asked together.
+struct Asked {
+    /// Their package.
+    package: &'static str,
+    /// Where it begins in the workspace, if it knows nothing of what is outside.
+    within: &'static str,
+    /// Which of its tests.
+    tests: &'static [&'static str],
+}
+
+/// Who is asked, the quick ones first: what is caught early builds little.
+const ASKED: [Asked; 4] = [
+    Asked {
+        package: "whisking",
+        within: "crates/whisking/",
+        tests: &["--lib"],
+    },
+    // Not those of the motors, in which no entry is.
+    Asked {
+        package: "whisking",
+        within: "crates/whisking/",
+        tests: &["--test", "bits", "--test", "phase_noise"],
+    },
+    Asked {
+        package: "firmware",
+        within: "",
+        tests: &["--lib", "--tests"],
+    },
+    Asked {
+        package: "acceptance",
+        within: "",
+        tests: &[
+            "--test",
+            "claims",
+            "--test",
+            "euler_trace",
+            "--test",
+            "formats",
+        ],
+    },
+];
 
 /// The most tests named for one entry.
 const NAMED: usize = 3;
 
-/// Tries every entry whose description contains `only`, and writes the table if
-/// that are all.
+/// What of the list is tried.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Choice {
+    /// Only those whose description contains this; replaces their rows
+    #[arg(long)]
+    only: Option<String>,
+    /// Only those without a row in docs/mutations.md
+    #[arg(long)]
+    missing: bool,
+    /// Asks only the tests of the crate that is changed; what they do not
+    /// notice gets no row
+    #[arg(long)]
+    quick: bool,
+}
+
+impl Choice {
+    /// Whether `asked` is asked.
+    fn asks(&self, asked: &Asked) -> bool {
+        !(self.quick && asked.within.is_empty())
+    }
+
+    fn wants(&self, mutant: &Mutant) -> bool {
+        self.only
+            .as_ref()
+            .is_none_or(|only| mutant.what.contains(only))
+    }
+}
+
+/// Tries what `choice` says, and puts what was found into the page.
 ///
 /// # Errors
 /// If an entry has lost its place, does not compile, or escapes every test.
-pub(crate) fn all(only: Option<&str>) -> Result<(), Fault> {
+pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     let copy = top().join("target/mutants");
     copy_workspace(&copy)?;
-    for package in ASKED {
-        let failed = failed_tests(package, &copy)?;
+    for asked in ASKED.iter().filter(|asked| choice.asks(asked)) {
+        let failed = failed_tests(asked, &copy)?;
         if !failed.is_empty() {
-            return Err(format!("even without changes {failed:?} of {package} fail"));
+            return Err(format!(
+                "even without changes {failed:?} of {} fail",
+                asked.package
+            ));
         }
     }
-    let mut rows = Vec::new();
+    let page = top().join("docs/mutations.md");
+    let before = if choice.only.is_some() || choice.missing {
+        fs::read_to_string(&page).unwrap_or_default()
+    } else {
+        String::new()
+    };
+    let mut rows: Vec<Option<String>> = LIST.iter().map(|m| row_of(m, &before)).collect();
     let mut escaped = 0;
-    for mutant in LIST {
-        if only.is_some_and(|only| !mutant.what.contains(only)) {
+    for (n, mutant) in LIST.iter().enumerate() {
+        if !choice.wants(mutant) || (choice.missing && rows[n].is_some()) {
             continue;
         }
-        let caught = try_one(mutant, &copy)?;
+        let caught = try_one(mutant, &copy, choice)?;
         escaped += usize::from(caught.is_none());
         let names = caught.as_deref().unwrap_or("**nothing**");
         println!("{}: {names}", mutant.what);
-        rows.push(format!("| {} | {names} |\n", mutant.what));
-    }
-    if only.is_none() {
-        put(
-            &top().join("docs/mutations.md"),
-            &format!("{HEADER}{}", rows.concat()),
-        )?;
+        if choice.quick && caught.is_none() {
+            rows[n] = None;
+            continue;
+        }
+        rows[n] = Some(format!("| {} | {names} |\n", mutant.what));
+        put(&page, &text(&rows))?;
     }
     match escaped {
         0 => Ok(()),
@@ -59,30 +134,51 @@ pub(crate) fn all(only: Option<&str>) -> Result<(), Fault> {
     }
 }
 
+/// The row of `mutant` in `page`.
+fn row_of(mutant: &Mutant, page: &str) -> Option<String> {
+    let start = format!("| {} | ", mutant.what);
+    let row = page.lines().find(|line| line.starts_with(&start))?;
+    Some(format!("{row}\n"))
+}
+
+/// The page of `rows`, of which those not tried are missing.
+fn text(rows: &[Option<String>]) -> String {
+    let tried: Vec<&str> = rows.iter().flatten().map(String::as_str).collect();
+    let count = match rows.len() - tried.len() {
+        0 => format!("All {} entries have been tried.", rows.len()),
+        left => format!("{left} of {} entries have not been tried yet.", rows.len()),
+    };
+    format!("{HEADER}{count}\n\n{TABLE}{}", tried.concat())
+}
+
 const HEADER: &str = "# Mutations\n\n\
      <!-- Generated by `cargo xtask mutants`; do not edit by hand. -->\n\n\
      One term of an equation left out or one bit of a table turned round, one at a time, in a \
      copy of\nthe workspace; and the tests that noticed (the first three by name). The tests of \
-     `whisking` are asked\nfirst, those of `acceptance` where `whisking`'s notice nothing. \
-     `cargo xtask mutants` makes this page\nanew; it takes an hour or two, so CI does not.\n\n\
-     | what is missing or wrong | noticed by |\n|---|---|\n";
+     `whisking` are asked\nfirst, those of `firmware` where `whisking`'s notice nothing, then the \
+     quick ones of `acceptance`.\n`cargo xtask mutants` makes this page anew; it takes an hour or \
+     two, so CI does not.\n\n";
+
+const TABLE: &str = "| what is missing or wrong | noticed by |\n|---|---|\n";
 
 /// The tests that fail with `mutant` in `copy`; `None` if none does.
-fn try_one(mutant: &Mutant, copy: &Path) -> Result<Option<String>, Fault> {
+fn try_one(mutant: &Mutant, copy: &Path, choice: &Choice) -> Result<Option<String>, Fault> {
     let path = copy.join(mutant.file);
     let sound = fs::read_to_string(top().join(mutant.file))
         .map_err(|error| format!("{}: {error}", mutant.file))?;
     put(&path, &mutant.applied(&sound)?)?;
     let mut caught = None;
-    for package in ASKED {
+    let about = |asked: &&Asked| mutant.file.starts_with(asked.within) && choice.asks(asked);
+    for asked in ASKED.iter().filter(about) {
         let failed =
-            failed_tests(package, copy).map_err(|fault| format!("{}: {fault}", mutant.what))?;
+            failed_tests(asked, copy).map_err(|fault| format!("{}: {fault}", mutant.what))?;
         if !failed.is_empty() {
             let names: Vec<&str> = failed.iter().map(String::as_str).take(NAMED).collect();
             let more = match failed.len().saturating_sub(NAMED) {
                 0 => String::new(),
                 more => format!(" and {more} more"),
             };
+            let package = asked.package;
             caught = Some(format!("{package}: `{}`{more}", names.join("`, `")));
             break;
         }
@@ -95,10 +191,11 @@ fn put(path: &Path, text: &str) -> Result<(), Fault> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The names of the tests of `package` that fail in `copy`.
-fn failed_tests(package: &str, copy: &Path) -> Result<Vec<String>, Fault> {
-    let mut command: Command = cargo(&["test", "-p", package, "--no-fail-fast"]);
+/// The names of the tests in `asked` that fail in `copy`.
+fn failed_tests(asked: &Asked, copy: &Path) -> Result<Vec<String>, Fault> {
+    let mut command: Command = cargo(&["test", "-p", asked.package, "--no-fail-fast"]);
     command
+        .args(asked.tests)
         .current_dir(copy)
         .env("CARGO_TARGET_DIR", copy.join("target"))
         .env("RUST_BACKTRACE", "0");
