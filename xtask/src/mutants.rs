@@ -28,16 +28,23 @@ struct Asked {
 
 /// Who is asked, the quick ones first: what is caught early builds little.
 const ASKED: [Asked; 4] = [
-    Asked {
-        package: "whisking",
-        within: "crates/whisking/",
-        tests: &["--lib"],
-    },
     // Not those of the motors, in which no entry is.
     Asked {
         package: "whisking",
         within: "crates/whisking/",
-        tests: &["--test", "bits", "--test", "phase_noise"],
+        tests: &[
+            "--test",
+            "oscillator_terms",
+            "--test",
+            "module_terms",
+            "--test",
+            "bits",
+        ],
+    },
+    Asked {
+        package: "whisking",
+        within: "crates/whisking/",
+        tests: &["--lib", "--test", "phase_noise"],
     },
     Asked {
         package: "firmware",

@@ -1,0 +1,189 @@
+//! Every term of the muscles, of the gain (BIOTACT eqs. 7 and 8) and of the
+//! position control's filter against the same written out in f64.
+
+use whisking::muscle::{self, PEAK_GAIN};
+use whisking::{Fix, GateSettings, Integrator, Real, Settings, State, pd};
+
+fn settings(integrator: Integrator) -> Settings {
+    Settings {
+        tick_hz: 200.0,
+        frequency_hz: 2.0,
+        integrator,
+        coupling: true,
+        noise: 0.0,
+        rcp: Some(GateSettings {
+            gain: 0.7,
+            tau_s: 0.02,
+        }),
+        cia: Some(GateSettings {
+            gain: 0.5,
+            tau_s: 0.03,
+        }),
+    }
+}
+
+/// Forward Euler as the papers write it, within its limits of ±2; at 25 Hz and
+/// 200 Hz it is unstable and meets them.
+#[test]
+fn euler_takes_the_muscle_as_it_stands() {
+    for (frequency_hz, within) in [(2.0, 1e-13), (25.0, 1e-11)] {
+        let settings = Settings {
+            frequency_hz,
+            ..settings(Integrator::Euler)
+        };
+        let config = settings.build::<f64>().unwrap().muscle;
+        let h = 10.0 * frequency_hz / 200.0;
+        let mut state = muscle::State::default();
+        let (mut theta, mut v) = (0.0_f64, 0.0_f64);
+        for n in 0..40 {
+            let (gain, drive) = (2.9 - 0.05 * f64::from(n), 0.9 - 0.01 * f64::from(n));
+            config.step(&mut state, gain, drive, 0.123);
+            // Beyond ±1.5 the loss of force is what it is there.
+            let loss = (-theta.abs().min(1.5).powi(2)).exp();
+            let pull = h * (gain * drive * loss - theta);
+            let next = (v + pull).clamp(-2.0, 2.0) - 4.0 * h * v;
+            theta = (theta + h * v).clamp(-2.0, 2.0);
+            v = next.clamp(-2.0, 2.0);
+            assert!((state.theta - theta).abs() < within, "{n}: {}", state.theta);
+            assert!((state.kept()[0] - v).abs() < within, "{n}");
+        }
+    }
+}
+
+/// The gain of every whisker is 1.45 (1 − z) g, both as their means over the
+/// tick; the drive of the papers' integrator is that before the tick.
+#[test]
+fn gates_and_drives_reach_the_muscles() {
+    for integrator in [Integrator::Euler, Integrator::Exact] {
+        let settings = settings(integrator);
+        let config = settings.build::<f64>().unwrap();
+        let start = settings
+            .start::<f64, 2, 2>([[1.0, 0.0], [0.6, 0.5]], [[1.0, 0.4], [0.7, 1.2]])
+            .unwrap();
+        let mut state = State::new(&start, 1);
+        let mut truth = state.clone();
+        let mut drives = [1.0_f64, 0.6].map(|x| f64::midpoint((2.0 * x).tanh(), 1.0));
+        for n in 0..60 {
+            let contact = if n % 15 == 3 { [0.8, 0.1] } else { [0.0; 2] };
+            config.step(&mut state, contact);
+
+            config.oscillators.step(&mut truth.oscillators, None);
+            let psi = config.oscillators.psi(&truth.oscillators);
+            for side in 0..2 {
+                let after = f64::midpoint((2.0 * psi[side][0]).tanh(), 1.0);
+                config.rcp.unwrap().step(&mut truth.z[side], contact[side]);
+                for whisker in &mut truth.whiskers[side] {
+                    let cia = config.cia.unwrap();
+                    cia.step(&mut whisker.lift, whisker.nominal, contact[0]);
+                    let g = whisker.nominal + whisker.lift.mean;
+                    let gain = PEAK_GAIN * (1.0 - truth.z[side].mean) * g;
+                    let muscle = &mut whisker.muscle;
+                    config.muscle.step(muscle, gain, drives[side], after);
+                }
+                drives[side] = after;
+            }
+            for (found, truth) in state
+                .theta()
+                .iter()
+                .flatten()
+                .zip(truth.theta().iter().flatten())
+            {
+                assert!((found - truth).abs() < 1e-12, "{integrator:?}, {n}");
+            }
+        }
+    }
+}
+
+/// A force that jumps between 0 and 1 has differences of up to eight; no
+/// format's sums overflow.
+#[test]
+fn a_force_that_jumps_every_tick_stays_in_every_format() {
+    fn check<R: Real>() {
+        let config = settings(Integrator::Exact).build::<R>().unwrap().muscle;
+        let mut state = muscle::State::default();
+        for n in 0..20 {
+            let drive = if n % 2 == 0 { R::ONE } else { R::ZERO };
+            config.step(&mut state, R::ZERO, drive, drive);
+            assert_eq!(state.theta.to_f64(), 0.0);
+        }
+    }
+    check::<f64>();
+    check::<f32>();
+    check::<Fix>();
+}
+
+/// The measured velocity passes a first-order low-pass at 100 Hz.
+#[test]
+fn the_measured_velocity_is_smoothed_as_the_closed_form_says() {
+    let settings = pd::Settings {
+        kp: 0.0,
+        kd: 1e-3,
+        limit: 1.0,
+        slew_per_s: 1e9,
+        min_deg: 0.0,
+        max_deg: 150.0,
+        degrees_per_count: 0.01,
+    };
+    let config = settings.build::<f64>(2000.0).unwrap();
+    let mut state = pd::State::default();
+    for n in 1..=40 {
+        // 25 counts a tick are 500 degrees a second.
+        let duty = config.step(&mut state, 0.0, 0, 25);
+        let smoothed = 1.0 - (-core::f64::consts::TAU * 100.0 / 2000.0 * f64::from(n)).exp();
+        let found = f64::from(duty.q15()) / 32_767.0;
+        assert!((found + 0.5 * smoothed).abs() < 5e-5, "{n}: {found}");
+    }
+}
+
+/// Products lean neither up nor down: their mean error is a small part of a step.
+#[test]
+fn products_in_fixed_point_do_not_lean() {
+    const STEP: f64 = 1.0 / 268_435_456.0;
+    let numbers = || (0..20_000_i32).map(|n| Fix(n.wrapping_mul(100_003) - 1_000_000_007));
+    let mean = |errors: &mut dyn Iterator<Item = f64>| errors.sum::<f64>() / 20_000.0 / STEP;
+
+    let factor = Fix::coefficient(0.011);
+    let exact = f64::from(factor.mantissa) / f64::from(16 + factor.shift).exp2();
+    let lean = mean(&mut numbers().map(|x| x.times(factor).to_f64() - x.to_f64() * exact));
+    assert!(lean.abs() < 0.1, "constants: {lean}");
+
+    for share in [0.011, 0.83] {
+        let fine = Fix::fine(share);
+        let exact = f64::from(fine.mantissa) / f64::from(32 + fine.shift).exp2();
+        assert!((exact / share - 1.0).abs() < 5e-10);
+        let lean = mean(&mut numbers().map(|x| x.times_fine(fine).to_f64() - x.to_f64() * exact));
+        assert!(lean.abs() < 0.1, "fine constants: {lean}");
+    }
+
+    let other = Fix(187_654_321);
+    let lean = mean(&mut numbers().map(|x| (x * other).to_f64() - x.to_f64() * other.to_f64()));
+    assert!(lean.abs() < 1.0, "numbers: {lean}");
+}
+
+#[test]
+fn readings_and_constants_in_fixed_point_are_the_nearest() {
+    for code in -8191..=8191_i16 {
+        let error = Fix::from_code(code).to_f64() - f64::from(code) / 8191.0;
+        assert!(error.abs() < 2e-8, "{code}: {error:e}");
+    }
+    for n in 1..2000 {
+        let value = f64::from(n) * 4.7e-4;
+        let Ok(mantissa) = u32::try_from(Fix::fine(value).mantissa) else {
+            panic!("{value}")
+        };
+        let scaled = value * f64::from(32 + Fix::fine(value).shift).exp2();
+        assert!((f64::from(mantissa) - scaled).abs() <= 0.5, "{value}");
+        let factor = Fix::coefficient(value);
+        let scaled = value * f64::from(16 + factor.shift).exp2();
+        assert!(
+            (f64::from(factor.mantissa) - scaled).abs() <= 0.5,
+            "{value}"
+        );
+        let row = Fix::row([value, value / 3.0]);
+        let scaled = value / 3.0 * f64::from(16 + row.shift).exp2();
+        assert!(
+            (f64::from(row.mantissas[1]) - scaled).abs() <= 0.5,
+            "{value}"
+        );
+    }
+}
