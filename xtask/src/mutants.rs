@@ -205,6 +205,8 @@ fn failed_tests(asked: &Asked, copy: &Path) -> Result<Vec<String>, Fault> {
         .args(asked.tests)
         .current_dir(copy)
         .env("CARGO_TARGET_DIR", copy.join("target"))
+        // What one entry fails on is not tried on the next.
+        .env("PROPTEST_DISABLE_FAILURE_PERSISTENCE", "1")
         .env("RUST_BACKTRACE", "0");
     let output = command.output().map_err(|error| error.to_string())?;
     let errors = String::from_utf8_lossy(&output.stderr);

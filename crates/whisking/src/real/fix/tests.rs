@@ -31,8 +31,9 @@ proptest! {
         prop_assert!((found - x * c).abs() <= 3.0 * STEP, "{found} {}", x * c);
     }
 
+    /// Up to where a sum of three would leave the format.
     #[test]
-    fn rows_share_a_scale(x in prop::array::uniform3(-3.9..3.9_f64), c in prop::array::uniform3(-0.9..0.9_f64)) {
+    fn rows_share_a_scale(x in prop::array::uniform3(-2.9..2.9_f64), c in prop::array::uniform3(-0.9..0.9_f64)) {
         let largest = c.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         let found = Fix::dot(x.map(Fix::from_f64), &Fix::row(c)).to_f64();
         let exact: f64 = x.iter().zip(c).map(|(x, c)| x * c).sum();
