@@ -61,6 +61,31 @@ pub fn measure(
     })
 }
 
+impl Deadlines {
+    /// `what,mean,worst`, a line each; what has no mean leaves it out.
+    pub fn csv(&self) -> String {
+        let figures = &self.figures;
+        let cycles = |ps: Ps| ps / self.cycle.max(1);
+        let line = |what: &str, extent: &Extent| {
+            format!("{what},{:.1},{}\n", extent.mean(), extent.worst())
+        };
+        [
+            format!("ticks,,{}\n", self.ticks),
+            format!("ticks missed,,{}\n", self.missed),
+            format!("latency cycles,,{}\n", cycles(figures.latency.worst())),
+            format!("tick cycles,,{}\n", cycles(figures.length.worst())),
+            line("tick's handler", &figures.tick),
+            line("handler at the end of a frame", &figures.handlers),
+            line("idle without a line to log", &figures.idle),
+            line("whole tick", &figures.whole),
+            line("idle while it logs", &figures.logging),
+        ]
+        .concat()
+        .trim_end()
+        .to_owned()
+    }
+}
+
 impl fmt::Display for Deadlines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let figures = &self.figures;

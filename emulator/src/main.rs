@@ -55,6 +55,9 @@ enum Command {
         /// Over how many minutes of simulated time
         #[arg(long, default_value_t = 10.0)]
         minutes: f64,
+        /// Print them as a table of comma-separated values
+        #[arg(long)]
+        csv: bool,
     },
     /// Breaks the sensor's wires; fails if the motor is not switched off, or stays off
     SensorLoss {
@@ -103,9 +106,14 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             scene,
             program,
             minutes,
+            csv,
         } => {
             let measured = deadlines::measure(&scene, &program, minutes, verbosity)?;
-            report::say(&measured);
+            if csv {
+                report::say(measured.csv());
+            } else {
+                report::say(&measured);
+            }
             if measured.missed > 0 {
                 return Err(Error::Work(format!("{} ticks missed", measured.missed)));
             }

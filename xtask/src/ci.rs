@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::emulate::Task;
 use crate::run::{Fault, cargo, run};
-use crate::{count, docs, emulate, firmware, size};
+use crate::{cost, docs, emulate, firmware, size};
 
 /// Everything.
 ///
@@ -35,7 +35,8 @@ pub(crate) fn all() -> Result<(), Fault> {
     }
 
     run(&mut cargo(&["test", "-p", "count", "--lib"]))?;
-    count::all(None, true)?;
+    // Counts anew what docs/instructions.csv and docs/cost.csv say.
+    cost::all(None, true)?;
 
     // What the README tells a newcomer to run: the main job (its output and its
     // files are what the generated documents must hold), then all tests.

@@ -67,6 +67,18 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     fs::write(&path, table(&rows)).map_err(wrong)
 }
 
+/// Kernel, number format and processor; mean and worst.
+pub(crate) type Known = ([String; 3], f64, f64);
+
+/// The counts of a committed table.
+///
+/// # Errors
+/// If it is none.
+pub(crate) fn known(text: &str) -> Result<Vec<Known>, Fault> {
+    let known = |row: Row| (row.key, row.mean, row.worst as f64);
+    Ok(read(text)?.into_iter().map(known).collect())
+}
+
 fn count() -> Result<Vec<Row>, Fault> {
     Command::new(EMULATOR)
         .arg("--version")

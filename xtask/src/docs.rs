@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use crate::cost;
 use crate::run::{Fault, cargo, output, run, top};
 
 /// Writes every generated document, or checks that they are up to date.
@@ -10,6 +11,8 @@ use crate::run::{Fault, cargo, output, run, top};
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", &scene::reference(), check)?;
+    // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
+    cost::write_page(check)?;
     let said = output(&mut cargo(&[
         "run",
         "--release",

@@ -5,7 +5,7 @@ mod variants;
 use std::path::{Path, PathBuf};
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, cargo, run, target, top};
+use crate::run::{Fault, cargo, output, run, target, top};
 
 /// What is done with a scene.
 #[derive(Debug, Clone)]
@@ -55,6 +55,17 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         }
     }
     run(command.arg("--program").arg(program))
+}
+
+/// What [`Task::Deadlines`] measures, as `what,mean,worst` lines.
+///
+/// # Errors
+/// As [`emulate`].
+pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
+    let program = firmware::build(board, scene)?;
+    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "--quiet"]);
+    command.args(["deadlines", "--csv", "--minutes", &minutes.to_string()]);
+    output(command.arg(top().join(scene)).arg("--program").arg(program))
 }
 
 /// Compares every scene in `scenes` with host-sim; those that the board does

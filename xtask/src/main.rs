@@ -1,6 +1,7 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `flash`, `docs`.
 
 mod ci;
+mod cost;
 mod count;
 mod docs;
 mod emulate;
@@ -43,6 +44,20 @@ enum Command {
         /// Only say whether a kernel has become dearer than the table says
         #[arg(long)]
         check: bool,
+    },
+    /// Says what each stage of a tick costs, beside its goal and what others take
+    /// (from docs/instructions.csv and the emulated board); writes docs/cost.csv and
+    /// docs/cost.md
+    Cost {
+        /// The table to write or to check; - prints it alone
+        #[arg(long)]
+        csv: Option<PathBuf>,
+        /// Count everything anew and only say whether a stage has become dearer
+        #[arg(long)]
+        check: bool,
+        /// Instead: measure ten minutes of the noisiest scene (docs/deadlines.csv)
+        #[arg(long, conflicts_with_all = ["csv", "check"])]
+        deadlines: bool,
     },
     /// Builds the firmware of every scene for every board that takes it, and
     /// prints flash, static RAM, stack, and the time that host-sim takes; writes
@@ -137,6 +152,10 @@ fn main() -> ExitCode {
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),
+        Command::Cost {
+            deadlines: true, ..
+        } => cost::deadlines(),
+        Command::Cost { csv, check, .. } => cost::all(csv.as_deref(), check),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
         Command::Mutants(choice) => mutants::all(&choice),
