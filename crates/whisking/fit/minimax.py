@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Minimax coefficients of the single-precision elementary functions in ../src/math.rs.
+"""Minimax coefficients of the elementary functions in ../src/math/single.rs.
 
-Run: python3 minimax.py      (needs numpy; prints what math.rs holds)
+Run: python3 minimax.py      (needs numpy; prints what single.rs holds)
 
-Two fits, both by Lawson's iteration (weighted least squares whose weights
-drift towards the largest errors), then rounded to single precision:
+Three fits by Lawson's iteration (weighted least squares whose weights drift
+towards the largest errors), then rounded to single precision:
   tanh(2x)/2 = x P(x^2)/Q(x^2), P of degree 2, Q of degree 3 with Q(0) = 1, |x| <= 1.5
-  exp(-u), a polynomial of degree 7 in t = u - 1.125 (centred, so that the
-  coefficients shrink and rounding with them), 0 <= u <= 2.25 (u = x^2, |x| <= 1.5)
+  exp(-u) = R(u)^2, R of degree 6, 0 <= u <= 2.25 (u = x^2, |x| <= 1.5)
+  1 - 1/sqrt(1 + x) = x S(x), S of degree 2, |x| <= 1/16
 """
 import numpy as np
 
@@ -41,14 +41,21 @@ def fit_tanh():
     return c[:3], np.concatenate([[1.0], c[3:]])
 
 
-def fit_exp():
+def fit_root_exp():
     u = chebyshev_grid(0.0, 2.25)
-    return lawson((u[:, None] - 1.125) ** np.arange(8)[None, :], np.exp(-u))
+    root = np.exp(-u / 2)
+    # The error of the square is twice the root times that of the root.
+    return lawson((u[:, None] ** np.arange(7)[None, :]) * 2 * root[:, None], root * 2 * root, 8000)
+
+
+def fit_excess():
+    x = chebyshev_grid(-1 / 16, 1 / 16)
+    return lawson(x[:, None] ** np.arange(1, 4)[None, :], 1 - 1 / np.sqrt(1 + x), 8000)
 
 
 if __name__ == "__main__":
     p, q = fit_tanh()
-    e = fit_exp()
+    e, s = fit_root_exp(), fit_excess()
     f = np.float32
     x = np.linspace(-1.5, 1.5, 2_000_001).astype(f)
     u = x * x
@@ -57,9 +64,13 @@ if __name__ == "__main__":
     print("tanh P", [float(f(v)) for v in p])
     print("tanh Q", [float(f(v)) for v in q])
     print("tanh(2x)/2 largest error in f32", np.abs(num / den - np.tanh(2 * x.astype(float)) / 2).max())
-    t = u - f(1.125)
-    acc = np.full_like(u, f(e[7]))
-    for k in range(6, -1, -1):
-        acc = acc * t + f(e[k])
-    print("exp", [float(f(v)) for v in e])
-    print("exp(-x^2) largest error in f32", np.abs(acc - np.exp(-x.astype(float) ** 2)).max())
+    root = np.full_like(u, f(e[6]))
+    for k in range(5, -1, -1):
+        root = root * u + f(e[k])
+    print("root of exp", [float(f(v)) for v in e])
+    print("exp(-x^2) largest error in f32", np.abs(root * root - np.exp(-x.astype(float) ** 2)).max())
+    x = np.linspace(-1 / 16, 1 / 16, 2_000_001).astype(f)
+    excess = ((f(s[2]) * x + f(s[1])) * x + f(s[0])) * x
+    print("excess", [float(f(v)) for v in s])
+    exact = 1 - 1 / np.sqrt(1 + x.astype(float))
+    print("1 - 1/sqrt(1 + x) largest error in f32", np.abs(excess - exact).max())

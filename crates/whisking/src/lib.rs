@@ -16,6 +16,7 @@
 //! - *RCP*: rapid cessation of protraction; contact raises z, which weakens that side.
 //! - *CIA*: contact-induced asymmetry; contact anywhere raises every gain g.
 //! - *v*: velocity of a whisker in units of its natural frequency, (dθ/dt)/(10 f_W).
+//! - *lag*: a first-order part of the muscle; a slow and a fast one make θ.
 //! - *tick*: one control step of length T.
 //!
 //! # Shape

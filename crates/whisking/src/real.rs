@@ -12,7 +12,7 @@ pub use fix::{Factor, Factors, FineFactor, Fix};
 
 /// A number format of the tick.
 ///
-/// States lie within ±4. Constants of the tick have a type of their own,
+/// States lie within ±4. Constants of the tick have types of their own,
 /// because in fixed point a small constant needs a scale of its own to keep
 /// its digits. Stated errors are the largest absolute ones in f32 and in
 /// [`Fix`], measured by the tests of this crate.

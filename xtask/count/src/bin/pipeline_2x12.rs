@@ -1,16 +1,18 @@
-//! What a tick of two sides with twelve whiskers each computes.
+//! What a tick of two sides with twelve whiskers each computes. The small
+//! machine's memory does not hold that.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
-use count::pipeline::Pipeline;
-use count::{each_format, kernel, program};
+#[cfg(not(machine = "microbit"))]
+use count::{each_format, format::Format, kernel, pipeline::Pipeline};
 
-program!(kernels);
+count::program!(kernels);
 
 fn kernels() {
+    #[cfg(not(machine = "microbit"))]
     each_format!(tick);
 }
 
+#[cfg(not(machine = "microbit"))]
 #[inline(never)]
 fn tick<R: Format>() {
     kernel!(R: "computation of 24 whiskers",

@@ -1,16 +1,18 @@
-//! A whole tick of an active module of twenty-four whiskers.
+//! A whole tick of an active module of twenty-four whiskers. The small
+//! machine's memory does not hold that.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
-use count::module::Whole;
-use count::{each_format, kernel, program};
+#[cfg(not(machine = "microbit"))]
+use count::{each_format, format::Format, kernel, module::Whole};
 
-program!(kernels);
+count::program!(kernels);
 
 fn kernels() {
+    #[cfg(not(machine = "microbit"))]
     each_format!(tick);
 }
 
+#[cfg(not(machine = "microbit"))]
 #[inline(never)]
 fn tick<R: Format>() {
     kernel!(R: "tick of 24 whiskers",
