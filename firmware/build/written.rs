@@ -136,7 +136,7 @@ fn noise<R: Real>(noise: Option<&whisking::noise::Config<R>>) -> String {
             ) + &constant(
                 "noise_amplitude",
                 "whisking::noise::Config",
-                "<Number as whisking::Real>::Coefficient",
+                "<Number as whisking::Real>::Fine",
                 &noise.amplitude,
             ),
             "Some(whisking::noise::Config {\n    \
