@@ -79,7 +79,7 @@ pub trait Real:
     /// The product with a number of a magnitude up to 4 of which four digits do.
     fn rough(self, other: Self) -> Self;
 
-    /// Σ x_k c_k.
+    /// Σ x_k c_k, which must stay within ±8.
     fn dot<const K: usize>(x: [Self; K], row: &Self::Row<K>) -> Self;
 
     /// The product with a constant.
