@@ -6,6 +6,14 @@
 //! bilinear transform pre-warped at f_c, but the coefficients stay well scaled
 //! at any tick rate, where those of a direct form crowd around 1 and 2 and
 //! single precision loses three digits.
+//!
+//! The second-order section in full, with a = 1/(1 + g + g²) and v₃ its input
+//! less s₂: v₁ = a (s₁ + g v₃), v₂ = s₂ + g v₁, and each state moves by twice
+//! what v exceeds it. With the inner state kept as p = g s₁/2 the increment
+//! g v₁ is q = 2 a p + g² a v₃, and as 2 a = 2 − 2 (g + g²) a, the same sum
+//! that leads to it is the new p: two products where the states as they stand
+//! take four. In fixed point the output rests within 2^-28/(g² a) of what it
+//! follows: 6.5e-7 at 2 kHz, 6.1e-5 at 20 kHz, half a sensor's step.
 
 use core::f64::consts::PI;
 
@@ -19,15 +27,16 @@ pub const CORNER_HZ: f64 = 50.0;
 pub struct Config<R: Real> {
     /// g/(1 + g) of the first-order section.
     pub first: R::Coefficient,
-    /// g, g and g² over 1 + g + g²: what the second-order section's inner
-    /// state gives up, what it takes in, what its outer state takes in.
-    pub second: [R::Coefficient; 3],
+    /// 2 (g + g²) and g² over 1 + g + g²: what the second-order section's inner
+    /// state gives up, and what it takes in.
+    pub second: [R::Coefficient; 2],
 }
 
 /// What the filter remembers; the default is rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
     first: R,
+    /// p and s₂.
     second: [R; 2],
 }
 
@@ -48,7 +57,7 @@ impl<R: Real> Config<R> {
         let a1 = 1.0 / (1.0 + g + g * g);
         Ok(Self {
             first: R::coefficient(g / (1.0 + g)),
-            second: [(g + g * g) * a1, g * a1, g * g * a1].map(R::coefficient),
+            second: [2.0 * (g + g * g) * a1, g * g * a1].map(R::coefficient),
         })
     }
 
@@ -61,14 +70,14 @@ impl<R: Real> Config<R> {
         let y = state.first + half;
         state.first = y + half;
 
-        // v1 = (s1 + g v3)/(1 + g + g²), in increments: the coefficients are
-        // small at high tick rates, and so is what rounding does to them.
-        let [leak, into, through] = self.second;
-        let [s1, s2] = state.second;
-        let v3 = y - s2;
-        let d1 = v3.times(into) - s1.times(leak);
-        let v2 = s2 + s1.times(into) + v3.times(through);
-        state.second = [s1 + d1 + d1, v2 + v2 - s2];
+        // In increments: the coefficients are small at high tick rates, and so
+        // is what rounding does to them.
+        let [leak, into] = self.second;
+        let [p, s2] = state.second;
+        let next = p - p.times(leak) + (y - s2).times(into);
+        let rise = p + next;
+        let v2 = s2 + rise;
+        state.second = [next, v2 + rise];
         v2
     }
 }

@@ -89,7 +89,11 @@ impl<R: Real> Gate<R> {
 
     /// Decays, but not below `floor`; always within 0..=`top`. A floor that is
     /// not a number raises nothing.
-    #[inline]
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "not inlined, it would fetch constants that the caller knows"
+    )]
     fn step(&mut self, decay: &Decay<R>, floor: R, top: R) {
         if decay.slow {
             self.value.decay(&mut self.carry, decay.tick);
@@ -219,6 +223,10 @@ mod tests {
         assert_eq!(z.value, 0.35);
         rcp.step(&mut z, 0.0);
         assert_eq!(z.value, 0.0);
+        // A contact that is not a number asks for nothing, and all decays.
+        z = Gate::new(1.0);
+        rcp.step(&mut z, f64::NAN);
+        assert_eq!((z.value, z.mean), (0.0, 0.0));
     }
 
     #[test]

@@ -84,7 +84,8 @@ impl<R: Real> Config<R> {
     /// and `after` the drive W at the two ends of the tick.
     ///
     /// The force is between 0 and 1 and both integrators are bounded for bounded
-    /// forces: |θ| stays below 2.5 and what is kept below 5, at any f_W T.
+    /// forces: where the drives are those of an oscillator from the start on, |θ|
+    /// stays below 2.5 and what is kept below 5, at any f_W T and for any gains.
     #[inline]
     pub fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
         match self {

@@ -76,7 +76,8 @@ pub trait Real:
     /// else overflow.
     fn within_half(self) -> Self;
 
-    /// The product with a number of a magnitude up to 4 of which four digits do.
+    /// The product, for a number below 2, with one of a magnitude up to 4 of
+    /// which four digits do.
     fn rough(self, other: Self) -> Self;
 
     /// Σ x_k c_k, which must stay within ±8.

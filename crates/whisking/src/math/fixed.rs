@@ -17,37 +17,36 @@ struct Segment {
     slopes: [i16; 2],
 }
 
-/// Segments of equal width, 2^`BITS` in Q28, from zero on.
+/// Segments of equal width, 2^`BITS`, from zero on.
 struct Quadratics<const N: usize, const BITS: u32>([Segment; N]);
 
 impl<const N: usize, const BITS: u32> Quadratics<N, BITS> {
     /// The last number of the table.
-    const LAST: i32 = ((N as i32) << BITS) - 1;
+    const LAST: u32 = ((N as u32) << BITS) - 1;
 
-    /// The value at `x` ≥ 0 in Q28, beyond the table that at its end; Q28.
+    /// The value at `x` ≥ 0, beyond the table that at its end; Q28.
     #[inline]
     fn at(&self, x: i32) -> i32 {
-        let x = if x < Self::LAST { x } else { Self::LAST };
-        let n = (x >> BITS) as usize;
-        // In range, which the compiler does not see.
-        let segment = self.0[if n < N { n } else { N - 1 }];
+        // A number that the compiler sees to be in the table.
+        let x = x.cast_unsigned().min(Self::LAST);
+        let segment = self.0[(x >> BITS) as usize];
         // Q16 about the middle: the top bit of the position turned round.
-        let t = ((x << (32 - BITS)) ^ i32::MIN) >> 16;
+        let t = ((x << (32 - BITS)).cast_signed() ^ i32::MIN) >> 16;
         let [c1, c2] = segment.slopes.map(i32::from);
         segment.middle + (((c1 + ((c2 * t) >> 16)) * t) >> 9)
     }
 }
 
 /// Expands to the quadratics through `f` at the three Chebyshev nodes of each
-/// of `$n` segments of 2^`$bits` in Q28: within h³ max|f‴|/192 of it.
+/// of `$n` segments of 2^`$bits` in Q`$q`: within h³ max|f‴|/192 of it.
 macro_rules! quadratics {
-    ($f:path, $n:literal segments of $bits:literal bits) => {{
+    ($f:path, $n:literal segments of $bits:literal bits of Q $q:literal) => {{
         // Chebyshev's nodes on [−1/2, 1/2] are 0 and ± this.
         const T: f64 = 0.433_012_701_892_219_3;
         const fn nearest(x: f64) -> i32 {
             (if x < 0.0 { x - 0.5 } else { x + 0.5 }) as i32
         }
-        let width = (1_u64 << $bits) as f64 / ONE as f64;
+        let width = (1_u64 << $bits) as f64 / (1_u64 << $q) as f64;
         let mut table = [Segment {
             middle: 0,
             slopes: [0; 2],
@@ -83,9 +82,9 @@ const fn inv_sqrt_quarter(x: f64) -> f64 {
     constant::inv_sqrt(x + 0.25) / 4.0
 }
 
-static HALF_TANH: Quadratics<96, 22> = quadratics!(half_tanh, 96 segments of 22 bits);
-static EXP_NEG: Quadratics<144, 22> = quadratics!(exp_neg, 144 segments of 22 bits);
-static INV_SQRT: Quadratics<48, 22> = quadratics!(inv_sqrt_quarter, 48 segments of 22 bits);
+static HALF_TANH: Quadratics<96, 22> = quadratics!(half_tanh, 96 segments of 22 bits of Q 28);
+static EXP_NEG: Quadratics<144, 18> = quadratics!(exp_neg, 144 segments of 18 bits of Q 24);
+static INV_SQRT: Quadratics<48, 22> = quadratics!(inv_sqrt_quarter, 48 segments of 22 bits of Q 28);
 
 /// Muscle drive (tanh 2x + 1)/2 of `x`, |x| ≤ 1.5, the value there beyond;
 /// largest error 6e-7.
@@ -98,9 +97,7 @@ pub(crate) fn drive(x: i32) -> i32 {
 /// exp(−x²) of `x`, |x| ≤ 1.5, the value there beyond; largest error 6e-7.
 #[inline]
 pub(crate) fn exp_neg_square(x: i32) -> i32 {
-    // From 4 on the square would not fit.
-    let x = x.clamp(-2 * ONE, 2 * ONE);
-    EXP_NEG.at(high(x, x) << 4)
+    EXP_NEG.at(high(x, x))
 }
 
 /// 1 − 1/√(1 + x) of `x`, |x| ≤ 1/16; largest error 1.4e-4 of itself and 1e-8.

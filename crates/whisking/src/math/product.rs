@@ -15,13 +15,25 @@ pub(crate) const fn by_half(x: i32, y: i16) -> i32 {
     scaled::<16>(x, y)
 }
 
-/// ⌊x y / 2^`DOWN`⌋, `DOWN` from 1 to 16, where that fits.
+/// ⌊x y / 2^`DOWN`⌋, `DOWN` from 1 to 16, for |x| < 2^(15 + `DOWN`).
 #[inline]
 pub(crate) const fn scaled<const DOWN: u32>(x: i32, y: i16) -> i32 {
     if IS_SMALL {
         scaled_in_parts::<DOWN>(x, y)
     } else {
-        ((x as i64 * y as i64) >> DOWN) as i32
+        // The shape for which a Cortex-M4 has an instruction.
+        (((x << (16 - DOWN)) as i64 * y as i64) >> 16) as i32
+    }
+}
+
+/// ⌊x y / 2^16⌋ like [`by_half`], for a constant that may be small: the compiler
+/// finds the instruction of a Cortex-M4 only for constants of all 16 bits.
+#[inline]
+pub(crate) const fn by_constant(x: i32, y: i16) -> i32 {
+    if IS_SMALL {
+        scaled_in_parts::<16>(x, y)
+    } else {
+        high(x, (y as i32) << 16)
     }
 }
 
@@ -35,6 +47,27 @@ pub(crate) const fn high(x: i32, y: i32) -> i32 {
     }
 }
 
+/// x y / 2^32 for `y` without its lower half, to the nearest, halves upwards.
+#[inline]
+pub(crate) const fn by_top(x: i32, y: i32) -> i32 {
+    let y = y & !0xFFFF;
+    if IS_SMALL {
+        high_rounded_in_parts(x, y)
+    } else {
+        ((x as i64 * y as i64 + (1 << 31)) >> 32) as i32
+    }
+}
+
+/// x y / 2^32, to the nearest, halves upwards, for |y| ≤ 2^30.
+#[inline]
+pub(crate) const fn high_rounded(x: i32, y: i32) -> i32 {
+    if IS_SMALL {
+        high_rounded_in_parts(x, y)
+    } else {
+        ((x as i64 * y as i64 + (1 << 31)) >> 32) as i32
+    }
+}
+
 #[inline]
 const fn scaled_in_parts<const DOWN: u32>(x: i32, y: i16) -> i32 {
     let y = y as i32;
@@ -43,17 +76,31 @@ const fn scaled_in_parts<const DOWN: u32>(x: i32, y: i16) -> i32 {
 
 #[inline]
 const fn high_in_parts(x: i32, y: i32) -> i32 {
+    sum_of_parts(x, y, 0)
+}
+
+#[inline]
+const fn high_rounded_in_parts(x: i32, y: i32) -> i32 {
+    sum_of_parts(x, y, 1 << 15)
+}
+
+/// ⌊x y / 2^32 + `more` / 2^16⌋.
+#[inline]
+const fn sum_of_parts(x: i32, y: i32, more: i32) -> i32 {
     let (xh, xl) = (x >> 16, x as u32 & 0xFFFF);
     let (yh, yl) = (y >> 16, y as u32 & 0xFFFF);
     // Each sum stays within 32 bits: a product of halves leaves room for one half more.
     let low = xh * yl as i32 + ((xl * yl) >> 16) as i32;
-    let middle = xl as i32 * yh + (low & 0xFFFF);
+    let middle = xl as i32 * yh + (low & 0xFFFF) + more;
     xh * yh + (low >> 16) + (middle >> 16)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{high, high_in_parts, scaled, scaled_in_parts};
+    use super::{
+        by_constant, by_half, by_top, high, high_in_parts, high_rounded, high_rounded_in_parts,
+        scaled, scaled_in_parts,
+    };
     use proptest::prelude::*;
 
     const EDGES: [i32; 9] = [
@@ -70,9 +117,23 @@ mod tests {
 
     fn same(x: i32, y: i32) {
         assert_eq!(high_in_parts(x, y), high(x, y), "{x} {y}");
+        let few = y.clamp(-(1 << 30), 1 << 30);
+        let rounded = high_rounded(x, few);
+        assert_eq!(high_rounded_in_parts(x, few), rounded, "{x} {few}");
+        assert!(
+            (f64::from(x) * f64::from(few) / 4_294_967_296.0 - f64::from(rounded)).abs() <= 0.5
+        );
+        let top = y & !0xFFFF;
+        assert_eq!(high_rounded_in_parts(x, top), by_top(x, y), "{x} {y}");
         let y = y as i16;
-        assert_eq!(scaled_in_parts::<16>(x, y), scaled::<16>(x, y), "{x} {y}");
+        assert_eq!(scaled_in_parts::<16>(x, y), by_half(x, y), "{x} {y}");
+        assert_eq!(by_constant(x, y), by_half(x, y), "{x} {y}");
+        let x = x >> 3;
         assert_eq!(scaled_in_parts::<13>(x, y), scaled::<13>(x, y), "{x} {y}");
+        assert_eq!(
+            i64::from(scaled::<13>(x, y)),
+            (i64::from(x) * i64::from(y)) >> 13
+        );
     }
 
     #[test]

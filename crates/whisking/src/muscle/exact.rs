@@ -84,13 +84,9 @@ impl<R: Real> Exact<R> {
     pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let [f, d1, d2, d3] = state.history.force;
         let push = gain * f;
-        let rise = |i: usize| {
-            let lag = &self.lags[i];
-            (push - state.kept[i]).times_fine(lag.decay)
-                + R::dot([d1, d2, d3], &lag.predict).rough(gain)
-        };
-        let (slow, fast) = (rise(0), rise(1));
-        let predicted = self.theta([state.kept[0] + slow, state.kept[1] + fast]);
+        let way = [0, 1].map(|i| (push - state.kept[i]).times_fine(self.lags[i].decay));
+        let bends = [0, 1].map(|i| R::dot([d1, d2, d3], &self.lags[i].predict));
+        let predicted = self.theta([0, 1].map(|i| state.kept[i] + (way[i] + bends[i].rough(gain))));
         let force = drive * predicted.exp_neg_square();
         let n1 = force - f;
         // With less than ten ticks a whisk a jump of the gain can make these
@@ -99,11 +95,12 @@ impl<R: Real> Exact<R> {
         let n3 = (n2 - d2).within_half();
         // The weight before the gain: the difference alone may be large.
         let n4 = (n3 - d3).within_half();
-        let correction = |i: usize| n4.times(self.lags[i].correct).rough(gain);
+        let [slow, fast] =
+            [0, 1].map(|i| way[i] + (bends[i] + n4.times(self.lags[i].correct)).rough(gain));
         let [slow_lag, fast_lag] = &mut state.kept;
         // Only the slow lag sums over many ticks.
-        slow_lag.accumulate(&mut state.carry, slow + correction(0));
-        *fast_lag = *fast_lag + (fast + correction(1));
+        slow_lag.accumulate(&mut state.carry, slow);
+        *fast_lag = *fast_lag + fast;
         state.theta = self.theta(state.kept);
         state.history.force = [force, n1, n2, n3];
     }

@@ -2,6 +2,7 @@
 
 use super::exact::Lag;
 use super::{Config, Euler, Exact, History, State, pace};
+use crate::{Fix, Real};
 
 #[test]
 fn a_constant_force_is_answered_as_the_closed_form_says() {
@@ -72,4 +73,36 @@ fn a_fast_lag_answers_a_quartic_as_the_closed_form_says() {
         1.0 - f64::from(n) / rate * before
     });
     assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+}
+
+/// At few ticks a whisk a gain that jumps turns the force on and off from tick
+/// to tick, and its fourth difference would leave fixed point.
+#[test]
+fn no_rhythm_of_the_gain_leads_beyond_the_bounds() {
+    fn run<R: Real>(cycles: f64, period: usize) {
+        let config = Config::Exact(Exact::<R>::new(cycles));
+        let first = R::from_f64(1.5).drive();
+        let mut state = State::new(History {
+            force: [first, R::ZERO, R::ZERO, R::ZERO],
+        });
+        for n in 0..400 {
+            let phase = core::f64::consts::TAU * cycles * n as f64;
+            let drive = R::from_f64(1.5 * phase.cos()).drive();
+            let open = (n / period).is_multiple_of(2);
+            let gain = R::from_f64(if open { 2.9 } else { 0.0 });
+            config.step(&mut state, gain, drive, drive);
+            let [theta, slow, fast] = [state.theta, state.kept[0], state.kept[1]].map(Real::to_f64);
+            assert!(theta.abs() < 2.5, "{cycles} {period} {n}: {theta}");
+            assert!(
+                slow.abs() < 5.0 && fast.abs() < 5.0,
+                "{cycles} {period} {n}: {slow} {fast}"
+            );
+        }
+    }
+    for cycles in [1e-3, 1.25e-2, 0.05, 0.125, 0.25] {
+        for period in 1..8 {
+            run::<Fix>(cycles, period);
+            run::<f32>(cycles, period);
+        }
+    }
 }

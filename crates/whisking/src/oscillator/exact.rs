@@ -237,10 +237,9 @@ impl<R: Real> Exact<R> {
             }
             let (left, right) = ((same + cross).excess(), (same - cross).excess());
             let (along, across) = (left + right, left - right);
-            let pull = |m: R, d: R| (along.rough(m) + across.rough(d)).times(self.half_relax);
             for k in 0..2 {
-                on_m[k] = on_m[k] - pull(m[k], d[k]);
-                on_d[k] = on_d[k] - pull(d[k], m[k]);
+                on_m[k] = on_m[k] - self.half_pull(along, m[k], across, d[k]);
+                on_d[k] = on_d[k] - self.half_pull(along, d[k], across, m[k]);
             }
         } else {
             for (psi, change) in modes.iter().zip(&mut change) {
@@ -255,6 +254,16 @@ impl<R: Real> Exact<R> {
             }
         }
         Some(change)
+    }
+
+    /// Half of (a x + b y), times what a tick relaxes.
+    #[inline(always)]
+    #[allow(
+        clippy::inline_always,
+        reason = "not inlined, it would fetch constants that the caller knows"
+    )]
+    fn half_pull(&self, a: R, x: R, b: R, y: R) -> R {
+        (a.rough(x) + b.rough(y)).times(self.half_relax)
     }
 
     /// The same step far from the circle, where ψ may also meet its limits.

@@ -1,7 +1,7 @@
 //! Constants of the tick in fixed point.
 
 use super::SATURATED;
-use crate::math::product::{by_half, high};
+use crate::math::product::{by_constant, by_half, high};
 
 /// A constant with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
 /// 3.1e-5 of its value.
@@ -158,7 +158,7 @@ impl<const K: usize> Factors<K> {
         let sum = x
             .iter()
             .zip(self.mantissas)
-            .map(|(x, m)| by_half(*x, m))
+            .map(|(x, m)| by_constant(*x, m))
             .sum();
         lowered(sum, self.shift)
     }
