@@ -240,7 +240,7 @@ pub(crate) const LIST: &[Mutant] = &[
     mutant("carry of a sum, f32 and f64", FLOAT, "let step = increment + *carry;", "let step = increment;"),
     mutant("carry of a decay, fixed point", FIX, "*carry = left;", "let _ = left;"),
     mutant("carry into a decay, fixed point", FACTOR, "i64::from(x) * i64::from(self.mantissa) + carry", "i64::from(x) * i64::from(self.mantissa) + 0 * carry"),
-    mutant("rounding of a product of numbers, fixed point", FIX, "high_rounded(self.0, other.0) << 4", "crate::math::product::high(self.0, other.0) << 4"),
+    mutant("rounding of a product of numbers, fixed point", FIX, "high_rounded(x, y) << 4", "crate::math::product::high(x, y) << 4"),
     mutant("a factor of two in a rough product, fixed point", FIX, "other.0 << 1) << 1)", "other.0) << 1)"),
     mutant("rounding of a rough product", PRODUCT, "x as i64 * y as i64 + (1 << 31)) >> 32) as i32\n    }\n}\n\n/// x y / 2^32, to", "x as i64 * y as i64) >> 32) as i32\n    }\n}\n\n/// x y / 2^32, to"),
     mutant("rounding of a reading, fixed point", FIX, "i32::from(code) * 32_772", "i32::from(code) * 32_768"),

@@ -22,6 +22,13 @@ const FRACTION: u32 = 28;
 /// Where products and readings saturate: 4.
 const SATURATED: i32 = 4 << FRACTION;
 
+/// The product of two numbers.
+#[inline]
+const fn product(x: i32, y: i32) -> i32 {
+    // Rounded, or a sum of many would lean downwards.
+    high_rounded(x, y) << 4
+}
+
 /// A number from −8 to 8 in steps of 2^-28 (3.7e-9).
 ///
 /// Products with constants and readings saturate at ±4; sums of two such
@@ -61,8 +68,7 @@ impl Mul for Fix {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        // Rounded, or a sum of many would lean downwards.
-        Self(high_rounded(self.0, other.0) << 4)
+        Self(product(self.0, other.0))
     }
 }
 
