@@ -29,7 +29,7 @@ use whisking::Fix;
 struct Board {
     /// Its feature, as cargo tells it.
     feature: &'static str,
-    /// Its memory map in `src/board`.
+    /// Its memory map.
     memory: &'static str,
     name: &'static str,
     clocks: Clocks,
@@ -37,10 +37,10 @@ struct Board {
 }
 
 macro_rules! boards {
-    ($($feature:literal: $module:ident),*) => {
+    ($($feature:literal: $module:ident, $memory:literal;)*) => {
         [$(Board {
             feature: $feature,
-            memory: concat!(stringify!($module), ".x"),
+            memory: $memory,
             name: board::$module::NAME,
             clocks: board::$module::CLOCKS,
             has_fpu: board::$module::HAS_FPU,
@@ -49,9 +49,9 @@ macro_rules! boards {
 }
 
 const BOARDS: [Board; 3] = boards! {
-    "NUCLEO_F446RE": nucleo_f446re,
-    "NUCLEO_F103RB": nucleo_f103rb,
-    "NUCLEO_G071RB": nucleo_g071rb
+    "NUCLEO_F446RE": nucleo_f446re, "memory.x";
+    "NUCLEO_F103RB": nucleo_f103rb, "firmware/src/board/nucleo_f103rb.x";
+    "NUCLEO_G071RB": nucleo_g071rb, "firmware/src/board/nucleo_g071rb.x";
 };
 
 const DEFAULT_SCENE: &str = "scenes/textures.toml";
@@ -88,7 +88,8 @@ fn output(name: &str) -> Result<PathBuf, Box<dyn Error>> {
 
 /// The memory map, and the linker scripts of cortex-m-rt and defmt.
 fn link(board: &Board) -> Result<(), Box<dyn Error>> {
-    let memory = Path::new("src/board").join(board.memory);
+    let memory = workspace()?.join(board.memory);
+    println!("cargo::rerun-if-changed={}", memory.display());
     fs::copy(&memory, output("memory.x")?)
         .map_err(|error| format!("{}: {error}", memory.display()))?;
     println!("cargo::rustc-link-search={}", env::var("OUT_DIR")?);

@@ -23,6 +23,8 @@ pub struct Agreement {
     pub ticks: u64,
     /// Decisions.
     pub decisions: u64,
+    /// The most bytes that the board's stack has held.
+    pub stack: u32,
 }
 
 /// Runs the scene in `path` on the PC, in the board's number format, and on the
@@ -84,6 +86,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
             path.display()
         )));
     }
+    agreement.stack = board.with_board(|board| board.machine_mut().stack_used())?;
     Ok(agreement)
 }
 

@@ -20,6 +20,8 @@ pub struct Deadlines {
     pub ticks: u64,
     /// Ticks that did not, as the module itself counts them.
     pub missed: u32,
+    /// The most bytes that the stack has held.
+    pub stack: u32,
     /// A cycle of the core.
     pub cycle: Ps,
     /// The figures.
@@ -56,6 +58,7 @@ pub fn measure(
     Ok(Deadlines {
         ticks: run.ticks(),
         missed: board.with_board(|board| board.missed())?,
+        stack: board.with_board(|board| board.machine_mut().stack_used())?,
         cycle: board.with_board(|board| board.machine_mut().cycle()),
         figures: board.figures(),
     })
@@ -72,6 +75,7 @@ impl Deadlines {
         [
             format!("ticks,,{}\n", self.ticks),
             format!("ticks missed,,{}\n", self.missed),
+            format!("bytes of stack by its paint,,{}\n", self.stack),
             format!("latency cycles,,{}\n", cycles(figures.latency.worst())),
             format!("tick cycles,,{}\n", cycles(figures.length.worst())),
             line("tick's handler", &figures.tick),
@@ -91,6 +95,7 @@ impl fmt::Display for Deadlines {
         let figures = &self.figures;
         let cycles = |ps: Ps| ps / self.cycle.max(1);
         writeln!(f, "{} ticks, {} missed", self.ticks, self.missed)?;
+        writeln!(f, "stack, by its paint: {} bytes", self.stack)?;
         writeln!(
             f,
             "interrupt latency: worst {} cycles ({:.2} us)",

@@ -22,6 +22,7 @@ mod machine;
 mod memory;
 mod meter;
 pub mod overload;
+mod paint;
 mod program;
 mod rtt;
 pub mod sensor_loss;

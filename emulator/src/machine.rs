@@ -10,6 +10,7 @@ use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
 use crate::chip::{Chip, FRAME_IRQ, Fault, Ps, ResetCause, Sensor, TICK_IRQ};
 use crate::memory::{Memories, Shared};
+use crate::paint::Stack;
 use crate::program::Program;
 use crate::rtt::Ring;
 
@@ -67,6 +68,7 @@ pub struct Machine {
     shared: Arc<Shared>,
     memories: Memories,
     ring: Ring,
+    stack: Stack,
     now: Ps,
     /// The next event of a peripheral.
     due: Option<Ps>,
@@ -93,6 +95,7 @@ impl Machine {
             core,
             memories,
             ring: Ring::new(program)?,
+            stack: Stack::new(program)?,
             now: 0,
             due: None,
             cycle,
@@ -145,6 +148,14 @@ impl Machine {
     /// [`Fault::Memory`] if the program has broken its log.
     pub fn drain_log(&self) -> Result<Vec<u8>, Fault> {
         self.ring.drain(&self.memories)
+    }
+
+    /// The most bytes that the stack has held since the reset.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] if it was not painted or ran over its end.
+    pub fn stack_used(&self) -> Result<u32, Fault> {
+        self.stack.used(&self.memories)
     }
 
     /// Holds the core for `time` in the middle of the next tick while the

@@ -96,10 +96,11 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Command::Compare { scene, program } => {
             let agreed = compare::compare(&scene, &program)?;
             report::say(format_args!(
-                "{}: PC and board agree to the last bit in {} ticks, {} decisions",
+                "{}: PC and board agree to the last bit in {} ticks, {} decisions; {} bytes of stack",
                 scene.display(),
                 agreed.ticks,
-                agreed.decisions
+                agreed.decisions,
+                agreed.stack
             ));
         }
         Command::Deadlines {

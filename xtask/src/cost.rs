@@ -4,6 +4,7 @@
 //! docs/cost.md.
 
 mod page;
+mod reasons;
 mod stages;
 
 use std::fmt::Write as _;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Row;
+use super::reasons::REASONS;
 use crate::run::Fault;
 
 const INTRODUCTION: &str = "# What it costs\n\n\
@@ -35,14 +36,29 @@ pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
     Ok([number(mean)?, number(worst)?])
 }
 
+/// The bytes of stack that the board of docs/deadlines.csv has used.
+///
+/// # Errors
+/// If they are not there.
+fn painted(deadlines: &str) -> Result<f64, Fault> {
+    let start = "bytes of stack by its paint,,";
+    let bytes = deadlines.lines().find_map(|line| line.strip_prefix(start));
+    let bytes = bytes.and_then(|bytes| bytes.parse().ok());
+    bytes.ok_or_else(|| "docs/deadlines.csv does not tell the stack".to_owned())
+}
+
+/// The goals for the mean and for the worst, as far as there are any.
+fn goals(row: &Row) -> Vec<f64> {
+    row.goal
+        .split(|c: char| !c.is_ascii_digit())
+        .filter_map(|number| number.parse().ok())
+        .collect()
+}
+
 /// Whether the mean, and the worst where that has a goal, are within the goal;
 /// `None` without one.
 fn met(row: &Row) -> Option<bool> {
-    let goals: Vec<f64> = row
-        .goal
-        .split(|c: char| !c.is_ascii_digit())
-        .filter_map(|number| number.parse().ok())
-        .collect();
+    let goals = goals(row);
     let measured = [row.mean, row.worst];
     (!goals.is_empty()).then(|| {
         goals
@@ -60,10 +76,44 @@ fn verdict(row: &Row) -> &'static str {
     }
 }
 
+/// What misses its goal and why.
+///
+/// # Errors
+/// If something misses its goal without a reason.
+fn reasons(rows: &[Row]) -> Result<String, Fault> {
+    let missed: Vec<&Row> = rows.iter().filter(|row| met(row) == Some(false)).collect();
+    let mut text = "\n## What is missed, and why\n".to_owned();
+    for reason in REASONS {
+        let is_here = |row: &&&Row| reason.stages.contains(&row.key[0].as_str());
+        let figures: Vec<String> = missed
+            .iter()
+            .filter(is_here)
+            .map(|row| {
+                let [stage, target] = &row.key;
+                let times = row.mean / goals(row).first().copied().unwrap_or(f64::NAN);
+                format!("{stage} on {target}, {times:.2} times the goal")
+            })
+            .collect();
+        if !figures.is_empty() {
+            let _ = write!(text, "\n- *{}*: {}\n", figures.join("; "), reason.why);
+        }
+    }
+    let known = |row: &&&Row| {
+        REASONS
+            .iter()
+            .any(|r| r.stages.contains(&row.key[0].as_str()))
+    };
+    match missed.iter().find(|row| !known(row)) {
+        Some(row) => Err(format!("{} misses its goal: say why", row.key.join(" on "))),
+        None => Ok(text),
+    }
+}
+
 /// The page.
 ///
 /// # Errors
-/// If a table of another command is not what it should be.
+/// If a table of another command is not what it should be, or a goal is missed
+/// without a reason.
 pub(super) fn page(rows: &[Row], deadlines: &str, sizes: &str) -> Result<String, Fault> {
     let mut text = INTRODUCTION.to_owned();
     text.push_str(
@@ -81,10 +131,12 @@ pub(super) fn page(rows: &[Row], deadlines: &str, sizes: &str) -> Result<String,
             row.peer
         );
     }
+    text.push_str(&reasons(rows)?);
     text.push_str(
         "\n## Deadlines\n\nTen minutes of `scenes/full.toml`, the noisiest scene, on the emulated \
          NUCLEO-F446RE\n(`cargo xtask cost --deadlines`); instructions, where nothing else is \
-         said, and cycles of the\nemulator's model.\n\n| | mean | worst |\n|---|---|---|\n",
+         said, and cycles of the\nemulator's model. The stack's paint is what cortex-m-rt fills \
+         it with at the reset.\n\n| | mean | worst |\n|---|---|---|\n",
     );
     for line in deadlines.lines().skip(1) {
         let _ = writeln!(text, "| {} |", line.replace(',', " | "));
@@ -92,14 +144,24 @@ pub(super) fn page(rows: &[Row], deadlines: &str, sizes: &str) -> Result<String,
     text.push_str(
         "\n## Flash, RAM and stack\n\nBytes, logging included (`cargo xtask size`); the goals are \
          24,576 of flash without the model\n(8,192 for a passive scene), 4,096 of static RAM and \
-         1,024 of stack.\n\n| scene | board | flash | RAM | stack |\n|---|---|---|---|---|\n",
+         1,024 of stack. The stack\nhere is a bound from the instructions, the deepest way of \
+         calls and the deepest interrupt on top;\nthe paint above, and of every scene on the \
+         emulated board, is at most that.\n\n| scene | board | flash | RAM | stack |\n|---|---|---|---|---|\n",
     );
     let mut lines = sizes.lines();
     if lines.next() != Some("scene,board,flash_bytes,ram_bytes,stack_bytes") {
         return Err("docs/sizes.csv has another header".to_owned());
     }
+    let used = painted(deadlines)?;
     for line in lines {
         let _ = writeln!(text, "| {} |", line.replace(',', " | "));
+        let bound = line.strip_prefix("full,nucleo-f446re,");
+        let bound = bound.and_then(|rest| rest.rsplit(',').next()?.parse::<f64>().ok());
+        if bound.is_some_and(|bound| used > bound) {
+            return Err(format!(
+                "{used} bytes of stack were used: the bound is wrong: {line}"
+            ));
+        }
     }
     Ok(text)
 }
