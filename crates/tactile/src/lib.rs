@@ -61,6 +61,7 @@ mod evidence;
 mod exp2;
 mod format;
 mod likelihoods;
+pub mod mlp;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;

@@ -1,0 +1,261 @@
+//! Networks against numpy, and learning against what is known beforehand.
+
+#[path = "common/rows.rs"]
+mod rows;
+
+use rows::Random;
+use tactile::mlp::train::{Options, TrainError, Trained, Trainer};
+use tactile::mlp::{MlpError, Network, Shape};
+
+fn options(hidden: usize) -> Options {
+    Options {
+        hidden,
+        iterations: 400,
+        decay: 0.0,
+        held_out: 0.0,
+        patience: 1,
+        attempts: 10,
+        reliable: 0.25,
+        seed: 1,
+    }
+}
+
+fn learnt(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, TrainError> {
+    let mut trainer = Trainer::new(rows[0].1.len(), options)?;
+    for (label, row) in rows {
+        trainer.add(label, row)?;
+    }
+    trainer.train()
+}
+
+/// The networks of tests/reference/mlp.py, which printed the outputs.
+#[test]
+fn outputs_are_those_of_numpy() {
+    let cases: [([usize; 3], &[f64]); 2] = [
+        ([3, 4, 2], &[0.445_601_673_135_956_6, 0.512_941_465_174_771]),
+        (
+            [7, 5, 3],
+            &[
+                0.319_570_670_528_236_5,
+                0.090_202_885_384_679_35,
+                0.445_314_661_141_623_2,
+            ],
+        ),
+    ];
+    for ([inputs, hidden, outputs], exact) in cases {
+        let shape = Shape {
+            inputs,
+            hidden,
+            outputs,
+        };
+        let sines = |count: usize, f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            (0..count).map(|i| f(i as f64)).collect()
+        };
+        let network = Network::new(
+            shape,
+            &sines(inputs, &|i| (0.3 * i).sin()),
+            &sines(inputs, &|i| 1.0 + 0.5 * (0.7 * i).sin()),
+            &sines(shape.weights(), &|i| 1.5 * (1.0 + i).sin()),
+        )
+        .unwrap();
+        let x = sines(inputs, &|i| 2.0 * (0.9 * i + 0.2).sin());
+        let found = network.outputs(&x).unwrap();
+        assert_eq!(found.len(), exact.len());
+        for (y, exact) in found.iter().zip(exact) {
+            assert!((y - exact).abs() < 1e-14, "{y} {exact}");
+        }
+    }
+}
+
+/// No network without a hidden layer can.
+#[test]
+fn exclusive_or_is_learnt() {
+    let rows: Vec<(&str, Vec<f64>)> = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)]
+        .map(|(a, b)| (if a == b { "equal" } else { "different" }, vec![a, b]))
+        .into();
+    let trained = learnt(
+        Options {
+            reliable: 0.9,
+            ..options(3)
+        },
+        &rows,
+    )
+    .unwrap();
+    assert_eq!(trained.names, ["equal", "different"]);
+    assert_eq!(trained.hit_rates, [1.0, 1.0]);
+    assert!(trained.error < 0.01, "{}", trained.error);
+    for (label, row) in &rows {
+        let y = trained.network.outputs(row).unwrap();
+        assert!((y[0] - f64::from(*label == "equal")).abs() < 0.02, "{y:?}");
+    }
+}
+
+/// Two normal classes a distance of two standard deviations apart: no rule can
+/// hit more than Φ(1) = 84.13 %.
+#[test]
+fn two_normal_classes_are_told_as_well_as_can_be() {
+    let mut random = Random(7);
+    let draw = |class: usize, random: &mut Random| -> Vec<f64> {
+        let shift = 2.0 * class as f64 / 10.0_f64.sqrt();
+        // Scales that the trainer has to find out.
+        let scaled = |i: usize, x: f64| 1e3 + 10.0_f64.powi(i as i32 - 5) * x;
+        (0..10)
+            .map(|i| scaled(i, shift + random.normal()))
+            .collect()
+    };
+    let rows: Vec<(&str, Vec<f64>)> = (0..4000)
+        .map(|n| (["a", "b"][n % 2], draw(n % 2, &mut random)))
+        .collect();
+    let trained = learnt(
+        Options {
+            held_out: 0.15,
+            patience: 6,
+            ..options(4)
+        },
+        &rows,
+    )
+    .unwrap();
+    let trials = 20_000;
+    let hits = (0..trials)
+        .filter(|n| trained.network.classify(&draw(n % 2, &mut random)).unwrap() == n % 2)
+        .count();
+    let rate = hits as f64 / f64::from(trials as u32);
+    // Standard error 0.26 %; learning from 4000 rows costs some tenths.
+    assert!((0.828..0.850).contains(&rate), "{rate}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bits_and_another_another() {
+    let mut random = Random(3);
+    let rows: Vec<(&str, Vec<f64>)> = (0..60)
+        .map(|n| (["a", "b", "c"][n % 3], rows::imp(n % 3, 6, &mut random)))
+        .collect();
+    let once = learnt(options(4), &rows).unwrap();
+    assert_eq!(once, learnt(options(4), &rows).unwrap());
+    let other = Options {
+        seed: 2,
+        ..options(4)
+    };
+    assert_ne!(once.network, learnt(other, &rows).unwrap().network);
+}
+
+#[test]
+fn a_penalty_shrinks_weights() {
+    let mut random = Random(5);
+    let rows: Vec<(&str, Vec<f64>)> = (0..60)
+        .map(|n| (["a", "b"][n % 2], rows::imp(n % 2, 6, &mut random)))
+        .collect();
+    let size = |decay| {
+        let with = Options {
+            decay,
+            ..options(4)
+        };
+        let weights = learnt(with, &rows).unwrap().network.weights().to_vec();
+        weights.iter().map(|w| w * w).sum::<f64>()
+    };
+    let (free, held) = (size(0.0), size(1e-3));
+    assert!(held < 0.25 * free, "{free} {held}");
+}
+
+/// Labels that say nothing: with samples held out, learning ends soon, and the
+/// training set is not learnt by heart; without, it is.
+#[test]
+fn holding_out_stops_learning_by_heart() {
+    let mut random = Random(11);
+    let rows: Vec<(&str, Vec<f64>)> = (0..120)
+        .map(|n| {
+            (
+                ["a", "b"][n % 2],
+                (0..30).map(|_| random.normal()).collect(),
+            )
+        })
+        .collect();
+    let mean = |options| {
+        let rates = learnt(options, &rows).unwrap().hit_rates;
+        rates.iter().sum::<f64>() / rates.len() as f64
+    };
+    let stopped = Options {
+        held_out: 0.3,
+        patience: 3,
+        ..options(10)
+    };
+    let (free, stopped) = (mean(options(10)), mean(stopped));
+    // Some rows stay wrong where the outputs are flat.
+    assert!(free > 0.94 && stopped < 0.9, "{free} {stopped}");
+}
+
+#[test]
+fn an_input_that_is_constant_in_training_is_left_out() {
+    let rows: Vec<(&str, Vec<f64>)> = (0..40)
+        .map(|n| {
+            (
+                ["a", "b"][n % 2],
+                vec![(n % 2) as f64 + 0.01 * n as f64, 0.1],
+            )
+        })
+        .collect();
+    let trained = learnt(options(3), &rows).unwrap();
+    assert_eq!(trained.network.gain()[1], 0.0);
+    let y = |constant| trained.network.outputs(&[0.5, constant]).unwrap();
+    assert_eq!(y(0.1), y(1e6));
+}
+
+#[test]
+fn what_cannot_be_learnt_is_refused_by_name() {
+    let made = |options| Trainer::new(2, options).map(|_| ());
+    let base = options(3);
+    let refused = |change: fn(&mut Options)| {
+        let mut options = base;
+        change(&mut options);
+        made(options).unwrap_err()
+    };
+    assert_eq!(made(base), Ok(()));
+    assert_eq!(refused(|o| o.decay = -0.1), TrainError::Decay(-0.1));
+    assert!(matches!(
+        refused(|o| o.held_out = f64::NAN),
+        TrainError::HeldOut(_)
+    ));
+    assert_eq!(refused(|o| o.held_out = 0.6), TrainError::HeldOut(0.6));
+    assert_eq!(refused(|o| o.reliable = 1.0), TrainError::Reliable(1.0));
+    assert_eq!(refused(|o| o.attempts = 0), TrainError::NoAttempts);
+    assert_eq!(
+        refused(|o| o.hidden = 0),
+        TrainError::Network(MlpError::Hidden(0))
+    );
+    assert_eq!(
+        Trainer::new(0, base).map(|_| ()),
+        Err(TrainError::Network(MlpError::Inputs(0)))
+    );
+
+    let mut trainer = Trainer::new(2, base).unwrap();
+    assert_eq!(trainer.train(), Err(TrainError::NoSamples));
+    assert_eq!(
+        trainer.add("a", &[1.0]),
+        Err(TrainError::Inputs {
+            expected: 2,
+            found: 1
+        })
+    );
+    for x in [f64::NAN, f64::INFINITY, 1e39] {
+        assert_eq!(
+            trainer.add("a", &[1.0, x]),
+            Err(TrainError::NotFinite { input: 1 })
+        );
+    }
+    assert_eq!(trainer.add("", &[1.0, 1.0]), Err(TrainError::NameEmpty));
+    assert_eq!(trainer.rows(), 0);
+    trainer.add("a", &[1.0, 1.0]).unwrap();
+    assert_eq!(trainer.train(), Err(TrainError::OneClass));
+    // Both rows alike: no start can hit both classes.
+    trainer.add("b", &[1.0, 1.0]).unwrap();
+    assert_eq!(
+        trainer.train(),
+        Err(TrainError::NotReliable { attempts: 10 })
+    );
+    // Deviation 1e-40: one over it is no f32.
+    trainer.add("b", &[1.0, 1.0]).unwrap();
+    let mut narrow = Trainer::new(1, base).unwrap();
+    narrow.add("a", &[0.0]).unwrap();
+    narrow.add("b", &[2e-40]).unwrap();
+    assert_eq!(narrow.train(), Err(TrainError::Range { input: 0 }));
+}
