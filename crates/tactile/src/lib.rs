@@ -67,6 +67,8 @@ mod model;
 mod model_buf;
 mod quantiser;
 #[cfg(feature = "std")]
+pub mod recogniser;
+#[cfg(feature = "std")]
 pub mod reference;
 mod sequential;
 mod stationary;
