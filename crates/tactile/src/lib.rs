@@ -71,6 +71,7 @@ pub mod recogniser;
 #[cfg(feature = "std")]
 pub mod reference;
 mod sequential;
+pub mod spectrum;
 mod stationary;
 mod streaming;
 #[cfg(feature = "std")]

@@ -1,0 +1,195 @@
+//! The spectrum of a block of samples, at the frequencies that are needed.
+//!
+//! # Glossary
+//!
+//! - **block**: the n samples x(0) … x(n − 1) that a spectrum is taken of.
+//! - **points**: the N ≥ n of the discrete Fourier transform; a block is
+//!   followed by N − n zeros.
+//! - **bin**: one frequency, k · rate / N in Hz:
+//!   X(k) = Σ_j x(j) exp(−2πi j k / N) (POSE eq. 2, which counts from one).
+//! - **magnitude**: |X(k)|, in units of the samples; **power**: |X(k)|².
+//!
+//! # Two ways, one result
+//!
+//! [`Spectrum`] (feature `std`) is a planned FFT in double precision. [`Bank`]
+//! is for the board: a second-order resonator a bin, stepped with every sample.
+//!
+//! Why not an FFT on the board: the papers' blocks (400 ms = 800 samples) are
+//! no power of two, so that one of 1024 points has other bins than those
+//! trained on; it needs the block in memory and does all its work in one tick
+//! (the counts of both stand in `docs/instructions.csv`). A bank spreads the
+//! work evenly, costs only what bins are used, keeps two words a bin instead of
+//! the block, and takes any N. Where more than some hundreds of bins are
+//! needed the FFT is the cheaper in total.
+//!
+//! # Error
+//!
+//! For blocks to 12000 samples, a bin of the bank is within 3e-6 of the FFT's
+//! largest possible magnitude Σ_j |x(j)| (measured: 1.1e-6; see `tests/spectrum.rs`).
+//! The mean of the block counts in that bound: subtract the rest position first.
+
+mod bank;
+#[cfg(feature = "std")]
+mod fft;
+
+use core::fmt;
+
+pub use bank::{Bank, BankState};
+#[cfg(feature = "std")]
+pub use fft::Spectrum;
+
+/// Which bins of which transform: k = first, first + step, …, `count` of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bins {
+    /// Points N of the transform, 1 to 2²⁴.
+    pub points: u32,
+    /// The first k.
+    pub first: u32,
+    /// From one k to the next, at least 1.
+    pub step: u32,
+    /// How many, at least 1; the last k is at most N / 2.
+    pub count: usize,
+}
+
+/// What a bin is measured by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// |X(k)| (POSE).
+    Magnitude,
+    /// |X(k)|² (LEP12 section 5).
+    Power,
+}
+
+/// Why there is no spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SpectrumError {
+    /// The points are not 1 to 2²⁴.
+    Points(u32),
+    /// No bins, a step of zero, or a bin above half the points.
+    Bins,
+    /// The block is empty or longer than the points.
+    Block {
+        /// Samples in the block.
+        block: usize,
+        /// Points of the transform.
+        points: u32,
+    },
+    /// Another number of bins than the bank has.
+    Count {
+        /// Asked for.
+        bins: usize,
+        /// In the bank.
+        bank: usize,
+    },
+}
+
+/// Largest number of points.
+const MAX_POINTS: u32 = 1 << 24;
+
+impl Bins {
+    /// Every bin of a transform of so many points, from 0 to N / 2.
+    pub const fn all(points: u32) -> Self {
+        Self {
+            points,
+            first: 0,
+            step: 1,
+            count: points as usize / 2 + 1,
+        }
+    }
+
+    /// The bins whose frequencies lie from `low_hz` to `high_hz` (both
+    /// included, to a millionth of a bin), at a sample rate of `rate_hz`.
+    ///
+    /// # Errors
+    ///
+    /// There are none, they lie above half the rate, or a number is not
+    /// positive and finite (`low_hz` may be zero).
+    pub fn between(
+        points: u32,
+        rate_hz: f64,
+        low_hz: f64,
+        high_hz: f64,
+    ) -> Result<Self, SpectrumError> {
+        let k = |hz: f64| hz * f64::from(points) / rate_hz;
+        let first = libm::ceil(k(low_hz) - 1e-6);
+        let last = libm::floor(k(high_hz) + 1e-6);
+        // Not a number compares false.
+        let fit = rate_hz > 0.0 && first >= 0.0 && last >= first && last <= f64::from(points) / 2.0;
+        if !fit {
+            return Err(SpectrumError::Bins);
+        }
+        let bins = Self {
+            points,
+            first: first as u32,
+            step: 1,
+            count: (last - first) as usize + 1,
+        };
+        bins.check()?;
+        Ok(bins)
+    }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    ///
+    /// The first that is wrong.
+    pub fn check(&self) -> Result<(), SpectrumError> {
+        if !(1..=MAX_POINTS).contains(&self.points) {
+            return Err(SpectrumError::Points(self.points));
+        }
+        let last = u64::try_from(self.count)
+            .ok()
+            .and_then(|count| count.checked_sub(1))
+            .and_then(|steps| steps.checked_mul(u64::from(self.step)))
+            .and_then(|reach| reach.checked_add(u64::from(self.first)));
+        match last {
+            Some(last) if self.step > 0 && last <= u64::from(self.points / 2) => Ok(()),
+            _ => Err(SpectrumError::Bins),
+        }
+    }
+
+    /// The k of each bin.
+    pub fn indices(self) -> impl Iterator<Item = u32> {
+        let k = move |n: usize| {
+            let reach = u32::try_from(n).unwrap_or(u32::MAX);
+            self.first.saturating_add(reach.saturating_mul(self.step))
+        };
+        (0..self.count).map(k)
+    }
+
+    /// The frequency of a bin, by its place among these, Hz.
+    pub fn frequency(&self, bin: usize, rate_hz: f64) -> f64 {
+        let k = f64::from(self.first) + bin as f64 * f64::from(self.step);
+        k * rate_hz / f64::from(self.points)
+    }
+
+    fn check_block(&self, block: usize) -> Result<(), SpectrumError> {
+        self.check()?;
+        if block == 0 || block > self.points as usize {
+            return Err(SpectrumError::Block {
+                block,
+                points: self.points,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for SpectrumError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Points(n) => write!(f, "{n} points; 1 to {MAX_POINTS} are allowed"),
+            Self::Bins => f.write_str("no bins, or one above half the points"),
+            Self::Block { block, points } => {
+                write!(
+                    f,
+                    "a block of {block} samples; 1 to the {points} points are allowed"
+                )
+            }
+            Self::Count { bins, bank } => write!(f, "{bins} bins in a bank of {bank}"),
+        }
+    }
+}
+
+impl core::error::Error for SpectrumError {}

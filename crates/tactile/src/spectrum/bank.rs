@@ -1,0 +1,148 @@
+//! A resonator a bin, stepped with every sample: the Goertzel algorithm in the
+//! form of Reinsch, which keeps its precision at low frequencies.
+//!
+//! With θ = 2πk/N, s(n) = x(n) + 2 cos θ s(n − 1) − s(n − 2), and after the block
+//! |X|² = s² + s'² − 2 cos θ s s', s' being the state before the last. Stepping
+//! differences instead, d = s − s', the factor near two becomes a small one,
+//! a = 2 cos θ − 2 = −4 sin²(θ/2), exact to the last digit of single precision:
+//!
+//! d ← d + a s + x, s ← s + d, |X|² = d² − a s (s − d).
+//!
+//! Above a quarter of the rate the sums d = s + s' play that role, with
+//! a = 2 cos θ + 2 = 4 cos²(θ/2): d ← −d + a s + x, s ← −s + d,
+//! |X|² = d² + a s (s − d).
+
+use super::{Bins, Measure, SpectrumError};
+
+/// B bins of a block: immutable, can be a constant in flash (`4 B + 8` bytes).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bank<const B: usize> {
+    /// Factor a of each bin.
+    factors: [f32; B],
+    /// Bins up to a quarter of the rate; they come first.
+    low: usize,
+    /// Samples in a block, not zero.
+    block: u32,
+}
+
+/// What changes from sample to sample: `8 B + 4` bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BankState<const B: usize> {
+    /// s and d of each bin.
+    resonators: [[f32; 2]; B],
+    /// Samples to the end of the block.
+    left: u32,
+}
+
+impl<const B: usize> Bank<B> {
+    /// The resonators of some bins, for blocks of so many samples.
+    ///
+    /// # Errors
+    ///
+    /// Bins or block are out of range, or the bins are not B.
+    pub fn new(bins: &Bins, block: u32) -> Result<Self, SpectrumError> {
+        bins.check_block(block as usize)?;
+        if bins.count != B {
+            return Err(SpectrumError::Count {
+                bins: bins.count,
+                bank: B,
+            });
+        }
+        let points = f64::from(bins.points);
+        let low = bins.indices().filter(|&k| 4 * k <= bins.points).count();
+        let mut factors = [0.0; B];
+        for (bin, (factor, k)) in factors.iter_mut().zip(bins.indices()).enumerate() {
+            let half = core::f64::consts::PI * f64::from(k) / points;
+            let exact = if bin < low {
+                -4.0 * libm::sin(half) * libm::sin(half)
+            } else {
+                4.0 * libm::cos(half) * libm::cos(half)
+            };
+            *factor = exact as f32;
+        }
+        Ok(Self {
+            factors,
+            low,
+            block,
+        })
+    }
+
+    /// A bank from its parts, for constants: as [`Self::parts`] gave them.
+    /// Out of range they give a wrong spectrum, and nothing worse.
+    pub const fn from_parts(factors: [f32; B], low: usize, block: u32) -> Self {
+        Self {
+            factors,
+            low: if low < B { low } else { B },
+            block: if block == 0 { 1 } else { block },
+        }
+    }
+
+    /// Factors, how many of them are of the first form, samples in a block.
+    pub const fn parts(&self) -> (&[f32; B], usize, u32) {
+        (&self.factors, self.low, self.block)
+    }
+
+    /// Samples in a block.
+    pub const fn block(&self) -> u32 {
+        self.block
+    }
+
+    /// The state before the first sample.
+    pub const fn state(&self) -> BankState<B> {
+        BankState {
+            resonators: [[0.0; 2]; B],
+            left: self.block,
+        }
+    }
+
+    /// Takes a sample. True: the block is complete; [`Self::read`] it before
+    /// the next sample, which begins another.
+    #[inline]
+    pub fn push(&self, state: &mut BankState<B>, x: f32) -> bool {
+        if state.left == 0 {
+            *state = self.state();
+        }
+        let (low, high) = self.factors.split_at(self.low);
+        let (below, above) = state.resonators.split_at_mut(self.low);
+        for ([s, d], a) in below.iter_mut().zip(low) {
+            *d += a * *s + x;
+            *s += *d;
+        }
+        for ([s, d], a) in above.iter_mut().zip(high) {
+            *d = a * *s + x - *d;
+            *s = *d - *s;
+        }
+        state.left -= 1;
+        state.left == 0
+    }
+
+    /// The spectrum of the samples so far, which is that of a block once
+    /// [`Self::push`] has said so (before: as if zeros followed).
+    pub fn read(&self, state: &BankState<B>, measure: Measure) -> [f32; B] {
+        let mut bins = [0.0; B];
+        let resonators = state.resonators.iter().zip(&self.factors);
+        for (n, (bin, ([s, d], a))) in bins.iter_mut().zip(resonators).enumerate() {
+            let product = a * s * (s - d);
+            let power = d * d + if n < self.low { -product } else { product };
+            // Rounding can take a power of nearly nothing below zero.
+            let power = power.max(0.0);
+            *bin = match measure {
+                Measure::Magnitude => libm::sqrtf(power),
+                Measure::Power => power,
+            };
+        }
+        bins
+    }
+
+    /// Forgets the open block.
+    pub fn reset(&self, state: &mut BankState<B>) {
+        *state = self.state();
+    }
+}
+
+impl<const B: usize> BankState<B> {
+    /// Samples in the open (or complete) block of this bank.
+    pub fn samples(&self, bank: &Bank<B>) -> u32 {
+        bank.block.saturating_sub(self.left)
+    }
+}
