@@ -60,6 +60,7 @@ mod error;
 mod evidence;
 mod exp2;
 mod format;
+pub mod imp;
 mod likelihoods;
 pub mod mlp;
 mod model;

@@ -50,6 +50,8 @@ mod gradient;
 mod logistic;
 #[cfg(feature = "std")]
 mod network;
+#[cfg(feature = "std")]
+mod recogniser;
 mod single;
 #[cfg(feature = "std")]
 pub mod train;
@@ -59,4 +61,6 @@ pub use fixed::{FixedInput, FixedMlp, FixedMlpState};
 pub use format::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_SCALED, MAX_WEIGHT, MLP_VERSION};
 #[cfg(feature = "std")]
 pub use network::{Network, Shape};
+#[cfg(feature = "std")]
+pub use recogniser::{SPECTRUM_BINS, SpectrumInputs, SpectrumRecogniser};
 pub use single::{Mlp, MlpInput, MlpState};

@@ -1,0 +1,129 @@
+//! The IMP of all vibrissae of a pad, window by window, and over a sweep.
+
+use core::fmt;
+
+use super::peaks::{Band, Peaks};
+
+/// Why an IMP is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImpError {
+    /// A window of no samples.
+    Window,
+    /// No vibrissae.
+    Vibrissae,
+}
+
+impl fmt::Display for ImpError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Window => f.write_str("a window of no samples; one is needed"),
+            Self::Vibrissae => f.write_str("no vibrissae; one is needed"),
+        }
+    }
+}
+
+impl core::error::Error for ImpError {}
+
+/// The IMP of N vibrissae: an immutable configuration. PSIK's pad has N = 33.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Imp<const N: usize> {
+    window: u32,
+    band: Band,
+}
+
+/// What changes as samples come in: 32 N + 4 bytes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImpState<const N: usize> {
+    vibrissae: [Peaks; N],
+    /// Samples to the end of the window; not zero.
+    left: u32,
+}
+
+impl<const N: usize> Imp<N> {
+    /// An IMP averaged over windows of so many samples.
+    ///
+    /// # Errors
+    ///
+    /// The window or N is zero.
+    pub const fn new(window: u32, band: Band) -> Result<Self, ImpError> {
+        if window == 0 {
+            return Err(ImpError::Window);
+        }
+        if N == 0 {
+            return Err(ImpError::Vibrissae);
+        }
+        Ok(Self { window, band })
+    }
+
+    /// The state before the first sample.
+    pub fn state(&self) -> ImpState<N> {
+        ImpState {
+            vibrissae: [Peaks::default(); N],
+            left: self.window,
+        }
+    }
+
+    /// Takes a sample of all vibrissae, x and y in codes. With the last of a
+    /// window comes the IMP of each over that window, in units of 2⁻¹⁶ code a
+    /// sample.
+    #[inline]
+    pub fn push(&self, state: &mut ImpState<N>, codes: &[[i16; 2]; N]) -> Option<[u32; N]> {
+        for (peaks, [x, y]) in state.vibrissae.iter_mut().zip(codes) {
+            peaks.push(self.band, *x, *y);
+        }
+        state.left = state.left.wrapping_sub(1);
+        if state.left != 0 {
+            return None;
+        }
+        state.left = self.window;
+        Some(self.end(state))
+    }
+
+    #[inline(never)]
+    fn end(&self, state: &mut ImpState<N>) -> [u32; N] {
+        state.vibrissae.each_mut().map(Peaks::take)
+    }
+
+    /// The end of a sweep: the IMP of the window left open, if it holds a
+    /// sample. The state is then as new.
+    pub fn finish(&self, state: &mut ImpState<N>) -> Option<[u32; N]> {
+        let found = (state.left < self.window).then(|| self.end(state));
+        self.reset(state);
+        found
+    }
+
+    /// Forgets all samples.
+    pub fn reset(&self, state: &mut ImpState<N>) {
+        *state = self.state();
+    }
+}
+
+/// The sum of the IMP over the windows of a sweep: what PSIK section 3.2.1
+/// gives its network, one number a vibrissa.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImpSweep<const N: usize> {
+    sums: [i32; N],
+}
+
+impl<const N: usize> Default for ImpSweep<N> {
+    fn default() -> Self {
+        Self { sums: [0; N] }
+    }
+}
+
+impl<const N: usize> ImpSweep<N> {
+    /// Adds a window. Sums stop at 2³¹ − 1.
+    #[inline]
+    pub fn add(&mut self, window: &[u32; N]) {
+        for (sum, &imp) in self.sums.iter_mut().zip(window) {
+            *sum = sum.saturating_add_unsigned(imp);
+        }
+    }
+
+    /// The sums, in units of 2⁻¹⁶ code a sample: the inputs of a
+    /// [`crate::mlp::FixedMlp`], or as f32 of a [`crate::mlp::Mlp`].
+    pub fn sums(&self) -> &[i32; N] {
+        &self.sums
+    }
+}
