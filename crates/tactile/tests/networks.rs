@@ -98,8 +98,8 @@ fn sweep(paper: usize, samples: u32, random: &mut Random) -> Vec<f64> {
         .flat_map(|n| {
             let values: Vec<f64> = (0..6)
                 .flat_map(|i| {
-                    let amplitude = 0.3 + 0.1 * (i as f64 + 2.0 * paper as f64).sin();
-                    let turn = TAU * (f64::from(n) * (0.02 + 0.003 * i as f64) + phase);
+                    let amplitude = 0.3 + 0.1 * (f64::from(i) + 2.0 * paper as f64).sin();
+                    let turn = TAU * (f64::from(n) * (0.02 + 0.003 * f64::from(i)) + phase);
                     let noise = 0.05 * random.normal();
                     [amplitude * turn.sin() + noise, 0.1]
                 })

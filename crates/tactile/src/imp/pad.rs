@@ -77,18 +77,13 @@ impl<const N: usize> Imp<N> {
             return None;
         }
         state.left = self.window;
-        Some(self.end(state))
-    }
-
-    #[inline(never)]
-    fn end(&self, state: &mut ImpState<N>) -> [u32; N] {
-        state.vibrissae.each_mut().map(Peaks::take)
+        Some(end(state))
     }
 
     /// The end of a sweep: the IMP of the window left open, if it holds a
     /// sample. The state is then as new.
     pub fn finish(&self, state: &mut ImpState<N>) -> Option<[u32; N]> {
-        let found = (state.left < self.window).then(|| self.end(state));
+        let found = (state.left < self.window).then(|| end(state));
         self.reset(state);
         found
     }
@@ -97,6 +92,11 @@ impl<const N: usize> Imp<N> {
     pub fn reset(&self, state: &mut ImpState<N>) {
         *state = self.state();
     }
+}
+
+#[inline(never)]
+fn end<const N: usize>(state: &mut ImpState<N>) -> [u32; N] {
+    state.vibrissae.each_mut().map(Peaks::take)
 }
 
 /// The sum of the IMP over the windows of a sweep: what PSIK section 3.2.1

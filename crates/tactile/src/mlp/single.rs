@@ -231,11 +231,11 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
     }
 }
 
-/// Whether all weights are within the limit; NaN is not.
+/// Whether all weights are within the limit.
 const fn allowed(weights: &[f32]) -> bool {
     let mut i = 0;
     while i < weights.len() {
-        if !(weights[i].abs() <= MAX_WEIGHT) {
+        if weights[i].is_nan() || weights[i].abs() > MAX_WEIGHT {
             return false;
         }
         i += 1;

@@ -83,7 +83,7 @@ impl Options {
     pub fn imp(seed: u64) -> Self {
         Self {
             hidden: 33,
-            iterations: 500,
+            iterations: 200,
             decay: 1e-5,
             held_out: 0.0,
             patience: 1,

@@ -135,7 +135,7 @@ struct Best {
 /// L-BFGS that keeps the best weights, and ends when the samples held out are
 /// told no better any more.
 struct Stopping<'s> {
-    inner: LBFGS<MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>, Vec<f64>, Vec<f64>, f64>,
+    inner: Inner,
     shape: Shape,
     held_out: &'s Samples,
     patience: u32,
@@ -143,10 +143,12 @@ struct Stopping<'s> {
     best: &'s RefCell<Best>,
 }
 
+type Search = MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>;
+type Inner = LBFGS<Search, Vec<f64>, Vec<f64>, f64>;
 type Weights = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
 
 impl<'s> Solver<Batch<'s>, Weights> for Stopping<'_> {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "L-BFGS with early stopping"
     }
 
