@@ -251,3 +251,15 @@ proptest! {
         prop_assert!(fixed.classify(&x) < 3);
     }
 }
+
+/// What a network takes of flash and memory, by the formulas of its types.
+#[test]
+fn a_network_is_as_large_as_it_says() {
+    assert_eq!(size_of::<Mlp<120, 20, 4>>(), 4 * (120 * 22 + 20 + 4 * 21));
+    assert_eq!(size_of::<Mlp<33, 33, 8>>(), 4 * (33 * 35 + 33 + 8 * 34));
+    let fixed = 120 * (12 + 40) + 4 * 20 + 4 * (40 + 4) + 8;
+    assert_eq!(size_of::<FixedMlp<120, 20, 4>>(), fixed);
+    let odd = 33 * (12 + 66 + 2) + 4 * 33 + 8 * (66 + 4) + 8;
+    assert_eq!(size_of::<FixedMlp<33, 33, 8>>(), odd);
+    assert_eq!(size_of::<tactile::imp::ImpState<33>>(), 32 * 33 + 8);
+}

@@ -32,7 +32,7 @@ pub struct Imp<const N: usize> {
     band: Band,
 }
 
-/// What changes as samples come in: 32 N + 4 bytes.
+/// What changes as samples come in: 32 N + 8 bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ImpState<const N: usize> {
     vibrissae: [Peaks; N],

@@ -34,7 +34,7 @@ pub struct FixedInput<const H: usize> {
 }
 
 /// A trained network in fixed point: an immutable configuration of
-/// I (12 + 2 H) + 4 H + O (2 H + 4) + 8 bytes, some more where H is odd.
+/// I (12 + 2 H) + 4 H + O (2 H + 4) + 8 bytes, two an input more where H is odd.
 ///
 /// Scaled inputs are limited to ±32 standard deviations and rounded down to
 /// 2⁻¹⁰ of one; outputs are then within 3e-3 of the f64 network's for trained
