@@ -6,6 +6,9 @@
 //! 0.1 %), while a multiplication takes as long, and the larger of the papers'
 //! networks has 5 KB of weights at 16 bits, half of what f32 needs.
 
+#[cfg(feature = "std")]
+mod rounding;
+
 use super::error::MlpError;
 use super::format::check_shape;
 use super::logistic::{DRIVE_BITS, OUTPUT_BITS, logistic_fixed};
@@ -228,88 +231,4 @@ const fn output_fits<const H: usize, const O: usize>(
         k += 1;
     }
     true
-}
-
-#[cfg(feature = "std")]
-impl<const I: usize, const H: usize, const O: usize> FixedMlp<I, H, O> {
-    /// Rounds a network, with as many fraction bits as its sums can bear.
-    pub(super) fn from_network(network: &super::Network) -> Result<Self, MlpError> {
-        let shape = network.shape();
-        if (shape.inputs, shape.hidden, shape.outputs) != (I, H, O) {
-            return Err(MlpError::Shape {
-                inputs: shape.inputs,
-                hidden: shape.hidden,
-                outputs: shape.outputs,
-            });
-        }
-        let parts = shape.parts(network.weights());
-        let mut inputs = [FixedInput {
-            offset: 0,
-            gain: 0,
-            shift: 0,
-            weights: [0; H],
-        }; I];
-        let scales = network.offset().iter().zip(network.gain());
-        for (i, (input, (&offset, &gain))) in inputs.iter_mut().zip(scales).enumerate() {
-            (input.offset, input.gain, input.shift) =
-                fixed_scale(offset, gain).ok_or(MlpError::FixedScale { input: i })?;
-        }
-        let (hidden_bits, hidden_bias) = (2..=MAX_BITS)
-            .rev()
-            .find_map(|bits| {
-                for (input, row) in inputs.iter_mut().zip(parts.input.chunks(H)) {
-                    input.weights = rounded(row, bits)?;
-                }
-                let bias = rounded(parts.hidden_bias, SCALED_BITS + bits)?;
-                hidden_fits(&inputs, &bias).then_some((bits, bias))
-            })
-            .ok_or(MlpError::Weight)?;
-        let mut output = [[0; H]; O];
-        let (output_bits, output_bias) = (2..=MAX_BITS)
-            .rev()
-            .find_map(|bits| {
-                for (to, row) in output.iter_mut().zip(parts.output.chunks(H)) {
-                    *to = rounded(row, bits)?;
-                }
-                let bias = rounded(parts.output_bias, OUTPUT_BITS + bits)?;
-                output_fits(&output, &bias).then_some((bits, bias))
-            })
-            .ok_or(MlpError::Weight)?;
-        let bits = [hidden_bits, output_bits];
-        Self::new(inputs, hidden_bias, output, output_bias, bits)
-    }
-}
-
-/// Numbers in units of 2^−bits; None if one of them does not fit.
-#[cfg(feature = "std")]
-fn rounded<const N: usize, T: TryFrom<i64> + Default + Copy>(
-    numbers: &[f64],
-    bits: u32,
-) -> Option<[T; N]> {
-    let mut found = [T::default(); N];
-    for (to, x) in found.iter_mut().zip(numbers) {
-        // Weights are below 2²⁰, bits below 30.
-        *to = T::try_from((x * f64::from(1_u32 << bits)).round() as i64).ok()?;
-    }
-    Some(found)
-}
-
-/// Offset, mantissa and exponent of a scale; None if it cannot be held.
-#[cfg(feature = "std")]
-fn fixed_scale(offset: f64, gain: f64) -> Option<(i32, u32, u32)> {
-    if gain == 0.0 {
-        return Some((0, 0, 0));
-    }
-    let limits = 2.0_f64.powi(-30)..=2.0_f64.powi(5);
-    let fits = offset.abs() < f64::from(i32::MAX);
-    if !fits || !limits.contains(&gain) {
-        return None;
-    }
-    let mut mantissa = gain * f64::from(1 << SCALED_BITS);
-    let mut shift = 0;
-    while mantissa < f64::from(1 << 15) {
-        mantissa *= 2.0;
-        shift += 1;
-    }
-    Some((offset.round() as i32, mantissa.round() as u32, shift))
 }

@@ -18,6 +18,7 @@
 //! on every machine.
 
 mod error;
+mod options;
 mod session;
 
 use std::borrow::ToOwned;
@@ -31,84 +32,8 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use super::gradient::Samples;
 use super::network::{Network, Shape, scaled};
 pub use error::TrainError;
+pub use options::Options;
 use session::{Found, session};
-
-/// How to learn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// Hidden units, 1 to 1024.
-    pub hidden: usize,
-    /// Most iterations of a start, each one or two passes through the samples.
-    pub iterations: u64,
-    /// λ of the penalty λ/2 Σ w² on all weights but biases; 0 is none.
-    pub decay: f64,
-    /// Part of each class's samples that is held out of the learning, 0 (none)
-    /// to 0.5, to stop it in time: the network is the one with the lowest error
-    /// on them.
-    pub held_out: f64,
-    /// Iterations without a lower error on the samples held out after which a
-    /// start ends.
-    pub patience: u32,
-    /// Starts, at least 1, until one is reliable.
-    pub attempts: u32,
-    /// A network is reliable if every class's hit rate on the training set is
-    /// above this.
-    pub reliable: f64,
-    /// Of the random numbers: first weights, and which samples are held out.
-    pub seed: u64,
-}
-
-impl Options {
-    /// LEP12 section 5.2: 20 hidden units, ten starts, reliable above 25 %.
-    /// The paper does not say when its learning stopped. Here 15 % are held
-    /// out and six failures end it, which were the defaults of the toolboxes
-    /// with scaled conjugate gradients of the time: 2500 weights on 960 rows
-    /// would else learn the noise.
-    pub fn spectrum(seed: u64) -> Self {
-        Self {
-            hidden: 20,
-            iterations: 1000,
-            decay: 0.0,
-            held_out: 0.15,
-            patience: 6,
-            attempts: 10,
-            reliable: 0.25,
-            seed,
-        }
-    }
-
-    /// PSIK section 3.2.1: 33 hidden units. The paper names neither a stopping
-    /// rule nor a penalty; nothing is held out, and a weak penalty keeps
-    /// weights finite where classes can be told apart without error.
-    pub fn imp(seed: u64) -> Self {
-        Self {
-            hidden: 33,
-            iterations: 200,
-            decay: 1e-5,
-            held_out: 0.0,
-            patience: 1,
-            attempts: 10,
-            reliable: 0.25,
-            seed,
-        }
-    }
-
-    fn check(self) -> Result<(), TrainError> {
-        if !(0.0..=1.0).contains(&self.decay) {
-            return Err(TrainError::Decay(self.decay));
-        }
-        if !(0.0..=0.5).contains(&self.held_out) {
-            return Err(TrainError::HeldOut(self.held_out));
-        }
-        if !(0.0..1.0).contains(&self.reliable) {
-            return Err(TrainError::Reliable(self.reliable));
-        }
-        if self.attempts == 0 {
-            return Err(TrainError::NoAttempts);
-        }
-        Ok(())
-    }
-}
 
 /// A network and how it was come by.
 #[derive(Debug, Clone, PartialEq)]
