@@ -53,15 +53,19 @@ extern crate std;
 #[cfg(target_endian = "big")]
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
+mod choice;
 mod decision;
 #[cfg(feature = "std")]
 pub mod dynamic;
 mod error;
 mod evidence;
 mod exp2;
+mod fit_error;
 mod format;
 pub mod imp;
 mod likelihoods;
+#[cfg(feature = "std")]
+mod means;
 pub mod mlp;
 mod model;
 #[cfg(feature = "std")]
@@ -71,19 +75,26 @@ mod quantiser;
 pub mod recogniser;
 #[cfg(feature = "std")]
 pub mod reference;
+#[cfg(feature = "std")]
+pub mod score;
 mod sequential;
 pub mod spectrum;
 mod stationary;
 mod streaming;
+pub mod template;
+#[cfg(feature = "std")]
+pub mod template_train;
 #[cfg(feature = "std")]
 pub mod train;
 #[cfg(feature = "std")]
 mod train_error;
 mod window;
 
+pub use choice::Choice;
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::{Scale, Totals};
+pub use fit_error::FitError;
 pub use format::{
     ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK, MAX_CHANNELS,
     MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION,

@@ -1,0 +1,400 @@
+//! How good a classifier is: the same figures for every experiment.
+//!
+//! # Glossary
+//!
+//! - **confusion matrix**: how often each true class (row) was taken for each
+//!   class (column).
+//! - **hit rate**: the share of trials in which the right class was named.
+//! - **κ**: Cohen's kappa (POSE eq. 8), the hit rate beyond chance,
+//!   (P_O − P_E)/(1 − P_E); 1 is perfect, 0 chance, below 0 worse than chance.
+//! - **missed**: a trial in which no class was named; it counts as no hit, and
+//!   κ, which is about classes named, leaves it out.
+//! - **error** of ordered classes (angle, speed): value named minus true value.
+
+use core::fmt;
+use std::vec;
+use std::vec::Vec;
+
+/// Why a trial cannot be counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ScoreError {
+    /// A class that the matrix does not have.
+    Class {
+        /// The class.
+        class: usize,
+        /// How many there are.
+        classes: usize,
+    },
+    /// Matrices of different numbers of classes cannot be added.
+    Classes {
+        /// Of the one.
+        ours: usize,
+        /// Of the other.
+        theirs: usize,
+    },
+}
+
+impl fmt::Display for ScoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Class { class, classes } => write!(f, "class {class} of {classes}, from zero"),
+            Self::Classes { ours, theirs } => {
+                write!(f, "matrices of {ours} and of {theirs} classes")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ScoreError {}
+
+/// A confusion matrix and the trials missed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Confusion {
+    classes: usize,
+    /// Row by row: true class, class named.
+    counts: Vec<u64>,
+    /// Of each true class.
+    missed: Vec<u64>,
+}
+
+impl Confusion {
+    /// No trial yet.
+    pub fn new(classes: usize) -> Self {
+        Self {
+            classes,
+            counts: vec![0; classes.saturating_mul(classes)],
+            missed: vec![0; classes],
+        }
+    }
+
+    /// Counts a trial of a class: the class named, or none.
+    ///
+    /// # Errors
+    ///
+    /// There is no such class; nothing is then counted.
+    pub fn add(&mut self, truth: usize, named: Option<usize>) -> Result<(), ScoreError> {
+        let classes = self.classes;
+        for class in [Some(truth), named].into_iter().flatten() {
+            if class >= classes {
+                return Err(ScoreError::Class { class, classes });
+            }
+        }
+        let cell = match named {
+            Some(named) => self.counts.get_mut(truth * classes + named),
+            None => self.missed.get_mut(truth),
+        };
+        if let Some(cell) = cell {
+            *cell += 1;
+        }
+        Ok(())
+    }
+
+    /// Adds the trials of another matrix, as of another fold or machine.
+    ///
+    /// # Errors
+    ///
+    /// It has other classes.
+    pub fn merge(&mut self, other: &Self) -> Result<(), ScoreError> {
+        if self.classes != other.classes {
+            return Err(ScoreError::Classes {
+                ours: self.classes,
+                theirs: other.classes,
+            });
+        }
+        let ours = self.counts.iter_mut().chain(&mut self.missed);
+        for (ours, theirs) in ours.zip(other.counts.iter().chain(&other.missed)) {
+            *ours += theirs;
+        }
+        Ok(())
+    }
+
+    /// The same trials where only `of` each class counts: textures of
+    /// texture-distance pairs, say. Classes that `of` sends above `classes`
+    /// are left out.
+    #[must_use]
+    pub fn grouped(&self, classes: usize, of: impl Fn(usize) -> usize) -> Self {
+        let mut grouped = Self::new(classes);
+        for truth in 0..self.classes {
+            for named in 0..self.classes {
+                let (row, column) = (of(truth), of(named));
+                if row < classes && column < classes {
+                    grouped.counts[row * classes + column] += self.count(truth, named);
+                }
+            }
+            if let Some(missed) = grouped.missed.get_mut(of(truth)) {
+                *missed += self.missed(truth);
+            }
+        }
+        grouped
+    }
+
+    /// How many classes there are.
+    pub fn classes(&self) -> usize {
+        self.classes
+    }
+
+    /// How often a class was taken for another (or for itself).
+    pub fn count(&self, truth: usize, named: usize) -> u64 {
+        let row = self.counts.chunks_exact(self.classes.max(1)).nth(truth);
+        row.and_then(|row| row.get(named)).copied().unwrap_or(0)
+    }
+
+    /// Trials of a class in which none was named.
+    pub fn missed(&self, truth: usize) -> u64 {
+        self.missed.get(truth).copied().unwrap_or(0)
+    }
+
+    /// All trials.
+    pub fn trials(&self) -> u64 {
+        (0..self.classes).map(|truth| self.trials_of(truth)).sum()
+    }
+
+    /// Trials in which a class was named.
+    pub fn named(&self) -> u64 {
+        self.counts.iter().sum()
+    }
+
+    fn trials_of(&self, truth: usize) -> u64 {
+        let named: u64 = (0..self.classes)
+            .map(|named| self.count(truth, named))
+            .sum();
+        named + self.missed(truth)
+    }
+
+    fn hits(&self) -> u64 {
+        (0..self.classes)
+            .map(|class| self.count(class, class))
+            .sum()
+    }
+
+    /// Share of all trials in which the right class was named, 0 to 1; `None`
+    /// without a trial.
+    pub fn hit_rate(&self) -> Option<f64> {
+        ratio(self.hits(), self.trials())
+    }
+
+    /// The same of one class.
+    pub fn hit_rate_of(&self, truth: usize) -> Option<f64> {
+        ratio(self.count(truth, truth), self.trials_of(truth))
+    }
+
+    /// Mean hit rate of the classes that have trials, each class counting the
+    /// same (LEP10, LEP12).
+    pub fn mean_hit_rate(&self) -> Option<f64> {
+        let rates = (0..self.classes).filter_map(|class| self.hit_rate_of(class));
+        Statistics::of(rates).map(|s| s.mean)
+    }
+
+    /// Cohen's κ (POSE eq. 8); `None` without a named class, or where chance
+    /// alone would always be right.
+    pub fn kappa(&self) -> Option<f64> {
+        let named = self.named();
+        let observed = ratio(self.hits(), named)?;
+        let expected: f64 = (0..self.classes)
+            .filter_map(|class| {
+                let row = (0..self.classes)
+                    .map(|other| self.count(class, other))
+                    .sum();
+                let column = (0..self.classes)
+                    .map(|other| self.count(other, class))
+                    .sum();
+                Some(ratio(row, named)? * ratio(column, named)?)
+            })
+            .sum();
+        (expected < 1.0).then(|| (observed - expected) / (1.0 - expected))
+    }
+
+    /// The errors of ordered classes that stand for `values` (mm/s, degrees):
+    /// value named minus true value, over the trials with a class named.
+    /// `None` without one, or if a value is missing.
+    pub fn errors(&self, values: &[f64]) -> Option<Statistics> {
+        if values.len() < self.classes {
+            return None;
+        }
+        let errors = values.iter().enumerate().flat_map(|(truth, from)| {
+            values.iter().enumerate().flat_map(move |(named, to)| {
+                let times = usize::try_from(self.count(truth, named)).unwrap_or(usize::MAX);
+                core::iter::repeat_n(to - from, times)
+            })
+        });
+        Statistics::of(errors)
+    }
+}
+
+fn ratio(part: u64, whole: u64) -> Option<f64> {
+    (whole > 0).then(|| part as f64 / whole as f64)
+}
+
+/// Mean and spread of some numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Statistics {
+    /// How many, at least one.
+    pub count: u64,
+    /// Their mean.
+    pub mean: f64,
+    /// Their standard deviation, by n − 1; zero of one number. POSE's Table I
+    /// calls this the standard error.
+    pub sd: f64,
+    /// Root of their mean square.
+    pub rms: f64,
+}
+
+impl Statistics {
+    /// Of numbers; `None` if there are none. One pass (Welford), which keeps
+    /// its precision however far the mean is from zero.
+    pub fn of(numbers: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let (mut count, mut mean, mut squares) = (0_u64, 0.0, 0.0);
+        for x in numbers {
+            count += 1;
+            let from = x - mean;
+            mean += from / count as f64;
+            squares += from * (x - mean);
+        }
+        if count == 0 {
+            return None;
+        }
+        let n = count as f64;
+        Some(Self {
+            count,
+            mean,
+            sd: if count > 1 {
+                (squares / (n - 1.0)).sqrt()
+            } else {
+                0.0
+            },
+            rms: (squares / n + mean * mean).sqrt(),
+        })
+    }
+
+    /// Standard error of the mean, sd/√n.
+    pub fn standard_error(&self) -> f64 {
+        self.sd / (self.count as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix(rows: &[&[u64]]) -> Confusion {
+        let mut confusion = Confusion::new(rows.len());
+        for (truth, row) in rows.iter().enumerate() {
+            for (named, &times) in row.iter().enumerate() {
+                for _ in 0..times {
+                    confusion.add(truth, Some(named)).unwrap();
+                }
+            }
+        }
+        confusion
+    }
+
+    /// A table worked by hand: P_O = 35/50, P_E = 0.5·0.6 + 0.5·0.4 = 0.5.
+    #[test]
+    fn kappa_of_a_worked_table() {
+        let confusion = matrix(&[&[20, 5], &[10, 15]]);
+        assert!((confusion.kappa().unwrap() - 0.4).abs() < 1e-15);
+        assert_eq!(confusion.hit_rate(), Some(0.7));
+        assert_eq!(confusion.hit_rate_of(1), Some(0.6));
+    }
+
+    /// Three classes: P_O = 0.79, P_E = (30·34 + 50·48 + 20·18)/10⁴ = 0.378.
+    /// Columns and rows differ, so that a swap of them shows in the counts.
+    #[test]
+    fn kappa_of_three_classes() {
+        let confusion = matrix(&[&[26, 3, 1], &[6, 40, 4], &[2, 5, 13]]);
+        let expected = (0.79 - 0.378) / (1.0 - 0.378);
+        assert!((confusion.kappa().unwrap() - expected).abs() < 1e-15);
+        assert_eq!(confusion.count(1, 0), 6);
+        let mean = (26.0 / 30.0 + 40.0 / 50.0 + 13.0 / 20.0) / 3.0;
+        assert!((confusion.mean_hit_rate().unwrap() - mean).abs() < 1e-15);
+    }
+
+    /// POSE: of two choices, κ of 0.5 is a hit rate of 75 %.
+    #[test]
+    fn kappa_of_two_choices_and_of_chance() {
+        assert_eq!(matrix(&[&[3, 1], &[1, 3]]).kappa(), Some(0.5));
+        assert_eq!(matrix(&[&[1, 1], &[1, 1]]).kappa(), Some(0.0));
+        assert_eq!(matrix(&[&[0, 1], &[1, 0]]).kappa(), Some(-1.0));
+        assert_eq!(matrix(&[&[5, 0], &[0, 0]]).kappa(), None);
+        assert_eq!(Confusion::new(3).kappa(), None);
+        assert_eq!(Confusion::new(0).hit_rate(), None);
+    }
+
+    #[test]
+    fn missed_trials_are_no_hits_and_not_in_kappa() {
+        let mut confusion = matrix(&[&[3, 1], &[1, 3]]);
+        confusion.add(0, None).unwrap();
+        confusion.add(0, None).unwrap();
+        assert_eq!(confusion.hit_rate(), Some(0.6));
+        assert_eq!(confusion.hit_rate_of(0), Some(0.5));
+        assert_eq!(confusion.kappa(), Some(0.5));
+        assert_eq!((confusion.trials(), confusion.named()), (10, 8));
+        let whole = confusion.clone();
+        confusion.merge(&whole).unwrap();
+        assert_eq!((confusion.trials(), confusion.missed(0)), (20, 4));
+    }
+
+    #[test]
+    fn errors_are_named_minus_true() {
+        // Twice right, once 10° too much, once 20° too little.
+        let confusion = matrix(&[&[1, 1, 0], &[0, 1, 0], &[1, 0, 0]]);
+        let s = confusion.errors(&[10.0, 20.0, 30.0]).unwrap();
+        assert_eq!((s.count, s.mean), (4, -2.5));
+        // Squares about the mean: 6.25 + 156.25 + 6.25 + 306.25 = 475.
+        assert!((s.sd - (475.0_f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert!((s.rms - 125.0_f64.sqrt()).abs() < 1e-12);
+        assert!((s.standard_error() - s.sd / 2.0).abs() < 1e-12);
+        assert_eq!(confusion.errors(&[1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn far_from_zero_the_spread_keeps_its_precision() {
+        let s = Statistics::of([1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0]).unwrap();
+        assert_eq!((s.mean, s.sd), (1e9 + 2.0, 1.0));
+        assert_eq!(
+            Statistics::of([4.0]).map(|s| (s.sd, s.rms)),
+            Some((0.0, 4.0))
+        );
+        assert_eq!(Statistics::of([]), None);
+    }
+
+    #[test]
+    fn pairs_fall_into_their_groups() {
+        // Classes texture · 2 + distance.
+        let mut confusion = Confusion::new(4);
+        confusion.add(0, Some(1)).unwrap();
+        confusion.add(2, Some(0)).unwrap();
+        confusion.add(3, None).unwrap();
+        let texture = confusion.grouped(2, |class| class / 2);
+        assert_eq!((texture.count(0, 0), texture.count(1, 0)), (1, 1));
+        assert_eq!(texture.missed(1), 1);
+        let distance = confusion.grouped(2, |class| class % 2);
+        assert_eq!((distance.count(0, 1), distance.count(0, 0)), (1, 1));
+        assert_eq!(confusion.grouped(1, |class| class).trials(), 0);
+    }
+
+    #[test]
+    fn classes_that_are_not_there_are_refused() {
+        let mut confusion = Confusion::new(2);
+        let wrong = |class| Err(ScoreError::Class { class, classes: 2 });
+        assert_eq!(confusion.add(2, Some(0)), wrong(2));
+        assert_eq!(confusion.add(0, Some(7)), wrong(7));
+        assert_eq!(confusion.add(3, None), wrong(3));
+        assert_eq!(confusion.trials(), 0);
+        let (ours, theirs) = (2, 3);
+        let other = Confusion::new(3);
+        assert_eq!(
+            confusion.merge(&other),
+            Err(ScoreError::Classes { ours, theirs })
+        );
+        assert_eq!(
+            (
+                confusion.count(5, 0),
+                confusion.count(0, 5),
+                confusion.missed(9)
+            ),
+            (0, 0, 0)
+        );
+    }
+}
