@@ -60,6 +60,9 @@ pub mod dynamic;
 mod error;
 mod evidence;
 mod exp2;
+#[cfg(feature = "std")]
+pub mod feature_train;
+pub mod features;
 mod fit_error;
 mod format;
 pub mod imp;
@@ -70,14 +73,20 @@ pub mod mlp;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;
+pub mod polynomial;
 mod quantiser;
 #[cfg(feature = "std")]
 pub mod recogniser;
 #[cfg(feature = "std")]
 pub mod reference;
 #[cfg(feature = "std")]
+pub mod regression;
+#[cfg(feature = "std")]
 pub mod score;
 mod sequential;
+pub mod spectral_template;
+#[cfg(feature = "std")]
+pub mod spectral_train;
 pub mod spectrum;
 mod stationary;
 mod streaming;
