@@ -53,6 +53,8 @@ extern crate std;
 #[cfg(target_endian = "big")]
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
+#[cfg(feature = "std")]
+pub mod bayes;
 mod choice;
 mod decision;
 #[cfg(feature = "std")]
