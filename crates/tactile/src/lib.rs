@@ -31,6 +31,17 @@
 //! classes K are compile-time constants, so the step is straight-line code.
 //! After training everything is an integer; there is no logarithm at run time.
 //!
+//! # What they are compared with
+//!
+//! | module | decides | source |
+//! |---|---|---|
+//! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
+//! | [`spectral_template`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
+//! | [`features`] | by a [`polynomial`] of peak, slope and spectrum | POSE eq. 3–7 |
+//!
+//! They stream too: a sample changes a small state and nothing is kept that
+//! grows with the block. Templates are integers, spectra single precision.
+//!
 //! # Error bounds
 //!
 //! - A table entry is log2 p rounded to 2⁻¹⁰ bit: at most 2⁻¹¹ bit off.
@@ -44,7 +55,9 @@
 //!
 //! `std`: `train` (learning a model, f64), `reference` (an independent f64
 //! classifier to compare with), `dynamic` (channels and classes known only at
-//! run time) and the owned `ModelBuf`.
+//! run time) and the owned `ModelBuf`; `bayes`, `template_train`,
+//! `spectral_train`, `feature_train` and `regression` (learning the others),
+//! `recogniser` (one way to ask any of them) and `score` (how good they are).
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]

@@ -10,7 +10,7 @@ use crate::fit_error::FitError;
 use crate::means::{Means, check_segment, check_window};
 use crate::quantiser::Quantiser;
 use crate::recogniser::{Outcome, Recogniser};
-use crate::template::squared;
+use crate::template::add_squares;
 
 /// Adds up the training signals.
 #[derive(Debug, Clone)]
@@ -236,7 +236,7 @@ impl Recogniser for TemplateRecogniser<'_> {
             .iter_mut()
             .zip(templates.chunks_exact(*channels))
         {
-            *error = error.wrapping_add(squared(&codes, template));
+            *error = add_squares(*error, &codes, template);
         }
         self.at += 1;
         if self.at as usize == *window {

@@ -121,15 +121,17 @@ impl<const B: usize> Bank<B> {
     pub fn read(&self, state: &BankState<B>, measure: Measure) -> [f32; B] {
         let mut bins = [0.0; B];
         let resonators = state.resonators.iter().zip(&self.factors);
-        for (n, (bin, ([s, d], a))) in bins.iter_mut().zip(resonators).enumerate() {
-            let product = a * s * (s - d);
-            let power = d * d + if n < self.low { -product } else { product };
-            // Rounding can take a power of nearly nothing below zero.
-            let power = power.max(0.0);
-            *bin = match measure {
-                Measure::Magnitude => libm::sqrtf(power),
-                Measure::Power => power,
-            };
+        let (low, high) = bins.split_at_mut(self.low);
+        for (bin, ([s, d], a)) in low.iter_mut().zip(resonators.clone()) {
+            *bin = positive(d * d - a * s * (s - d));
+        }
+        for (bin, ([s, d], a)) in high.iter_mut().zip(resonators.skip(self.low)) {
+            *bin = positive(d * d + a * s * (s - d));
+        }
+        if measure == Measure::Magnitude {
+            for bin in &mut bins {
+                *bin = root(*bin);
+            }
         }
         bins
     }
@@ -140,9 +142,51 @@ impl<const B: usize> Bank<B> {
     }
 }
 
+/// Zero for what rounding took below it, and for what is no number. By hand, as
+/// `max` is a call where the unit has no instruction for it.
+#[inline]
+fn positive(power: f32) -> f32 {
+    if power > 0.0 { power } else { 0.0 }
+}
+
+/// √x for x ≥ 0, within 3e-7 of itself; zero below 1.2e-38. A first guess of
+/// 1/√x from the exponent (within 3.5 %), one step of third order (within
+/// 4e-5), one of second order: a quarter of what a correctly rounded root costs
+/// without the processor's own, which the core library does not offer.
+#[inline]
+fn root(x: f32) -> f32 {
+    if x < f32::MIN_POSITIVE {
+        return 0.0;
+    }
+    let guess = f32::from_bits(0x5F37_5A86_u32.wrapping_sub(x.to_bits() >> 1));
+    let w = x * guess * guess;
+    let y = guess * (1.875 - w * (1.25 - 0.375 * w));
+    let near = x * y;
+    near + near * (0.5 - 0.5 * near * y)
+}
+
 impl<const B: usize> BankState<B> {
     /// Samples in the open (or complete) block of this bank.
     pub fn samples(&self, bank: &Bank<B>) -> u32 {
         bank.block.saturating_sub(self.left)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::root;
+
+    #[test]
+    fn roots_are_within_their_bound() {
+        let mut worst = 0.0_f64;
+        // Every exponent but the last, and a mantissa that moves.
+        for bits in (f32::MIN_POSITIVE.to_bits()..f32::MAX.to_bits()).step_by(99_991) {
+            let x = f32::from_bits(bits);
+            let exact = f64::from(x).sqrt();
+            worst = worst.max((f64::from(root(x)) / exact - 1.0).abs());
+        }
+        assert!(worst < 3e-7, "{worst:e}");
+        assert_eq!(root(0.0), 0.0);
+        assert_eq!(root(1e-40), 0.0);
     }
 }

@@ -32,6 +32,14 @@ fn kernels() {
     kernel!("q30": "peer: idsp h50",
         (x: i32, state: &mut DirectForm<i32, 2>) -> i32 { CASCADE.process(state, x) },
         |call| (spread(call, -1.0, 1.0) * Q30) as i32, DirectForm::default());
+    // Without a floating-point unit it is longer than the timer counts. It works
+    // in place, so that soon all is infinite: with a unit that costs the same.
+    #[cfg(not(machine = "microbit"))]
+    kernel!("f32": "peer: microfft of 1024",
+        (x: f32, block: &mut [f32; 1024]) {
+            block[0] = x;
+            let _ = microfft::real::rfft_1024(block);
+        }, signed, [1.0_f32; 1024]);
 }
 
 type Sections = [DirectForm2Transposed<f32>; 2];

@@ -1,0 +1,18 @@
+//! What classifiers keep in memory and in flash, as their documentation says.
+
+use tactile::features::FeaturesState;
+use tactile::polynomial::Term;
+use tactile::spectral_template::SpectralState;
+use tactile::spectrum::{Bank, BankState};
+use tactile::template::TemplateState;
+
+#[test]
+fn states_and_tables_have_their_sizes() {
+    assert_eq!(size_of::<TemplateState<9>>(), 8 * 9 + 8);
+    assert_eq!(size_of::<BankState<120>>(), 8 * 120 + 4);
+    assert_eq!(size_of::<SpectralState<2, 48>>(), 2 * (8 * 48 + 4));
+    assert_eq!(size_of::<FeaturesState<332>>(), 8 * 332 + 20);
+    assert_eq!(size_of::<Term<3>>(), 8);
+    // Where a pointer has four bytes: on a PC the two counts are wider.
+    assert!(size_of::<Bank<120>>() <= 4 * 120 + 16);
+}
