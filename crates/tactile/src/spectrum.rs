@@ -11,15 +11,17 @@
 //!
 //! # Two ways, one result
 //!
-//! [`Spectrum`] (feature `std`) is a planned FFT in double precision. [`Bank`]
+//! `Spectrum` (feature `std`) is a planned FFT in double precision. [`Bank`]
 //! is for the board: a second-order resonator a bin, stepped with every sample.
 //!
 //! Why not an FFT on the board: counted on a Cortex-M4F (`docs/instructions.csv`),
 //! one of 1024 points takes 48,130 instructions, all in the tick that ends the
 //! block, more than half of a tick of 500 µs at 168 MHz. The bank takes about
-//! 9.6 a bin in every tick, and 19 to 35 a bin in the last: 460 and 1300 for
-//! LEP12's 48 bins. In total the FFT is the cheaper one from seven bins on; in
-//! the dearest tick, which is what must fit, the bank is up to a thousand bins.
+//! 9.6 a bin in every tick, and in the last another 19 a bin for powers or 41
+//! for magnitudes: 460 and 910 for LEP12's 48 bins. In total the FFT is the
+//! cheaper one from seven bins on; in the dearest tick, which is what must fit,
+//! the bank is up to some nine hundred bins. Without a floating-point unit
+//! neither fits: a Cortex-M0 takes 460 instructions a bin and sample.
 //! Besides, the papers' blocks (800 samples) are no power of two, so that such
 //! an FFT has other bins than those trained on, and it needs the block in
 //! memory (4 bytes a sample) where the bank keeps 8 bytes a bin.

@@ -1,0 +1,124 @@
+//! Scores against tables worked by hand.
+
+use tactile::score::{Confusion, ScoreError, Statistics};
+
+fn matrix(rows: &[&[u64]]) -> Confusion {
+    let mut confusion = Confusion::new(rows.len());
+    for (truth, row) in rows.iter().enumerate() {
+        for (named, &times) in row.iter().enumerate() {
+            for _ in 0..times {
+                confusion.add(truth, Some(named)).unwrap();
+            }
+        }
+    }
+    confusion
+}
+
+/// A table worked by hand: P_O = 35/50, P_E = 0.5·0.6 + 0.5·0.4 = 0.5.
+#[test]
+fn kappa_of_a_worked_table() {
+    let confusion = matrix(&[&[20, 5], &[10, 15]]);
+    assert!((confusion.kappa().unwrap() - 0.4).abs() < 1e-15);
+    assert_eq!(confusion.hit_rate(), Some(0.7));
+    assert_eq!(confusion.hit_rate_of(1), Some(0.6));
+}
+
+/// Three classes: P_O = 0.79, P_E = (30·34 + 50·48 + 20·18)/10⁴ = 0.378.
+/// Columns and rows differ, so that a swap of them shows in the counts.
+#[test]
+fn kappa_of_three_classes() {
+    let confusion = matrix(&[&[26, 3, 1], &[6, 40, 4], &[2, 5, 13]]);
+    let expected = (0.79 - 0.378) / (1.0 - 0.378);
+    assert!((confusion.kappa().unwrap() - expected).abs() < 1e-15);
+    assert_eq!(confusion.count(1, 0), 6);
+    let mean = (26.0 / 30.0 + 40.0 / 50.0 + 13.0 / 20.0) / 3.0;
+    assert!((confusion.mean_hit_rate().unwrap() - mean).abs() < 1e-15);
+}
+
+/// POSE: of two choices, κ of 0.5 is a hit rate of 75 %.
+#[test]
+fn kappa_of_two_choices_and_of_chance() {
+    assert_eq!(matrix(&[&[3, 1], &[1, 3]]).kappa(), Some(0.5));
+    assert_eq!(matrix(&[&[1, 1], &[1, 1]]).kappa(), Some(0.0));
+    assert_eq!(matrix(&[&[0, 1], &[1, 0]]).kappa(), Some(-1.0));
+    assert_eq!(matrix(&[&[5, 0], &[0, 0]]).kappa(), None);
+    assert_eq!(Confusion::new(3).kappa(), None);
+    assert_eq!(Confusion::new(0).hit_rate(), None);
+}
+
+#[test]
+fn missed_trials_are_no_hits_and_not_in_kappa() {
+    let mut confusion = matrix(&[&[3, 1], &[1, 3]]);
+    confusion.add(0, None).unwrap();
+    confusion.add(0, None).unwrap();
+    assert_eq!(confusion.hit_rate(), Some(0.6));
+    assert_eq!(confusion.hit_rate_of(0), Some(0.5));
+    assert_eq!(confusion.kappa(), Some(0.5));
+    assert_eq!((confusion.trials(), confusion.named()), (10, 8));
+    let whole = confusion.clone();
+    confusion.merge(&whole).unwrap();
+    assert_eq!((confusion.trials(), confusion.missed(0)), (20, 4));
+}
+
+#[test]
+fn errors_are_named_minus_true() {
+    // Twice right, once 10° too much, once 20° too little.
+    let confusion = matrix(&[&[1, 1, 0], &[0, 1, 0], &[1, 0, 0]]);
+    let s = confusion.errors(&[10.0, 20.0, 30.0]).unwrap();
+    assert_eq!((s.count, s.mean), (4, -2.5));
+    // Squares about the mean: 6.25 + 156.25 + 6.25 + 306.25 = 475.
+    assert!((s.sd - (475.0_f64 / 3.0).sqrt()).abs() < 1e-12);
+    assert!((s.rms - 125.0_f64.sqrt()).abs() < 1e-12);
+    assert!((s.standard_error() - s.sd / 2.0).abs() < 1e-12);
+    assert_eq!(confusion.errors(&[1.0, 2.0]), None);
+}
+
+#[test]
+fn far_from_zero_the_spread_keeps_its_precision() {
+    let s = Statistics::of([1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0]).unwrap();
+    assert_eq!((s.mean, s.sd), (1e9 + 2.0, 1.0));
+    assert_eq!(
+        Statistics::of([4.0]).map(|s| (s.sd, s.rms)),
+        Some((0.0, 4.0))
+    );
+    assert_eq!(Statistics::of([]), None);
+}
+
+#[test]
+fn pairs_fall_into_their_groups() {
+    // Classes texture · 2 + distance.
+    let mut confusion = Confusion::new(4);
+    confusion.add(0, Some(1)).unwrap();
+    confusion.add(2, Some(0)).unwrap();
+    confusion.add(3, None).unwrap();
+    let texture = confusion.grouped(2, |class| class / 2);
+    assert_eq!((texture.count(0, 0), texture.count(1, 0)), (1, 1));
+    assert_eq!(texture.missed(1), 1);
+    let distance = confusion.grouped(2, |class| class % 2);
+    assert_eq!((distance.count(0, 1), distance.count(0, 0)), (1, 1));
+    assert_eq!(confusion.grouped(1, |class| class).trials(), 0);
+}
+
+#[test]
+fn classes_that_are_not_there_are_refused() {
+    let mut confusion = Confusion::new(2);
+    let wrong = |class| Err(ScoreError::Class { class, classes: 2 });
+    assert_eq!(confusion.add(2, Some(0)), wrong(2));
+    assert_eq!(confusion.add(0, Some(7)), wrong(7));
+    assert_eq!(confusion.add(3, None), wrong(3));
+    assert_eq!(confusion.trials(), 0);
+    let (ours, theirs) = (2, 3);
+    let other = Confusion::new(3);
+    assert_eq!(
+        confusion.merge(&other),
+        Err(ScoreError::Classes { ours, theirs })
+    );
+    assert_eq!(
+        (
+            confusion.count(5, 0),
+            confusion.count(0, 5),
+            confusion.missed(9)
+        ),
+        (0, 0, 0)
+    );
+}
