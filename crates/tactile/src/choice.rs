@@ -40,7 +40,7 @@ impl Choice {
     }
 }
 
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 impl From<Choice> for crate::recogniser::Outcome {
     fn from(choice: Choice) -> Self {
         Self {

@@ -41,13 +41,13 @@
 
 mod pad;
 mod peaks;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod recogniser;
 mod steering;
 
 pub use pad::{Imp, ImpError, ImpState, ImpSweep};
 pub use peaks::{Band, Peaks, deflection};
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub use recogniser::{ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
 pub use steering::{
     ARC_LENGTHS_MM, ARC_SIZES, STEERING_GAIN, VIBRISSAE, arc_means, distance, steering,

@@ -53,11 +53,16 @@
 //!
 //! # Features
 //!
-//! `std`: `train` (learning a model, f64), `reference` (an independent f64
-//! classifier to compare with), `dynamic` (channels and classes known only at
-//! run time) and the owned `ModelBuf`; `bayes`, `template_train`,
-//! `spectral_train`, `feature_train` and `regression` (learning the others),
-//! `recogniser` (one way to ask any of them) and `score` (how good they are).
+//! - `std`: `train` (learning a histogram model, f64), `reference` (an
+//!   independent f64 classifier to compare with), `dynamic` (channels and
+//!   classes known only at run time) and the owned `ModelBuf`.
+//! - `study`: learning all the others that the papers compare (`bayes`,
+//!   `template_train`, `spectral_train`, `feature_train`, `regression`,
+//!   `mlp::train`), `recogniser` (one way to ask any of them) and `score` (how
+//!   good they are). It brings FFT, linear algebra and an optimiser.
+//!
+//! Without either, all of them run: [`template`], [`spectral_template`],
+//! [`features`], [`mlp`] and [`imp`] beside the three rules above.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]
@@ -66,7 +71,7 @@ extern crate std;
 #[cfg(target_endian = "big")]
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod bayes;
 mod choice;
 mod decision;
@@ -75,14 +80,14 @@ pub mod dynamic;
 mod error;
 mod evidence;
 mod exp2;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod feature_train;
 pub mod features;
 mod fit_error;
 mod format;
 pub mod imp;
 mod likelihoods;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod means;
 pub mod mlp;
 mod model;
@@ -90,23 +95,23 @@ mod model;
 mod model_buf;
 pub mod polynomial;
 mod quantiser;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod recogniser;
 #[cfg(feature = "std")]
 pub mod reference;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod regression;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod score;
 mod sequential;
 pub mod spectral_template;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod spectral_train;
 pub mod spectrum;
 mod stationary;
 mod streaming;
 pub mod template;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod template_train;
 #[cfg(feature = "std")]
 pub mod train;

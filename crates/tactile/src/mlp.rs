@@ -24,7 +24,7 @@
 //!
 //! | form | numbers | for |
 //! |---|---|---|
-//! | `Network` (feature `std`) | f64 | learning, experiments |
+//! | `Network` (feature `study`) | f64 | learning, experiments |
 //! | [`Mlp`] | f32 | parts with an FPU |
 //! | [`FixedMlp`] | 16-bit weights, 32-bit sums | parts without |
 //!
@@ -45,22 +45,22 @@
 mod error;
 mod fixed;
 mod format;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod gradient;
 mod logistic;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod network;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod recogniser;
 mod single;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub mod train;
 
 pub use error::MlpError;
 pub use fixed::{FixedInput, FixedMlp, FixedMlpState};
 pub use format::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_SCALED, MAX_WEIGHT, MLP_VERSION};
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub use network::{Network, Shape};
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub use recogniser::{SPECTRUM_BINS, SpectrumInputs, SpectrumRecogniser};
 pub use single::{Mlp, MlpInput, MlpState};

@@ -11,7 +11,7 @@
 //!
 //! # Two ways, one result
 //!
-//! `Spectrum` (feature `std`) is a planned FFT in double precision. [`Bank`]
+//! `Spectrum` (feature `study`) is a planned FFT in double precision. [`Bank`]
 //! is for the board: a second-order resonator a bin, stepped with every sample.
 //!
 //! Why not an FFT on the board: counted on a Cortex-M4F (`docs/instructions.csv`),
@@ -33,13 +33,13 @@
 //! The mean of the block counts in that bound: subtract the rest position first.
 
 mod bank;
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 mod fft;
 
 use core::fmt;
 
 pub use bank::{Bank, BankState};
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub use fft::Spectrum;
 
 /// Which bins of which transform: k = first, first + step, …, `count` of them.

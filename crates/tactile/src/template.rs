@@ -17,7 +17,7 @@
 //! a code: e differs from that of the real mean by at most
 //! Σ (|d| + 1/4), d being the differences in codes.
 //!
-//! Training, and the same for a PC: `template_train` (feature `std`).
+//! Training, and the same for a PC: `template_train` (feature `study`).
 
 use crate::choice::Choice;
 

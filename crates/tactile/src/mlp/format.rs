@@ -91,7 +91,7 @@ pub(super) fn body(
 }
 
 /// The file of a network whose shape is checked.
-#[cfg(feature = "std")]
+#[cfg(feature = "study")]
 pub(super) fn write(
     inputs: usize,
     hidden: usize,
