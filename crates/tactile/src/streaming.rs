@@ -147,7 +147,7 @@ pub(crate) fn posteriors<R: Rule<K>, const K: usize>(
 
 impl<E, const K: usize> State<E, K> {
     /// The sums of the open block, for another way to look samples up.
-    #[cfg(feature = "study")]
+    #[cfg(feature = "std")]
     pub(crate) fn sums_mut(&mut self) -> &mut Sums<K> {
         &mut self.sums
     }
