@@ -106,13 +106,11 @@ where
     #[inline]
     fn feel(&mut self, h50: &filter::Config<R>, readings: &[[Reading; N]; S]) {
         for (side, contact) in self.contact.iter_mut().enumerate() {
-            *contact = R::ZERO;
-            for (filter, reading) in self.filters[side].iter_mut().zip(&readings[side]) {
-                *contact = h50
-                    .process(filter, normalised(reading.x))
-                    .abs()
-                    .max(*contact);
-            }
+            let whiskers = self.filters[side].iter_mut().zip(&readings[side]);
+            let sizes = whiskers
+                .map(|(filter, reading)| h50.process(filter, normalised::<R>(reading.x)).abs());
+            // No comparison with zero where there is one whisker.
+            *contact = sizes.reduce(|most, size| size.max(most)).unwrap_or(R::ZERO);
         }
     }
 

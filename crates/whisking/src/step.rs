@@ -97,7 +97,9 @@ impl<R: Real> Config<R> {
             }
         }
         if let Some(cia) = &self.cia {
-            let zeta = contact.iter().fold(R::ZERO, |zeta, pi| pi.max(zeta));
+            // No comparison with zero where there is one side.
+            let stronger = contact.into_iter().reduce(|zeta, pi| pi.max(zeta));
+            let zeta = stronger.unwrap_or(R::ZERO);
             // Loop in loop: a flattened iterator is not unrolled.
             for side in &mut state.whiskers {
                 for whisker in side {

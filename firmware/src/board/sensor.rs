@@ -14,7 +14,7 @@
 //! flags are the only state they share. What differs between chips is in
 //! `spi_*.rs` and `mover_*.rs`.
 
-use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
+use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 
 use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
@@ -23,9 +23,9 @@ use stm32_metapac::SPI1;
 use super::gpio::{A, B, Mode, Pin};
 use crate::here::{PACER, SPI_PINS, clock_sensor, mover, reset_spi, spi};
 
-/// Where the collector puts the bytes. Atomic because the DMA writes them
-/// behind the compiler's back.
-static RECEIVED: [AtomicU8; FRAME_LEN] = [const { AtomicU8::new(0) }; FRAME_LEN];
+/// Where the collector puts the bytes, as the words that they are fetched by.
+/// Atomic because the DMA writes them behind the compiler's back.
+static RECEIVED: [AtomicU32; FRAME_LEN / 4] = [const { AtomicU32::new(0) }; FRAME_LEN / 4];
 /// What the feeder sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
 
@@ -137,7 +137,9 @@ impl FrameSource for Frames {
             // After an interrupt that came too late for `end_of_frame`.
             self.stop();
             compiler_fence(Ordering::Acquire);
-            taken = Some(RECEIVED.each_ref().map(|byte| byte.load(Ordering::Relaxed)));
+            let words = RECEIVED.each_ref().map(|word| word.load(Ordering::Relaxed));
+            let [[a, b, c, d], [e, f, g, h]] = words.map(u32::to_ne_bytes);
+            taken = Some([a, b, c, d, e, f, g, h]);
         }
         self.start();
         Ok(taken)
