@@ -10,6 +10,7 @@ mod error;
 pub mod listening;
 pub mod motor;
 pub mod output;
+pub mod physics;
 pub mod plant;
 pub mod plot;
 pub mod progress;

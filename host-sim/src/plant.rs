@@ -12,8 +12,6 @@
 //! module, advance the motors, [`Plant::advance`].
 
 mod ideal;
-mod noise;
-mod resonator;
 mod surface;
 mod textured;
 
@@ -28,7 +26,7 @@ pub struct BadPlantSetting(pub &'static str);
 
 impl BadPlantSetting {
     /// `value` if it is in `lo..=hi`.
-    fn check(name: &'static str, value: f64, lo: f64, hi: f64) -> Result<f64, Self> {
+    pub(crate) fn check(name: &'static str, value: f64, lo: f64, hi: f64) -> Result<f64, Self> {
         if (lo..=hi).contains(&value) {
             Ok(value)
         } else {

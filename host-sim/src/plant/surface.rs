@@ -3,7 +3,7 @@
 
 use scene::Texture;
 
-use super::noise::Noise;
+use crate::physics::Noise;
 
 /// What a surface is to the tip of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -34,8 +34,7 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::noise::Noise;
-use super::resonator::{Propagator, Resonator};
+use crate::physics::{Noise, Propagator, Resonator};
 use super::surface::{Profile, Surface};
 use super::{BadPlantSetting, Head, Plant};
 pub use settings::{TexturedSettings, WhiskerSettings};

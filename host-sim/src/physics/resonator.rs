@@ -5,16 +5,16 @@ use core::f64::consts::TAU;
 /// d²x/dt² + 2 ζ ω dx/dt + ω² (x − target) = 0 with 0 < ζ < 1: one bending mode
 /// of a whisker, for a target that is constant during the step.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Resonator {
+pub(crate) struct Resonator {
     /// Deflection.
-    pub(super) x: f64,
+    pub(crate) x: f64,
     /// Its rate, 1/s.
-    pub(super) v: f64,
+    pub(crate) v: f64,
 }
 
 /// The 2×2 exponential of a step, rows (x, v).
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Propagator {
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Propagator {
     x: [f64; 2],
     v: [f64; 2],
 }
@@ -24,7 +24,7 @@ impl Propagator {
     ///
     /// With σ = ζ ω, ω_d = ω √(1 − ζ²), c and s the cosine and sine of ω_d dt:
     /// e^(−σ dt) [[c + σ s/ω_d, s/ω_d], [−ω² s/ω_d, c − σ s/ω_d]].
-    pub(super) fn new(hz: f64, damping: f64, dt_s: f64) -> Self {
+    pub(crate) fn new(hz: f64, damping: f64, dt_s: f64) -> Self {
         let omega = TAU * hz;
         let sigma = damping * omega;
         let ringing = omega * (1.0 - damping * damping).sqrt();
@@ -40,7 +40,8 @@ impl Propagator {
 
 impl Resonator {
     /// One step towards `target`.
-    pub(super) fn step(&mut self, over: &Propagator, target: f64) {
+    #[inline]
+    pub(crate) fn step(&mut self, over: &Propagator, target: f64) {
         let (away, v) = (self.x - target, self.v);
         self.x = target + over.x[0] * away + over.x[1] * v;
         self.v = over.v[0] * away + over.v[1] * v;

@@ -8,13 +8,13 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 /// A source of independent standard normal numbers. The same seed gives the
 /// same numbers on every machine.
 #[derive(Debug, Clone)]
-pub(super) struct Noise {
+pub(crate) struct Noise {
     random: Xoshiro256PlusPlus,
     spare: Option<f64>,
 }
 
 impl Noise {
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self {
             random: Xoshiro256PlusPlus::seed_from_u64(seed),
             spare: None,
@@ -27,7 +27,7 @@ impl Noise {
     }
 
     /// The next number (Box and Muller), at most 8.6 in size.
-    pub(super) fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
             return spare;
         }

@@ -1,0 +1,469 @@
+//! A whisker that moves, bends, touches a plate and is measured.
+//!
+//! Glossary:
+//!
+//! - *q_k*: amplitude of mode k in one transverse axis, m √kg; tip deflection
+//!   u = Σ φ_k(L) q_k;
+//! - *rigid tip*: where the tip would be if the shaft were straight;
+//! - *part*: one of 1, 2, 4 … 32 equal parts of a step in contact.
+//!
+//! # Model
+//!
+//! q̈ + 2 ζ ω q̇ + ω² q = φ(L) F − (p a + r α) in each axis, with the force F of the
+//! contact, the acceleration a of the base and its angular acceleration α. The
+//! tip is at base + (L − κ|u|²/2) z + u_x x + u_y y. Between poses the base moves
+//! uniformly; changes of its velocity are kicks at the begin of a step. Left
+//! out: forces that grow with the square of the base's angular velocity (2 % of
+//! ω² at 20 rad/s for the slowest whisker) and contact elsewhere than at the tip.
+//!
+//! # Method
+//!
+//! Modes are propagated exactly, free or under the force of the contact, which
+//! is constant during a part and found at its end ([`super::contact`]). So the
+//! sum of modal and elastic energy never grows at any stiffness or step while
+//! the base rests on a smooth plate. Then the contact's own damping takes a
+//! share of the tip's velocity against the ground, by an impulse that never
+//! pulls. A step is cut in parts by how far the tip travels over the grains and
+//! how fast the highest mode rings; one that stays clear of the plate is not
+//! cut and knows nothing of contact.
+
+use super::beam::Modes;
+use super::contact::{Force, Frame, Problem};
+use super::pose::{Plate, Pose, Seen};
+use super::relief::Relief;
+use super::sensor::{Sensor, SensorSettings};
+use super::shaft::Shaft;
+use super::state::{MODES, Reach, Shape, State};
+use super::surface::Surface;
+use super::vector::{V3, across, add, dot, length, scale, sub, unit};
+use crate::plant::BadPlantSetting;
+
+/// Parts of a step are at most 2 to this power.
+const POWERS: usize = 6;
+
+/// Longest way of the tip in a part, in distances of the finest octave: heights
+/// change from hill to valley over one.
+const TRAVEL: f64 = 0.5;
+
+/// Largest phase of the highest mode in a part, rad.
+const PHASE: f64 = 1.0;
+
+/// Largest change of velocity of the base in a step, m/s, and of its direction,
+/// rad/s: they keep the arithmetic finite.
+const KICK: f64 = 1e4;
+
+/// What the tip and the plate are to each other.
+#[derive(Debug, Clone, Copy, Default)]
+struct Touch {
+    /// Stretch of the tangential spring, plate coordinates, m.
+    stretch: V3,
+    /// Force on the tip, plate coordinates, N.
+    force: V3,
+    /// Its normal component; positive: in contact.
+    normal_n: f64,
+    stuck: bool,
+    /// Energy of the springs, J.
+    energy_j: f64,
+}
+
+/// How a plate was seen last.
+#[derive(Debug, Clone, Copy)]
+struct Last {
+    seen: Seen,
+    /// Modal tip above the mean plane, m.
+    above: f64,
+}
+
+/// A whisker with its sensor.
+#[derive(Debug, Clone)]
+pub struct TouchingWhisker {
+    shape: Shape,
+    state: State,
+    /// For steps of this length: how modes move in 1, 2, 4 … parts of it.
+    reach: (f64, [Reach; POWERS]),
+    pose: Option<Pose>,
+    /// Velocity of the base and of the direction of the shaft.
+    motion: Option<[V3; 2]>,
+    relief: (Surface, Relief),
+    last: Option<Last>,
+    touch: Touch,
+    sensor: Sensor,
+    finer: u32,
+}
+
+impl TouchingWhisker {
+    /// A straight whisker at rest. The seed is that of the sensor's noise; the
+    /// surface has its own.
+    ///
+    /// # Errors
+    /// The first setting out of its range, by name.
+    pub fn new(shaft: &Shaft, sensor: &SensorSettings, seed: u64) -> Result<Self, BadPlantSetting> {
+        sensor.check()?;
+        let modes = shaft.modes(MODES)?;
+        Ok(Self::of(shaft, &modes, sensor, seed))
+    }
+
+    /// As [`TouchingWhisker::new`], with modes that were solved before:
+    /// [`Shaft::modes`] takes milliseconds. Modes that are missing do not move.
+    ///
+    /// # Errors
+    /// As [`TouchingWhisker::new`].
+    pub fn with_modes(
+        shaft: &Shaft,
+        modes: &Modes,
+        sensor: &SensorSettings,
+        seed: u64,
+    ) -> Result<Self, BadPlantSetting> {
+        shaft.check()?;
+        sensor.check()?;
+        Ok(Self::of(shaft, modes, sensor, seed))
+    }
+
+    fn of(shaft: &Shaft, modes: &Modes, sensor: &SensorSettings, seed: u64) -> Self {
+        let flat = Surface::of(super::Material::Flat);
+        Self {
+            shape: Shape::new(shaft, modes),
+            state: State::default(),
+            reach: (0.0, [Reach::default(); POWERS]),
+            pose: None,
+            motion: None,
+            relief: (flat, Relief::new(&flat, 0.0)),
+            last: None,
+            touch: Touch::default(),
+            sensor: Sensor::new(*sensor, seed),
+            finer: 0,
+        }
+    }
+
+    /// Cuts steps in contact 2ⁿ times finer, up to 32 parts in all: to see what
+    /// the usual choice costs in accuracy.
+    #[must_use]
+    pub fn finer(mut self, n: u32) -> Self {
+        self.finer = n;
+        self
+    }
+
+    /// Straightens the shaft, at rest, wherever the next pose is; the surface,
+    /// the sensor's noise and its last value stay.
+    pub fn rest(&mut self) {
+        self.state = State::default();
+        self.touch = Touch::default();
+        self.pose = None;
+        self.motion = None;
+        self.last = None;
+    }
+
+    /// Bends the shaft statically, at rest, until its tip is off by these
+    /// distances, m, within ±L.
+    pub fn bend(&mut self, tip_m: [f64; 2]) {
+        let limit = self.shape.length_m;
+        let tip_m = tip_m.map(|u| if u.is_finite() { u.clamp(-limit, limit) } else { 0.0 });
+        self.state = self.shape.bent(tip_m);
+        self.touch = Touch::default();
+        self.last = None;
+    }
+
+    /// Moves on by `dt_s` (s, positive) to a pose, before a plate if there is
+    /// one. The first pose after the start or [`TouchingWhisker::rest`] is taken
+    /// as resting, and the first velocity as having been there before. A pose
+    /// that is not finite counts as the last one. Values of the surface out of
+    /// their ranges count as the nearest that is within.
+    pub fn step(&mut self, pose: &Pose, plate: Option<&Plate>, dt_s: f64) {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return;
+        }
+        let Some(pose) = proper(pose).or(self.pose) else {
+            return;
+        };
+        if self.reach.0 != dt_s {
+            let of = |power: usize| Reach::new(&self.shape, dt_s / f64::from(1_u32 << power));
+            self.reach = (dt_s, core::array::from_fn(of));
+        }
+        self.carry(&pose, dt_s);
+        match plate {
+            Some(plate) => self.before(&pose, plate, dt_s),
+            None => {
+                self.state.free(&self.reach.1[0]);
+                self.touch = Touch::default();
+                self.last = None;
+            }
+        }
+        if !self.state.is_finite() {
+            self.state = State::default();
+            self.touch = Touch::default();
+        }
+        if self.sensor.due(dt_s) {
+            let force = self.force_on_axes();
+            let rotation = self.shape.rotation(&self.state, force);
+            self.sensor.advance(rotation, dt_s);
+        } else {
+            self.sensor.advance([0.0; 2], dt_s);
+        }
+    }
+
+    /// The base goes to a new pose: kicks by the change of its velocity.
+    fn carry(&mut self, pose: &Pose, dt_s: f64) {
+        let before = self.pose.replace(*pose);
+        let Some(before) = before else {
+            return;
+        };
+        let rate = |to: V3, from: V3| scale(1.0 / dt_s, sub(to, from));
+        let motion = [rate(pose.base_m, before.base_m), rate(pose.z(), before.z())];
+        let Some(old) = self.motion.replace(motion) else {
+            return;
+        };
+        let [shift, turn] = [0, 1].map(|i| {
+            let change = sub(motion[i], old[i]);
+            change.map(|c| c.clamp(-KICK, KICK))
+        });
+        for (axis, way) in [pose.x, pose.y].into_iter().enumerate() {
+            self.state.kick(&self.shape, axis, dot(shift, way), dot(turn, way));
+        }
+    }
+
+    /// A step before a plate.
+    fn before(&mut self, pose: &Pose, plate: &Plate, dt_s: f64) {
+        let finite = |v: V3| v.iter().all(|x| x.is_finite());
+        if !(finite(plate.point_m) && finite(plate.normal) && finite(plate.along)) {
+            self.state.free(&self.reach.1[0]);
+            return;
+        }
+        let surface = plate.surface.limited();
+        if self.relief.0 != surface {
+            self.relief = (surface, Relief::new(&surface, self.shape.tip_radius_m));
+        }
+        let seen = plate.see(pose, self.shape.length_m);
+        let last = self.last.map_or(seen, |last| last.seen);
+        let above = self.last.map(|last| last.above);
+        let mut free = self.state;
+        free.free(&self.reach.1[0]);
+        let end = self.shape.tip(&free, &seen);
+        let start = above.unwrap_or(end[2]);
+        if self.touch.normal_n <= 0.0 {
+            let clear = start.min(end[2]) - (end[2] - start).abs();
+            if clear > self.relief.1.top_m {
+                self.state = free;
+                self.touch = Touch::default();
+                self.last = Some(Last {
+                    seen,
+                    above: end[2],
+                });
+                return;
+            }
+        }
+        let way = length(sub(seen.tip, last.tip));
+        let power = self.power(way, dt_s);
+        let parts = 1_u32 << power;
+        let part_s = dt_s / f64::from(parts);
+        let share = 1.0 / f64::from(parts);
+        let step = scale(share, sub(seen.tip, last.tip));
+        let mut here = Seen {
+            tip: last.tip,
+            ..seen
+        };
+        for part in 0..parts {
+            let old = here;
+            here.tip = if part + 1 == parts { seen.tip } else { add(old.tip, 1.0, step) };
+            self.part(&old, &here, power, part_s);
+        }
+        let above = self.shape.tip(&self.state, &seen)[2];
+        self.last = Some(Last { seen, above });
+    }
+
+    /// How often a step is halved in which the base carries the tip this far.
+    fn power(&self, way_m: f64, dt_s: f64) -> usize {
+        let own = self.state.speed(&self.shape) * dt_s;
+        let grains = (way_m + own) / (TRAVEL * self.relief.1.finest_m);
+        let phase = self.shape.highest_rad_s * dt_s / PHASE;
+        let wanted = grains.max(phase).clamp(1.0, 64.0);
+        let power = libm::ceil(libm::log2(wanted)) as usize + self.finer as usize;
+        power.min(POWERS - 1)
+    }
+
+    /// One part of a step, from one rigid tip to the next.
+    fn part(&mut self, old: &Seen, new: &Seen, power: usize, part_s: f64) {
+        let Some(reach) = self.reach.1.get(power) else {
+            return;
+        };
+        let from = self.shape.tip(&self.state, old);
+        self.state.free(reach);
+        let to = self.shape.tip(&self.state, new);
+        let [height, p, q] = self.relief.1.at([to[0], to[1]]);
+        let frame = Frame::new([p, q]);
+        let gap = (to[2] - height) * frame.upright;
+        if gap >= 0.0 {
+            self.touch = Touch::default();
+            return;
+        }
+        // The tip touched down on the way, where the gap was gone.
+        let moved = sub(to, from);
+        let trial = if self.touch.normal_n > 0.0 {
+            add(self.touch.stretch, 1.0, moved)
+        } else {
+            let fall = -dot(frame.axes[0], moved);
+            let late = if fall > 0.0 { (-gap / fall).min(1.0) } else { 0.0 };
+            scale(late, moved)
+        };
+        let ways = self.shape.ways(&self.state, new);
+        let local = ways.map(|way| frame.local(way));
+        let surface = &self.relief.0;
+        let along = dot(frame.axes[0], new.z).powi(2);
+        let springs = self.shape.springs(1.0 / surface.stiffness_n_m, along);
+        let [_, a, b] = frame.local(trial);
+        let hold = if self.touch.normal_n > 0.0 && !self.touch.stuck {
+            surface.friction
+        } else {
+            surface.hold
+        };
+        let response = |i: usize, j: usize| {
+            reach.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j])
+        };
+        let problem = Problem {
+            gap,
+            stretch: [a, b],
+            response: core::array::from_fn(|i| core::array::from_fn(|j| response(i, j))),
+            springs,
+            friction: [hold, surface.friction],
+        };
+        let Force { local: force, stuck } = problem.solve();
+        let push = |way: [f64; 3]| way[0] * force[0] + way[1] * force[1] + way[2] * force[2];
+        self.state.push(reach, local.map(push));
+        let [n, a, b] = force;
+        self.touch = Touch {
+            stretch: frame.plate([0.0, -springs[1] * a, -springs[1] * b]),
+            force: frame.plate(force),
+            normal_n: n,
+            stuck,
+            energy_j: 0.5 * (springs[0] * n * n + springs[1] * (a * a + b * b)),
+        };
+        let carried = scale(1.0 / part_s, sub(new.tip, old.tip));
+        let damp = Damp {
+            local,
+            carried: frame.local(carried),
+            force,
+            springs,
+            part_s,
+        };
+        self.damp(&damp, stuck);
+    }
+
+    /// Takes the contact's share of the tip's velocity against the ground.
+    fn damp(&mut self, contact: &Damp, stuck: bool) {
+        let surface = self.relief.0;
+        let inertia = self.shape.mobility;
+        let spring = contact.springs[0];
+        let own = |axis: usize| {
+            let square = contact.local[0][axis].powi(2) + contact.local[1][axis].powi(2);
+            inertia * square
+        };
+        let rate = 2.0 * surface.damping * (own(0) / spring).sqrt();
+        let share = -libm::expm1(-rate * contact.part_s);
+        let impulse = contact.force.map(|f| f * contact.part_s);
+        let mut normal = impulse[0];
+        for axis in 0..if stuck { 3 } else { 1 } {
+            let velocity = self.state.velocity(&self.shape);
+            let speed = contact.carried[axis]
+                + velocity[0] * contact.local[0][axis]
+                + velocity[1] * contact.local[1][axis];
+            let massless = contact.springs[axis.min(1)] / (contact.part_s * contact.part_s);
+            let mut kick = -share * speed / (own(axis) + massless);
+            if axis == 0 {
+                kick = kick.max(-impulse[0]);
+                normal += kick;
+            } else {
+                // Half of the cone for each tangent keeps the sum within it.
+                let room = (surface.hold * normal * core::f64::consts::FRAC_1_SQRT_2
+                    - impulse[axis].abs())
+                .max(0.0);
+                kick = kick.clamp(-room, room);
+            }
+            let kicks = contact.local.map(|way| kick * way[axis]);
+            self.state.strike(&self.shape, kicks);
+        }
+    }
+
+    /// Force of the contact in the whisker's axes, N.
+    fn force_on_axes(&self) -> [f64; 2] {
+        match &self.last {
+            Some(last) => [
+                dot(self.touch.force, last.seen.x),
+                dot(self.touch.force, last.seen.y),
+            ],
+            None => [0.0; 2],
+        }
+    }
+
+    /// What the sensor says, x and y, each within ±1: rotation of the base over
+    /// full scale, as last measured. A tip that is pushed towards +x reads
+    /// positive.
+    pub fn reading(&self) -> [f64; 2] {
+        self.sensor.reading()
+    }
+
+    /// The same as signed 14-bit codes, ±8191.
+    pub fn codes(&self) -> [i16; 2] {
+        self.sensor.codes()
+    }
+
+    /// Whether the tip is pressed on the plate at the end of the step.
+    pub fn contact(&self) -> bool {
+        self.touch.normal_n > 0.0
+    }
+
+    /// Whether it is held there by friction.
+    pub fn sticking(&self) -> bool {
+        self.contact() && self.touch.stuck
+    }
+
+    /// Normal and tangential force on the tip, N.
+    pub fn force_n(&self) -> [f64; 2] {
+        let normal = self.touch.normal_n;
+        let square = dot(self.touch.force, self.touch.force) - normal * normal;
+        [normal, square.max(0.0).sqrt()]
+    }
+
+    /// Deflection of the tip in x and y, m.
+    pub fn tip_m(&self) -> [f64; 2] {
+        self.shape.deflection(&self.state, self.force_on_axes())
+    }
+
+    /// Rotation of the base in x and y as it is, rad.
+    pub fn rotation_rad(&self) -> [f64; 2] {
+        self.shape.rotation(&self.state, self.force_on_axes())
+    }
+
+    /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes
+    /// that move with the base.
+    pub fn energy_j(&self) -> f64 {
+        self.state.energy_j(&self.shape) + self.touch.energy_j
+    }
+}
+
+/// A contact after its force was applied, in its frame.
+struct Damp {
+    /// Motion of the tip for deflections in x and y.
+    local: [[f64; 3]; 2],
+    /// Velocity of the rigid tip.
+    carried: [f64; 3],
+    force: [f64; 3],
+    springs: [f64; 2],
+    part_s: f64,
+}
+
+/// The pose with axes of length one at right angles, if it is finite.
+fn proper(pose: &Pose) -> Option<Pose> {
+    let all = [pose.base_m, pose.x, pose.y];
+    if !all.iter().flatten().all(|c| c.abs() < 1e6) {
+        return None;
+    }
+    let x = unit(pose.x, [1.0, 0.0, 0.0]);
+    let y = across(pose.y, x);
+    Some(Pose {
+        base_m: pose.base_m,
+        x,
+        y,
+    })
+}
+
+#[cfg(test)]
+mod tests;
