@@ -25,6 +25,7 @@ mod state;
 mod surface;
 mod touching;
 mod vector;
+mod whiskers;
 
 pub use beam::{Mode, Modes};
 pub(crate) use noise::Noise;
@@ -34,3 +35,4 @@ pub use sensor::SensorSettings;
 pub use shaft::{Follicle, Shaft};
 pub use surface::{Grit, Material, Surface};
 pub use touching::TouchingWhisker;
+pub use whiskers::Biotact;
