@@ -203,7 +203,9 @@ pub(super) fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
         let terms = modes.iter().map(|m| m.tip * of(m) / m.omega_rad_s.powi(2));
         terms.sum()
     };
-    let whole = modes.iter().all(|m| m.omega_rad_s.is_finite() && m.omega_rad_s > 0.0);
+    let whole = modes
+        .iter()
+        .all(|m| m.omega_rad_s.is_finite() && m.omega_rad_s > 0.0);
     whole.then(|| Modes {
         tip_m_n,
         base_rad_n,

@@ -25,9 +25,9 @@
 
 use super::vector::{V3, add, dot, scale};
 
-/// Rounds by which the direction of sliding is found; each leaves about the
-/// ratio of the response's anisotropy.
-const ROUNDS: usize = 6;
+/// Rounds by which the size of the normal force and the direction of sliding are
+/// found, at most.
+const ROUNDS: usize = 8;
 
 /// A contact problem in a frame (normal, first tangent, second tangent).
 #[derive(Debug, Clone, Copy)]
@@ -40,12 +40,12 @@ pub(super) struct Problem {
     pub(super) response: [[f64; 3]; 3],
     /// 1/k_n and 1/k_t, m/N; positive.
     pub(super) springs: [f64; 2],
-    /// Friction up to which the tip is held, and when it slides.
-    pub(super) friction: [f64; 2],
+    /// Coefficient of friction μ.
+    pub(super) friction: f64,
 }
 
 /// What a contact does during a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Force {
     /// N and the two components of T, N.
     pub(super) local: [f64; 3],
@@ -54,12 +54,15 @@ pub(super) struct Force {
 }
 
 impl Problem {
-    /// The force, where the gap would be negative.
+    /// The force; none where the gap is open without one.
     #[inline]
     pub(super) fn solve(&self) -> Force {
+        if self.gap >= 0.0 {
+            return Force::default();
+        }
         let held = self.stick();
         let [n, a, b] = held;
-        let reach = self.friction[0] * n;
+        let reach = self.friction * n;
         if n >= 0.0 && a * a + b * b <= reach * reach {
             return Force {
                 local: held,
@@ -67,6 +70,20 @@ impl Problem {
             };
         }
         self.slip(held)
+    }
+
+    /// How far the tip has slid under a force, m.
+    #[inline]
+    pub(super) fn slipped(&self, force: &Force) -> f64 {
+        if force.stuck {
+            return 0.0;
+        }
+        let [n, a, b] = force.local;
+        let [_, [na, aa, ab], [nb, _, bb]] = self.response;
+        let spring = self.springs[1];
+        let first = self.stretch[0] + na * n + (aa + spring) * a + ab * b;
+        let second = self.stretch[1] + nb * n + ab * a + (bb + spring) * b;
+        first.hypot(second)
     }
 
     /// The force that holds the tip: (W + 1/k) F = −(g, ξ), by Cramer's rule.
@@ -90,13 +107,15 @@ impl Problem {
 
     /// The force on the cone, for a tip that `held` could not hold.
     fn slip(&self, held: [f64; 3]) -> Force {
-        let [normal, first, second] = self.response;
-        let mu = self.friction[1];
+        let [normal, ..] = self.response;
+        let mu = self.friction;
         let own = normal[0] + self.springs[0];
-        let mut way = direction([held[1], held[2]], self.stretch);
         let mut local = [-self.gap / own, 0.0, 0.0];
         for _ in 0..ROUNDS {
-            let push = own + mu * (normal[1] * way[0] + normal[2] * way[1]);
+            let [a, b] = self.drag(local);
+            let share = |t: f64| if local[0] > 0.0 { t / local[0] } else { 0.0 };
+            let way = [share(a), share(b)];
+            let push = own + normal[1] * way[0] + normal[2] * way[1];
             if push <= 0.01 * own {
                 // The harder it slides, the harder it is pressed on: it jams.
                 if held[0] > 0.0 {
@@ -108,30 +127,63 @@ impl Problem {
                 break;
             }
             let n = -self.gap / push;
-            local = [n, mu * n * way[0], mu * n * way[1]];
-            let moved = |row: [f64; 3]| row[0] * local[0] + row[1] * local[1] + row[2] * local[2];
-            let end = [
-                self.stretch[0] + moved(first),
-                self.stretch[1] + moved(second),
-            ];
-            way = direction([-end[0], -end[1]], [-way[0], -way[1]]);
+            let change = (n - local[0]).abs();
+            local = [n, n * way[0], n * way[1]];
+            if mu == 0.0 || change <= 1e-9 * n {
+                break;
+            }
         }
         Force {
             local,
             stuck: false,
         }
     }
-}
 
-/// a/|a|; against `or` where a is zero.
-fn direction(a: [f64; 2], or: [f64; 2]) -> [f64; 2] {
-    let unit = |[x, y]: [f64; 2]| {
-        let size = x.hypot(y);
-        (size > 0.0).then(|| [x / size, y / size])
-    };
-    unit(a)
-        .or_else(|| unit([-or[0], -or[1]]))
-        .unwrap_or([0.0; 2])
+    /// Friction under a normal force of `last`: the T of |T| ≤ μ N with the
+    /// least energy. On the cone (W + 1/k + λ) T = −ξ′, so that the slip −λ T is
+    /// against the force; λ by Newton's method on 1/|T|, which is concave.
+    fn drag(&self, last: [f64; 3]) -> [f64; 2] {
+        let n = last[0];
+        let [_, [na, aa, ab], [nb, _, bb]] = self.response;
+        let reach = self.friction * n;
+        if reach <= 0.0 {
+            return [0.0; 2];
+        }
+        // Principal axes of the tangential response.
+        let (aa, bb) = (aa + self.springs[1], bb + self.springs[1]);
+        let (half, mean) = (0.5 * (aa - bb), f64::midpoint(aa, bb));
+        let spread = half.hypot(ab);
+        let (c, s) = if spread > 1e-12 * mean {
+            let c = (0.5 * (1.0 + half / spread)).max(0.0).sqrt();
+            let s = (0.5 * (1.0 - half / spread)).max(0.0).sqrt();
+            (c, s.copysign(ab))
+        } else {
+            (1.0, 0.0)
+        };
+        let give = [mean + spread, (mean - spread).max(self.springs[1])];
+        let stretch = [self.stretch[0] + na * n, self.stretch[1] + nb * n];
+        let pull = [
+            c * stretch[0] + s * stretch[1],
+            c * stretch[1] - s * stretch[0],
+        ];
+        let of = |more: f64| [pull[0] / (give[0] + more), pull[1] / (give[1] + more)];
+        let mut more = (pull[0].hypot(pull[1]) / reach - give[0]).max(0.0);
+        let mut force = of(more);
+        for _ in 0..ROUNDS {
+            let size = force[0].hypot(force[1]);
+            if size <= reach * (1.0 + 1e-9) {
+                break;
+            }
+            let fall =
+                force[0] * force[0] / (give[0] + more) + force[1] * force[1] / (give[1] + more);
+            more += size * size / fall * (size / reach - 1.0);
+            force = of(more);
+        }
+        let size = force[0].hypot(force[1]);
+        let cut = if size > reach { reach / size } else { 1.0 };
+        let [a, b] = force.map(|f| -cut * f);
+        [c * a - s * b, s * a + c * b]
+    }
 }
 
 /// Axes of a contact in the plate's coordinates: the normal of a ground with the

@@ -89,8 +89,8 @@ impl Octave {
         let ((wa, da), (wb, db)) = (ease(a), ease(b));
         let low = corners[0][0] + wb * (corners[0][1] - corners[0][0]);
         let high = corners[1][0] + wb * (corners[1][1] - corners[1][0]);
-        let cross = (1.0 - wa) * (corners[0][1] - corners[0][0])
-            + wa * (corners[1][1] - corners[1][0]);
+        let cross =
+            (1.0 - wa) * (corners[0][1] - corners[0][0]) + wa * (corners[1][1] - corners[1][0]);
         let height = self.height_m * (low + wa * (high - low));
         let scale = self.height_m * self.per_m;
         let (du, dv) = (scale * da * (high - low), scale * db * cross);
@@ -120,7 +120,11 @@ impl Relief {
             let share = 0.5_f64.powi(n as i32);
             let spacing = length * share;
             let sink = 0.3 * spacing * spacing / (8.0 * radius.max(1e-12));
-            let height = if n == 0 { first } else { (first * share).min(sink) };
+            let height = if n == 0 {
+                first
+            } else {
+                (first * share).min(sink)
+            };
             turn = [
                 TURN[0] * turn[0] - TURN[1] * turn[1],
                 TURN[1] * turn[0] + TURN[0] * turn[1],

@@ -62,7 +62,7 @@ impl Shape {
 
     /// Deflections of the modal tip, m.
     #[inline]
-    fn deflections(&self, state: &State) -> [f64; 2] {
+    pub(super) fn deflections(&self, state: &State) -> [f64; 2] {
         let sum = |axis: &[Resonator; MODES]| -> f64 {
             let terms = axis.iter().zip(&self.tip).map(|(mode, tip)| tip * mode.x);
             terms.sum()
@@ -73,20 +73,46 @@ impl Shape {
     /// The modal tip in the plate's coordinates, m.
     #[inline]
     pub(super) fn tip(&self, state: &State, seen: &Seen) -> V3 {
-        let [u, v] = self.deflections(state);
-        let back = -0.5 * self.shortening * (u * u + v * v);
+        let deflections = self.deflections(state);
+        let [u, v] = deflections;
         let bent = add(add(seen.tip, u, seen.x), v, seen.y);
-        add(bent, back, seen.z)
+        add(bent, -self.back(deflections), seen.z)
     }
 
-    /// Motion of the tip for a deflection of 1 in x and in y.
+    /// How far a deflected tip has come back along the shaft, m: κ |u|²/2, and
+    /// from |u| = 1/κ on, where the theory ends, in proportion.
     #[inline]
-    pub(super) fn ways(&self, state: &State, seen: &Seen) -> [V3; 2] {
-        let [u, v] = self.deflections(state);
+    fn back(&self, [u, v]: [f64; 2]) -> f64 {
+        let off = (u * u + v * v).sqrt();
+        let straight = (off * self.shortening - 1.0).max(0.0);
+        let bent = off * self.shortening - straight;
+        (0.5 * bent * bent + straight) / self.shortening
+    }
+
+    /// Motion of the tip for a deflection of 1 more in x and in y.
+    #[inline]
+    pub(super) fn ways(&self, [u, v]: [f64; 2], seen: &Seen) -> [V3; 2] {
+        let steep = self.shortening / (self.shortening * (u * u + v * v).sqrt()).max(1.0);
         [
-            add(seen.x, -self.shortening * u, seen.z),
-            add(seen.y, -self.shortening * v, seen.z),
+            add(seen.x, -steep * u, seen.z),
+            add(seen.y, -steep * v, seen.z),
         ]
+    }
+
+    /// How far along the shaft the tip of a free step is from where ways of the
+    /// middle between `start` and `end` would bring it, m.
+    #[inline]
+    pub(super) fn behind(&self, start: [f64; 2], free: [f64; 2], end: [f64; 2]) -> f64 {
+        let [u, v] = [0, 1].map(|i| f64::midpoint(start[i], end[i]));
+        let steep = self.shortening / (self.shortening * (u * u + v * v).sqrt()).max(1.0);
+        let along = steep * (u * (free[0] - start[0]) + v * (free[1] - start[1]));
+        self.back(free) - self.back(start) - along
+    }
+
+    /// Change of the tip's direction of motion for a change of deflection, rad.
+    #[inline]
+    pub(super) fn turn(&self, change: f64) -> f64 {
+        self.shortening * change
     }
 
     /// 1/k, normal and tangential, m/N, of a surface in series with what of the
@@ -111,7 +137,10 @@ impl Shape {
     #[inline]
     pub(super) fn rotation(&self, state: &State, force: [f64; 2]) -> [f64; 2] {
         let of = |axis: &[Resonator; MODES], force: f64| -> f64 {
-            let terms = axis.iter().zip(&self.base).map(|(mode, base)| base * mode.x);
+            let terms = axis
+                .iter()
+                .zip(&self.base)
+                .map(|(mode, base)| base * mode.x);
             terms.sum::<f64>() + self.residual_base * force
         };
         [of(&state.axes[0], force[0]), of(&state.axes[1], force[1])]
@@ -145,7 +174,9 @@ pub(super) struct Reach {
 
 impl Reach {
     pub(super) fn new(shape: &Shape, dt_s: f64) -> Self {
-        let over = shape.omega.map(|omega| Propagator::new(omega / TAU, shape.damping, dt_s));
+        let over = shape
+            .omega
+            .map(|omega| Propagator::new(omega / TAU, shape.damping, dt_s));
         let push: [[f64; 2]; MODES] = core::array::from_fn(|k| {
             let mut mode = Resonator::default();
             mode.step(&over[k], shape.tip[k] / (shape.omega[k] * shape.omega[k]));
@@ -224,11 +255,27 @@ impl State {
     }
 
     pub(super) fn energy_j(&self, shape: &Shape) -> f64 {
-        let of = |(mode, omega): (&Resonator, &f64)| {
-            0.5 * (mode.v * mode.v + (omega * mode.x).powi(2))
-        };
+        let of =
+            |(mode, omega): (&Resonator, &f64)| 0.5 * (mode.v * mode.v + (omega * mode.x).powi(2));
         let axes = self.axes.iter();
-        axes.map(|axis| axis.iter().zip(&shape.omega).map(of).sum::<f64>()).sum()
+        axes.map(|axis| axis.iter().zip(&shape.omega).map(of).sum::<f64>())
+            .sum()
+    }
+
+    /// Cuts a deflection of the tip of more than twice the length back to that:
+    /// linear theory has ended long before, and a shaft would have broken.
+    #[inline]
+    pub(super) fn limit(&mut self, shape: &Shape) {
+        let [u, v] = shape.deflections(self);
+        let most = 2.0 * shape.length_m;
+        let square = u * u + v * v;
+        if square > most * most {
+            let cut = most / square.sqrt();
+            for mode in self.axes.iter_mut().flatten() {
+                mode.x *= cut;
+                mode.v *= cut;
+            }
+        }
     }
 
     pub(super) fn is_finite(&self) -> bool {

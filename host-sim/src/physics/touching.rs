@@ -48,6 +48,14 @@ const TRAVEL: f64 = 0.5;
 /// Largest phase of the highest mode in a part, rad.
 const PHASE: f64 = 1.0;
 
+/// Speed by which friction has gone 63 % of the way from resting to sliding, m/s
+/// (Stribeck; of the order of what is measured on plastics). A tip that is held
+/// across the shaft creeps along it, as the bend draws it back.
+const CREEP_M_S: f64 = 1e-3;
+
+/// Rounds by which the bend at the end of a part is found.
+const BENDS: usize = 4;
+
 /// Largest change of velocity of the base in a step, m/s, and of its direction,
 /// rad/s: they keep the arithmetic finite.
 const KICK: f64 = 1e4;
@@ -62,6 +70,8 @@ struct Touch {
     /// Its normal component; positive: in contact.
     normal_n: f64,
     stuck: bool,
+    /// Speed at which it slides, m/s.
+    slip_m_s: f64,
     /// Energy of the springs, J.
     energy_j: f64,
 }
@@ -157,7 +167,13 @@ impl TouchingWhisker {
     /// distances, m, within ±L.
     pub fn bend(&mut self, tip_m: [f64; 2]) {
         let limit = self.shape.length_m;
-        let tip_m = tip_m.map(|u| if u.is_finite() { u.clamp(-limit, limit) } else { 0.0 });
+        let tip_m = tip_m.map(|u| {
+            if u.is_finite() {
+                u.clamp(-limit, limit)
+            } else {
+                0.0
+            }
+        });
         self.state = self.shape.bent(tip_m);
         self.touch = Touch::default();
         self.last = None;
@@ -188,6 +204,7 @@ impl TouchingWhisker {
                 self.last = None;
             }
         }
+        self.state.limit(&self.shape);
         if !self.state.is_finite() {
             self.state = State::default();
             self.touch = Touch::default();
@@ -217,7 +234,8 @@ impl TouchingWhisker {
             change.map(|c| c.clamp(-KICK, KICK))
         });
         for (axis, way) in [pose.x, pose.y].into_iter().enumerate() {
-            self.state.kick(&self.shape, axis, dot(shift, way), dot(turn, way));
+            self.state
+                .kick(&self.shape, axis, dot(shift, way), dot(turn, way));
         }
     }
 
@@ -263,7 +281,11 @@ impl TouchingWhisker {
         };
         for part in 0..parts {
             let old = here;
-            here.tip = if part + 1 == parts { seen.tip } else { add(old.tip, 1.0, step) };
+            here.tip = if part + 1 == parts {
+                seen.tip
+            } else {
+                add(old.tip, 1.0, step)
+            };
             self.part(&old, &here, power, part_s);
         }
         let above = self.shape.tip(&self.state, &seen)[2];
@@ -285,6 +307,7 @@ impl TouchingWhisker {
         let Some(reach) = self.reach.1.get(power) else {
             return;
         };
+        let start = self.shape.deflections(&self.state);
         let from = self.shape.tip(&self.state, old);
         self.state.free(reach);
         let to = self.shape.tip(&self.state, new);
@@ -295,45 +318,82 @@ impl TouchingWhisker {
             self.touch = Touch::default();
             return;
         }
-        // The tip touched down on the way, where the gap was gone.
+        let along = dot(frame.axes[0], new.z).powi(2);
+        let surface = &self.relief.0;
+        let springs = self.shape.springs(1.0 / surface.stiffness_n_m, along);
+        // Of the stretch before, what the tip's way adds, from where it touched
+        // down if it did so on the way.
         let moved = sub(to, from);
         let trial = if self.touch.normal_n > 0.0 {
             add(self.touch.stretch, 1.0, moved)
         } else {
             let fall = -dot(frame.axes[0], moved);
-            let late = if fall > 0.0 { (-gap / fall).min(1.0) } else { 0.0 };
+            let late = if fall > 0.0 {
+                (-gap / fall).min(1.0)
+            } else {
+                0.0
+            };
             scale(late, moved)
         };
-        let ways = self.shape.ways(&self.state, new);
-        let local = ways.map(|way| frame.local(way));
-        let surface = &self.relief.0;
-        let along = dot(frame.axes[0], new.z).powi(2);
-        let springs = self.shape.springs(1.0 / surface.stiffness_n_m, along);
-        let [_, a, b] = frame.local(trial);
-        let hold = if self.touch.normal_n > 0.0 && !self.touch.stuck {
-            surface.friction
+        let sliding = if self.touch.normal_n > 0.0 {
+            self.touch.slip_m_s
         } else {
-            surface.hold
+            let [_, a, b] = frame.local(moved);
+            a.hypot(b) / part_s
         };
-        let response = |i: usize, j: usize| {
-            reach.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j])
-        };
-        let problem = Problem {
-            gap,
-            stretch: [a, b],
-            response: core::array::from_fn(|i| core::array::from_fn(|j| response(i, j))),
-            springs,
-            friction: [hold, surface.friction],
-        };
-        let Force { local: force, stuck } = problem.solve();
-        let push = |way: [f64; 3]| way[0] * force[0] + way[1] * force[1] + way[2] * force[2];
-        self.state.push(reach, local.map(push));
+        let friction =
+            surface.friction + (surface.hold - surface.friction) * libm::exp(-sliding / CREEP_M_S);
+        let free = self.shape.deflections(&self.state);
+        let mut end = free;
+        let mut solved = ([[0.0; 3]; 2], Force::default(), 0.0);
+        for _ in 0..BENDS {
+            // Between the deflections at the begin and the end, the tip's way
+            // and the work on it are exact in spite of the shortening.
+            let ways = self
+                .shape
+                .ways([0, 1].map(|i| f64::midpoint(start[i], end[i])), new);
+            let local = ways.map(|way| frame.local(way));
+            let back = self.shape.behind(start, free, end);
+            let fix = frame.local(scale(back, new.z));
+            let [_, a, b] = frame.local(trial);
+            let response = |i: usize, j: usize| {
+                reach.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j])
+            };
+            let problem = Problem {
+                gap: gap + fix[0],
+                stretch: [a + fix[1], b + fix[2]],
+                response: core::array::from_fn(|i| core::array::from_fn(|j| response(i, j))),
+                springs,
+                friction,
+            };
+            let force = problem.solve();
+            let pushed = local.map(|way| way_force(way, force.local));
+            solved = (local, force, problem.slipped(&force));
+            let next = [0, 1].map(|i| free[i] + reach.response * pushed[i]);
+            let change = (next[0] - end[0]).hypot(next[1] - end[1]);
+            end = next;
+            if self.shape.turn(change) < 1e-4 {
+                break;
+            }
+        }
+        let (
+            local,
+            Force {
+                local: force,
+                stuck,
+            },
+            slipped,
+        ) = solved;
+        self.state
+            .push(reach, local.map(|way| way_force(way, force)));
+        self.state.limit(&self.shape);
         let [n, a, b] = force;
         self.touch = Touch {
             stretch: frame.plate([0.0, -springs[1] * a, -springs[1] * b]),
             force: frame.plate(force),
             normal_n: n,
             stuck,
+            slip_m_s: slipped / part_s,
             energy_j: 0.5 * (springs[0] * n * n + springs[1] * (a * a + b * b)),
         };
         let carried = scale(1.0 / part_s, sub(new.tip, old.tip));
@@ -448,6 +508,12 @@ struct Damp {
     force: [f64; 3],
     springs: [f64; 2],
     part_s: f64,
+}
+
+/// Force on an axis whose way has these components in the contact's frame.
+#[inline]
+fn way_force(way: [f64; 3], force: [f64; 3]) -> f64 {
+    way[0] * force[0] + way[1] * force[1] + way[2] * force[2]
 }
 
 /// The pose with axes of length one at right angles, if it is finite.

@@ -34,9 +34,9 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use crate::physics::{Noise, Propagator, Resonator};
 use super::surface::{Profile, Surface};
 use super::{BadPlantSetting, Head, Plant};
+use crate::physics::{Noise, Propagator, Resonator};
 pub use settings::{TexturedSettings, WhiskerSettings};
 
 /// Largest angle (degrees, either sign) and speed (degrees a second) that are

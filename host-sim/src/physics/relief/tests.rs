@@ -27,9 +27,17 @@ fn spread_is_the_surface_s_and_top_is_never_passed() {
         square += height * height / 160e3;
         top = top.max(height.abs());
     }
-    assert!((square.sqrt() / 1e-3 - 1.0).abs() < 0.02, "{}", square.sqrt());
+    assert!(
+        (square.sqrt() / 1e-3 - 1.0).abs() < 0.02,
+        "{}",
+        square.sqrt()
+    );
     assert!(sum.abs() < 3e-5, "{sum}");
-    assert!(top < relief.top_m && top > 0.7 * relief.top_m, "{top} {}", relief.top_m);
+    assert!(
+        top < relief.top_m && top > 0.7 * relief.top_m,
+        "{top} {}",
+        relief.top_m
+    );
 }
 
 #[test]
