@@ -63,7 +63,7 @@ fn mix(mut bits: u64) -> u64 {
 impl Octave {
     /// A lattice point's number, uniform in ±√3.
     #[inline]
-    fn number(&self, row: u64, j: u64) -> f64 {
+    fn number(row: u64, j: u64) -> f64 {
         let bits = mix(row ^ j.wrapping_mul(0xC2B2_AE3D_27D4_EB4F));
         UNIT * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
     }
@@ -82,8 +82,8 @@ impl Octave {
         let (row0, row1) = (row(i), row(i.wrapping_add(1)));
         let next = j.wrapping_add(1);
         let corners = [
-            [self.number(row0, j), self.number(row0, next)],
-            [self.number(row1, j), self.number(row1, next)],
+            [Self::number(row0, j), Self::number(row0, next)],
+            [Self::number(row1, j), Self::number(row1, next)],
         ];
         let ease = |s: f64| (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s));
         let ((wa, da), (wb, db)) = (ease(a), ease(b));

@@ -196,13 +196,12 @@ impl TouchingWhisker {
             self.reach = (dt_s, core::array::from_fn(of));
         }
         self.carry(&pose, dt_s);
-        match plate {
-            Some(plate) => self.before(&pose, plate, dt_s),
-            None => {
-                self.state.free(&self.reach.1[0]);
-                self.touch = Touch::default();
-                self.last = None;
-            }
+        if let Some(plate) = plate {
+            self.before(&pose, plate, dt_s);
+        } else {
+            self.state.free(&self.reach.1[0]);
+            self.touch = Touch::default();
+            self.last = None;
         }
         self.state.limit(&self.shape);
         if !self.state.is_finite() {
