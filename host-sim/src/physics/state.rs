@@ -219,6 +219,14 @@ impl State {
         }
     }
 
+    /// Adds the amplitudes of another state.
+    pub(super) fn lean(&mut self, more: &Self) {
+        let modes = self.axes.iter_mut().flatten();
+        for (mode, more) in modes.zip(more.axes.iter().flatten()) {
+            mode.x += more.x;
+        }
+    }
+
     /// Adds an impulse on the tip in x and y, N s.
     #[inline]
     pub(super) fn strike(&mut self, shape: &Shape, impulse: [f64; 2]) {

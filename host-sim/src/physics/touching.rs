@@ -250,6 +250,9 @@ impl TouchingWhisker {
             self.relief = (surface, Relief::new(&surface, self.shape.tip_radius_m));
         }
         let seen = plate.see(pose, self.shape.length_m);
+        if self.last.is_none() {
+            self.lean(&seen);
+        }
         let last = self.last.map_or(seen, |last| last.seen);
         let above = self.last.map(|last| last.above);
         let mut free = self.state;
@@ -289,6 +292,25 @@ impl TouchingWhisker {
         }
         let above = self.shape.tip(&self.state, &seen)[2];
         self.last = Some(Last { seen, above });
+    }
+
+    /// Where a plate that was not there holds the tip below its surface, bends
+    /// the shaft statically out of it: the contact would throw it out.
+    fn lean(&mut self, seen: &Seen) {
+        for _ in 0..4 {
+            let tip = self.shape.tip(&self.state, seen);
+            let deep = self.relief.1.at([tip[0], tip[1]])[0] - tip[2];
+            if deep <= 0.0 {
+                return;
+            }
+            let ways = self.shape.ways(self.shape.deflections(&self.state), seen);
+            let up = ways.map(|way| way[2]);
+            // Against a plate straight ahead no bend helps much.
+            let square = (up[0] * up[0] + up[1] * up[1]).max(0.04);
+            let more = self.shape.bent(up.map(|up| deep * up / square));
+            self.state.lean(&more);
+            self.state.limit(&self.shape);
+        }
     }
 
     /// How often a step is halved in which the base carries the tip this far.
