@@ -19,6 +19,7 @@ mod boundaries;
 mod chart;
 mod choice;
 pub(crate) mod classifier;
+mod contact;
 mod corners;
 mod counts;
 mod functions;
@@ -90,6 +91,7 @@ pub fn report(
         }
     };
     let near = integrators::measure(&integrators::NEAR)?;
+    let touched = contact::measure()?;
 
     let mut page = Page::default();
     introduction(&mut page);
@@ -99,6 +101,7 @@ pub fn report(
     gates::section(&mut page)?;
     boundaries::section(&mut page)?;
     corners::section(&mut page)?;
+    contact::section(&mut page, &touched)?;
     long_run::section(&mut page, day.as_ref(), long_run == LongRun::Quick)?;
     misprints::section(&mut page)?;
     let pictures = classifier::section(&mut page.text)?;
@@ -106,7 +109,7 @@ pub fn report(
 
     let mut timed = Files::new();
     if timings {
-        let host = host::page(&near)?;
+        let host = host::page(&near, &touched)?;
         timed.extend(files(host, "accuracy-host.md"));
     }
     let mut fixed = files(page, "accuracy.md");

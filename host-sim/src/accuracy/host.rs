@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use whisking::{Fix, Integrator, Real, State};
 
+use super::contact::{self, Against};
 use super::functions::{Function, Maker, point};
 use super::integrators::{self, Errors, NEAR};
 use super::page::Page;
@@ -14,7 +15,7 @@ use super::schemes::{Format, INTEGRATORS, Pace, Scheme, name, refused};
 use crate::Error;
 
 /// Calls in a batch, and batches; what counts is the median batch.
-const CALLS: i32 = 20_000;
+pub(super) const CALLS: i32 = 20_000;
 const BATCHES: usize = 25;
 
 const PACE: Pace = Pace {
@@ -23,7 +24,7 @@ const PACE: Pace = Pace {
 };
 
 /// Something to be timed: a batch of [`CALLS`] calls.
-type Batch = Box<dyn FnMut()>;
+pub(super) type Batch = Box<dyn FnMut()>;
 
 fn tick<R: Real>(integrator: Integrator) -> Result<Batch, Error> {
     let settings = PACE.settings(integrator);
@@ -51,7 +52,7 @@ fn function(function: Function, maker: Maker) -> Batch {
 
 /// Median nanoseconds a call of each batch. They take turns, so that a busy
 /// moment of the PC falls on all.
-fn medians(batches: &mut [Batch]) -> Vec<f64> {
+pub(super) fn medians(batches: &mut [Batch]) -> Vec<f64> {
     let mut times = vec![Vec::with_capacity(BATCHES); batches.len()];
     for _ in 0..BATCHES {
         for (batch, times) in batches.iter_mut().zip(&mut times) {
@@ -68,7 +69,7 @@ fn medians(batches: &mut [Batch]) -> Vec<f64> {
 }
 
 /// The page, measured now.
-pub(super) fn page(near: &[Errors]) -> Result<Page, Error> {
+pub(super) fn page(near: &[Errors], touched: &[Against]) -> Result<Page, Error> {
     let schemes: Vec<(Integrator, Format)> = INTEGRATORS
         .into_iter()
         .flat_map(|integrator| Format::ALL.map(|format| (integrator, format)))
@@ -130,6 +131,7 @@ pub(super) fn page(near: &[Errors]) -> Result<Page, Error> {
         "function | implementation | ns | ratio",
         functions.iter().zip(calls).map(row),
     );
+    contact::timing(&mut page, touched, unit)?;
     Ok(page)
 }
 

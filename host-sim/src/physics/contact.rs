@@ -23,7 +23,7 @@
 //! does: modes and springs together gain nothing, at any stiffness and any
 //! length of the step. What slips is lost.
 
-use super::vector::{V3, add, dot, scale};
+use super::vector::{V3, add, dot, length2, scale};
 
 /// Rounds by which the size of the normal force and the direction of sliding are
 /// found, at most.
@@ -83,7 +83,7 @@ impl Problem {
         let spring = self.springs[1];
         let first = self.stretch[0] + na * n + (aa + spring) * a + ab * b;
         let second = self.stretch[1] + nb * n + ab * a + (bb + spring) * b;
-        first.hypot(second)
+        length2([first, second])
     }
 
     /// The force that holds the tip: (W + 1/k) F = −(g, ξ), by Cramer's rule.
@@ -152,7 +152,7 @@ impl Problem {
         // Principal axes of the tangential response.
         let (aa, bb) = (aa + self.springs[1], bb + self.springs[1]);
         let (half, mean) = (0.5 * (aa - bb), f64::midpoint(aa, bb));
-        let spread = half.hypot(ab);
+        let spread = length2([half, ab]);
         let (c, s) = if spread > 1e-12 * mean {
             let c = (0.5 * (1.0 + half / spread)).max(0.0).sqrt();
             let s = (0.5 * (1.0 - half / spread)).max(0.0).sqrt();
@@ -167,10 +167,10 @@ impl Problem {
             c * stretch[1] - s * stretch[0],
         ];
         let of = |more: f64| [pull[0] / (give[0] + more), pull[1] / (give[1] + more)];
-        let mut more = (pull[0].hypot(pull[1]) / reach - give[0]).max(0.0);
+        let mut more = (length2(pull) / reach - give[0]).max(0.0);
         let mut force = of(more);
         for _ in 0..ROUNDS {
-            let size = force[0].hypot(force[1]);
+            let size = length2(force);
             if size <= reach * (1.0 + 1e-9) {
                 break;
             }
@@ -179,7 +179,7 @@ impl Problem {
             more += size * size / fall * (size / reach - 1.0);
             force = of(more);
         }
-        let size = force[0].hypot(force[1]);
+        let size = length2(force);
         let cut = if size > reach { reach / size } else { 1.0 };
         let [a, b] = force.map(|f| -cut * f);
         [c * a - s * b, s * a + c * b]

@@ -27,40 +27,28 @@
 //! how fast the highest mode rings; one that stays clear of the plate is not
 //! cut and knows nothing of contact.
 
+mod before;
 mod part;
+mod telling;
 
 use super::beam::Modes;
-use super::pose::{Plate, Pose, Seen};
+use super::pose::{Plate, Pose};
 use super::relief::Relief;
 use super::sensor::{Sensor, SensorSettings};
 use super::shaft::Shaft;
 use super::state::{MODES, Reach, Shape, State};
 use super::surface::Surface;
-use super::vector::{V3, across, add, dot, length, scale, sub, unit};
+use super::vector::{V3, across, dot, scale, sub, unit};
 use crate::plant::BadPlantSetting;
+use before::Last;
 use part::Touch;
 
 /// Parts of a step are at most 2 to this power.
 const POWERS: usize = 6;
 
-/// Longest way of the tip in a part, in distances of the finest octave: heights
-/// change from hill to valley over one.
-const TRAVEL: f64 = 0.5;
-
-/// Largest phase of the highest mode in a part, rad.
-const PHASE: f64 = 1.0;
-
 /// Largest change of velocity of the base in a step, m/s, and of its direction,
 /// rad/s: they keep the arithmetic finite.
 const KICK: f64 = 1e4;
-
-/// How a plate was seen last.
-#[derive(Debug, Clone, Copy)]
-struct Last {
-    seen: Seen,
-    /// Modal tip above the mean plane, m.
-    above: f64,
-}
 
 /// A whisker with its sensor.
 #[derive(Debug, Clone)]
@@ -77,6 +65,8 @@ pub struct TouchingWhisker {
     touch: Touch,
     sensor: Sensor,
     finer: u32,
+    /// Of the last step.
+    parts: u32,
 }
 
 impl TouchingWhisker {
@@ -120,6 +110,7 @@ impl TouchingWhisker {
             touch: Touch::default(),
             sensor: Sensor::new(*sensor, seed),
             finer: 0,
+            parts: 0,
         }
     }
 
@@ -174,6 +165,7 @@ impl TouchingWhisker {
             self.reach = (dt_s, core::array::from_fn(of));
         }
         self.carry(&pose, dt_s);
+        self.parts = 0;
         if let Some(plate) = plate {
             self.before(&pose, plate, dt_s);
         } else {
@@ -214,147 +206,6 @@ impl TouchingWhisker {
             self.state
                 .kick(&self.shape, axis, dot(shift, way), dot(turn, way));
         }
-    }
-
-    /// A step before a plate.
-    fn before(&mut self, pose: &Pose, plate: &Plate, dt_s: f64) {
-        let finite = |v: V3| v.iter().all(|x| x.is_finite());
-        if !(finite(plate.point_m) && finite(plate.normal) && finite(plate.along)) {
-            self.state.free(&self.reach.1[0]);
-            return;
-        }
-        let surface = plate.surface.limited();
-        if self.relief.0 != surface {
-            self.relief = (surface, Relief::new(&surface, self.shape.tip_radius_m));
-        }
-        let seen = plate.see(pose, self.shape.length_m);
-        if self.last.is_none() {
-            self.lean(&seen);
-        }
-        let last = self.last.map_or(seen, |last| last.seen);
-        let above = self.last.map(|last| last.above);
-        let mut free = self.state;
-        free.free(&self.reach.1[0]);
-        let end = self.shape.tip(&free, &seen);
-        let start = above.unwrap_or(end[2]);
-        if self.touch.normal_n <= 0.0 {
-            let clear = start.min(end[2]) - (end[2] - start).abs();
-            if clear > self.relief.1.top_m {
-                self.state = free;
-                self.touch = Touch::default();
-                self.last = Some(Last {
-                    seen,
-                    above: end[2],
-                });
-                return;
-            }
-        }
-        let way = length(sub(seen.tip, last.tip));
-        let power = self.power(way, dt_s);
-        let parts = 1_u32 << power;
-        let part_s = dt_s / f64::from(parts);
-        let share = 1.0 / f64::from(parts);
-        let step = scale(share, sub(seen.tip, last.tip));
-        let mut here = Seen {
-            tip: last.tip,
-            ..seen
-        };
-        for part in 0..parts {
-            let old = here;
-            here.tip = if part + 1 == parts {
-                seen.tip
-            } else {
-                add(old.tip, 1.0, step)
-            };
-            self.part(&old, &here, power, part_s);
-        }
-        let above = self.shape.tip(&self.state, &seen)[2];
-        self.last = Some(Last { seen, above });
-    }
-
-    /// Where a plate that was not there holds the tip below its surface, bends
-    /// the shaft statically out of it: the contact would throw it out.
-    fn lean(&mut self, seen: &Seen) {
-        for _ in 0..4 {
-            let tip = self.shape.tip(&self.state, seen);
-            let deep = self.relief.1.at([tip[0], tip[1]])[0] - tip[2];
-            if deep <= 0.0 {
-                return;
-            }
-            let ways = self.shape.ways(self.shape.deflections(&self.state), seen);
-            let up = ways.map(|way| way[2]);
-            // Against a plate straight ahead no bend helps much.
-            let square = (up[0] * up[0] + up[1] * up[1]).max(0.04);
-            let more = self.shape.bent(up.map(|up| deep * up / square));
-            self.state.lean(&more);
-            self.state.limit(&self.shape);
-        }
-    }
-
-    /// How often a step is halved in which the base carries the tip this far.
-    fn power(&self, way_m: f64, dt_s: f64) -> usize {
-        let own = self.state.speed(&self.shape) * dt_s;
-        let grains = (way_m + own) / (TRAVEL * self.relief.1.finest_m);
-        let phase = self.shape.highest_rad_s * dt_s / PHASE;
-        let wanted = grains.max(phase).clamp(1.0, 64.0);
-        let power = libm::ceil(libm::log2(wanted)) as usize + self.finer as usize;
-        power.min(POWERS - 1)
-    }
-
-    /// Force of the contact in the whisker's axes, N.
-    fn force_on_axes(&self) -> [f64; 2] {
-        match &self.last {
-            Some(last) => [
-                dot(self.touch.force, last.seen.x),
-                dot(self.touch.force, last.seen.y),
-            ],
-            None => [0.0; 2],
-        }
-    }
-
-    /// What the sensor says, x and y, each within ±1: rotation of the base over
-    /// full scale, as last measured. A tip that is pushed towards +x reads
-    /// positive.
-    pub fn reading(&self) -> [f64; 2] {
-        self.sensor.reading()
-    }
-
-    /// The same as signed 14-bit codes, ±8191.
-    pub fn codes(&self) -> [i16; 2] {
-        self.sensor.codes()
-    }
-
-    /// Whether the tip is pressed on the plate at the end of the step.
-    pub fn contact(&self) -> bool {
-        self.touch.normal_n > 0.0
-    }
-
-    /// Whether it is held there by friction.
-    pub fn sticking(&self) -> bool {
-        self.contact() && self.touch.stuck
-    }
-
-    /// Normal and tangential force on the tip, N.
-    pub fn force_n(&self) -> [f64; 2] {
-        let normal = self.touch.normal_n;
-        let square = dot(self.touch.force, self.touch.force) - normal * normal;
-        [normal, square.max(0.0).sqrt()]
-    }
-
-    /// Deflection of the tip in x and y, m.
-    pub fn tip_m(&self) -> [f64; 2] {
-        self.shape.deflection(&self.state, self.force_on_axes())
-    }
-
-    /// Rotation of the base in x and y as it is, rad.
-    pub fn rotation_rad(&self) -> [f64; 2] {
-        self.shape.rotation(&self.state, self.force_on_axes())
-    }
-
-    /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes
-    /// that move with the base.
-    pub fn energy_j(&self) -> f64 {
-        self.state.energy_j(&self.shape) + self.touch.energy_j
     }
 }
 

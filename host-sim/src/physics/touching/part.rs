@@ -3,7 +3,7 @@
 use super::TouchingWhisker;
 use crate::physics::contact::{Force, Frame, Problem};
 use crate::physics::pose::Seen;
-use crate::physics::vector::{V3, add, dot, scale, sub};
+use crate::physics::vector::{V3, add, dot, length2, scale, sub};
 
 /// Speed by which friction has gone 63 % of the way from resting to sliding, m/s
 /// (Stribeck; of the order of what is measured on plastics). A tip that is held
@@ -67,7 +67,7 @@ impl TouchingWhisker {
             self.touch.slip_m_s
         } else {
             let [_, a, b] = frame.local(moved);
-            a.hypot(b) / part_s
+            length2([a, b]) / part_s
         };
         let friction =
             surface.friction + (surface.hold - surface.friction) * libm::exp(-sliding / CREEP_M_S);
@@ -98,7 +98,7 @@ impl TouchingWhisker {
             let pushed = local.map(|way| way_force(way, force.local));
             solved = (local, force, problem.slipped(&force));
             let next = [0, 1].map(|i| free[i] + reach.response * pushed[i]);
-            let change = (next[0] - end[0]).hypot(next[1] - end[1]);
+            let change = length2([next[0] - end[0], next[1] - end[1]]);
             end = next;
             if self.shape.turn(change) < 1e-4 {
                 break;
