@@ -16,7 +16,7 @@
 //! pictures. All but the timings is the same, byte for byte, in every run.
 
 mod boundaries;
-mod chart;
+pub(crate) mod chart;
 mod choice;
 pub(crate) mod classifier;
 mod contact;
@@ -28,7 +28,7 @@ mod host;
 mod integrators;
 mod long_run;
 mod misprints;
-mod page;
+pub(crate) mod page;
 mod reference;
 mod schemes;
 mod split;

@@ -13,16 +13,16 @@ type Fault = Box<dyn std::error::Error>;
 
 /// An axis: its name and what it covers.
 #[derive(Debug, Clone)]
-pub(super) struct Axis {
-    pub(super) name: &'static str,
-    pub(super) low: f64,
-    pub(super) high: f64,
-    pub(super) log: bool,
+pub(crate) struct Axis {
+    pub(crate) name: &'static str,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) log: bool,
 }
 
 impl Axis {
     /// A logarithmic axis of whole decades around the positive of `values`.
-    pub(super) fn decades(name: &'static str, values: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn decades(name: &'static str, values: impl Iterator<Item = f64>) -> Self {
         let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
             ends = (ends.0.min(value), ends.1.max(value));
@@ -96,7 +96,7 @@ impl ValueFormatter<f64> for Axis {
 
 /// How a point is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mark {
+pub(crate) enum Mark {
     Nothing,
     Dot,
     Ring,
@@ -104,25 +104,25 @@ pub(super) enum Mark {
 
 /// Points of one kind.
 #[derive(Debug, Clone)]
-pub(super) struct Series {
-    pub(super) name: String,
-    pub(super) colour: RGBColor,
-    pub(super) mark: Mark,
-    pub(super) joined: bool,
-    pub(super) points: Vec<(f64, f64)>,
+pub(crate) struct Series {
+    pub(crate) name: String,
+    pub(crate) colour: RGBColor,
+    pub(crate) mark: Mark,
+    pub(crate) joined: bool,
+    pub(crate) points: Vec<(f64, f64)>,
 }
 
 /// One diagram.
 #[derive(Debug, Clone)]
-pub(super) struct Panel {
-    pub(super) title: String,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
-    pub(super) series: Vec<Series>,
+pub(crate) struct Panel {
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) series: Vec<Series>,
 }
 
 /// Colours that stay apart in print.
-pub(super) const COLOURS: [RGBColor; 8] = [
+pub(crate) const COLOURS: [RGBColor; 8] = [
     RGBColor(110, 110, 110),
     RGBColor(0, 90, 170),
     RGBColor(200, 90, 0),
@@ -142,7 +142,7 @@ const LEGEND_COLUMNS: usize = 3;
 ///
 /// # Errors
 /// [`Error::Work`] if the drawing library fails.
-pub(super) fn draw(panels: &[Panel]) -> Result<String, Error> {
+pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
     let mut svg = String::new();
     match draw_on(&mut svg, panels) {
         Ok(()) => Ok(svg),

@@ -4,25 +4,25 @@ use std::fmt::{Display, Write};
 
 /// Markdown and the files that it shows, by name.
 #[derive(Debug, Default)]
-pub(super) struct Page {
-    pub(super) text: String,
-    pub(super) files: Vec<(String, String)>,
+pub(crate) struct Page {
+    pub(crate) text: String,
+    pub(crate) files: Vec<(String, String)>,
 }
 
 impl Page {
     /// A paragraph.
-    pub(super) fn say(&mut self, paragraph: impl Display) {
+    pub(crate) fn say(&mut self, paragraph: impl Display) {
         // Writing to a string does not fail.
         let _ = write!(self.text, "{paragraph}\n\n");
     }
 
     /// A heading of its level.
-    pub(super) fn heading(&mut self, level: usize, heading: &str) {
+    pub(crate) fn heading(&mut self, level: usize, heading: &str) {
         self.say(format_args!("{} {heading}", "#".repeat(level)));
     }
 
     /// A table; `header` cells are divided by `|`.
-    pub(super) fn table(&mut self, header: &str, rows: impl IntoIterator<Item = Vec<String>>) {
+    pub(crate) fn table(&mut self, header: &str, rows: impl IntoIterator<Item = Vec<String>>) {
         let columns = header.split('|').count();
         let _ = writeln!(self.text, "| {} |", header.trim());
         let _ = writeln!(self.text, "|{}", "---|".repeat(columns));
@@ -33,14 +33,19 @@ impl Page {
     }
 
     /// A picture in the folder `accuracy` beside the page.
-    pub(super) fn picture(&mut self, name: &str, what: &str, svg: String) {
-        self.say(format_args!("![{what}](accuracy/{name})"));
-        self.files.push((format!("accuracy/{name}"), svg));
+    pub(crate) fn picture(&mut self, name: &str, what: &str, svg: String) {
+        self.picture_in("accuracy", name, what, svg);
+    }
+
+    /// A picture in a folder beside the page.
+    pub(crate) fn picture_in(&mut self, folder: &str, name: &str, what: &str, svg: String) {
+        self.say(format_args!("![{what}]({folder}/{name})"));
+        self.files.push((format!("{folder}/{name}"), svg));
     }
 }
 
 /// Two digits and an exponent.
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if (0.1..1000.0).contains(&value.abs()) {
@@ -51,7 +56,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// A cell for a goal.
-pub(super) fn verdict(met: bool) -> &'static str {
+pub(crate) fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "**missed**" }
 }
 

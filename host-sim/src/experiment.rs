@@ -1,0 +1,37 @@
+//! Experiments of the five papers on simulated rigs, their tables and figures
+//! beside the papers', and whether what must come out does.
+//!
+//! # Glossary
+//!
+//! - **data set**: recordings of one rig under all its conditions.
+//! - **job**: what one recording comes of: a trial, a visit, a contact, a sweep.
+//! - **part**: the recordings of a share of all jobs, in a file.
+//! - **claim**: something that must come out of the mechanism.
+//!
+//! A run records the data sets that the chosen experiments need, a job at a
+//! time on all cores, and then evaluates them. Recordings depend on the seed,
+//! the data set and the job alone; so parts made anywhere join to the same
+//! bytes as a run in one go.
+
+mod biotact;
+mod costs;
+mod dataset;
+mod floors;
+mod lep10;
+mod lep12;
+mod page;
+pub mod paper;
+mod part;
+mod picture;
+mod pose;
+mod psik;
+mod record;
+mod recording;
+mod request;
+mod whole;
+
+pub use dataset::Dataset;
+pub use part::{bytes as part_bytes, first_line, join, write as write_part};
+pub use recording::{Job, Recording, Recordings};
+pub use request::{Name, Request, Scale, Shard};
+pub use whole::report;

@@ -1,0 +1,195 @@
+//! How the head moves: whether a whisk has one peak or two, how long it
+//! touches, and what RCP leaves of the deflection (BIOTACT Figs. 8 and 12).
+
+use crate::Error;
+use crate::accuracy::chart::{Mark, draw};
+use crate::experiment::dataset::Dataset;
+use crate::experiment::page::Section;
+use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
+use crate::experiment::picture::{Curve, FOLDER, linear, panel};
+use crate::experiment::record::head::{COLUMNS, number};
+use crate::experiment::recording::{Recording, Recordings};
+use crate::experiment::request::Request;
+use crate::rigs::CHANNELS;
+
+/// A dip of θ' between two peaks of a whisk that counts, degrees: well above
+/// what oscillator noise and ringing leave.
+const DIP_DEG: f64 = 2.0;
+
+/// Mean of some visits.
+#[derive(Debug, Default, Clone, Copy)]
+struct Movement {
+    /// Share of whisks with two peaks or more, percent.
+    biphasic: f64,
+    /// Share of time in which the left side touches, percent.
+    touching: f64,
+    /// Largest θ' of a whisk, degrees.
+    peak_deg: f64,
+    /// Largest deflection |x| of a whisk, codes.
+    deflection: f64,
+}
+
+/// Peaks of a whisk's angle that are parted by dips of [`DIP_DEG`] or more.
+fn peaks(angles: impl Iterator<Item = f64>) -> usize {
+    let (mut count, mut rising, mut extreme) = (0, true, f64::NEG_INFINITY);
+    for angle in angles {
+        if rising {
+            extreme = extreme.max(angle);
+            if angle < extreme - DIP_DEG {
+                count += 1;
+                (rising, extreme) = (false, angle);
+            }
+        } else {
+            extreme = extreme.min(angle);
+            if angle > extreme + DIP_DEG {
+                (rising, extreme) = (true, angle);
+            }
+        }
+    }
+    count
+}
+
+/// One column of a visit from tick `from` to `to`.
+fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> {
+    let rows = visit.part(from, to).chunks_exact(COLUMNS);
+    rows.filter_map(|row| row.get(column).map(|x| f64::from(*x)))
+        .collect()
+}
+
+/// The movement of one visit. Whisks begin retracted, so that no whisk's
+/// peaks are cut in two.
+fn movement(visit: &Recording, ticks: usize) -> Movement {
+    let whisks = (visit.len() / ticks.max(1)).max(1);
+    let mut sum = Movement::default();
+    for whisk in 0..whisks {
+        let part = |n| column(visit, whisk * ticks, (whisk + 1) * ticks, n);
+        let angle = part(CHANNELS);
+        let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        sum.biphasic += f64::from(u8::from(peaks(angle.iter().copied()) > 1));
+        sum.peak_deg += most(&angle);
+        sum.touching += part(CHANNELS + 2).iter().sum::<f64>() / ticks as f64;
+        let deflection: Vec<f64> = part(0).iter().map(|x| x.abs()).collect();
+        sum.deflection += most(&deflection);
+    }
+    let share = 1.0 / whisks as f64;
+    Movement {
+        biphasic: 100.0 * share * sum.biphasic,
+        touching: 100.0 * share * sum.touching,
+        peak_deg: share * sum.peak_deg,
+        deflection: share * sum.deflection,
+    }
+}
+
+pub(super) fn section(
+    section: &mut Section,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
+    let all = recordings.of(Dataset::Head);
+    let ticks = request.rigs.head.whisk_ticks();
+    let smooth = TEXTURES.len() - 1;
+    let names: Vec<&str> = STRATEGIES
+        .iter()
+        .map(|strategy| strategy.0)
+        .chain(["strong and fast RCP"])
+        .collect();
+    let mut shares = Vec::new();
+    let mut rows = Vec::new();
+    for (strategy, name) in names.iter().enumerate() {
+        let mut worst: (f64, f64) = (f64::INFINITY, 0.0);
+        for (distance, mm) in DISTANCES_MM.iter().enumerate() {
+            let Some(visit) = all.get(number(strategy, smooth, distance)) else {
+                continue;
+            };
+            let found = movement(visit, ticks);
+            worst = (worst.0.min(found.biphasic), worst.1.max(found.biphasic));
+            rows.push(vec![
+                (*name).to_owned(),
+                format!("{mm:.0}"),
+                format!("{:.1}", found.peak_deg),
+                format!("{:.0}", found.touching),
+                format!("{:.0}", found.deflection),
+                format!("{:.0}", found.biphasic),
+            ]);
+        }
+        shares.push(worst);
+    }
+    section.page.say(
+        "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \
+         whisk, share of time in contact, largest |x| in sensor codes, share of whisks with two \
+         peaks of θ' at least 2 degrees apart in depth). Strong and fast is σ_z = 2 and \
+         τ_z = T_W/10 (Fig. 8).",
+    );
+    section.page.table(
+        "whisking | distance, mm | peak, degrees | contact, % | deflection, codes | biphasic, %",
+        rows,
+    );
+    let gentle = shares.iter().take(STRATEGIES.len()).map(|share| share.1);
+    let gentle = gentle.fold(0.0, f64::max);
+    let strong = shares.last().map_or(0.0, |share| share.1);
+    section.claim(
+        "BIOTACT: whisking turns biphasic only at strong and fast gains",
+        "two contacts a whisk at σ_z = 2, τ_z = T_W/10; none at 0.9, T_W/4",
+        format_args!("{strong:.0} % of whisks at the strong gain, at most {gentle:.0} % otherwise"),
+        strong > 50.0 && gentle < 5.0,
+        "",
+    );
+    time_histories(section, request, &all)
+}
+
+/// Fig. 12, upper parts: x of a short whisker over one whisk.
+fn time_histories(
+    section: &mut Section,
+    request: &Request,
+    all: &[&Recording],
+) -> Result<(), Error> {
+    let ticks = request.rigs.head.whisk_ticks();
+    let dt_s = 1.0 / request.rigs.head.tick_hz;
+    let mut panels = Vec::new();
+    for texture in [TEXTURES.len() - 1, 0] {
+        let mut curves = Vec::new();
+        for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
+            if let Some(visit) = all.get(number(strategy, texture, 1)) {
+                let x = column(visit, ticks, 2 * ticks, 0);
+                let points = x.iter().enumerate().map(|(n, x)| (n as f64 * dt_s, *x));
+                curves.push(Curve::new(name, points.collect()));
+            }
+        }
+        let ends = curves.iter().flat_map(|curve| &curve.points);
+        let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), point| {
+            (low.min(point.1), high.max(point.1))
+        });
+        let x = linear("s", 0.0, ticks as f64 * dt_s);
+        let y = linear("sensor codes", low, high);
+        panels.push(panel(TEXTURES[texture].0, x, y, &curves, Mark::Nothing));
+    }
+    section.page.say(
+        "**Fig. 12**, time histories: x of the left 80 mm whisker over one whisk at 10 mm. RCP \
+         cuts the deflection short; textures differ less than strategies, as in the paper.",
+    );
+    let what = "One whisk with and without RCP";
+    section
+        .page
+        .picture_in(FOLDER, "biotact-fig12.svg", what, draw(&panels)?);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::peaks;
+
+    #[test]
+    fn peaks_are_counted_by_the_dips_between_them() {
+        let wave = |depth: f64| {
+            (0..1000).map(move |n| {
+                let t = f64::from(n) / 1000.0 * core::f64::consts::TAU;
+                100.0 - 30.0 * t.cos() - depth * (2.0 * t).cos()
+            })
+        };
+        assert_eq!(peaks(wave(0.0)), 1);
+        // Maxima at cos t = −30/(4 depth), the dip at t = π between them is
+        // (4 depth − 30)²/(8 depth): 0.9 degrees for 9.6, 3.4 for 12.
+        assert_eq!(peaks(wave(9.6)), 1);
+        assert_eq!(peaks(wave(12.0)), 2);
+    }
+}

@@ -1,0 +1,101 @@
+//! Tables, claims and sections of the page of experiments.
+
+use std::fmt::Display;
+
+use crate::accuracy::page::Page;
+
+/// Something that must come out, and whether it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// What must come out.
+    pub what: String,
+    /// What the paper has.
+    pub paper: String,
+    /// What we have.
+    pub ours: String,
+    /// Whether it came out.
+    pub met: bool,
+    /// Where it did not: why, as measured.
+    pub why: String,
+}
+
+/// What an experiment contributes.
+#[derive(Debug, Default)]
+pub struct Section {
+    /// Text, tables and pictures.
+    pub page: Page,
+    /// Its claims.
+    pub claims: Vec<Claim>,
+    /// A row a classifier: name, where measured, hit rate.
+    pub scores: Vec<Score>,
+}
+
+/// A classifier's hit rate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// The classifier.
+    pub classifier: &'static str,
+    /// On what.
+    pub task: String,
+    /// Hit rate, percent.
+    pub hit: f64,
+}
+
+impl Section {
+    /// Adds a claim.
+    pub fn claim(
+        &mut self,
+        what: impl Display,
+        paper: impl Display,
+        ours: impl Display,
+        met: bool,
+        why: impl Display,
+    ) {
+        self.claims.push(Claim {
+            what: what.to_string(),
+            paper: paper.to_string(),
+            ours: ours.to_string(),
+            met,
+            why: why.to_string(),
+        });
+    }
+
+    /// Adds a classifier's score.
+    pub fn score(&mut self, classifier: &'static str, task: impl Display, hit: f64) {
+        self.scores.push(Score {
+            classifier,
+            task: task.to_string(),
+            hit,
+        });
+    }
+}
+
+/// Percent without a digit behind the point, the paper's beside ours.
+pub fn beside(paper: f64, ours: f64) -> String {
+    format!("{paper:.0} / **{ours:.0}**")
+}
+
+/// A confusion matrix, ours and the paper's in each cell, `[row][column]` in
+/// percent; `corner` names rows and columns.
+pub fn confusion(
+    page: &mut Page,
+    corner: &str,
+    names: &[String],
+    paper: &dyn Fn(usize, usize) -> Option<f64>,
+    ours: &dyn Fn(usize, usize) -> f64,
+) {
+    let mut header = vec![corner.to_owned()];
+    header.extend_from_slice(names);
+    let rows = names.iter().enumerate().map(|(row, name)| {
+        let mut cells = vec![name.clone()];
+        cells.extend((0..names.len()).map(|column| {
+            let ours = ours(row, column);
+            match paper(row, column) {
+                Some(paper) => beside(paper, ours),
+                None => format!("**{ours:.0}**"),
+            }
+        }));
+        cells
+    });
+    page.table(&header.join(" | "), rows.collect::<Vec<_>>());
+}

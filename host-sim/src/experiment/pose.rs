@@ -1,0 +1,230 @@
+//! POSE: angle, speed and texture of one brief contact, by the template, the
+//! spectral template and features.
+
+mod rules;
+
+use tactile::score::{Confusion, Statistics};
+
+use super::dataset::Dataset;
+use super::page::Section;
+use super::paper::pose::{
+    ANGLES_DEG, Figure, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURE_FEATURES, TEXTURES,
+};
+use super::record::table::{Contact, contacts, speeds};
+use super::recording::Recordings;
+use super::request::Request;
+use crate::Error;
+use crate::rigs::{Chance, seed_of};
+use rules::{features, spectral, template};
+
+fn refused(error: impl std::fmt::Display) -> Error {
+    Error::Work(format!("POSE: {error}"))
+}
+
+/// A contact and x, sample by sample.
+type Signal = (Contact, Vec<f64>);
+
+/// Half of the contacts to learn from, the other half to test with: each set
+/// has every pose once.
+struct Sets {
+    learning: Vec<Signal>,
+    testing: Vec<Signal>,
+    rate_hz: f64,
+}
+
+impl Sets {
+    fn new(request: &Request, recordings: &Recordings) -> Self {
+        let all = recordings.of(Dataset::Table);
+        let contacts = contacts(request.scale);
+        let poses = contacts.len() / 2;
+        let mut chance = Chance::new(seed_of(request.seed, &[20]));
+        let mut sets = Self {
+            learning: Vec::new(),
+            testing: Vec::new(),
+            rate_hz: request.rigs.table.tick_hz,
+        };
+        for pose in 0..poses {
+            let first = chance.among(2);
+            for time in [first, 1 - first] {
+                let job = time * poses + pose;
+                let (Some(contact), Some(recording)) = (contacts.get(job), all.get(job)) else {
+                    continue;
+                };
+                let samples = recording.part(0, recording.len()).iter();
+                let x = samples.step_by(2).map(|x| f64::from(*x)).collect();
+                if time == first {
+                    sets.learning.push((*contact, x));
+                } else {
+                    sets.testing.push((*contact, x));
+                }
+            }
+        }
+        sets
+    }
+}
+
+/// What a classifier makes of the test set: a matrix a property.
+#[derive(Debug, Clone)]
+struct Scores([Confusion; 3]);
+
+impl Scores {
+    fn new() -> Self {
+        Self([ANGLES_DEG.len(), SPEEDS_MM_S.2, TEXTURES.len()].map(Confusion::new))
+    }
+
+    /// Counts a contact: its classes of angle, speed and texture, and those named.
+    fn add(&mut self, truth: &Contact, named: [usize; 3]) -> Result<(), Error> {
+        let truth = [truth.angle, truth.speed, truth.texture];
+        for ((score, truth), named) in self.0.iter_mut().zip(truth).zip(named) {
+            score.add(truth, Some(named)).map_err(refused)?;
+        }
+        Ok(())
+    }
+
+    /// κ of each property.
+    fn kappa(&self) -> [f64; 3] {
+        self.0.each_ref().map(|score| score.kappa().unwrap_or(0.0))
+    }
+
+    /// Hit rate of each property, percent.
+    fn hit(&self) -> [f64; 3] {
+        self.0
+            .each_ref()
+            .map(|score| 100.0 * score.hit_rate().unwrap_or(0.0))
+    }
+
+    /// Errors of each property in its unit.
+    fn errors(&self) -> [Option<Statistics>; 3] {
+        let textures: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
+        [
+            self.0[0].errors(&ANGLES_DEG),
+            self.0[1].errors(&speeds()),
+            self.0[2].errors(&textures),
+        ]
+    }
+}
+
+/// Evaluates the recordings.
+pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+    let sets = Sets::new(request, recordings);
+    let by_template = template(&sets)?;
+    let by_spectrum = spectral(&sets)?;
+    let by_features = features(&sets)?;
+    let mut section = Section::default();
+    section
+        .page
+        .heading(2, "POSE: one contact at an unknown angle and speed");
+    section.page.say(format_args!(
+        "A textured surface is carried into a fixed whisker (`rigs/table.toml`): {} contacts to \
+         learn from and {} to test with, each every combination of angle, speed and texture once. \
+         Signals are x alone, as the paper's count of samples says. κ is Cohen's.",
+        sets.learning.len(),
+        sets.testing.len()
+    ));
+    let rows = [&by_template, &by_spectrum, &by_features.together];
+    main_table(&mut section, &rows);
+    feature_table(&mut section, &by_features.textures);
+    let alone = [
+        rules::template_of_textures(&sets)?,
+        rules::spectral_of_textures(&sets)?,
+    ];
+    section.page.say(format_args!(
+        "κ of texture alone, whatever the pose (one template a texture): template {:.2} / \
+         **{:.2}**, spectral template {:.2} / **{:.2}**.",
+        TEXTURE_ALONE[0], alone[0], TEXTURE_ALONE[1], alone[1]
+    ));
+    claims(&mut section, &rows);
+    for (name, scores) in [
+        "template by sum of squares, 352 poses",
+        "spectral template |DFT|, 352 poses",
+        "features f1–f5, quadratic",
+    ]
+    .into_iter()
+    .zip(rows)
+    {
+        for (property, hit) in ["angle", "speed", "texture"].into_iter().zip(scores.hit()) {
+            section.score(name, property, hit);
+        }
+    }
+    Ok(section)
+}
+
+fn main_table(section: &mut Section, rows: &[&Scores; 3]) {
+    let errors = |figure: Figure, ours: Option<Statistics>| {
+        let ours = ours.map_or("none".to_owned(), |s| {
+            format!("**{:.2} ± {:.1}**", s.mean, s.sd)
+        });
+        format!("{:.2} ± {:.1} / {ours}", figure.mean, figure.spread)
+    };
+    let lines = ROWS.iter().zip(rows).map(|(row, scores)| {
+        let mut cells = vec![row.what.to_owned()];
+        let (kappa, found) = (scores.kappa(), scores.errors());
+        for k in 0..3 {
+            let figure = row.figures[k];
+            cells.push(format!("{:.2} / **{:.2}**", figure.kappa, kappa[k]));
+            cells.push(errors(figure, found[k]));
+        }
+        cells
+    });
+    let lines: Vec<_> = lines.collect();
+    section.page.say(
+        "**κ and errors** (sections III-A to III-C, Table I, Figs. 7 and 8): paper / **ours**; \
+         errors are mean ± spread in degrees, mm/s and classes.",
+    );
+    section.page.table(
+        "classifier | angle κ | angle error | speed κ | speed error | texture κ | texture error",
+        lines,
+    );
+}
+
+fn feature_table(section: &mut Section, found: &[Confusion]) {
+    let classes: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
+    let lines = TEXTURE_FEATURES.iter().zip(found).map(|(feature, score)| {
+        let errors = score.errors(&classes);
+        let ours = errors.map_or("none".to_owned(), |s| {
+            format!("{:.2} ± {:.2}", s.mean, s.sd)
+        });
+        let alone = feature
+            .alone
+            .map_or("–".to_owned(), |kappa| format!("{kappa:.2}"));
+        vec![
+            feature.name.to_owned(),
+            format!("{:.2}", feature.together),
+            alone,
+            format!("**{:.2}**", score.kappa().unwrap_or(0.0)),
+            format!(
+                "{:.2} ± {:.2} / **{ours}**",
+                feature.error.0, feature.error.1
+            ),
+        ]
+    });
+    let lines: Vec<_> = lines.collect();
+    section
+        .page
+        .say("**Texture by features** (section III-C and Table I).");
+    section.page.table(
+        "feature | κ in the paper, together | κ in the paper, alone | κ here | error, classes",
+        lines,
+    );
+}
+
+fn claims(section: &mut Section, rows: &[&Scores; 3]) {
+    let kappas = rows.map(Scores::kappa);
+    let all = |property: usize| kappas.map(|kappa| kappa[property]);
+    for (property, name, best) in [(0, "angle", 1), (2, "texture", 1), (1, "speed", 2)] {
+        let ours = all(property);
+        let paper = [0, 1, 2].map(|row: usize| ROWS[row].figures[property].kappa);
+        let most = ours.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let text = |kappas: [f64; 3]| {
+            let [a, b, c] = kappas;
+            format!("template {a:.2}, spectral {b:.2}, features {c:.2}")
+        };
+        section.claim(
+            format_args!("POSE: {} are best for {name}", ROWS[best].what),
+            text(paper),
+            text(ours),
+            ours[best] >= most,
+            "",
+        );
+    }
+}

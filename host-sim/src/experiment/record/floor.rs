@@ -1,0 +1,58 @@
+//! Trials of the floor robot: four floors, three motions, each some times.
+
+use super::refused;
+use super::whiskers;
+use crate::Error;
+use crate::experiment::paper::lep10::FLOORS;
+use crate::experiment::recording::Recording;
+use crate::experiment::request::{Request, Scale};
+use crate::physics::{Plate, TouchingWhisker};
+use crate::rigs::{Motion, seed_of};
+
+/// Motions in the order of the jobs.
+pub(crate) const MOTIONS: [Motion; 3] =
+    [Motion::Anticlockwise, Motion::Clockwise, Motion::Autonomous];
+
+/// How long the whisker is dragged before a trial begins, s.
+const LEAD_S: f64 = 0.5;
+
+/// How many trials there are.
+pub(crate) fn jobs(scale: Scale) -> usize {
+    FLOORS.len() * MOTIONS.len() * scale.trials()
+}
+
+/// The job of a trial: trials of a motion together, motions of a floor together.
+pub(crate) fn number(trials: usize, floor: usize, motion: Motion, trial: usize) -> usize {
+    let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
+    (floor * MOTIONS.len() + place) * trials + trial
+}
+
+/// Records a trial: codes of x and y.
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+    let trials = request.scale.trials().max(1);
+    let condition = job / trials;
+    let motion = MOTIONS[condition % MOTIONS.len()];
+    let floor = condition / MOTIONS.len();
+
+    let rig = &request.rigs.floor;
+    let shaft = whiskers::floor_robot();
+    let sensor = whiskers::floor_sensor();
+    let mut whisker =
+        TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0])).map_err(refused)?;
+    let plate = Plate {
+        point_m: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        along: [1.0, 0.0, 0.0],
+        surface: whiskers::floor(floor),
+    };
+    let mut drive = rig.drive(motion, shaft.length_m, seed_of(seed, &[1]));
+    let lead = (LEAD_S * rig.tick_hz).round() as usize;
+    let mut codes = Vec::with_capacity(2 * rig.ticks());
+    for tick in 0..lead + rig.ticks() {
+        whisker.step(&drive.step(), Some(&plate), rig.dt_s());
+        if tick >= lead {
+            codes.extend(whisker.codes());
+        }
+    }
+    Ok(Recording::from_codes(2, &codes))
+}
