@@ -35,3 +35,6 @@ pub use part::{bytes as part_bytes, first_line, join, write as write_part};
 pub use recording::{Job, Recording, Recordings};
 pub use request::{Name, Request, Scale, Shard};
 pub use whole::report;
+
+#[cfg(test)]
+mod tests;

@@ -66,7 +66,7 @@ pub(super) fn written(
     recordings: &Recordings,
     out: &Path,
 ) -> Result<String, Error> {
-    let files = report(request, recordings, out)?;
+    let files = report(request, recordings)?;
     for (name, text) in &files {
         write_whole(&out.join(name), text.as_bytes())?;
     }

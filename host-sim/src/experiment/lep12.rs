@@ -3,6 +3,7 @@
 
 mod figures;
 mod spectral;
+mod why;
 
 use super::floors::{Floors, Half, Stream, Tally, learn};
 use super::page::{Section, beside};
@@ -105,6 +106,15 @@ struct Curves {
 }
 
 impl Curves {
+    fn of(group: &Group, rate_hz: f64) -> Result<Self, Error> {
+        let window = WINDOWS.iter().map(|window| group.window(*window, rate_hz));
+        let sequential = DOUBTS.iter().map(|doubt| group.sequential(*doubt, rate_hz));
+        Ok(Self {
+            window: window.collect::<Result<_, _>>()?,
+            sequential: sequential.collect::<Result<_, _>>()?,
+        })
+    }
+
     /// The sequential point whose mean time is nearest to Table 2's.
     fn nearest(&self) -> Option<&Point> {
         let off = |point: &&Point| (point.time_s / TIME_S).ln().abs();
@@ -156,16 +166,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     let mut rows: [Vec<[f64; 5]>; 4] = Default::default();
     let mut times = Vec::new();
     for group in &groups {
-        let both = Curves {
-            window: WINDOWS
-                .iter()
-                .map(|window| group.window(*window, rate_hz))
-                .collect::<Result<_, _>>()?,
-            sequential: DOUBTS
-                .iter()
-                .map(|doubt| group.sequential(*doubt, rate_hz))
-                .collect::<Result<_, _>>()?,
-        };
+        let both = Curves::of(group, rate_hz)?;
         let window = group.window(floors.samples(TIME_S) as u32, rate_hz)?;
         let nearest = both.nearest().ok_or_else(|| refused("no threshold"))?;
         times.push((nearest.parameter, nearest.time_s));
@@ -177,7 +178,12 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     }
     tables(&mut section, &rows, &times);
     figures::all(&mut section, &groups, &curves, rate_hz)?;
-    claims(&mut section, &rows, &curves);
+    let faster = why::faster(request)?;
+    let reasons: Vec<String> = groups
+        .iter()
+        .map(|group| format!("{}; {faster}", why::distributions(group, rate_hz)))
+        .collect();
+    claims(&mut section, &rows, &curves, &reasons);
     for (name, rows) in [
         "maximum likelihood, window of 200 ms",
         "sequential Bayes, 200 ms on average",
@@ -237,7 +243,7 @@ fn tables(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]
     }
 }
 
-fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
+fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], reasons: &[String]) {
     let [window, sequential, template, network] = rows;
     for (m, motion) in MOTIONS.iter().enumerate() {
         let at = |table: &Vec<[f64; 5]>| table.get(m).map_or(0.0, |row| row[4]);
@@ -251,7 +257,7 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
             format_args!("{printed:+.0} points"),
             format_args!("{:.1} against {fixed:.1} %: {gain:+.1} points", at(sequential)),
             gain >= SEQUENTIAL_GAIN.0,
-            reason_for_gain(fixed),
+            reasons.get(m).map_or("", String::as_str),
         );
         let best = at(template).max(at(network));
         section.claim(
@@ -268,7 +274,7 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
                 at(network)
             ),
             at(window) > best && at(sequential) > best,
-            "",
+            reasons.get(m).map_or("", String::as_str),
         );
     }
     let Some(rotating) = curves.get(2) else {
@@ -286,19 +292,6 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
             100.0 * share
         ),
         share > 0.5,
-        "",
+        reasons.get(2).map_or("", String::as_str),
     );
-}
-
-/// Why a gain is smaller than the paper's.
-fn reason_for_gain(fixed: f64) -> String {
-    let room = 100.0 - fixed;
-    if room < SEQUENTIAL_GAIN.0 {
-        format!(
-            "the window already has {fixed:.1} %: only {room:.1} points are left to gain in \
-             these recordings"
-        )
-    } else {
-        String::new()
-    }
 }

@@ -6,44 +6,44 @@ use crate::accuracy::page::Page;
 
 /// Something that must come out, and whether it does.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Claim {
+pub(super) struct Claim {
     /// What must come out.
-    pub what: String,
+    pub(super) what: String,
     /// What the paper has.
-    pub paper: String,
+    pub(super) paper: String,
     /// What we have.
-    pub ours: String,
+    pub(super) ours: String,
     /// Whether it came out.
-    pub met: bool,
+    pub(super) met: bool,
     /// Where it did not: why, as measured.
-    pub why: String,
+    pub(super) why: String,
 }
 
 /// What an experiment contributes.
 #[derive(Debug, Default)]
-pub struct Section {
+pub(super) struct Section {
     /// Text, tables and pictures.
-    pub page: Page,
+    pub(super) page: Page,
     /// Its claims.
-    pub claims: Vec<Claim>,
+    pub(super) claims: Vec<Claim>,
     /// A row a classifier: name, where measured, hit rate.
-    pub scores: Vec<Score>,
+    pub(super) scores: Vec<Score>,
 }
 
 /// A classifier's hit rate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Score {
+pub(super) struct Score {
     /// The classifier.
-    pub classifier: &'static str,
+    pub(super) classifier: &'static str,
     /// On what.
-    pub task: String,
+    pub(super) task: String,
     /// Hit rate, percent.
-    pub hit: f64,
+    pub(super) hit: f64,
 }
 
 impl Section {
     /// Adds a claim.
-    pub fn claim(
+    pub(super) fn claim(
         &mut self,
         what: impl Display,
         paper: impl Display,
@@ -61,7 +61,7 @@ impl Section {
     }
 
     /// Adds a classifier's score.
-    pub fn score(&mut self, classifier: &'static str, task: impl Display, hit: f64) {
+    pub(super) fn score(&mut self, classifier: &'static str, task: impl Display, hit: f64) {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
@@ -71,13 +71,13 @@ impl Section {
 }
 
 /// Percent without a digit behind the point, the paper's beside ours.
-pub fn beside(paper: f64, ours: f64) -> String {
+pub(super) fn beside(paper: f64, ours: f64) -> String {
     format!("{paper:.0} / **{ours:.0}**")
 }
 
 /// A confusion matrix, ours and the paper's in each cell, `[row][column]` in
 /// percent; `corner` names rows and columns.
-pub fn confusion(
+pub(super) fn confusion(
     page: &mut Page,
     corner: &str,
     names: &[String],

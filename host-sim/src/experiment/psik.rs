@@ -34,6 +34,8 @@ fn learn(rows: &[Row], seed: u64) -> Result<Network, Error> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
     let mut options = Options::imp(seed);
     options.hidden = inputs.max(1);
+    // The paper sets no bar, and few vibrissae cannot tell every paper.
+    options.reliable = 0.0;
     let mut trainer = Trainer::new(inputs, options).map_err(refused)?;
     for (class, row) in rows {
         trainer

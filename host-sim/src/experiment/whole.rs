@@ -1,7 +1,5 @@
 //! The page of all experiments: claims first, then each experiment.
 
-use std::path::Path;
-
 use super::page::{Claim, Section};
 use super::recording::Recordings;
 use super::request::{Name, Request};
@@ -13,14 +11,13 @@ use crate::accuracy::page::Page;
 const PAGE: &str = "experiments.md";
 
 /// Evaluates recordings: files by their path below the folder of documents,
-/// the page last. `docs` holds the counts of instructions, if there are any.
+/// the page last.
 ///
 /// # Errors
 /// [`Error::Work`] if a classifier cannot be learnt or a picture fails.
 pub fn report(
     request: &Request,
     recordings: &Recordings,
-    docs: &Path,
 ) -> Result<Vec<(String, String)>, Error> {
     let mut sections = Vec::new();
     for name in &request.names {
@@ -34,7 +31,7 @@ pub fn report(
     }
     let mut page = Page::default();
     introduction(&mut page, request, &sections);
-    costs::section(&mut page, &sections, docs);
+    costs::section(&mut page, &sections);
     let mut files = Vec::new();
     for section in sections {
         page.text.push_str(&section.page.text);

@@ -29,6 +29,7 @@ pub struct Corridor {
     pub start_spread_m: f64,
     pub start_spread_deg: f64,
     pub smooth_s: f64,
+    pub full_scale_rad: f64,
     pub layout: Layout,
 }
 
@@ -52,6 +53,7 @@ impl Rig for Corridor {
         )?;
         within("start_spread_deg", self.start_spread_deg, 0.0, 45.0)?;
         within("smooth_s", self.smooth_s, 1e-3, 100.0)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         self.layout.check()
     }
 }

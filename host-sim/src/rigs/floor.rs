@@ -41,6 +41,7 @@ pub struct Floor {
     pub speed_s: f64,
     pub leg_least_s: f64,
     pub leg_most_s: f64,
+    pub full_scale_rad: f64,
 }
 
 impl Rig for Floor {
@@ -64,6 +65,7 @@ impl Rig for Floor {
         within("speed_s", self.speed_s, 1e-3, 1e3)?;
         within("leg_least_s", self.leg_least_s, 0.01, 1e3)?;
         within("leg_most_s", self.leg_most_s, self.leg_least_s, 1e3)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         Ok(())
     }
 }

@@ -35,6 +35,7 @@ pub struct Head {
     pub base_back_m: [f64; EACH],
     pub base_side_m: [f64; EACH],
     pub placement_sd_m: f64,
+    pub full_scale_rad: f64,
 }
 
 impl Rig for Head {
@@ -52,6 +53,7 @@ impl Rig for Head {
             within("base_side_m", self.base_side_m[w], 0.0, 1.0)?;
         }
         within("placement_sd_m", self.placement_sd_m, 0.0, 0.1)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         Ok(())
     }
 }

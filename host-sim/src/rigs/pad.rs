@@ -109,6 +109,7 @@ pub struct Pad {
     pub distance_spread_m: f64,
     pub sweep_deg: f64,
     pub sweep_s: f64,
+    pub full_scale_rad: f64,
     pub layout: Layout,
 }
 
@@ -121,6 +122,7 @@ impl Rig for Pad {
         within("distance_spread_m", self.distance_spread_m, 0.0, 0.5)?;
         within("sweep_deg", self.sweep_deg, 1.0, 90.0)?;
         within("sweep_s", self.sweep_s, 0.01, 100.0)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         self.layout.check()
     }
 }

@@ -25,6 +25,7 @@ pub struct Table {
     pub retract_m_s: f64,
     pub acceleration_m_s2: f64,
     pub half_window: usize,
+    pub full_scale_rad: f64,
 }
 
 impl Rig for Table {
@@ -46,6 +47,7 @@ impl Rig for Table {
         within("retract_m_s", self.retract_m_s, 0.001, 10.0)?;
         within("acceleration_m_s2", self.acceleration_m_s2, 0.1, 1000.0)?;
         within("half_window", self.half_window as f64, 1.0, 1e6)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         Ok(())
     }
 }

@@ -6,6 +6,7 @@ pub(crate) fn add(a: [f64; 3], k: f64, b: [f64; 3]) -> [f64; 3] {
 }
 
 /// The scalar product.
+#[cfg(test)]
 pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -27,11 +27,14 @@ struct Movement {
     peak_deg: f64,
     /// Largest deflection |x| of a whisk, codes.
     deflection: f64,
+    /// Spread of x between whisks at the same time of the whisk, codes.
+    spread: f64,
 }
 
 /// Peaks of a whisk's angle that are parted by dips of [`DIP_DEG`] or more.
 fn peaks(angles: impl Iterator<Item = f64>) -> usize {
-    let (mut count, mut rising, mut extreme) = (0, true, f64::NEG_INFINITY);
+    // A recording may begin on the way down from a peak that is not its own.
+    let (mut count, mut rising, mut extreme) = (0, false, f64::INFINITY);
     for angle in angles {
         if rising {
             extreme = extreme.max(angle);
@@ -77,7 +80,24 @@ fn movement(visit: &Recording, ticks: usize) -> Movement {
         touching: 100.0 * share * sum.touching,
         peak_deg: share * sum.peak_deg,
         deflection: share * sum.deflection,
+        spread: spread(visit, ticks, whisks),
     }
+}
+
+/// Root mean square, over the whisk, of the standard deviation between whisks
+/// of x of the left front whisker.
+fn spread(visit: &Recording, ticks: usize, whisks: usize) -> f64 {
+    let x: Vec<Vec<f64>> = (0..whisks)
+        .map(|whisk| column(visit, whisk * ticks, (whisk + 1) * ticks, 0))
+        .collect();
+    let mut sum = 0.0;
+    for tick in 0..ticks {
+        let now = || x.iter().filter_map(|whisk| whisk.get(tick));
+        let count = now().count().max(1) as f64;
+        let mean = now().sum::<f64>() / count;
+        sum += now().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count;
+    }
+    (sum / ticks.max(1) as f64).sqrt()
 }
 
 pub(super) fn section(
@@ -109,6 +129,7 @@ pub(super) fn section(
                 format!("{:.1}", found.peak_deg),
                 format!("{:.0}", found.touching),
                 format!("{:.0}", found.deflection),
+                format!("{:.0}", found.spread),
                 format!("{:.0}", found.biphasic),
             ]);
         }
@@ -116,12 +137,12 @@ pub(super) fn section(
     }
     section.page.say(
         "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \
-         whisk, share of time in contact, largest |x| in sensor codes, share of whisks with two \
+         whisk, share of time in contact, largest |x| in sensor codes, spread of x between whisks, share of whisks with two \
          peaks of θ' at least 2 degrees apart in depth). Strong and fast is σ_z = 2 and \
          τ_z = T_W/10 (Fig. 8).",
     );
     section.page.table(
-        "whisking | distance, mm | peak, degrees | contact, % | deflection, codes | biphasic, %",
+        "whisking | distance, mm | peak, degrees | contact, % | deflection, codes | spread, codes | biphasic, %",
         rows,
     );
     let gentle = shares.iter().take(STRATEGIES.len()).map(|share| share.1);

@@ -1,6 +1,6 @@
 //! Whisks as the two classifiers of BIOTACT section IV learn and take them.
 
-use tactile::recogniser::{Bayes, Recogniser, first_outcome};
+use tactile::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
 use tactile::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
@@ -123,9 +123,31 @@ impl Visits {
         let learning = self.some(strategy, learning);
         let validation = self.some(strategy, validation);
         match method {
-            Method::Bayes => bayes(task, learning, validation),
+            Method::Bayes => bayes(task, &ALL, learning, validation),
             Method::Template => self.template(task, learning, validation),
         }
+    }
+
+    /// The same of naive Bayes on one axis of all whiskers, 0: x, 1: y.
+    pub(super) fn hit_rate_of_axis(
+        &self,
+        axis: usize,
+        task: Task,
+        strategy: usize,
+        (learning, validation): (&[usize], &[usize]),
+    ) -> Result<f64, Error> {
+        let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
+        let learning = self.some(strategy, learning);
+        bayes(task, &picked, learning, self.some(strategy, validation))
+    }
+
+    /// The least and most code of a channel over some whisks of a strategy.
+    pub(super) fn range(&self, strategy: usize, numbers: &[usize], channel: usize) -> (f64, f64) {
+        let whisks = self.some(strategy, numbers);
+        let codes = whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
+        codes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(*x), high.max(*x))
+        })
     }
 
     fn template<'w>(
@@ -144,25 +166,29 @@ impl Visits {
     }
 }
 
+/// Every channel.
+const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+
 fn bayes<'w>(
     task: Task,
+    picked: &[usize],
     learning: impl Iterator<Item = &'w Whisk>,
     validation: impl Iterator<Item = &'w Whisk>,
 ) -> Result<f64, Error> {
-    let mut trainer = Trainer::new(CHANNELS, Options::default()).map_err(refused)?;
+    let mut trainer = Trainer::new(picked.len(), Options::default()).map_err(refused)?;
     // Classes are numbered as they first appear: put them in order.
     let mut sorted: Vec<&Whisk> = learning.collect();
     sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
     for (texture, distance, samples) in sorted {
         let name = format!("class {}", task.class(*texture, *distance));
-        for sample in samples.chunks_exact(CHANNELS) {
+        for sample in pick(samples, CHANNELS, picked).chunks_exact(picked.len()) {
             trainer.add(&name, sample).map_err(refused)?;
         }
     }
     let buf = trainer.train().map_err(refused)?;
     let model = buf.model().map_err(refused)?;
-    let mut recogniser = Bayes::stationary(&model).map_err(refused)?;
-    Ok(share(&mut recogniser, task, validation))
+    let bayes = Bayes::stationary(&model).map_err(refused)?;
+    Ok(share(&mut Picked::new(bayes, picked), task, validation))
 }
 
 fn share<'w>(

@@ -1,8 +1,9 @@
 //! The spectral methods of LEP12 section 5: the template of the power
 //! spectrum, and a neural network of 120–20–4 units on it.
 //!
-//! Both hear x and y, as the other classifiers do. The template takes every
-//! bin above zero frequency: the paper's spectra show no offset. The network's
+//! Both hear x and y, as the other classifiers do, up to 120 Hz: above that
+//! "the power is close to zero". The template takes every bin above zero
+//! frequency: the paper's spectra show no offset. The network's
 //! 120 inputs are 2 to 120 Hz in steps of 2 Hz of each of them (a transform of
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).
@@ -20,7 +21,7 @@ use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::paper::lep12::SEGMENT_S;
 use crate::rigs::seed_of;
 
-/// Highest frequency of the network's inputs, Hz.
+/// Highest frequency, Hz.
 const HIGHEST_HZ: f64 = 120.0;
 /// Length of the network's transform, s.
 const TRANSFORM_S: f64 = 0.5;
@@ -28,9 +29,7 @@ const TRANSFORM_S: f64 = 0.5;
 /// Hit rates of the template, percent.
 pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let mut bins = Bins::all(block as u32);
-    bins.first = 1;
-    bins.count -= 1;
+    let bins = Bins::between(block as u32, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
     let mut trainer =
         SpectralTrainer::new(CHANNELS, bins, block, Measure::Power).map_err(refused)?;
     for stream in &group.learning {

@@ -64,10 +64,8 @@ impl Side {
         let mut chance = Chance::new(seed_of(seed, &[0]));
         let mut whiskers = Vec::with_capacity(VIBRISSAE);
         for (n, vibrissa) in rig.layout.vibrissae().into_iter().enumerate() {
-            let shaft = whiskers::vibrissa(vibrissa.length_m);
-            let sensor = whiskers::vibrissa_sensor();
             let seed = seed_of(seed, &[1, n as u64]);
-            let whisker = TouchingWhisker::new(&shaft, &sensor, seed).map_err(refused)?;
+            let whisker = whiskers::vibrissa(vibrissa.arc, rig.full_scale_rad, seed)?;
             whiskers.push((vibrissa, whisker));
         }
         Ok(Self {

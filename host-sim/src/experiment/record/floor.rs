@@ -6,7 +6,7 @@ use crate::Error;
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Request, Scale};
-use crate::physics::{Plate, TouchingWhisker};
+use crate::physics::{Plate, Shaft, TouchingWhisker};
 use crate::rigs::{Motion, seed_of};
 
 /// Motions in the order of the jobs.
@@ -35,8 +35,8 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let floor = condition / MOTIONS.len();
 
     let rig = &request.rigs.floor;
-    let shaft = whiskers::floor_robot();
-    let sensor = whiskers::floor_sensor();
+    let shaft = Shaft::floor_robot();
+    let sensor = whiskers::sensor(rig.full_scale_rad);
     let mut whisker =
         TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0])).map_err(refused)?;
     let plate = Plate {

@@ -52,7 +52,11 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         whisks: request.scale.whisks(),
         seed,
     };
-    let felt = rig.visit(&whiskers::head(), &whiskers::head_sensor(), &visit)?;
+    let felt = rig.visit(
+        &whiskers::head(),
+        &whiskers::sensor(rig.full_scale_rad),
+        &visit,
+    )?;
     let mut values = Vec::with_capacity(felt.angle_deg.len() * COLUMNS);
     let states = felt.angle_deg.iter().zip(&felt.touching);
     for (codes, (angles, touching)) in felt.codes.chunks_exact(CHANNELS).zip(states) {

@@ -8,7 +8,7 @@ use crate::Error;
 use crate::experiment::paper::psik::{RATE_HZ, VIBRISSAE};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Request, Scale};
-use crate::physics::{Plate, TouchingWhisker};
+use crate::physics::Plate;
 use crate::rigs::{Chance, panned, seed_of};
 
 /// Sandpapers.
@@ -64,10 +64,8 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     };
     let mut codes = Vec::with_capacity(VIBRISSAE);
     for (n, vibrissa) in rig.layout.vibrissae().iter().enumerate() {
-        let shaft = whiskers::vibrissa(vibrissa.length_m);
         let seed = seed_of(seed, &[1, n as u64]);
-        let sensor = whiskers::vibrissa_sensor();
-        let mut whisker = TouchingWhisker::new(&shaft, &sensor, seed).map_err(refused)?;
+        let mut whisker = whiskers::vibrissa(vibrissa.arc, rig.full_scale_rad, seed)?;
         let ticks = (0..rig.ticks()).map(|tick| {
             let pose = panned(&vibrissa.pose, rig.pan(tick));
             whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);

@@ -5,7 +5,7 @@ use crate::Error;
 use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Request, Scale};
-use crate::physics::{Plate, Pose, TouchingWhisker};
+use crate::physics::{Plate, Pose, Shaft, TouchingWhisker};
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 
 /// How often each contact is made.
@@ -60,39 +60,41 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let rig = &request.rigs.table;
     let speed = speeds().get(contact.speed).copied().unwrap_or(0.0) / 1000.0;
     let angle = ANGLES_DEG[contact.angle];
-    let codes = approach(rig, angle, speed, contact.texture, seed)?;
+    let (codes, way) = approach(rig, angle, speed, contact.texture, seed)?;
 
     let x = |n: usize| codes.get(2 * n).copied().unwrap_or(0);
     let count = codes.len() / 2;
-    let peak = (0..count).max_by_key(|n| (x(*n).unsigned_abs(), usize::MAX - n));
+    // Deflection is positive the way the object pushes; the first of equals.
+    let sign: i16 = if way < 0.0 { -1 } else { 1 };
+    let peak = (0..count).max_by_key(|n| (sign * x(*n), usize::MAX - n));
     let peak = peak.unwrap_or(0);
-    let sign = if x(peak) < 0 { -1.0 } else { 1.0 };
     let mut values = Vec::with_capacity(4 * rig.half_window);
     // Beyond the recording the whisker rests: its first or last sample stands.
     for n in 0..2 * rig.half_window {
         let at = (peak + n).saturating_sub(rig.half_window);
         let at = at.min(count.saturating_sub(1));
-        values.push(sign * f32::from(x(at)));
+        values.push(f32::from(sign * x(at)));
         values.push(f32::from(codes.get(2 * at + 1).copied().unwrap_or(0)));
     }
     Ok(Recording::new(2, values))
 }
 
-/// One approach and withdrawal: codes of x and y.
+/// One approach and withdrawal: codes of x and y, and which way the object
+/// went (1 or −1).
 fn approach(
     rig: &Table,
     angle_deg: f64,
     speed_m_s: f64,
     texture: usize,
     seed: u64,
-) -> Result<Vec<i16>, Error> {
+) -> Result<(Vec<i16>, f64), Error> {
     let dt_s = 1.0 / rig.tick_hz;
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let way = if chance.unit() < 0.5 { -1.0 } else { 1.0 };
     let gap = rig.gap_m + rig.gap_sd_m * chance.normal();
     let latency = rig.latency_s + rig.latency_spread_s * chance.between(-1.0, 1.0);
-    let shaft = whiskers::table_whisker();
-    let sensor = whiskers::table_sensor();
+    let shaft = Shaft::xy_table();
+    let sensor = whiskers::sensor(rig.full_scale_rad);
     let mut whisker =
         TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[1])).map_err(refused)?;
     let (normal, along) = facing(angle_deg, way);
@@ -142,7 +144,7 @@ fn approach(
             break;
         }
     }
-    Ok(codes)
+    Ok((codes, way))
 }
 
 #[cfg(test)]

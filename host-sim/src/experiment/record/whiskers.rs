@@ -1,38 +1,25 @@
 //! Which whisker, sensor and surface of the physics each rig has.
 
-use crate::experiment::paper::biotact;
-use crate::physics::{Follicle, Grit, Material, SensorSettings, Shaft, Surface};
+use std::sync::OnceLock;
 
-/// Acrylonitrile butadiene styrene: Young's modulus, Pa, and density, kg/m³
-/// (handbook values).
-const ABS: (f64, f64) = (2.3e9, 1050.0);
-/// Nanocure RC25, a resin filled with ceramic: the same (chosen; with these and
-/// the follicle below, the frequencies are near those of BIOTACT section II-C).
-const NANOCURE: (f64, f64) = (3.6e9, 1600.0);
+use super::refused;
+use crate::Error;
+use crate::experiment::paper::psik::ARCS;
+use crate::physics::{
+    Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker,
+};
 
-fn shaft(length_m: f64, [hub, tip]: [f64; 2], (youngs_pa, density_kg_m3): (f64, f64)) -> Shaft {
-    Shaft {
-        length_m,
-        hub_diameter_m: hub,
-        tip_diameter_m: tip,
-        youngs_pa,
-        density_kg_m3,
-        damping: 0.05,
-        follicle: Follicle {
-            rotation_n_m_rad: 0.3,
-            axial_n_m: 1e4,
-        },
+/// A sensor with a rig's gain.
+pub(crate) fn sensor(full_scale_rad: f64) -> SensorSettings {
+    SensorSettings {
+        full_scale_rad,
+        ..SensorSettings::default()
     }
 }
 
-/// The robot's whisker: ABS, 200 mm long, 2 mm thick.
-pub(crate) fn floor_robot() -> Shaft {
-    shaft(0.2, [2e-3, 2e-3], ABS)
-}
-
-/// Its sensor.
-pub(crate) fn floor_sensor() -> SensorSettings {
-    SensorSettings::default()
+/// The whiskers of a side of the head, the front one first.
+pub(crate) fn head() -> [Shaft; 3] {
+    Biotact::ALL.map(Shaft::biotact)
 }
 
 /// A floor by its place in LEP10's tables.
@@ -45,16 +32,6 @@ pub(crate) fn floor(floor: usize) -> Surface {
     })
 }
 
-/// The whiskers of a side of the head, the front one first.
-pub(crate) fn head() -> [Shaft; 3] {
-    biotact::WHISKERS.map(|(length_mm, _)| shaft(length_mm / 1000.0, [2e-3, 0.25e-3], NANOCURE))
-}
-
-/// Their sensors.
-pub(crate) fn head_sensor() -> SensorSettings {
-    SensorSettings::default()
-}
-
 /// A texture of the head's experiment by its place in the paper's list.
 pub(crate) fn abrasive(texture: usize) -> Surface {
     Surface::of(match texture {
@@ -62,16 +39,6 @@ pub(crate) fn abrasive(texture: usize) -> Surface {
         1 => Material::Sandpaper(Grit::P600),
         _ => Material::SmoothPlastic,
     })
-}
-
-/// The whisker at the table.
-pub(crate) fn table_whisker() -> Shaft {
-    shaft(0.185, [2e-3, 0.25e-3], ABS)
-}
-
-/// Its sensor.
-pub(crate) fn table_sensor() -> SensorSettings {
-    SensorSettings::default()
 }
 
 /// A texture at the table by its place in the paper's list.
@@ -104,17 +71,33 @@ pub(crate) fn sandpaper(number: usize) -> Surface {
     Surface::of(Material::Sandpaper(grade))
 }
 
-/// A vibrissa of a length, m.
-pub(crate) fn vibrissa(length_m: f64) -> Shaft {
-    shaft(length_m, [2e-3, 0.5e-3], ABS)
-}
+/// Shafts and modes of the eight arcs; solving modes takes milliseconds, and
+/// there are a hundred thousand vibrissae to make.
+static ARC_SHAFTS: OnceLock<Vec<(Shaft, Modes)>> = OnceLock::new();
 
-/// Its sensor, which is read with 8 bits.
-pub(crate) fn vibrissa_sensor() -> SensorSettings {
-    SensorSettings {
+/// Modes of a vibrissa.
+const MODES: usize = 3;
+
+/// A vibrissa of an arc, from 0.
+pub(crate) fn vibrissa(
+    arc: usize,
+    full_scale_rad: f64,
+    seed: u64,
+) -> Result<TouchingWhisker, Error> {
+    let shafts = ARC_SHAFTS.get_or_init(|| {
+        let of = |arc| {
+            let shaft = Shaft::psikharpax(arc);
+            shaft.modes(MODES).map(|modes| (shaft, modes))
+        };
+        (1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect()
+    });
+    let (shaft, modes) = shafts.get(arc).ok_or_else(|| refused("no such arc"))?;
+    let sensor = SensorSettings {
+        // Sampled at 1157 Hz by a converter of its own: nothing is held.
         refresh_s: 0.0,
-        ..SensorSettings::default()
-    }
+        ..sensor(full_scale_rad)
+    };
+    TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
 }
 
 /// The four walls of relief plexiglass, by number: their periods differ.
