@@ -163,15 +163,17 @@ fn why(request: &Request, visits: &Visits, most: usize) -> Result<String, Error>
         high - low
     };
     Ok(format!(
-        "textures are told by y alone ({:.0} %), not by x ({:.0} %; unmodulated, {most} training \
-         whisks; chance 33): the tip lies on the surface, so that bending along the whisk is set \
-         by where the surface is and not by its friction. The range of y, and with it the width \
-         of the 100 bins and of their smoothing, is set by rare slips: {:.0} codes over one whisk \
-         of each condition and {:.0} over {most}, against a noise of 4",
-        axes[1],
+        "x alone tells textures at {:.0} %, y alone at {:.0} % (unmodulated, {most} training \
+         whisks; chance 33). The tip lies on the surface, so that bending along the whisk is set \
+         by where the surface is; texture is in what small vibration and slip add. 100 bins over \
+         the whole range, smoothed over 5, are coarse for that: the range of y is {:.0} codes \
+         over one whisk of each condition and {:.0} over {most}, its smoothing {:.0} codes, the \
+         noise 4",
         axes[0],
+        axes[1],
         width(1),
-        width(most)
+        width(most),
+        width(most) / 20.0
     ))
 }
 

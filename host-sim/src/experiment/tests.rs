@@ -40,7 +40,10 @@ fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
         let mut other = request.clone();
         other.seed = 4;
         let other = Recordings::make(&other, &jobs, Verbosity::Quiet).unwrap();
-        assert!(one.iter().zip(other.iter()).all(|(a, b)| a.1 != b.1), "{name}");
+        assert!(
+            one.iter().zip(other.iter()).all(|(a, b)| a.1 != b.1),
+            "{name}"
+        );
     }
 }
 
@@ -63,7 +66,10 @@ fn shards_join_to_the_same_bytes_and_bad_ones_are_refused() {
     }
     let joined = join(&paths, &request).unwrap();
     assert_eq!(joined, whole);
-    assert_eq!(report(&request, &joined).unwrap(), report(&request, &whole).unwrap());
+    assert_eq!(
+        report(&request, &joined).unwrap(),
+        report(&request, &whole).unwrap()
+    );
 
     let fault = |paths: &[PathBuf], request: &Request| {
         let error = join(paths, request).unwrap_err();

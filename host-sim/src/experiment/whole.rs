@@ -15,10 +15,7 @@ const PAGE: &str = "experiments.md";
 ///
 /// # Errors
 /// [`Error::Work`] if a classifier cannot be learnt or a picture fails.
-pub fn report(
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<Vec<(String, String)>, Error> {
+pub fn report(request: &Request, recordings: &Recordings) -> Result<Vec<(String, String)>, Error> {
     let mut sections = Vec::new();
     for name in &request.names {
         sections.push(match name {

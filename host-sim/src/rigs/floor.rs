@@ -33,7 +33,8 @@ pub struct Floor {
     pub elevation_deg: f64,
     pub press_m: f64,
     pub press_sd_m: f64,
-    pub wobble_m: f64,
+    pub sink_m: [f64; 4],
+    pub wobble_share: f64,
     pub wobble_s: f64,
     pub turn_rad_s: f64,
     pub forward_m_s: f64,
@@ -57,7 +58,10 @@ impl Rig for Floor {
         within("elevation_deg", self.elevation_deg, -80.0, -1.0)?;
         within("press_m", self.press_m, 0.0, 0.1)?;
         within("press_sd_m", self.press_sd_m, 0.0, 0.1)?;
-        within("wobble_m", self.wobble_m, 0.0, 0.1)?;
+        within("wobble_share", self.wobble_share, 0.0, 10.0)?;
+        for sink in self.sink_m {
+            within("sink_m", sink, 0.0, 0.1)?;
+        }
         within("wobble_s", self.wobble_s, 1e-3, 1e3)?;
         within("turn_rad_s", self.turn_rad_s, 0.0, 20.0)?;
         within("forward_m_s", self.forward_m_s, 0.0, 10.0)?;
@@ -110,15 +114,25 @@ impl Floor {
         (self.trial_s * self.tick_hz).round() as usize
     }
 
-    /// A robot somewhere on a large floor with a whisker of `length_m`.
-    pub fn drive(&self, motion: Motion, length_m: f64, seed: u64) -> Drive<'_> {
+    /// A robot somewhere on a large floor with a whisker of `length_m`. The
+    /// floor is the one of that number in LEP10's tables; `height_m` is the root
+    /// mean square of its heights.
+    pub fn drive(
+        &self,
+        motion: Motion,
+        length_m: f64,
+        ground: (usize, f64),
+        seed: u64,
+    ) -> Drive<'_> {
+        let (floor, height_m) = ground;
+        let sink = self.sink_m.get(floor).copied().unwrap_or(0.0);
         let mut chance = Chance::new(seed);
         let reach = length_m * libm::sin(-self.elevation_deg.to_radians());
-        let press = self.press_m + self.press_sd_m * chance.normal();
+        let press = self.press_m + sink + self.press_sd_m * chance.normal();
         let mut drive = Drive {
             rig: self,
             motion,
-            wobble: Wander::new(self.wobble_m, self.wobble_s, self.dt_s()),
+            wobble: Wander::new(self.wobble_share * height_m, self.wobble_s, self.dt_s()),
             unevenness: Wander::new(self.speed_share_sd, self.speed_s, self.dt_s()),
             height_m: reach - press,
             place: [chance.between(-50.0, 50.0), chance.between(-50.0, 50.0)],
@@ -197,7 +211,7 @@ mod tests {
     fn calm() -> Floor {
         let mut rig: Floor = parse(Path::new(Floor::FILE), Floor::DEFAULT).unwrap();
         rig.press_sd_m = 0.0;
-        rig.wobble_m = 0.0;
+        rig.wobble_share = 0.0;
         rig.speed_share_sd = 0.0;
         rig
     }
@@ -207,7 +221,7 @@ mod tests {
         let rig = calm();
         let length = 0.2;
         for (motion, sign) in [(Motion::Anticlockwise, 1.0), (Motion::Clockwise, -1.0)] {
-            let mut drive = rig.drive(motion, length, 4);
+            let mut drive = rig.drive(motion, length, (0, 1e-3), 4);
             let centre = [drive.place[0], drive.place[1], 0.0];
             let mut tips = Vec::new();
             for _ in 0..2000 {
@@ -223,7 +237,10 @@ mod tests {
             let (r, a) = (rig.mount_radius_m, rig.azimuth_deg.to_radians());
             let radius = (r * r + level * level + 2.0 * r * level * a.cos()).sqrt();
             for tip in &tips {
-                assert!((tip[2] + rig.press_m).abs() < 1e-12, "{tip:?}");
+                assert!(
+                    (tip[2] + rig.press_m + rig.sink_m[0]).abs() < 1e-12,
+                    "{tip:?}"
+                );
                 assert!((tip[0].hypot(tip[1]) - radius).abs() < 1e-12);
             }
             let angle = |tip: &[f64; 3]| tip[1].atan2(tip[0]);
@@ -235,7 +252,7 @@ mod tests {
     #[test]
     fn autonomous_motion_turns_both_ways_and_runs_forward() {
         let rig = calm();
-        let mut drive = rig.drive(Motion::Autonomous, 0.2, 9);
+        let mut drive = rig.drive(Motion::Autonomous, 0.2, (2, 1e-3), 9);
         let mut seen = [0_u32; 3];
         for _ in 0..rig.ticks() * 4 {
             drive.step();

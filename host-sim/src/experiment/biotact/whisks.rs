@@ -144,7 +144,8 @@ impl Visits {
     /// The least and most code of a channel over some whisks of a strategy.
     pub(super) fn range(&self, strategy: usize, numbers: &[usize], channel: usize) -> (f64, f64) {
         let whisks = self.some(strategy, numbers);
-        let codes = whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
+        let codes =
+            whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
         codes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
             (low.min(*x), high.max(*x))
         })

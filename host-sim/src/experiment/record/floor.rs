@@ -45,7 +45,12 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         along: [1.0, 0.0, 0.0],
         surface: whiskers::floor(floor),
     };
-    let mut drive = rig.drive(motion, shaft.length_m, seed_of(seed, &[1]));
+    let mut drive = rig.drive(
+        motion,
+        shaft.length_m,
+        (floor, plate.surface.height_m),
+        seed_of(seed, &[1]),
+    );
     let lead = (LEAD_S * rig.tick_hz).round() as usize;
     let mut codes = Vec::with_capacity(2 * rig.ticks());
     for tick in 0..lead + rig.ticks() {

@@ -78,7 +78,9 @@ static ARC_SHAFTS: OnceLock<Vec<(Shaft, Modes)>> = OnceLock::new();
 /// Modes of a vibrissa.
 const MODES: usize = 3;
 
-/// A vibrissa of an arc, from 0.
+/// A vibrissa of an arc, from 0. The sensor of the longest has the gain that is
+/// given; the same push aside turns shorter ones the more, and their sensors
+/// have the less.
 pub(crate) fn vibrissa(
     arc: usize,
     full_scale_rad: f64,
@@ -92,10 +94,13 @@ pub(crate) fn vibrissa(
         (1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect()
     });
     let (shaft, modes) = shafts.get(arc).ok_or_else(|| refused("no such arc"))?;
+    let longest = shafts
+        .first()
+        .map_or(shaft.length_m, |(shaft, _)| shaft.length_m);
     let sensor = SensorSettings {
         // Sampled at 1157 Hz by a converter of its own: nothing is held.
         refresh_s: 0.0,
-        ..sensor(full_scale_rad)
+        ..sensor(full_scale_rad * longest / shaft.length_m)
     };
     TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
 }
