@@ -178,10 +178,13 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     }
     tables(&mut section, &rows, &times);
     figures::all(&mut section, &groups, &curves, rate_hz)?;
-    let faster = why::faster(request)?;
+    let robots = why::robots(request)?;
+    section.page.say(format_args!(
+        "**What the paper does not say of the robot** matters. {robots}."
+    ));
     let reasons: Vec<String> = groups
         .iter()
-        .map(|group| format!("{}; {faster}", why::distributions(group, rate_hz)))
+        .map(|group| why::distributions(group, rate_hz))
         .collect();
     claims(&mut section, &rows, &curves, &reasons);
     for (name, rows) in [

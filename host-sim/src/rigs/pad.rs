@@ -107,6 +107,7 @@ pub fn panned(pose: &Pose, radians: f64) -> Pose {
 pub struct Pad {
     pub distance_m: f64,
     pub distance_spread_m: f64,
+    pub position_spread_m: f64,
     pub sweep_deg: f64,
     pub sweep_s: f64,
     pub full_scale_rad: f64,
@@ -120,6 +121,7 @@ impl Rig for Pad {
     fn check(&self) -> Result<(), OutOfRange> {
         within("distance_m", self.distance_m, 0.01, 2.0)?;
         within("distance_spread_m", self.distance_spread_m, 0.0, 0.5)?;
+        within("position_spread_m", self.position_spread_m, 0.0, 5.0)?;
         within("sweep_deg", self.sweep_deg, 1.0, 90.0)?;
         within("sweep_s", self.sweep_s, 0.01, 100.0)?;
         within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
@@ -144,10 +146,10 @@ impl Pad {
 
     /// Draws a sweep.
     pub fn sweep(&self, chance: &mut Chance) -> Sweep {
-        let spread = self.distance_spread_m;
+        let (spread, aside) = (self.distance_spread_m, self.position_spread_m);
         Sweep {
             distance_m: self.distance_m + chance.between(-spread, spread),
-            origin_m: [chance.between(-5.0, 5.0), chance.between(-5.0, 5.0)],
+            origin_m: [chance.between(-aside, aside), chance.between(-aside, aside)],
         }
     }
 

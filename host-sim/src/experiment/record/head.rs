@@ -1,9 +1,12 @@
-//! Visits of the whisking head: strategies × textures × distances, and one
-//! visit with strong and fast RCP that is looked at but not classified.
+//! Visits of the whisking head: strategies × textures × distances, and
+//! early ones, where the surface is nearer and RCP can also be strong and fast:
+//! they are looked at but not classified.
 
 use super::whiskers;
 use crate::Error;
-use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TAU_Z_PERIODS, TEXTURES};
+use crate::experiment::paper::biotact::{
+    DISTANCES_MM, STRATEGIES, TAU_Z_PERIODS, TEXTURES, WHISKERS,
+};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::Request;
 use crate::rigs::{CHANNELS, Visit};
@@ -16,34 +19,49 @@ pub(crate) const COLUMNS: usize = CHANNELS + 4;
 /// Strong and fast RCP (BIOTACT Fig. 8): σ_z and τ_z in whisk periods.
 pub(crate) const STRONG: (f64, f64) = (2.0, 0.1);
 
-/// How many visits there are: those of the strategies, then the strong ones,
-/// one a distance, at the smooth surface.
+/// Where the front whisker meets the smooth surface in the early visits,
+/// degrees: the obstacle of BIOTACT Fig. 8.
+pub(crate) const EARLY_DEG: f64 = 100.0;
+
+/// Visits that are classified.
+const CLASSIFIED: usize = STRATEGIES.len() * TEXTURES.len() * DISTANCES_MM.len();
+
+/// How many visits there are: those of the strategies, then the early ones, one
+/// a strategy and one with strong and fast RCP.
 pub(crate) fn jobs() -> usize {
-    (STRATEGIES.len() * TEXTURES.len() + 1) * DISTANCES_MM.len()
+    CLASSIFIED + STRATEGIES.len() + 1
 }
 
-/// The job of a visit; `strategy` is one more than the last for the strong ones.
+/// The job of an early visit; `strategy` is one more than the last for strong
+/// and fast RCP.
+pub(crate) fn early(strategy: usize) -> usize {
+    CLASSIFIED + strategy
+}
+
+/// The job of a visit that is classified.
 pub(crate) fn number(strategy: usize, texture: usize, distance: usize) -> usize {
-    let group = if strategy < STRATEGIES.len() {
-        strategy * TEXTURES.len() + texture
-    } else {
-        STRATEGIES.len() * TEXTURES.len()
-    };
-    group * DISTANCES_MM.len() + distance
+    (strategy * TEXTURES.len() + texture) * DISTANCES_MM.len() + distance
 }
 
 /// Records a visit.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
     let rig = &request.rigs.head;
-    let (group, distance) = (job / DISTANCES_MM.len(), job % DISTANCES_MM.len());
-    let (strategy, texture) = (group / TEXTURES.len(), group % TEXTURES.len());
-    let (gain, periods, texture) = match STRATEGIES.get(strategy) {
-        Some((_, gain)) => (*gain, TAU_Z_PERIODS, texture),
-        None => (STRONG.0, STRONG.1, TEXTURES.len() - 1),
+    let (strategy, texture, distance_m) = if let Some(strategy) = job.checked_sub(CLASSIFIED) {
+        let front = WHISKERS[0].0 / 1000.0;
+        let reach = -front * libm::cos(EARLY_DEG.to_radians());
+        (strategy, TEXTURES.len() - 1, reach - rig.base_back_m[0])
+    } else {
+        let (group, distance) = (job / DISTANCES_MM.len(), job % DISTANCES_MM.len());
+        let (strategy, texture) = (group / TEXTURES.len(), group % TEXTURES.len());
+        (strategy, texture, DISTANCES_MM[distance] / 1000.0)
+    };
+    let (gain, periods) = match STRATEGIES.get(strategy) {
+        Some((_, gain)) => (*gain, TAU_Z_PERIODS),
+        None => STRONG,
     };
     let surface = whiskers::abrasive(texture);
     let visit = Visit {
-        distance_m: DISTANCES_MM[distance] / 1000.0,
+        distance_m,
         surface: &surface,
         rcp: (gain > 0.0).then_some(GateSettings {
             gain,
