@@ -168,7 +168,10 @@ fn why(request: &Request, visits: &Visits, most: usize) -> Result<String, Error>
          by where the surface is; texture is in what small vibration and slip add. 100 bins over \
          the whole range, smoothed over 5, are coarse for that: the range of y is {:.0} codes \
          over one whisk of each condition and {:.0} over {most}, its smoothing {:.0} codes, the \
-         noise 4",
+         noise 4. Whisks repeat themselves: x differs between whisks by little more than that \
+         noise (see the spread below), as motors here follow without error, so that one training \
+         whisk teaches as much as many and more repeatable contacts, the paper's explanation of \
+         RCP's gain, have nothing to add",
         axes[0],
         axes[1],
         width(1),

@@ -82,13 +82,26 @@ fn introduction(page: &mut Page, request: &Request, sections: &[Section]) {
             ]
         }),
     );
-    let unmet = claims.iter().filter(|claim| !claim.met);
-    let reasons: Vec<_> = unmet.filter(|claim| !claim.why.is_empty()).collect();
+    reasons(page, &claims);
+}
+
+/// Why claims are not met: each reason once, with the claims it is for.
+fn reasons(page: &mut Page, claims: &[&Claim]) {
+    let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
+    let unmet = claims
+        .iter()
+        .filter(|claim| !claim.met && !claim.why.is_empty());
+    for claim in unmet {
+        match reasons.iter_mut().find(|(why, _)| *why == claim.why) {
+            Some((_, whats)) => whats.push(&claim.what),
+            None => reasons.push((&claim.why, vec![&claim.what])),
+        }
+    }
     if !reasons.is_empty() {
         page.say("Where a claim is not met:");
-        for claim in &reasons {
-            page.say(format_args!("- {}: {}.", claim.what, claim.why));
-        }
+    }
+    for (why, whats) in reasons {
+        page.say(format_args!("- *{}*: {why}.", whats.join("*; *")));
     }
 }
 

@@ -138,7 +138,7 @@ impl Head {
             point_m: [distance, 0.0, 0.0],
             normal: [-1.0, 0.0, 0.0],
             along: [0.0, 1.0, 0.0],
-            surface: visit.surface.clone(),
+            surface: *visit.surface,
         };
         let mut whiskers = Vec::with_capacity(SIDES * EACH);
         for n in 0..SIDES * EACH {

@@ -110,6 +110,7 @@ pub struct Pad {
     pub position_spread_m: f64,
     pub sweep_deg: f64,
     pub sweep_s: f64,
+    pub bits: u32,
     pub full_scale_rad: f64,
     pub layout: Layout,
 }
@@ -124,6 +125,7 @@ impl Rig for Pad {
         within("position_spread_m", self.position_spread_m, 0.0, 5.0)?;
         within("sweep_deg", self.sweep_deg, 1.0, 90.0)?;
         within("sweep_s", self.sweep_s, 0.01, 100.0)?;
+        within("bits", f64::from(self.bits), 2.0, 14.0)?;
         within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
         self.layout.check()
     }

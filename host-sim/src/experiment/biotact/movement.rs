@@ -12,15 +12,17 @@ use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
 use crate::rigs::CHANNELS;
 
-/// A dip of θ' between two peaks of a whisk that counts, degrees: well above
-/// what oscillator noise and ringing leave.
-const DIP_DEG: f64 = 2.0;
+/// A dip of θ' between two peaks of a whisk that counts, degrees: θ' is smooth,
+/// and an unmodulated whisk has no dip at all.
+const DIP_DEG: f64 = 0.5;
 
 /// Mean of some visits.
 #[derive(Debug, Default, Clone, Copy)]
 struct Movement {
     /// Share of whisks with two peaks or more, percent.
     biphasic: f64,
+    /// Contacts of the left side a whisk, parted by 10 ms or more.
+    contacts: f64,
     /// Share of time in which the left side touches, percent.
     touching: f64,
     /// Largest θ' of a whisk, degrees.
@@ -52,6 +54,21 @@ fn peaks(angles: impl Iterator<Item = f64>) -> usize {
     count
 }
 
+/// Contacts, given whether there is one at each tick; shorter gaps than `least`
+/// ticks part none.
+fn contacts(touching: &[f64], least: usize) -> usize {
+    let (mut count, mut gap) = (0, usize::MAX);
+    for touches in touching {
+        if *touches > 0.5 {
+            count += usize::from(gap >= least);
+            gap = 0;
+        } else {
+            gap = gap.saturating_add(1);
+        }
+    }
+    count
+}
+
 /// One column of a visit from tick `from` to `to`.
 fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> {
     let rows = visit.part(from, to).chunks_exact(COLUMNS);
@@ -70,6 +87,7 @@ fn movement(visit: &Recording, ticks: usize) -> Movement {
         let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         sum.biphasic += f64::from(u8::from(peaks(angle.iter().copied()) > 1));
         sum.peak_deg += most(&angle);
+        sum.contacts += contacts(&part(CHANNELS + 2), ticks / 50) as f64;
         sum.touching += part(CHANNELS + 2).iter().sum::<f64>() / ticks as f64;
         let deflection: Vec<f64> = part(0).iter().map(|x| x.abs()).collect();
         sum.deflection += most(&deflection);
@@ -77,6 +95,7 @@ fn movement(visit: &Recording, ticks: usize) -> Movement {
     let share = 1.0 / whisks as f64;
     Movement {
         biphasic: 100.0 * share * sum.biphasic,
+        contacts: share * sum.contacts,
         touching: 100.0 * share * sum.touching,
         peak_deg: share * sum.peak_deg,
         deflection: share * sum.deflection,
@@ -118,9 +137,10 @@ pub(super) fn section(
             format!("{:.0}", found.deflection),
             format!("{:.0}", found.spread),
             format!("{:.0}", found.biphasic),
+            format!("{:.1}", found.contacts),
         ]);
     };
-    let (mut gentle, mut strong) = (0.0_f64, 0.0);
+    let (mut gentle, mut strong) = (0.0_f64, Movement::default());
     for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
         for (distance, mm) in DISTANCES_MM.iter().enumerate() {
             if let Some(visit) = all.get(number(strategy, smooth, distance)) {
@@ -137,7 +157,7 @@ pub(super) fn section(
             if strategy < STRATEGIES.len() {
                 gentle = gentle.max(found.biphasic);
             } else {
-                strong = found.biphasic;
+                strong = found;
             }
             add(name, format!("at {EARLY_DEG:.0} degrees"), found);
         }
@@ -145,19 +165,22 @@ pub(super) fn section(
     section.page.say(
         "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \
          whisk, share of time in contact, largest |x| in sensor codes, spread of x between whisks, share of whisks with two \
-         peaks of θ' at least 2 degrees apart in depth). Strong and fast is σ_z = 2 and \
+         peaks of θ' with a dip of half a degree or more between them, contacts a whisk). Strong and fast is σ_z = 2 and \
          τ_z = T_W/10 (Fig. 8); at 100 degrees is where the front whisker meets the \
          obstacle of that figure.",
     );
     section.page.table(
-        "whisking | surface | peak, degrees | contact, % | deflection, codes | spread, codes | biphasic, %",
+        "whisking | surface | peak, degrees | contact, % | deflection, codes | spread, codes | biphasic, % | contacts",
         rows,
     );
     section.claim(
         "BIOTACT: whisking turns biphasic only at strong and fast gains",
         "two contacts a whisk at σ_z = 2, τ_z = T_W/10; none at 0.9, T_W/4",
-        format_args!("{strong:.0} % of whisks at the strong gain, at most {gentle:.0} % otherwise"),
-        strong > 50.0 && gentle < 5.0,
+        format_args!(
+            "{:.0} % of whisks at the strong gain ({:.1} contacts a whisk), at most {gentle:.0} % otherwise",
+            strong.biphasic, strong.contacts
+        ),
+        strong.biphasic > 50.0 && gentle < 5.0,
         "the contact of a real whisker grows with overlap through the shaft's compliance and H50, \
          where eq. 11 has it at once; RCP settles at a light touch before it overshoots",
     );
@@ -203,7 +226,15 @@ fn time_histories(
 
 #[cfg(test)]
 mod tests {
-    use super::peaks;
+    use super::{contacts, peaks};
+
+    #[test]
+    fn contacts_are_parted_by_long_gaps_only() {
+        let touching = [0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        assert_eq!(contacts(&touching, 3), 2);
+        assert_eq!(contacts(&touching, 1), 3);
+        assert_eq!(contacts(&[0.0; 5], 1), 0);
+    }
 
     #[test]
     fn peaks_are_counted_by_the_dips_between_them() {
@@ -215,8 +246,8 @@ mod tests {
         };
         assert_eq!(peaks(wave(0.0)), 1);
         // Maxima at cos t = −30/(4 depth), the dip at t = π between them is
-        // (4 depth − 30)²/(8 depth): 0.9 degrees for 9.6, 3.4 for 12.
-        assert_eq!(peaks(wave(9.6)), 1);
+        // (4 depth − 30)²/(8 depth): 0.24 degrees for 8.5, 3.4 for 12.
+        assert_eq!(peaks(wave(8.5)), 1);
         assert_eq!(peaks(wave(12.0)), 2);
     }
 }

@@ -3,7 +3,7 @@
 
 use tactile::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
 
-use super::pad::byte;
+use super::pad;
 use super::{refused, whiskers};
 use crate::Error;
 use crate::experiment::paper::psik::{CORRIDORS, RATE_HZ, VIBRISSAE};
@@ -17,6 +17,8 @@ pub(crate) const INPUTS: usize = 2 * VIBRISSAE;
 /// Numbers of a sample: the inputs, then how far the neck is off the middle, m,
 /// its heading, radians, and D of both sides, mm.
 pub(crate) const COLUMNS: usize = INPUTS + 4;
+/// Bits of a reading.
+const BITS: u32 = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
 const WINDOW: u32 = 58;
 
@@ -41,7 +43,7 @@ pub(crate) fn place(scale: Scale, job: usize) -> (usize, usize) {
 /// has textures 0 and 1, the other 2 and 3; the way back swaps the sides.
 pub(crate) fn walls(case: usize) -> [usize; 2] {
     let first = case / 2 * 2;
-    if case % 2 == 0 {
+    if case.is_multiple_of(2) {
         [first, first + 1]
     } else {
         [first + 1, first]
@@ -95,7 +97,7 @@ impl Side {
         for (((vibrissa, whisker), code), bent) in all {
             let pose = rig.pose(robot, side, vibrissa);
             whisker.step(&pose, Some(&self.plate), 1.0 / RATE_HZ);
-            *code = byte(whisker.reading());
+            *code = pad::codes(whisker.reading(), BITS);
             let [x, y] = code.map(f32::from);
             // A deflection of both axes at their ends counts as 1.
             let deflection = (x.hypot(y) / 127.0).min(1.0);

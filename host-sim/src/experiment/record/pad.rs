@@ -13,8 +13,6 @@ use crate::rigs::{Chance, panned, seed_of};
 
 /// Sandpapers.
 pub(crate) const PAPERS: usize = 8;
-/// Code of a reading of 1 in 8 bits.
-const CODES: f64 = 127.0;
 /// Window of the IMP's mean, samples (86 ms; chosen).
 pub(crate) const WINDOW: u32 = 100;
 
@@ -35,10 +33,10 @@ pub(crate) fn place(scale: Scale, job: usize) -> (usize, usize) {
     (job / each, job % each)
 }
 
-/// A reading in 8 bits.
-pub(crate) fn byte(reading: [f64; 2]) -> [i16; 2] {
-    // At most ±127.
-    reading.map(|x| (CODES * x).round().clamp(-CODES, CODES) as i16)
+/// A reading in so many bits, with its sign, 2 to 14.
+pub(crate) fn codes(reading: [f64; 2], bits: u32) -> [i16; 2] {
+    let most = f64::from((1_u32 << bits.clamp(2, 14).saturating_sub(1)) - 1);
+    reading.map(|x| (most * x).round().clamp(-most, most) as i16)
 }
 
 /// The codes of all vibrissae at a tick, in order.
@@ -69,7 +67,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         let ticks = (0..rig.ticks()).map(|tick| {
             let pose = panned(&vibrissa.pose, rig.pan(tick));
             whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
-            byte(whisker.reading())
+            self::codes(whisker.reading(), rig.bits)
         });
         codes.push(ticks.collect::<Vec<_>>());
     }
