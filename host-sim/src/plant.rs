@@ -14,10 +14,12 @@
 mod ideal;
 mod surface;
 mod textured;
+mod whisker;
 
 pub use ideal::Ideal;
 pub use surface::Surface;
 pub use textured::{Textured, TexturedSettings, WhiskerSettings};
+pub use whisker::{Elastic, ElasticSettings};
 
 /// A plant setting that is out of its range, by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

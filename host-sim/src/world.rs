@@ -1,13 +1,14 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
 use firmware::design_parameters::stall;
-use scene::{Driver, PlantKind, Scene, Texture};
+use scene::{Driver, PlantKind, Scene, ShaftName, Texture};
 use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 
 use crate::Error;
 use crate::bench::{AnyAngle, AnyMotor, IdealMotor};
 use crate::motor::{Brushed, Brushless, MotorSettings, SimMotor};
-use crate::plant::{self, Ideal, Plant, Textured, TexturedSettings};
+use crate::physics::{Biotact, Follicle, Shaft};
+use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
 
 /// The motors of all whiskers and the surface they meet.
 pub struct World {
@@ -19,6 +20,7 @@ pub struct World {
 enum Surface {
     Ideal(Ideal),
     Textured(Box<Textured>),
+    Elastic(Box<Elastic>),
 }
 
 enum Motors {
@@ -104,6 +106,13 @@ impl World {
                 let (motors, pins) = real_motors(scene)?;
                 (Surface::Textured(Box::new(surface)), motors, pins)
             }
+            PlantKind::Whisker => {
+                let settings = ElasticSettings::of(shaft(scene.plant.shaft));
+                let surface =
+                    Elastic::new(head, settings, scene.seed).map_err(|error| broken(&error))?;
+                let (motors, pins) = real_motors(scene)?;
+                (Surface::Elastic(Box::new(surface)), motors, pins)
+            }
         };
         let angles_deg = vec![whisking::REST_DEG; scene.whiskers()];
         Ok((
@@ -118,8 +127,10 @@ impl World {
 
     /// Puts another texture in place.
     pub fn present(&mut self, texture: Texture) {
-        if let Surface::Textured(surface) = &mut self.surface {
-            surface.present(texture);
+        match &mut self.surface {
+            Surface::Ideal(_) => {}
+            Surface::Textured(surface) => surface.present(texture),
+            Surface::Elastic(surface) => surface.present(texture),
         }
     }
 
@@ -127,6 +138,7 @@ impl World {
         match &mut self.surface {
             Surface::Ideal(ideal) => ideal,
             Surface::Textured(textured) => textured.as_mut(),
+            Surface::Elastic(elastic) => elastic.as_mut(),
         }
     }
 
@@ -135,6 +147,7 @@ impl World {
         match &self.surface {
             Surface::Ideal(ideal) => ideal.deflection(side, whisker),
             Surface::Textured(textured) => textured.deflection(side, whisker),
+            Surface::Elastic(elastic) => elastic.deflection(side, whisker),
         }
     }
 
@@ -163,6 +176,33 @@ impl World {
         let angles = std::mem::take(&mut self.angles_deg);
         self.plant().advance(&angles, dt_s);
         self.angles_deg = angles;
+    }
+}
+
+/// The physics' shaft for a scene's; its default where it has none.
+fn shaft(of: Option<scene::Shaft>) -> Shaft {
+    let middle = Shaft::biotact(Biotact::Middle);
+    let Some(scene::Shaft { name, own }) = of else {
+        return middle;
+    };
+    match (name, own) {
+        (ShaftName::BiotactFront, _) => Shaft::biotact(Biotact::Front),
+        (ShaftName::BiotactMiddle, _) | (ShaftName::Own, None) => middle,
+        (ShaftName::BiotactRear, _) => Shaft::biotact(Biotact::Rear),
+        (ShaftName::FloorRobot, _) => Shaft::floor_robot(),
+        (ShaftName::XyTable, _) => Shaft::xy_table(),
+        (ShaftName::Own, Some(own)) => Shaft {
+            length_m: own.length_m,
+            hub_diameter_m: own.hub_diameter_m,
+            tip_diameter_m: own.tip_diameter_m,
+            youngs_pa: own.youngs_pa,
+            density_kg_m3: own.density_kg_m3,
+            damping: own.damping_ratio,
+            follicle: Follicle {
+                rotation_n_m_rad: own.follicle_n_m_rad,
+                ..middle.follicle
+            },
+        },
     }
 }
 

@@ -7,7 +7,7 @@
 use crate::read::Values;
 use crate::types::{
     Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
-    Scene, Sides, Texture, Textured, Whisking,
+    Scene, Shaft, ShaftName, ShaftNumbers, Sides, Texture, Textured, Whisking,
 };
 use crate::value::Value;
 
@@ -155,7 +155,7 @@ fn read_plant(part: Part<'_>) -> Option<Plant> {
     };
     let textured = match kind {
         PlantKind::Ideal => None,
-        PlantKind::Textured => {
+        PlantKind::Textured | PlantKind::Whisker => {
             let Value::Texts(names) = part.values.get(part.section, "textures")? else {
                 return None;
             };
@@ -167,11 +167,33 @@ fn read_plant(part: Part<'_>) -> Option<Plant> {
             })
         }
     };
+    let shaft = match kind {
+        PlantKind::Ideal | PlantKind::Textured => None,
+        PlantKind::Whisker => Some(read_shaft(part)?),
+    };
     Some(Plant {
         kind,
         obstacle,
         textured,
+        shaft,
     })
+}
+
+fn read_shaft(part: Part<'_>) -> Option<Shaft> {
+    let name = ShaftName::from_name(&part.text("shaft")?)?;
+    let own = match name {
+        ShaftName::Own => Some(ShaftNumbers {
+            length_m: part.number("length_m")?,
+            hub_diameter_m: part.number("hub_diameter_m")?,
+            tip_diameter_m: part.number("tip_diameter_m")?,
+            youngs_pa: part.number("youngs_pa")?,
+            density_kg_m3: part.number("density_kg_m3")?,
+            damping_ratio: part.number("damping_ratio")?,
+            follicle_n_m_rad: part.number("follicle_n_m_rad")?,
+        }),
+        _ => None,
+    };
+    Some(Shaft { name, own })
 }
 
 fn read_classifier(part: Part<'_>) -> Option<Classifier> {

@@ -99,15 +99,15 @@ const fn with_need(
         kind,
         unit,
         need,
-        only: None,
+        only: &[],
         meaning,
     }
 }
 
-/// The key, made an error unless the condition holds.
-const fn only(condition: Condition, key: Key) -> Key {
+/// The key, made an error unless one of the conditions holds.
+const fn only(conditions: &'static [Condition], key: Key) -> Key {
     Key {
-        only: Some(condition),
+        only: conditions,
         ..key
     }
 }
@@ -128,8 +128,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nine of the motor, one of the head, one of whisking.
-        assert_eq!(defaults, 11);
+        // Nine of the motor, one of the head, of whisking and of the plant.
+        assert_eq!(defaults, 12);
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
                     Need::When { any, .. } => any,
                     Need::Always | Need::Default(_) => &[],
                 };
-                for condition in any.iter().chain(&key.only) {
+                for condition in any.iter().chain(key.only) {
                     let (Condition::Is(other, _) | Condition::Given(other)) = condition;
                     let is_there = section.keys.iter().any(|key| key.name == *other);
                     assert!(is_there, "{} turns on {other}", key.name);

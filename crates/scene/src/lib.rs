@@ -51,5 +51,5 @@ pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use types::{
     Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
-    Scene, Sides, Texture, Textured, Whisking,
+    Scene, Shaft, ShaftName, ShaftNumbers, Sides, Texture, Textured, Whisking,
 };

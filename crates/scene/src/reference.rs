@@ -81,10 +81,11 @@ fn left_out(key: &Key) -> String {
 }
 
 fn meaning(key: &Key) -> String {
-    match key.only {
-        Some(condition) => format!("{} Only with {}.", key.meaning, in_code(condition)),
-        None => key.meaning.to_owned(),
+    if key.only.is_empty() {
+        return key.meaning.to_owned();
     }
+    let only: Vec<String> = key.only.iter().map(|c| in_code(*c)).collect();
+    format!("{} Only with {}.", key.meaning, only.join(" or "))
 }
 
 /// The condition with its TOML set as code.

@@ -30,6 +30,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     at_least_one_tick("plant", "present_s", values, text);
     limits_in_order(values, text);
     textured_is_active(values, text);
+    shaft_is_slender(values, text);
 }
 
 fn absent_section(section: &Section, text: &mut Text<'_>) {
@@ -62,14 +63,12 @@ fn presence(section: &Section, given: Given, key: &Key, values: &Values, text: &
     let holds = |condition: Condition| holds(section, condition, values);
     let path = section.path(key.name);
     if let Some(offset) = values.offset(section.name, key.name) {
-        if let Some(condition) = key.only.filter(|c| holds(*c) == Some(false)) {
+        let barred = key.only.iter().all(|c| holds(*c) == Some(false));
+        if barred && !key.only.is_empty() {
             let found = "found, but not used here".to_owned();
-            text.report(
-                offset,
-                path,
-                found,
-                format!("allowed only where {condition}"),
-            );
+            let only: Vec<String> = key.only.iter().map(ToString::to_string).collect();
+            let allowed = format!("allowed only where {}", only.join(" or "));
+            text.report(offset, path, found, allowed);
         }
         return;
     }
@@ -204,16 +203,35 @@ fn limits_in_order(values: &Values, text: &mut Text<'_>) {
 }
 
 fn textured_is_active(values: &Values, text: &mut Text<'_>) {
-    let is_textured = matches!(
-        values.get("plant", "kind"),
-        Some(Value::Text(kind)) if kind == PlantKind::Textured.name()
-    );
-    if is_textured && values.section("whisking").is_none() {
+    let Some(Value::Text(kind)) = values.get("plant", "kind") else {
+        return;
+    };
+    let has_textures = PlantKind::from_name(kind).is_some_and(PlantKind::has_textures);
+    if has_textures && values.section("whisking").is_none() {
         let offset = values.offset("plant", "kind").unwrap_or(0);
-        let found = format!("found {:?} without [whisking]", PlantKind::Textured.name());
-        let allowed = "the textured plant needs an active whisker: add [whisking], \
-                       or choose \"ideal\""
-            .to_owned();
+        let found = format!("found {kind:?} without [whisking]");
+        let allowed = format!(
+            "the {kind} plant needs an active whisker: add [whisking], or choose \"ideal\""
+        );
         text.report(offset, "plant.kind".to_owned(), found, allowed);
+    }
+}
+
+/// Thicker shafts do not bend as Euler and Bernoulli have it.
+fn shaft_is_slender(values: &Values, text: &mut Text<'_>) {
+    let Some(Value::Number(length)) = values.get("plant", "length_m") else {
+        return;
+    };
+    for key in ["hub_diameter_m", "tip_diameter_m"] {
+        let (Some(Value::Number(diameter)), Some(offset)) =
+            (values.get("plant", key), values.offset("plant", key))
+        else {
+            continue;
+        };
+        if *diameter > length / 5.0 {
+            let found = format!("found {diameter}");
+            let allowed = format!("allowed: at most a fifth of length_m, which is {length}");
+            text.report(offset, format!("plant.{key}"), found, allowed);
+        }
     }
 }

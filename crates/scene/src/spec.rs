@@ -30,8 +30,8 @@ pub(crate) struct Key {
     /// Unit of the numbers; empty where there is none.
     pub(crate) unit: &'static str,
     pub(crate) need: Need,
-    /// The key is an error unless this holds.
-    pub(crate) only: Option<Condition>,
+    /// The key is an error unless one of these holds; empty: it never is.
+    pub(crate) only: &'static [Condition],
     pub(crate) meaning: &'static str,
 }
 

@@ -7,6 +7,10 @@ use std::path::{Path, PathBuf};
 
 use crate::choice::choice;
 
+mod shaft;
+
+pub use shaft::{Shaft, ShaftName, ShaftNumbers};
+
 choice! {
     /// Which sides of the head are built.
     Sides {
@@ -54,6 +58,15 @@ choice! {
         Ideal = "ideal",
         /// Simulated motor, whisker and textured surfaces.
         Textured = "textured",
+        /// The same with an elastic shaft that sticks, slips and bounces.
+        Whisker = "whisker",
+    }
+}
+
+impl PlantKind {
+    /// Whether surfaces with textures are presented.
+    pub const fn has_textures(self) -> bool {
+        matches!(self, Self::Textured | Self::Whisker)
     }
 }
 
@@ -210,10 +223,12 @@ pub struct Motor {
 pub struct Plant {
     /// Whether the physics is ideal or simulated.
     pub kind: PlantKind,
-    /// Obstacles; `None`: free whisking. Always there for textured surfaces.
+    /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
     pub obstacle: Option<Obstacle>,
-    /// Surfaces; there exactly when `kind` is [`PlantKind::Textured`].
+    /// Surfaces; there exactly when [`PlantKind::has_textures`].
     pub textured: Option<Textured>,
+    /// The shaft; there exactly when `kind` is [`PlantKind::Whisker`].
+    pub shaft: Option<Shaft>,
 }
 
 /// An obstacle on each side.

@@ -1,8 +1,8 @@
 //! Catalogue: the head, what its whiskers meet, and what is made of it.
 
 use super::{defaulted, only, required, with_need};
-use crate::spec::{Condition, Kind, Need, Presence, Range, Section};
-use crate::types::{PlantKind, Rule, Sides, Texture};
+use crate::spec::{Condition, Key, Kind, Need, Presence, Range, Section};
+use crate::types::{PlantKind, Rule, ShaftName, Sides, Texture};
 
 pub(super) static HEAD: Section = Section {
     name: "head",
@@ -26,6 +26,31 @@ pub(super) static HEAD: Section = Section {
 };
 
 const TEXTURED: Condition = Condition::Is("kind", PlantKind::Textured.name());
+const ELASTIC: Condition = Condition::Is("kind", PlantKind::Whisker.name());
+
+/// The plants with textures.
+const TEXTURES: &[Condition] = &[TEXTURED, ELASTIC];
+
+/// What there is to press on.
+const STIFF: &[Condition] = &[Condition::Given("obstacle_deg"), TEXTURED, ELASTIC];
+
+/// The plant with an elastic shaft.
+const WHISKER: &[Condition] = &[ELASTIC];
+
+/// A shaft of the scene's own numbers.
+const OWN: &[Condition] = &[Condition::Is("shaft", ShaftName::Own.name())];
+
+/// One of these numbers.
+const fn own(name: &'static str, range: Range, unit: &'static str, meaning: &'static str) -> Key {
+    let need = Need::When {
+        any: OWN,
+        without: "that of `shaft`",
+    };
+    only(
+        OWN,
+        with_need(name, Kind::Number(range), unit, need, meaning),
+    )
+}
 
 pub(super) static PLANT: Section = Section {
     name: "plant",
@@ -37,14 +62,15 @@ pub(super) static PLANT: Section = Section {
             Kind::Word(PlantKind::NAMES),
             "",
             "`ideal`: the angle is θ′ exactly, contact by BIOTACT eq. 11. \
-             `textured`: simulated motor, whisker and surfaces; needs `[whisking]`.",
+             `textured`: simulated motor, whisker and surfaces; needs `[whisking]`. \
+             `whisker`: the same with an elastic shaft that sticks, slips and bounces.",
         ),
         with_need(
             "obstacle_deg",
             Kind::PerSide(Range::closed(-360.0, 360.0)),
             "degrees",
             Need::When {
-                any: &[TEXTURED],
+                any: TEXTURES,
                 without: "free whisking",
             },
             "Angle of the obstacle on each side.",
@@ -54,36 +80,83 @@ pub(super) static PLANT: Section = Section {
             Kind::Number(Range::closed(0.0, 100.0)),
             "1/degree",
             Need::When {
-                any: &[Condition::Given("obstacle_deg"), TEXTURED],
+                any: STIFF,
                 without: "not used",
             },
             "Stiffness σ_x: contact signal per degree of overlap (BIOTACT eq. 11).",
         ),
         only(
-            TEXTURED,
+            TEXTURES,
             with_need(
                 "textures",
                 Kind::Words(Texture::NAMES),
                 "",
                 Need::When {
-                    any: &[TEXTURED],
+                    any: TEXTURES,
                     without: "no texture",
                 },
                 "Surfaces, in the order in which they are presented.",
             ),
         ),
         only(
-            TEXTURED,
+            TEXTURES,
             with_need(
                 "present_s",
                 Kind::Number(Range::positive(1e5)),
                 "s",
                 Need::When {
-                    any: &[TEXTURED],
+                    any: TEXTURES,
                     without: "no texture",
                 },
                 "How long each texture is presented; at least one tick.",
             ),
+        ),
+        only(
+            WHISKER,
+            defaulted(
+                "shaft",
+                Kind::Word(ShaftName::NAMES),
+                "",
+                "\"biotact-middle\"",
+                "The whiskers' shaft: a paper's, or `own`: the numbers that follow.",
+            ),
+        ),
+        own("length_m", Range::closed(1e-3, 1.0), "m", "Length."),
+        own(
+            "hub_diameter_m",
+            Range::closed(1e-5, 0.2),
+            "m",
+            "Diameter at the base; at most a fifth of the length.",
+        ),
+        own(
+            "tip_diameter_m",
+            Range::closed(1e-6, 0.2),
+            "m",
+            "Diameter at the tip; at most a fifth of the length.",
+        ),
+        own(
+            "youngs_pa",
+            Range::closed(1e5, 1e12),
+            "Pa",
+            "Young's modulus.",
+        ),
+        own(
+            "density_kg_m3",
+            Range::closed(10.0, 3e4),
+            "kg/m³",
+            "Density.",
+        ),
+        own(
+            "damping_ratio",
+            Range::closed(1e-4, 0.99),
+            "",
+            "Of every mode.",
+        ),
+        own(
+            "follicle_n_m_rad",
+            Range::closed(1e-9, 1e6),
+            "N m/rad",
+            "Rotational stiffness of what holds the base.",
         ),
     ],
 };

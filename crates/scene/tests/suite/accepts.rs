@@ -3,7 +3,7 @@
 use crate::common::{FULL, with};
 use scene::{
     Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
-    Scene, Sides, Texture, Textured, Whisking,
+    Scene, Shaft, ShaftName, ShaftNumbers, Sides, Texture, Textured, Whisking,
 };
 
 fn read(text: &str) -> Scene {
@@ -67,6 +67,7 @@ fn every_key_reaches_its_field() {
                 stiffness: 0.1,
             }),
             textured: None,
+            shaft: None,
         },
         classifier: Some(Classifier {
             rule: Rule::Sequential { threshold: 0.99 },
@@ -148,6 +149,32 @@ fn textured_surfaces_keep_their_order() {
         (plant.kind, plant.textured),
         (PlantKind::Textured, Some(expected))
     );
+}
+
+#[test]
+fn an_elastic_whisker_is_a_paper_s_or_has_its_own_numbers() {
+    let kind = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
+    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
+    assert!(plant.textured.is_some() && plant.kind == PlantKind::Whisker);
+    let middle = Shaft {
+        name: ShaftName::BiotactMiddle,
+        own: None,
+    };
+    assert_eq!(plant.shaft, Some(middle));
+    let numbers = "shaft = 'own'\nlength_m = 0.1\nhub_diameter_m = 0.02\ntip_diameter_m = 2e-4\n\
+                   youngs_pa = 1e9\ndensity_kg_m3 = 1000\ndamping_ratio = 0.1\nfollicle_n_m_rad = 0.3";
+    let kind = format!("{kind}\n{numbers}");
+    let plant = read(&with(FULL, "kind      = \"ideal\"", &kind)).plant;
+    let own = ShaftNumbers {
+        length_m: 0.1,
+        hub_diameter_m: 0.02,
+        tip_diameter_m: 2e-4,
+        youngs_pa: 1e9,
+        density_kg_m3: 1000.0,
+        damping_ratio: 0.1,
+        follicle_n_m_rad: 0.3,
+    };
+    assert_eq!(plant.shaft.and_then(|shaft| shaft.own), Some(own));
 }
 
 #[test]

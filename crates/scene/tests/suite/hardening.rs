@@ -43,6 +43,8 @@ const PIECES: &[&str] = &[
     "\r\n",
     "\\",
     "\"textured\"",
+    "\"whisker\"",
+    "\"own\"",
     "\"left\"",
     "\"window\"",
     "[motor]\n",

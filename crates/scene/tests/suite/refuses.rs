@@ -173,7 +173,7 @@ fn words_are_suggested() {
     refuses(
         "kind      = \"ideal\"",
         "kind = 'physics'",
-        "s.toml:26: plant.kind: found 'physics'; allowed: \"ideal\" or \"textured\"",
+        "s.toml:26: plant.kind: found 'physics'; allowed: \"ideal\" or \"textured\" or \"whisker\"",
     );
 }
 
@@ -230,7 +230,9 @@ fn keys_in_the_wrong_place() {
         "stiffness = 0.1",
         "stiffness = 0.1\nnoise = 0.1",
         "s.toml:29: plant.noise: unknown key; it belongs to [whisking]; \
-         allowed here: kind, obstacle_deg, stiffness, textures, present_s",
+         allowed here: kind, obstacle_deg, stiffness, textures, present_s, shaft, length_m, \
+         hub_diameter_m, tip_diameter_m, youngs_pa, density_kg_m3, damping_ratio, \
+         follicle_n_m_rad",
     );
     refuses(
         "[rcp]",

@@ -25,7 +25,8 @@ fn missing_keys_and_tables() {
     assert_eq!(
         complaint(PASSIVE),
         "s.toml:1: [plant]: missing; required: a table with the keys \
-         kind, obstacle_deg, stiffness, textures, present_s"
+         kind, obstacle_deg, stiffness, textures, present_s, shaft, length_m, hub_diameter_m, \
+         tip_diameter_m, youngs_pa, density_kg_m3, damping_ratio, follicle_n_m_rad"
     );
     let all = "s.toml:1: name: missing\ns.toml:1: tick_hz: missing\ns.toml:1: duration_s: missing\n\
                s.toml:1: seed: missing\ns.toml:1: [head]: missing\ns.toml:1: [plant]: missing";
@@ -136,9 +137,9 @@ fn textures_and_their_plant() {
         "stiffness = 0.1",
         "stiffness = 0.1\ntextures = ['smooth']\npresent_s = 1",
         "s.toml:29: plant.textures: found, but not used here; \
-         allowed only where kind = \"textured\"\n\
+         allowed only where kind = \"textured\" or kind = \"whisker\"\n\
          s.toml:30: plant.present_s: found, but not used here; \
-         allowed only where kind = \"textured\"",
+         allowed only where kind = \"textured\" or kind = \"whisker\"",
     );
     refuses(
         "kind      = \"ideal\"\nobstacle_deg = [100.0, 125.0]   # left, right\nstiffness = 0.1",
@@ -181,6 +182,33 @@ fn the_textured_plant_needs_an_active_whisker() {
          an active whisker: add [whisking], or choose \"ideal\"\n\
          s.toml:11: plant.present_s: found 0.0001 s; \
          allowed: at least one tick, that is 1/2000 s"
+    );
+}
+
+#[test]
+fn shafts_and_their_plant() {
+    let whisker = "kind = 'whisker'\ntextures = ['p600']\npresent_s = 1\n";
+    refuses(
+        "kind      = \"ideal\"",
+        "kind = 'ideal'\nshaft = 'floor-robot'",
+        "s.toml:27: plant.shaft: found, but not used here; \
+         allowed only where kind = \"whisker\"",
+    );
+    refuses(
+        "kind      = \"ideal\"",
+        &format!("{whisker}length_m = 0.1"),
+        "s.toml:29: plant.length_m: found, but not used here; \
+         allowed only where shaft = \"own\"",
+    );
+    let numbers = "shaft = 'own'\nlength_m = 0.1\nhub_diameter_m = 0.021\n\
+                   tip_diameter_m = 0.02\nyoungs_pa = 1e9\ndensity_kg_m3 = 1000\ndamping_ratio = 0.1";
+    refuses(
+        "kind      = \"ideal\"",
+        &format!("{whisker}{numbers}"),
+        "s.toml:25: plant.follicle_n_m_rad: missing; required because shaft = \"own\": \
+         a number from 0.000000001 to 1000000, in N m/rad\n\
+         s.toml:31: plant.hub_diameter_m: found 0.021; \
+         allowed: at most a fifth of length_m, which is 0.1",
     );
 }
 

@@ -1,0 +1,198 @@
+//! Elastic whiskers that motors swing against textured plates.
+//!
+//! Glossary:
+//!
+//! - *θ′*: angle of the base, degrees; the base turns about the motor's axis;
+//! - *plate*: stands where the tip of a straight shaft touches it at θ′_lim;
+//! - *piece*: of a surface; every presentation shows another.
+//!
+//! The physics is [`TouchingWhisker`]; here are its scale and its surfaces. The
+//! sensor's full scale is such that a hard, smooth plate makes the contact
+//! signal grow by σ_x a degree of overlap at first touch, as BIOTACT eq. 11 has
+//! it: a tip that is held while the base turns by δ is bent by L δ, which turns
+//! the base against its follicle by r/c L δ, with the static rotation r (rad/N)
+//! and deflection c (m/N) for a force on the tip. Not modelled: torque back on
+//! the motor.
+
+use core::iter::repeat;
+
+use scene::Texture;
+
+use super::{BadPlantSetting, Head, Plant};
+use crate::physics::{
+    Facing, Grit, Material, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker,
+};
+
+/// Largest angle that is believed, degrees, either sign.
+const ANGLE_LIMIT: f64 = 1e6;
+
+/// Elastic whiskers and what they meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticSettings {
+    /// All whiskers' shaft.
+    pub shaft: Shaft,
+    /// How plates stand.
+    pub facing: Facing,
+    /// Sensor noise, root mean square, codes of 14 bits, 0 to 1000.
+    pub noise_codes: f64,
+}
+
+impl ElasticSettings {
+    /// Of a shaft; plates face it as usual, and sensors have the noise that
+    /// sensors have by default.
+    pub fn of(shaft: Shaft) -> Self {
+        Self {
+            shaft,
+            facing: Facing::USUAL,
+            noise_codes: SensorSettings::default().noise_codes,
+        }
+    }
+}
+
+/// A whisker and its plate.
+#[derive(Debug, Clone)]
+struct Swung {
+    whisker: TouchingWhisker,
+    /// θ′_lim; infinite: no plate.
+    limit_deg: f64,
+    angle_deg: Option<f64>,
+}
+
+/// Textured plates before elastic whiskers.
+#[derive(Debug, Clone)]
+pub struct Elastic {
+    head: Head,
+    settings: ElasticSettings,
+    surface: Surface,
+    seed: u64,
+    /// Presentations so far.
+    pieces: u64,
+    whiskers: Vec<Swung>,
+}
+
+/// What a texture of a scene is made of. Its carpet is the smooth one, of
+/// short loops.
+const fn material(texture: Texture) -> Material {
+    match texture {
+        Texture::Smooth => Material::SmoothPlastic,
+        Texture::P600 => Material::Sandpaper(Grit::P600),
+        Texture::P240 => Material::Sandpaper(Grit::P240),
+        Texture::Carpet => Material::SmoothCarpet,
+    }
+}
+
+/// Another seed for each n.
+const fn apart(seed: u64, n: u64) -> u64 {
+    // Not the constant by which generators step from seed to state.
+    seed.wrapping_add(n.wrapping_mul(0xD134_2543_DE82_EF95))
+}
+
+impl Elastic {
+    /// Whiskers before smooth plastic. The same seed gives the same noise and
+    /// the same surfaces; each whisker has its own.
+    ///
+    /// # Errors
+    /// The first setting out of its range; `stiffness` too where it asks for a
+    /// full scale of the sensor above 3 rad or below 1e-6.
+    pub fn new(head: Head, settings: ElasticSettings, seed: u64) -> Result<Self, BadPlantSetting> {
+        head.check()?;
+        let check = BadPlantSetting::check;
+        check("slant_deg", settings.facing.slant_deg, 0.0, 80.0)?;
+        check("tilt_deg", settings.facing.tilt_deg, -80.0, 80.0)?;
+        let shaft = settings.shaft;
+        let modes = shaft.modes(8)?;
+        let a_degree = 1.0_f64.to_radians() * shaft.length_m * modes.base_rad_n / modes.tip_m_n;
+        // Whiskers that meet nothing need no scale.
+        let full_scale_rad = if head.stiffness > 0.0 {
+            check("stiffness", a_degree / head.stiffness, 1e-6, 3.0)?
+        } else if head.limits().all(f64::is_infinite) {
+            3.0
+        } else {
+            return Err(BadPlantSetting("stiffness"));
+        };
+        let sensor = SensorSettings {
+            full_scale_rad,
+            noise_codes: settings.noise_codes,
+            ..SensorSettings::default()
+        };
+        let swung = |(stream, limit_deg): (u64, f64)| {
+            let seed = apart(seed, stream);
+            let whisker = TouchingWhisker::with_modes(&shaft, &modes, &sensor, seed)?;
+            Ok(Swung {
+                whisker,
+                limit_deg,
+                angle_deg: None,
+            })
+        };
+        let whiskers = (0..).zip(head.limits()).map(swung);
+        let whiskers = whiskers.collect::<Result<_, BadPlantSetting>>()?;
+        Ok(Self {
+            head,
+            settings,
+            surface: Surface::of(Material::SmoothPlastic),
+            seed,
+            pieces: 0,
+            whiskers,
+        })
+    }
+
+    /// Puts another surface before all whiskers, a new piece of it.
+    pub fn present(&mut self, texture: Texture) {
+        self.present_surface(Surface::of(material(texture)));
+    }
+
+    /// As [`Elastic::present`], with any surface but for its seed. Values out of
+    /// their ranges count as the nearest that is within.
+    pub fn present_surface(&mut self, surface: Surface) {
+        self.pieces = self.pieces.wrapping_add(1);
+        self.surface = surface;
+    }
+
+    /// The piece that a whisker touches.
+    fn piece(&self, whisker: u64) -> Surface {
+        let seed = apart(self.seed ^ 0x5EED, self.pieces);
+        self.surface.piece(apart(seed, whisker.rotate_left(32)))
+    }
+}
+
+impl Swung {
+    fn advance(&mut self, settings: &ElasticSettings, surface: Surface, angle: f64, dt_s: f64) {
+        let believed = Some(angle).filter(|angle| angle.abs() <= ANGLE_LIMIT);
+        let Some(angle) = believed.or(self.angle_deg) else {
+            return;
+        };
+        self.angle_deg = Some(angle);
+        let length_m = settings.shaft.length_m;
+        let plate = self.limit_deg.is_finite().then(|| {
+            let limit = self.limit_deg.to_radians();
+            Plate::in_the_way(limit, length_m, &settings.facing, surface)
+        });
+        let pose = Pose::swung(angle.to_radians());
+        self.whisker.step(&pose, plate.as_ref(), dt_s);
+    }
+}
+
+impl Plant for Elastic {
+    fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
+        let whisker = self.head.index(side, whisker);
+        let whisker = whisker.and_then(|i| self.whiskers.get(i));
+        whisker.map_or([0.0; 2], |swung| swung.whisker.reading())
+    }
+
+    fn advance(&mut self, angles_deg: &[f64], dt_s: f64) {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return;
+        }
+        let angles = angles_deg.iter().copied().chain(repeat(f64::NAN));
+        let pieces: Vec<Surface> = (0..self.whiskers.len() as u64)
+            .map(|whisker| self.piece(whisker))
+            .collect();
+        let each = self.whiskers.iter_mut().zip(pieces).zip(angles);
+        for ((swung, surface), angle) in each {
+            swung.advance(&self.settings, surface, angle, dt_s);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

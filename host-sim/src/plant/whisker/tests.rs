@@ -1,0 +1,197 @@
+//! Elastic whiskers on motors: slope at first touch, textures, seeds, bad input.
+
+use core::f64::consts::TAU;
+
+use proptest::prelude::*;
+use scene::Texture;
+
+use super::{Elastic, ElasticSettings};
+use crate::physics::{Biotact, Material, Shaft, Surface};
+use crate::plant::{BadPlantSetting, Head, Plant};
+
+const TICK_S: f64 = 5e-4;
+
+fn head(whiskers_per_side: usize) -> Head {
+    Head {
+        whiskers_per_side,
+        obstacle_deg: vec![100.0],
+        stiffness: 0.1,
+    }
+}
+
+fn quiet(shaft: Shaft) -> ElasticSettings {
+    ElasticSettings {
+        noise_codes: 0.0,
+        ..ElasticSettings::of(shaft)
+    }
+}
+
+fn frictionless() -> Surface {
+    Surface {
+        hold: 0.0,
+        friction: 0.0,
+        ..Surface::of(Material::Flat)
+    }
+}
+
+/// What a whisker at rest at this overlap says, in the mean over its ringing.
+fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
+    let mut plant = Elastic::new(head(1), quiet(shaft), 7).unwrap();
+    plant.present_surface(surface);
+    let ticks = 8000;
+    let mut mean = [0.0; 2];
+    for n in 0..ticks {
+        let share = (f64::from(n) / 4000.0).min(1.0);
+        plant.advance(&[99.0 + share * (1.0 + overlap)], TICK_S);
+        if n >= 6000 {
+            for (mean, now) in mean.iter_mut().zip(plant.deflection(0, 0)) {
+                *mean += now / 2000.0;
+            }
+        }
+    }
+    mean
+}
+
+#[test]
+fn at_first_touch_a_hard_plate_reads_as_in_equation_11() {
+    for shaft in [
+        Shaft::biotact(Biotact::Front),
+        Shaft::biotact(Biotact::Rear),
+        Shaft::floor_robot(),
+    ] {
+        let [x, y] = settled(shaft, frictionless(), 0.5);
+        assert!((x / 0.05 - 1.0).abs() < 0.03, "{shaft:?} {x}");
+        // The plate is tilted: without friction it pushes along y too.
+        assert!(y.abs() < 0.5 * x, "{y}");
+    }
+}
+
+#[test]
+fn a_soft_plate_shares_the_overlap_with_the_shaft() {
+    let shaft = Shaft::biotact(Biotact::Middle);
+    let modes = shaft.modes(8).unwrap();
+    // A plate as stiff as the shaft, in series with it: about half.
+    let surface = Surface {
+        stiffness_n_m: 1.0 / modes.tip_m_n,
+        ..frictionless()
+    };
+    let [hard, _] = settled(shaft, frictionless(), 0.5);
+    let [soft, _] = settled(shaft, surface, 0.5);
+    // The shaft's share of the gap along the normal: cos² of its inclination.
+    let across = 1.0 - (30.0_f64.to_radians().sin() * 20.0_f64.to_radians().cos()).powi(2);
+    let expected = across / (across + 1.0);
+    assert!((soft / hard / expected - 1.0).abs() < 0.03, "{soft} {hard}");
+}
+
+#[test]
+fn a_free_whisker_reads_nothing_at_rest() {
+    let free = Head::free(2, 1);
+    let mut plant = Elastic::new(free, quiet(Shaft::floor_robot()), 1).unwrap();
+    for _ in 0..100 {
+        plant.advance(&[120.0, 20.0], TICK_S);
+    }
+    assert_eq!(
+        [plant.deflection(0, 0), plant.deflection(1, 0)],
+        [[0.0; 2]; 2]
+    );
+}
+
+/// Readings of whiskers that whisk against a texture.
+fn readings(texture: Texture, whiskers: usize, seed: u64) -> Vec<Vec<[f64; 2]>> {
+    let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+    let mut plant = Elastic::new(head(whiskers), settings, seed).unwrap();
+    plant.present(texture);
+    let mut all = vec![Vec::new(); whiskers];
+    for n in 0..2000 {
+        let angle = 95.0 - 12.0 * (f64::from(n) * TICK_S * TAU * 2.0).cos();
+        plant.advance(&vec![angle; whiskers], TICK_S);
+        for (w, one) in all.iter_mut().enumerate() {
+            one.push(plant.deflection(0, w));
+        }
+    }
+    all
+}
+
+#[test]
+fn the_seed_decides_everything_for_each_whisker() {
+    let all = readings(Texture::P240, 3, 5);
+    assert_eq!(all, readings(Texture::P240, 3, 5));
+    assert_ne!(all, readings(Texture::P240, 3, 6));
+    assert_eq!(all[0], readings(Texture::P240, 1, 5)[0]);
+    assert_ne!(all[0], all[1]);
+}
+
+#[test]
+fn textures_shake_more_than_smooth_plastic() {
+    let shaking = |texture| {
+        let all = readings(texture, 1, 5);
+        let pairs = all[0]
+            .windows(2)
+            .map(|pair| (pair[1][1] - pair[0][1]).powi(2));
+        pairs.sum::<f64>()
+    };
+    let smooth = shaking(Texture::Smooth);
+    for texture in [Texture::P240, Texture::Carpet] {
+        assert!(shaking(texture) > 1.5 * smooth, "{texture}");
+    }
+}
+
+#[test]
+fn another_presentation_is_another_piece() {
+    let settings = quiet(Shaft::biotact(Biotact::Middle));
+    let mut plant = Elastic::new(head(1), settings, 5).unwrap();
+    plant.present(Texture::P240);
+    let first = plant.piece(0);
+    plant.present(Texture::P240);
+    assert_ne!(first, plant.piece(0));
+    assert_ne!(plant.piece(1), plant.piece(0));
+    assert_eq!(first.grain_m, plant.piece(0).grain_m);
+}
+
+#[test]
+fn bad_settings_are_named() {
+    let shaft = Shaft::floor_robot();
+    let with = |head: Head, change: fn(&mut ElasticSettings)| {
+        let mut settings = ElasticSettings::of(shaft);
+        change(&mut settings);
+        Elastic::new(head, settings, 1).map(|_| ()).err()
+    };
+    let bad = |name| Some(BadPlantSetting(name));
+    assert_eq!(with(head(1), |_| ()), None);
+    assert_eq!(with(head(1), |s| s.shaft.length_m = 2.0), bad("length_m"));
+    assert_eq!(
+        with(head(1), |s| s.facing.slant_deg = 90.0),
+        bad("slant_deg")
+    );
+    assert_eq!(
+        with(head(1), |s| s.noise_codes = f64::NAN),
+        bad("noise_codes")
+    );
+    let stiffness = |stiffness| Head {
+        stiffness,
+        ..head(1)
+    };
+    assert_eq!(with(stiffness(0.0), |_| ()), bad("stiffness"));
+    assert_eq!(with(stiffness(-0.1), |_| ()), bad("stiffness"));
+}
+
+proptest! {
+    /// Whatever the angles and ticks are, readings stay in range.
+    #[test]
+    fn nothing_leaves_the_range(
+        angles in prop::collection::vec(
+            prop_oneof![50.0..150.0, -1e7..1e7, Just(f64::NAN), Just(f64::MAX)], 1..60),
+        tick_s in prop_oneof![Just(5e-3), Just(5e-5), 1e-12..1e3],
+        height_m in prop_oneof![0.0..1e-3, Just(f64::INFINITY), Just(f64::NAN)],
+    ) {
+        let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+        let mut plant = Elastic::new(head(2), settings, 1).unwrap();
+        plant.present_surface(Surface { height_m, ..Surface::of(Material::Tarmac) });
+        for angle in angles {
+            plant.advance(&[angle], tick_s);
+            let [x, y] = plant.deflection(0, 0);
+            prop_assert!((-1.0..=1.0).contains(&x) && (-1.0..=1.0).contains(&y), "{x} {y}");
+            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never told where it is");
+        }
+    }
+}
