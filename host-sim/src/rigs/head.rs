@@ -182,7 +182,7 @@ impl Head {
 
 #[cfg(test)]
 mod tests {
-    use super::{EACH, Head};
+    use super::Head;
     use crate::experiment::paper::biotact::{DISTANCES_MM, WHISKERS};
     use crate::rigs::read::{Rig, parse};
     use crate::rigs::vector::{add, cross, dot};
@@ -221,11 +221,11 @@ mod tests {
     fn every_whisker_touches_the_surface_at_every_distance_when_protracted() {
         let rig = rig();
         for distance in DISTANCES_MM {
-            for whisker in 0..EACH {
+            for (whisker, (length_mm, _)) in WHISKERS.into_iter().enumerate() {
                 let reach = |theta: f64| {
                     let pose = rig.pose(0, whisker, theta);
                     let shaft = cross(pose.x, pose.y);
-                    add(pose.base_m, WHISKERS[whisker].0 / 1000.0, shaft)[0]
+                    add(pose.base_m, length_mm / 1000.0, shaft)[0]
                 };
                 assert!(reach(122.9) > distance / 1000.0, "{distance} {whisker}");
                 assert!(reach(90.0) < 0.0);
