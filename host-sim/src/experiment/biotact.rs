@@ -169,9 +169,9 @@ fn why(request: &Request, visits: &Visits, most: usize) -> Result<String, Error>
          the whole range, smoothed over 5, are coarse for that: the range of y is {:.0} codes \
          over one whisk of each condition and {:.0} over {most}, its smoothing {:.0} codes, the \
          noise 4. Whisks repeat themselves: x differs between whisks by little more than that \
-         noise (see the spread below), as motors here follow without error, so that one training \
-         whisk teaches as much as many and more repeatable contacts, the paper's explanation of \
-         RCP's gain, have nothing to add",
+         noise (see the spread below), as motors here follow without error. Likely, but not \
+         varied: one training whisk then teaches as much as many, and more repeatable contacts, \
+         the paper's explanation of RCP's gain, have little to add",
         axes[0],
         axes[1],
         width(1),
@@ -184,7 +184,10 @@ fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
     let bayes = |strategy, count| hits.at(Method::Bayes, Task::Both, strategy, count);
     for count in [1, 2] {
         section.claim(
-            format_args!("BIOTACT: after {count} training whisk(s) RCP7 beats unmodulated (naive Bayes, both)"),
+            format_args!(
+                "BIOTACT: after {count} training whisk(s) RCP7 beats unmodulated (naive \
+            Bayes, both)"
+            ),
             "RCP7 the highest",
             format_args!(
                 "unmodulated {:.1}, RCP7 {:.1}, RCP9 {:.1} %",
@@ -212,7 +215,8 @@ fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
     let distance = hits.at(Method::Bayes, Task::Distance, 0, most);
     let product = texture * distance / 100.0;
     section.claim(
-        "BIOTACT: the joint hit rate is about the product of texture's and distance's (naive Bayes, unmodulated)",
+        "BIOTACT: the joint hit rate is about the product of texture's and distance's (naive \
+        Bayes, unmodulated)",
         "about equal",
         format_args!("{joint:.1} against {texture:.1} x {distance:.1} = {product:.1} %"),
         (joint - product).abs() < 10.0,

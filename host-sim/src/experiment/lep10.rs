@@ -182,8 +182,8 @@ fn claims(section: &mut Section, means: &[f64; 5], knee: [f64; 3]) {
             100.0 * share
         ),
         share > 0.5,
-        "the whisker follows features of 2 to 8 mm at some 8 cm/s: 100 ms hold few of them, so that \
-         samples repeat each other and longer windows go on to help",
+        "the whisker follows features of 2 to 8 mm at some 8 cm/s: 100 ms hold few of them, and \
+        longer windows go on to help (LEP12 below: a faster robot does better)",
     );
     section.claim(
         "LEP10: the hit rate falls from artificial training to natural validation",

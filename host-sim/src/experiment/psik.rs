@@ -238,10 +238,11 @@ fn why(request: &Request) -> Result<String, Error> {
     let step_mm = 1000.0 * 0.025 / f64::from((1_u32 << (request.rigs.pad.bits - 1)) - 1);
     Ok(format!(
         "a step of a reading is {step_mm:.2} mm of the tip's way, more than the heights of the \
-         coarsest paper (0.14 mm), so that only stick and slip are felt, and those of neighbouring \
-         grades differ by less than they scatter from sweep to sweep. With 30 sweeps of each to \
-         learn from, all vibrissae tell {plain:.0} %; with readings of 14 bits {finer:.0} %; at a \
-         distance that never differs {fixed:.0} %"
+        coarsest paper (0.14 mm). With 30 sweeps of each to \
+         learn from, all vibrissae tell {plain:.0} %; with readings of 14 bits {finer:.0} %; at \
+         a distance that never differs {fixed:.0} %. None of these is near the paper's. What \
+         remains, and was not varied, is the physics of stick and slip, whose IMP scatters from \
+         sweep to sweep by more than neighbouring grades differ"
     ))
 }
 

@@ -180,9 +180,8 @@ pub(super) fn section(
             "{:.0} % of whisks at the strong gain ({:.1} contacts a whisk), at most {gentle:.0} % otherwise",
             strong.biphasic, strong.contacts
         ),
-        strong.biphasic > 50.0 && gentle < 5.0,
-        "the contact of a real whisker grows with overlap through the shaft's compliance and H50, \
-         where eq. 11 has it at once; RCP settles at a light touch before it overshoots",
+        strong.biphasic > 50.0 && strong.contacts > 1.5 && gentle < 5.0,
+        "protraction rises again within the whisk, but too weakly to reach the surface a second time; why was not varied",
     );
     time_histories(section, request, &all)
 }
