@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::emulate::Task;
-use crate::run::{Fault, cargo, run};
+use crate::run::{Fault, cargo, run, target};
 use crate::{cost, docs, emulate, firmware, size};
 
 /// Everything.
@@ -41,5 +41,10 @@ pub(crate) fn all() -> Result<(), Fault> {
     // What the README tells a newcomer to run: the main job (its output and its
     // files are what the generated documents must hold), then all tests.
     docs::all(true)?;
+    // Every experiment of the papers, cut short.
+    let experiments = ["run", "--release", "--quiet", "-p", "host-sim", "--"];
+    let quick = ["--quiet", "experiment", "all", "--quick", "--out"];
+    let out = target().join("experiments");
+    run(cargo(&experiments).args(quick).arg(out))?;
     run(&mut cargo(&["test"]))
 }
