@@ -43,6 +43,12 @@ impl Shape {
         // A mode that is missing has no shape; any frequency does for it.
         let omega = core::array::from_fn(|k| of(k).map_or(1.0, |m| m.omega_rad_s));
         let tip: [f64; MODES] = core::array::from_fn(|k| part(k, |m| m.tip));
+        // Static response of modes that were solved and are not kept.
+        let rest = |of: fn(&super::Mode) -> f64| -> f64 {
+            let more = modes.modes.iter().skip(MODES);
+            more.map(|m| m.tip * of(m) / (m.omega_rad_s * m.omega_rad_s))
+                .sum()
+        };
         Self {
             length_m: shaft.length_m,
             tip_radius_m: shaft.tip_diameter_m / 2.0,
@@ -52,8 +58,8 @@ impl Shape {
             base: core::array::from_fn(|k| part(k, |m| m.base_rotation)),
             drive: core::array::from_fn(|k| [part(k, |m| m.translation), part(k, |m| m.rotation)]),
             shortening: modes.shortening_m,
-            residual_tip: modes.residual_tip_m_n,
-            residual_base: modes.residual_base_rad_n,
+            residual_tip: modes.residual_tip_m_n + rest(|m| m.tip),
+            residual_base: modes.residual_base_rad_n + rest(|m| m.base_rotation),
             axial: 1.0 / shaft.follicle.axial_n_m,
             mobility: tip.iter().map(|t| t * t).sum::<f64>(),
             highest_rad_s: omega.iter().copied().fold(0.0, f64::max),

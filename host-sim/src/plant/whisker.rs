@@ -7,8 +7,8 @@
 //! - *piece*: of a surface; every presentation shows another.
 //!
 //! The physics is [`TouchingWhisker`]; here are its scale and its surfaces. The
-//! sensor's full scale is such that a hard, smooth plate makes the contact
-//! signal grow by σ_x a degree of overlap at first touch, as BIOTACT eq. 11 has
+//! sensor's full scale is such that a hard plate that holds the tip makes the
+//! contact signal grow by σ_x a degree of overlap at first touch, as BIOTACT eq. 11 has
 //! it: a tip that is held while the base turns by δ is bent by L δ, which turns
 //! the base against its follicle by r/c L δ, with the static rotation r (rad/N)
 //! and deflection c (m/N) for a force on the tip. Not modelled: torque back on
@@ -150,7 +150,8 @@ impl Elastic {
 
     /// The piece that a whisker touches.
     fn piece(&self, whisker: u64) -> Surface {
-        let seed = apart(self.seed ^ 0x5EED, self.pieces);
+        // Inverted: other seeds than those of the sensors' noise.
+        let seed = apart(!self.seed, self.pieces);
         self.surface.piece(apart(seed, whisker.rotate_left(32)))
     }
 }

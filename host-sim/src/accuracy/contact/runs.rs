@@ -33,9 +33,10 @@ pub(in crate::accuracy) fn surfaces() -> [Named; 8] {
     [
         ("flat", of(Material::Flat)),
         (
-            "flat, undamped",
+            "flat, no friction",
             Surface {
-                damping: 0.0,
+                friction: 0.0,
+                hold: 0.0,
                 ..of(Material::Flat)
             },
         ),

@@ -36,7 +36,11 @@ fn frictionless() -> Surface {
 
 /// What a whisker at rest at this overlap says, in the mean over its ringing.
 fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
-    let mut plant = Elastic::new(head(1), quiet(shaft), 7).unwrap();
+    let steep = Head {
+        stiffness: 1.0,
+        ..head(1)
+    };
+    let mut plant = Elastic::new(steep, quiet(shaft), 7).unwrap();
     plant.present_surface(surface);
     let ticks = 8000;
     let mut mean = [0.0; 2];
@@ -52,6 +56,12 @@ fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
     mean
 }
 
+/// Squares of the cosines between a plate's normal and the sensor's x and y.
+fn cosines() -> [f64; 2] {
+    let (slant, tilt) = (30.0_f64.to_radians(), 20.0_f64.to_radians());
+    [(slant.cos() * tilt.cos()).powi(2), tilt.sin().powi(2)]
+}
+
 #[test]
 fn at_first_touch_a_hard_plate_reads_as_in_equation_11() {
     for shaft in [
@@ -59,10 +69,21 @@ fn at_first_touch_a_hard_plate_reads_as_in_equation_11() {
         Shaft::biotact(Biotact::Rear),
         Shaft::floor_robot(),
     ] {
-        let [x, y] = settled(shaft, frictionless(), 0.5);
-        assert!((x / 0.05 - 1.0).abs() < 0.03, "{shaft:?} {x}");
-        // The plate is tilted: without friction it pushes along y too.
-        assert!(y.abs() < 0.5 * x, "{y}");
+        // The plate is tilted: without friction the tip gives way along y too,
+        // as much as its stiffness there, which is the same, makes it.
+        let [x, y] = settled(shaft, frictionless(), 0.1);
+        let [along, across] = cosines();
+        let expected = 0.1 * along / (along + across);
+        assert!((x / expected - 1.0).abs() < 0.03, "{shaft:?} {x}");
+        assert!((y / x + (across / along).sqrt()).abs() < 0.02, "{y} {x}");
+        // Friction that holds the tip leaves x alone: eq. 11.
+        let held = Surface {
+            hold: 5.0,
+            friction: 5.0,
+            ..frictionless()
+        };
+        let [x, _] = settled(shaft, held, 0.1);
+        assert!((x / 0.1 - 1.0).abs() < 0.03, "{shaft:?} {x}");
     }
 }
 
@@ -70,16 +91,15 @@ fn at_first_touch_a_hard_plate_reads_as_in_equation_11() {
 fn a_soft_plate_shares_the_overlap_with_the_shaft() {
     let shaft = Shaft::biotact(Biotact::Middle);
     let modes = shaft.modes(8).unwrap();
-    // A plate as stiff as the shaft, in series with it: about half.
     let surface = Surface {
-        stiffness_n_m: 1.0 / modes.tip_m_n,
+        stiffness_n_m: 2.0,
         ..frictionless()
     };
-    let [hard, _] = settled(shaft, frictionless(), 0.5);
-    let [soft, _] = settled(shaft, surface, 0.5);
-    // The shaft's share of the gap along the normal: cos² of its inclination.
-    let across = 1.0 - (30.0_f64.to_radians().sin() * 20.0_f64.to_radians().cos()).powi(2);
-    let expected = across / (across + 1.0);
+    let [hard, _] = settled(shaft, frictionless(), 0.1);
+    let [soft, _] = settled(shaft, surface, 0.1);
+    // In series along the normal.
+    let give = modes.tip_m_n * cosines().iter().sum::<f64>();
+    let expected = give / (give + 0.5);
     assert!((soft / hard / expected - 1.0).abs() < 0.03, "{soft} {hard}");
 }
 
