@@ -1,4 +1,5 @@
-//! One tick of a whole module: gates, oscillators, muscles, in this order.
+//! One tick of a whole module: RCP and oscillators by sides, then CIA and
+//! muscles by whiskers.
 
 use crate::gate::{self, Gate};
 use crate::muscle;
@@ -81,7 +82,7 @@ impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
 
 impl<R: Real> Config<R> {
     /// One tick. `contact` is π of each side (eq. 9), from the angle before
-    /// this tick: z and g follow it first, then oscillators and muscles move.
+    /// this tick: a muscle moves with the z and g that follow it.
     ///
     /// Whatever comes in, NaN included, the state stays finite and in its
     /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
@@ -96,17 +97,9 @@ impl<R: Real> Config<R> {
                 rcp.step(z, pi);
             }
         }
-        if let Some(cia) = &self.cia {
-            // No comparison with zero where there is one side.
-            let stronger = contact.into_iter().reduce(|zeta, pi| pi.max(zeta));
-            let zeta = stronger.unwrap_or(R::ZERO);
-            // Loop in loop: a flattened iterator is not unrolled.
-            for side in &mut state.whiskers {
-                for whisker in side {
-                    cia.step(&mut whisker.lift, whisker.nominal, zeta);
-                }
-            }
-        }
+        // No comparison with zero where there is one side.
+        let stronger = contact.into_iter().reduce(|zeta, pi| pi.max(zeta));
+        let zeta = stronger.unwrap_or(R::ZERO);
 
         let noise = self
             .noise
@@ -121,6 +114,9 @@ impl<R: Real> Config<R> {
             let after = drives[side].drive();
             let open = self.peak_gain * (R::ONE - state.z[side].mean);
             for whisker in whiskers {
+                if let Some(cia) = &self.cia {
+                    cia.step(&mut whisker.lift, whisker.nominal, zeta);
+                }
                 let gain = open * (whisker.nominal + whisker.lift.mean);
                 self.muscle.step(&mut whisker.muscle, gain, before, after);
             }

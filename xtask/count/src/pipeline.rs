@@ -9,13 +9,33 @@ use crate::format::Format;
 use crate::listener::{Listener, open_9};
 use crate::samples::frame;
 
-/// One whisker's share.
+/// One whisker's share: sensor, filters, motor and classifier.
 #[derive(Debug)]
-struct Channel<R: Format> {
+pub struct Channel<R: Format> {
     filters: [filter::State<R>; 2],
     pd: pd::State<R>,
     listener: Listener<9>,
     counts: i32,
+}
+
+impl<R: Format> Channel<R> {
+    /// Takes a frame in: what the classifier says, and the contact or
+    /// `strongest`, whichever is more.
+    #[inline]
+    pub fn listen(&mut self, bytes: &[u8; 8], strongest: R) -> (u32, R) {
+        let Ok(frame) = Decoder::new().decode(bytes) else {
+            return (1 << 31, strongest);
+        };
+        let words = [frame.first(), frame.second()];
+        let [x, y] = words.map(|word| R::from_code(word.signed14().max(-8191)));
+        let [on_x, on_y] = &mut self.filters;
+        let felt = [R::H50.process(on_x, x), R::H50.process(on_y, y)];
+        let strongest = felt
+            .into_iter()
+            .fold(strongest, |most, one| one.abs().max(most));
+        let codes = words.map(|word| i32::from(word.signed14()) + 8192);
+        (self.listener.push(codes), strongest)
+    }
 }
 
 /// `S` sides with `N` whiskers each.
@@ -45,38 +65,58 @@ impl<R: Format, const S: usize, const N: usize> Pipeline<R, S, N> {
 
     /// One tick; whisker n has frame `call` + n.
     #[inline]
-    pub fn tick(&mut self, call: u32) {
+    pub fn tick(&mut self, call: u32) -> u32 {
+        self.tick_by(call, Channel::listen, whisk, follow)
+    }
+
+    /// The same by functions that may not be inlined: in one long function the
+    /// addresses of many whiskers are beyond what an instruction reaches.
+    #[inline]
+    pub fn tick_by(
+        &mut self,
+        call: u32,
+        listen: impl Fn(&mut Channel<R>, &[u8; 8], R) -> (u32, R),
+        whisk: impl Fn(&mut State<R, S, N>, [R; S]),
+        follow: impl Fn(&mut [[Channel<R>; N]; S], &State<R, S, N>) -> u32,
+    ) -> u32 {
         let mut contact = [R::ZERO; S];
         for (side, channels) in self.channels.iter_mut().enumerate() {
             for (n, channel) in channels.iter_mut().enumerate() {
                 let bytes = frame(call + (side * N + n) as u32);
-                let Ok(frame) = Decoder::new().decode(bytes) else {
-                    self.said |= 1 << 31;
-                    continue;
-                };
-                let words = [frame.first(), frame.second()];
-                let [x, y] = words.map(|word| R::from_code(word.signed14().max(-8191)));
-                let [on_x, on_y] = &mut channel.filters;
-                let felt = [R::H50.process(on_x, x), R::H50.process(on_y, y)];
-                for one in felt {
-                    contact[side] = one.abs().max(contact[side]);
-                }
-                let codes = words.map(|word| i32::from(word.signed14()) + 8192);
-                self.said = self.said.wrapping_add(channel.listener.push(codes));
+                let (said, strongest) = listen(channel, bytes, contact[side]);
+                self.said = self.said.wrapping_add(said);
+                contact[side] = strongest;
             }
         }
-        R::WHISKING.step(&mut self.state, contact);
-        for (channels, whiskers) in self.channels.iter_mut().zip(&self.state.whiskers) {
-            for (channel, whisker) in channels.iter_mut().zip(whiskers) {
-                channel.counts += 2;
-                let duty = R::PD.step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
-                self.said = self.said.wrapping_add(duty.magnitude().into());
-            }
-        }
-    }
-
-    /// What came of it.
-    pub const fn said(&self) -> u32 {
+        whisk(&mut self.state, contact);
+        let duties = follow(&mut self.channels, &self.state);
+        self.said = self.said.wrapping_add(duties);
         self.said
     }
+}
+
+/// Moves the whiskers.
+#[inline]
+pub fn whisk<R: Format, const S: usize, const N: usize>(
+    state: &mut State<R, S, N>,
+    contact: [R; S],
+) {
+    R::WHISKING.step(state, contact);
+}
+
+/// Lets the motors follow; the sum of the duties.
+#[inline]
+pub fn follow<R: Format, const S: usize, const N: usize>(
+    channels: &mut [[Channel<R>; N]; S],
+    state: &State<R, S, N>,
+) -> u32 {
+    let mut said = 0_u32;
+    for (channels, whiskers) in channels.iter_mut().zip(&state.whiskers) {
+        for (channel, whisker) in channels.iter_mut().zip(whiskers) {
+            channel.counts += 2;
+            let duty = R::PD.step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
+            said = said.wrapping_add(duty.magnitude().into());
+        }
+    }
+    said
 }

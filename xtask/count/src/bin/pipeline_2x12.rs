@@ -3,7 +3,11 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(not(machine = "microbit"))]
-use count::{each_format, format::Format, kernel, pipeline::Pipeline};
+use count::pipeline::{self, Channel, Pipeline};
+#[cfg(not(machine = "microbit"))]
+use count::{each_format, format::Format, kernel};
+#[cfg(not(machine = "microbit"))]
+use whisking::State;
 
 count::program!(kernels);
 
@@ -17,8 +21,26 @@ fn kernels() {
 fn tick<R: Format>() {
     kernel!(R: "computation of 24 whiskers",
         (call: u32, pipeline: &mut Pipeline<R, 2, 12>) -> u32 {
-            pipeline.tick(call);
-            pipeline.said()
+            pipeline.tick_by(call, listen, whisk, follow)
         },
         |call| call, Pipeline::new(&R::START_24));
+}
+
+/// Not inlined, as the next two: each counts its addresses from its own part.
+#[cfg(not(machine = "microbit"))]
+#[inline(never)]
+fn listen<R: Format>(channel: &mut Channel<R>, bytes: &[u8; 8], strongest: R) -> (u32, R) {
+    channel.listen(bytes, strongest)
+}
+
+#[cfg(not(machine = "microbit"))]
+#[inline(never)]
+fn whisk<R: Format>(state: &mut State<R, 2, 12>, contact: [R; 2]) {
+    pipeline::whisk(state, contact);
+}
+
+#[cfg(not(machine = "microbit"))]
+#[inline(never)]
+fn follow<R: Format>(channels: &mut [[Channel<R>; 12]; 2], state: &State<R, 2, 12>) -> u32 {
+    pipeline::follow(channels, state)
 }
