@@ -2,6 +2,7 @@
 //! more and more arcs; and two corridors told apart on the way through.
 
 mod corridor;
+mod why;
 
 use rayon::prelude::*;
 use tactile::mlp::Network;
@@ -14,11 +15,10 @@ use super::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use super::picture::{Curve, FOLDER, linear, panel, percent};
 use super::record::pad::{PAPERS, place};
 use super::recording::{Recording, Recordings};
-use super::request::{Name, Request, Scale};
+use super::request::Request;
 use crate::Error;
 use crate::accuracy::chart::{Mark, draw};
-use crate::progress::Verbosity;
-use crate::rigs::{Pad, seed_of};
+use crate::rigs::seed_of;
 
 /// Names of the sandpapers, from coarse to fine.
 const NAMES: [&str; PAPERS] = ["P40", "P50", "P60", "P80", "P100", "P120", "P150", "P180"];
@@ -153,7 +153,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         },
     );
     figures(&mut section, &more, &single, &borders)?;
-    let why = why(request)?;
+    let why = why::section(&mut section, request, &sweeps, &borders)?;
     claims(&mut section, &more, &why);
     section.score("IMP and network 33–33–8", "eight sandpapers", hit(all));
     corridor::section(&mut section, request, recordings)?;
@@ -212,38 +212,6 @@ fn figures(
     let header = format!("arc | {} | mean", NAMES.join(" | "));
     section.page.table(&header, rows);
     Ok(())
-}
-
-/// Why papers are told no better, measured on fewer sweeps: what finer readings
-/// and a distance that is quite fixed change.
-fn why(request: &Request) -> Result<String, Error> {
-    let hit_with = |change: &dyn Fn(&mut Pad)| -> Result<f64, Error> {
-        let mut other = request.clone();
-        other.names = vec![Name::Psikharpax];
-        other.scale = Scale { quick: true };
-        change(&mut other.rigs.pad);
-        let mut jobs = other.jobs();
-        jobs.retain(|job| job.dataset == Dataset::Pad);
-        let recordings = Recordings::make(&other, &jobs, Verbosity::Quiet)?;
-        let sweeps = Sweeps::new(&other, &recordings.of(Dataset::Pad));
-        Ok(hit(&sweeps.score(
-            0,
-            VIBRISSAE,
-            seed_of(request.seed, &[34]),
-        )?))
-    };
-    let plain = hit_with(&|_| ())?;
-    let finer = hit_with(&|pad| pad.bits = 14)?;
-    let fixed = hit_with(&|pad| pad.distance_spread_m = 0.0)?;
-    let step_mm = 1000.0 * 0.025 / f64::from((1_u32 << (request.rigs.pad.bits - 1)) - 1);
-    Ok(format!(
-        "a step of a reading is {step_mm:.2} mm of the tip's way, more than the heights of the \
-        coarsest paper (0.14 mm). With 30 sweeps of each to \
-         learn from, all vibrissae tell {plain:.0} %; with readings of 14 bits {finer:.0} %; at \
-         a distance that never differs {fixed:.0} %. None of these is near the paper's. What \
-         remains, and was not varied, is the physics of stick and slip, whose IMP scatters from \
-         sweep to sweep by more than neighbouring grades differ"
-    ))
 }
 
 fn claims(section: &mut Section, more: &[Confusion], why: &str) {

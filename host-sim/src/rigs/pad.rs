@@ -36,6 +36,7 @@ pub struct Layout {
     pub arc_step_deg: f64,
     pub row_step_deg: f64,
     pub centre_deg: f64,
+    pub tip_diameter_m: f64,
 }
 
 /// One vibrissa of a pad.
@@ -58,6 +59,7 @@ impl Layout {
         within("arc_step_deg", self.arc_step_deg, 0.0, 20.0)?;
         within("row_step_deg", self.row_step_deg, 0.0, 20.0)?;
         within("centre_deg", self.centre_deg, -180.0, 180.0)?;
+        within("tip_diameter_m", self.tip_diameter_m, 1e-5, 2e-3)?;
         Ok(())
     }
 

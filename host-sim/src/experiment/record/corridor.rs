@@ -67,7 +67,11 @@ impl Side {
         let mut whiskers = Vec::with_capacity(VIBRISSAE);
         for (n, vibrissa) in rig.layout.vibrissae().into_iter().enumerate() {
             let seed = seed_of(seed, &[1, n as u64]);
-            let whisker = whiskers::vibrissa(vibrissa.arc, rig.full_scale_rad, seed)?;
+            let whisker = whiskers::vibrissa(
+                (vibrissa.arc, rig.layout.tip_diameter_m),
+                rig.full_scale_rad,
+                seed,
+            )?;
             whiskers.push((vibrissa, whisker));
         }
         Ok(Self {

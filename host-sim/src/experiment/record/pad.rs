@@ -63,7 +63,11 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let mut codes = Vec::with_capacity(VIBRISSAE);
     for (n, vibrissa) in rig.layout.vibrissae().iter().enumerate() {
         let seed = seed_of(seed, &[1, n as u64]);
-        let mut whisker = whiskers::vibrissa(vibrissa.arc, rig.full_scale_rad, seed)?;
+        let mut whisker = whiskers::vibrissa(
+            (vibrissa.arc, rig.layout.tip_diameter_m),
+            rig.full_scale_rad,
+            seed,
+        )?;
         let ticks = (0..rig.ticks()).map(|tick| {
             let pose = panned(&vibrissa.pose, rig.pan(tick));
             whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);

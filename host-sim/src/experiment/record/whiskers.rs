@@ -1,6 +1,7 @@
 //! Which whisker, sensor and surface of the physics each rig has.
 
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::refused;
 use crate::Error;
@@ -71,28 +72,38 @@ pub(crate) fn sandpaper(number: usize) -> Surface {
     Surface::of(Material::Sandpaper(grade))
 }
 
-/// Shafts and modes of the eight arcs; solving modes takes milliseconds, and
-/// there are a hundred thousand vibrissae to make.
-static ARC_SHAFTS: OnceLock<Vec<(Shaft, Modes)>> = OnceLock::new();
+/// Shafts and modes of the eight arcs.
+type Arcs = Arc<Vec<(Shaft, Modes)>>;
+
+/// Those of each diameter of the tips that was asked for, by its bits: solving
+/// modes takes milliseconds, and there are a hundred thousand vibrissae to make.
+static ARC_SHAFTS: Mutex<BTreeMap<u64, Arcs>> = Mutex::new(BTreeMap::new());
 
 /// Modes of a vibrissa.
 const MODES: usize = 3;
 
-/// A vibrissa of an arc, from 0. The sensor of the longest has the gain that is
-/// given; the same push aside turns shorter ones the more, and their sensors
-/// have the less.
+fn arcs(tip_diameter_m: f64) -> Arcs {
+    let of = |arc| {
+        let mut shaft = Shaft::psikharpax(arc);
+        shaft.tip_diameter_m = tip_diameter_m.min(shaft.hub_diameter_m);
+        shaft.modes(MODES).map(|modes| (shaft, modes))
+    };
+    // What another thread had to leave behind is whole: maps are only added to.
+    let mut known = ARC_SHAFTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let new = || Arc::new((1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect());
+    let found = known.entry(tip_diameter_m.to_bits()).or_insert_with(new);
+    Arc::clone(found)
+}
+
+/// A vibrissa of an arc, from 0, with the diameter of its tip. The sensor of the
+/// longest has the gain that is given; the same push aside turns shorter ones the
+/// more, and their sensors have the less.
 pub(crate) fn vibrissa(
-    arc: usize,
+    (arc, tip_diameter_m): (usize, f64),
     full_scale_rad: f64,
     seed: u64,
 ) -> Result<TouchingWhisker, Error> {
-    let shafts = ARC_SHAFTS.get_or_init(|| {
-        let of = |arc| {
-            let shaft = Shaft::psikharpax(arc);
-            shaft.modes(MODES).map(|modes| (shaft, modes))
-        };
-        (1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect()
-    });
+    let shafts = arcs(tip_diameter_m);
     let (shaft, modes) = shafts.get(arc).ok_or_else(|| refused("no such arc"))?;
     let longest = shafts
         .first()
