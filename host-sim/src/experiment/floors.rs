@@ -10,7 +10,7 @@ use super::dataset::Dataset;
 use super::paper::lep10::FLOORS;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings};
-use super::request::Request;
+use super::request::{Request, Scale};
 use crate::Error;
 use crate::rigs::Motion;
 
@@ -41,17 +41,30 @@ pub(super) enum Half {
 #[derive(Debug)]
 pub(super) struct Floors<'a> {
     recordings: Vec<&'a Recording>,
-    trials: usize,
+    scale: Scale,
+    /// Trials of natural motion that are used.
+    natural: usize,
     /// Samples a second.
     pub(super) rate_hz: f64,
 }
 
 impl<'a> Floors<'a> {
+    /// As LEP12 has them, with as many trials of natural motion as of each
+    /// rotation.
     pub(super) fn new(request: &Request, recordings: &'a Recordings) -> Self {
         Self {
             recordings: recordings.of(Dataset::Floor),
-            trials: request.scale.trials(),
+            scale: request.scale,
+            natural: request.scale.trials(),
             rate_hz: request.rigs.floor.tick_hz,
+        }
+    }
+
+    /// As LEP10 has them, with all trials of natural motion.
+    pub(super) fn with_all(request: &Request, recordings: &'a Recordings) -> Self {
+        Self {
+            natural: request.scale.natural_trials(),
+            ..Self::new(request, recordings)
         }
     }
 
@@ -60,8 +73,12 @@ impl<'a> Floors<'a> {
         let mut streams = Vec::new();
         for floor in 0..FLOORS.len() {
             for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
-                for trial in 0..self.trials {
-                    let number = number(self.trials, floor, *motion, trial);
+                let trials = match motion {
+                    Motion::Autonomous => self.natural,
+                    _ => self.scale.trials(),
+                };
+                for trial in 0..trials {
+                    let number = number(self.scale, floor, *motion, trial);
                     let Some(recording) = self.recordings.get(number) else {
                         continue;
                     };

@@ -97,7 +97,8 @@ impl Scale {
         if self.quick { quick } else { full }
     }
 
-    /// Floor robot: trials of each motion (LEP12: 4).
+    /// Floor robot: trials of each rotation (LEP10 and LEP12: 4); of natural
+    /// motion there are twice as many (LEP10 section III-D).
     pub const fn trials(self) -> usize {
         self.pick(4, 2)
     }
@@ -105,6 +106,11 @@ impl Scale {
     /// Whisking head: whisks of each condition (BIOTACT: 12).
     pub const fn whisks(self) -> usize {
         self.pick(12, 8)
+    }
+
+    /// Trials of natural motion.
+    pub const fn natural_trials(self) -> usize {
+        2 * self.trials()
     }
 
     /// XY table: every how-manieth angle and speed is used (POSE: all).

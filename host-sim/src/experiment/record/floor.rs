@@ -1,4 +1,5 @@
-//! Trials of the floor robot: four floors, three motions, each some times.
+//! Trials of the floor robot: four floors, three motions, each some times:
+//! natural motion twice as often as either rotation.
 
 use super::refused;
 use super::whiskers;
@@ -16,24 +17,34 @@ pub(crate) const MOTIONS: [Motion; 3] =
 /// How long the whisker is dragged before a trial begins, s.
 const LEAD_S: f64 = 0.5;
 
+/// Trials of one floor.
+fn each(scale: Scale) -> usize {
+    (MOTIONS.len() - 1) * scale.trials() + scale.natural_trials()
+}
+
 /// How many trials there are.
 pub(crate) fn jobs(scale: Scale) -> usize {
-    FLOORS.len() * MOTIONS.len() * scale.trials()
+    FLOORS.len() * each(scale)
 }
 
 /// The job of a trial: trials of a motion together, motions of a floor together.
-pub(crate) fn number(trials: usize, floor: usize, motion: Motion, trial: usize) -> usize {
+pub(crate) fn number(scale: Scale, floor: usize, motion: Motion, trial: usize) -> usize {
     let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
-    (floor * MOTIONS.len() + place) * trials + trial
+    floor * each(scale) + place * scale.trials() + trial
+}
+
+/// The floor and motion of a job.
+fn place(scale: Scale, job: usize) -> (usize, Motion) {
+    let each = each(scale).max(1);
+    let motion = job % each / scale.trials().max(1);
+    let last = MOTIONS.len() - 1;
+    let motion = MOTIONS.get(motion.min(last)).copied();
+    (job / each, motion.unwrap_or(Motion::Autonomous))
 }
 
 /// Records a trial: codes of x and y.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
-    let trials = request.scale.trials().max(1);
-    let condition = job / trials;
-    let motion = MOTIONS[condition % MOTIONS.len()];
-    let floor = condition / MOTIONS.len();
-
+    let (floor, motion) = place(request.scale, job);
     let rig = &request.rigs.floor;
     let shaft = Shaft::floor_robot();
     let sensor = whiskers::sensor(rig.full_scale_rad);
@@ -60,4 +71,28 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         }
     }
     Ok(Recording::from_codes(2, &codes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOTIONS, jobs, number, place};
+    use crate::experiment::Scale;
+    use crate::rigs::Motion;
+
+    #[test]
+    fn every_trial_has_a_job_and_natural_motion_has_eight() {
+        let scale = Scale { quick: false };
+        let mut next = 0;
+        for floor in 0..4 {
+            for motion in MOTIONS {
+                let trials = if motion == Motion::Autonomous { 8 } else { 4 };
+                for trial in 0..trials {
+                    assert_eq!(number(scale, floor, motion, trial), next);
+                    assert_eq!(place(scale, next), (floor, motion));
+                    next += 1;
+                }
+            }
+        }
+        assert_eq!(jobs(scale), next);
+    }
 }
