@@ -27,7 +27,7 @@ mod gates;
 mod host;
 mod integrators;
 mod long_run;
-mod misprints;
+pub(crate) mod misprints;
 pub(crate) mod page;
 mod reference;
 mod schemes;

@@ -19,6 +19,7 @@ mod dataset;
 mod floors;
 mod lep10;
 mod lep12;
+mod matrix;
 mod page;
 pub mod paper;
 mod part;

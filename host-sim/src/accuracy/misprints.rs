@@ -5,7 +5,7 @@
 //! both sides started at ψ = (1, 0); measured over the last five whisks of ten
 //! seconds.
 
-mod figures;
+pub(crate) mod figures;
 
 use whisking::{Integrator, State};
 

@@ -3,6 +3,7 @@
 //! sum of squares after one to eight training whisks.
 
 mod movement;
+mod patterns;
 mod whisks;
 
 use rayon::prelude::*;
@@ -96,6 +97,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         request.scale.whisks(),
         SAID.join("; ")
     ));
+    patterns::section(&mut section)?;
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {

@@ -9,12 +9,12 @@ use crate::accuracy::schemes::refused;
 
 const RUN_TICKS: usize = 20_000;
 /// Obstacles beside the head, degrees, and σ_x a degree (BIOTACT Fig. 7).
-const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
+pub(crate) const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
 const STIFFNESS: f64 = 0.1;
 
 /// One formula as printed; the others as read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Printed {
+pub(crate) enum Printed {
     Nothing,
     /// Eq. 7: m = f_W²/100.
     Mass,
@@ -26,11 +26,11 @@ pub(super) enum Printed {
 
 /// What a figure of the paper sets.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Figure {
-    gain: f64,
-    rcp: Option<GateSettings>,
-    cia: Option<GateSettings>,
-    obstacles: bool,
+pub(crate) struct Figure {
+    pub(crate) gain: f64,
+    pub(crate) rcp: Option<GateSettings>,
+    pub(crate) cia: Option<GateSettings>,
+    pub(crate) obstacles: bool,
 }
 
 const fn gate(gain: f64, tau_whisks: f64) -> GateSettings {
@@ -40,23 +40,23 @@ const fn gate(gain: f64, tau_whisks: f64) -> GateSettings {
     }
 }
 
-pub(super) const FIG6: Figure = Figure {
+pub(crate) const FIG6: Figure = Figure {
     gain: 2.0,
     rcp: None,
     cia: None,
     obstacles: false,
 };
-pub(super) const FIG7: Figure = Figure {
+pub(crate) const FIG7: Figure = Figure {
     gain: 1.0,
     rcp: Some(gate(0.7, 0.25)),
     cia: None,
     obstacles: true,
 };
-pub(super) const FIG8: Figure = Figure {
+pub(crate) const FIG8: Figure = Figure {
     rcp: Some(gate(2.0, 0.1)),
     ..FIG7
 };
-pub(super) const FIG9: Figure = Figure {
+pub(crate) const FIG9: Figure = Figure {
     cia: Some(gate(0.5, 0.25)),
     ..FIG7
 };
@@ -69,10 +69,10 @@ pub(super) const FREE: Figure = Figure {
 
 /// A tick: θ' in degrees, π and g of both sides.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
-    pub(super) theta_deg: [f64; 2],
-    pub(super) contact: [f64; 2],
-    pub(super) g: [f64; 2],
+pub(crate) struct Row {
+    pub(crate) theta_deg: [f64; 2],
+    pub(crate) contact: [f64; 2],
+    pub(crate) g: [f64; 2],
 }
 
 /// One tick of what lifts g of a whisker above `nominal`; the share of the
@@ -90,7 +90,7 @@ fn excite(cia: &Cia<f64>, lift: &mut Gate<f64>, nominal: f64, zeta: f64, printed
 }
 
 /// Ten seconds of `figure`.
-pub(super) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> {
+pub(crate) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> {
     let settings = Settings {
         tick_hz: TICK_HZ,
         frequency_hz: FREQUENCY_HZ,
