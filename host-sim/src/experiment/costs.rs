@@ -39,7 +39,42 @@ const fn network(inputs: usize, hidden: usize, outputs: usize) -> usize {
     4 * (2 * inputs + hidden * (inputs + 1) + outputs * (hidden + 1))
 }
 
-const FORMS: [Form; 11] = [
+/// Bins of POSE's |DFT| of 6000 samples.
+const POSE_BINS: usize = 3001;
+
+/// LEP10's rule on one axis.
+const fn one_axis(classifier: &'static str) -> Form {
+    Form {
+        classifier,
+        kernels: &[("classifier push K=4", 1.0)],
+        bytes: (state(4, false), table(347, 1, 4)),
+        note: "instructions of two axes, at most: a kernel of one axis is not counted",
+    }
+}
+
+const FORMS: [Form; 14] = [
+    one_axis("naive Bayes, window of 0.5 s, x"),
+    one_axis("naive Bayes, window of 0.5 s, y"),
+    Form {
+        classifier: "spectral template |DFT|, 352 poses",
+        kernels: &[
+            ("spectrum push B=120", POSE_BINS as f64 / 120.0),
+            (
+                "spectrum magnitude B=120",
+                POSE_BINS as f64 / 120.0 / 6000.0,
+            ),
+            (
+                "template push C=2 K=4",
+                POSE_BINS as f64 / 2.0 * 88.0 / 6000.0,
+            ),
+        ],
+        bytes: (
+            8 * POSE_BINS + 8 * 352 + 8,
+            2 * POSE_BINS * 352 + 4 * POSE_BINS,
+        ),
+        note: "25 banks of 120 bins, then 88 times 4 templates, two bins at a time; they fit no \
+               board's flash",
+    },
     Form {
         classifier: "naive Bayes, window of 0.5 s, x and y",
         kernels: &[("classifier push K=4", 1.0)],
@@ -105,7 +140,7 @@ const FORMS: [Form; 11] = [
         classifier: "IMP and network 33–33–8",
         kernels: &[
             ("imp push one vibrissa", 33.0),
-            ("network push 33-33-8", 33.0 / 1388.0),
+            ("network push 33-33-8", 33.0 / 3471.0),
         ],
         bytes: (32 * 33 + 4 + 4 * 33 + 132, network(33, 33, 8)),
         note: "",
