@@ -5,6 +5,7 @@
 mod chance;
 mod corridor;
 mod floor;
+mod follow;
 mod head;
 mod pad;
 mod read;
@@ -16,6 +17,7 @@ use std::path::Path;
 pub use chance::{Chance, Wander, seed_of};
 pub use corridor::{Corridor, Robot};
 pub use floor::{Drive, Floor, Motion};
+pub use follow::Loop;
 pub use head::{CHANNELS, Felt, Head, Visit};
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
 pub use read::{OutOfRange, Rig, load, parse, within};

@@ -46,8 +46,10 @@ fn introduction(page: &mut Page, request: &Request, sections: &[Section]) {
         "The experiments of five papers on simulated rigs (`rigs/*.toml`, whose keys say what is \
          the papers' and what is chosen). Hit rates were not fitted, but some choices were made \
          after a first run had been seen: that the floor robot sinks and rocks, the gains of the \
-         sensors, that PSIK's samples vary along the sheet and not in distance, where the \
-         surface stands in BIOTACT's early visits. Made by \
+         sensors, that PSIK's samples vary along the sheet and not in distance, how fast its \
+         whiskers are swept, how they lean and how thick their tips are, where the surface stands \
+         in BIOTACT's early visits, that its whiskers have motors that follow with errors, how \
+         POSE's signals are aligned and what ends its approach. Made by \
          `host-sim experiment {}{}` from seed {}.",
         names(&request.names),
         if request.scale.quick { " --quick" } else { "" },

@@ -1,6 +1,7 @@
 //! The whisking head of BIOTACT: two rows of three whiskers before a flat
 //! surface, moved by the pattern generator that runs on a module, in a closed
-//! loop: what the whiskers feel goes through H50 and RCP back to the muscles.
+//! loop: what the whiskers feel goes through H50 and RCP back to the muscles,
+//! and motors follow those as their position control, friction and load let them.
 //!
 //! Head frame, from above: x forward along the axis of the cone, y to the
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A
@@ -11,6 +12,7 @@ use whisking::filter::{CORNER_HZ, Config as LowPass, State as Smoothed};
 use whisking::{GateSettings, Integrator, Settings, State, degrees};
 
 use super::chance::{Chance, seed_of};
+use super::follow::{Follower, Loop};
 use super::read::{OutOfRange, Rig, within};
 use crate::Error;
 use crate::physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
@@ -36,6 +38,7 @@ pub struct Head {
     pub base_side_m: [f64; EACH],
     pub placement_sd_m: f64,
     pub full_scale_rad: f64,
+    pub motor: Loop,
 }
 
 impl Rig for Head {
@@ -54,7 +57,7 @@ impl Rig for Head {
         }
         within("placement_sd_m", self.placement_sd_m, 0.0, 0.1)?;
         within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        Ok(())
+        self.motor.check()
     }
 }
 
@@ -141,6 +144,7 @@ impl Head {
             surface: *visit.surface,
         };
         let mut whiskers = Vec::with_capacity(SIDES * EACH);
+        let mut motors = Vec::with_capacity(SIDES * EACH);
         for n in 0..SIDES * EACH {
             let shaft = &shafts[n % EACH];
             let seed = seed_of(visit.seed, &[2, n as u64]);
@@ -149,7 +153,10 @@ impl Head {
                 whisker.map_err(|error| refused(&error))?,
                 Smoothed::default(),
             ));
+            let motor = Follower::new(&self.motor, self.tick_hz);
+            motors.push(motor.map_err(|error| refused(&error))?);
         }
+        let dt_s = 1.0 / self.tick_hz;
 
         let lead = self.lead_whisks * self.whisk_ticks();
         let mut felt = Felt::default();
@@ -162,17 +169,31 @@ impl Head {
             config.step(&mut muscles, contact);
             let theta = muscles.theta();
             let mut touching = [false; SIDES];
-            for (n, (whisker, _)) in whiskers.iter_mut().enumerate() {
+            let mut front = [0.0; SIDES];
+            for (n, ((whisker, _), motor)) in whiskers.iter_mut().zip(&mut motors).enumerate() {
                 let (side, place) = (n / EACH, n % EACH);
-                let pose = self.pose(side, place, degrees(theta[side][place]));
-                whisker.step(&pose, Some(&plate), 1.0 / self.tick_hz);
+                let wanted = theta[side][place];
+                let angle = if self.motor.follows {
+                    // The follicle's torque; a free whisker's inertia is in the motor's.
+                    let stiffness = shafts[place].follicle.rotation_n_m_rad;
+                    let bent = stiffness * whisker.rotation_rad()[0];
+                    let load = if whisker.contact() { bent } else { 0.0 };
+                    motor.step(wanted, load, dt_s)
+                } else {
+                    degrees(wanted)
+                };
+                if place == 0 {
+                    front[side] = angle;
+                }
+                let pose = self.pose(side, place, angle);
+                whisker.step(&pose, Some(&plate), dt_s);
                 touching[side] |= whisker.contact();
                 if tick >= lead {
                     felt.codes.extend(whisker.codes());
                 }
             }
             if tick >= lead {
-                felt.angle_deg.push(theta.map(|side| degrees(side[0])));
+                felt.angle_deg.push(front);
                 felt.touching.push(touching);
             }
         }

@@ -214,7 +214,8 @@ fn time_histories(
     }
     section.page.say(
         "**Fig. 12**, time histories: x of the left 80 mm whisker over one whisk at 10 mm. RCP \
-         cuts the deflection short; textures differ less than strategies, as in the paper.",
+         cuts the deflection short; textures differ less than strategies, as in the paper. The \
+         figure's spectrograms (reassigned Gabor transforms) are left out.",
     );
     let what = "One whisk with and without RCP";
     section
