@@ -5,6 +5,7 @@
 mod movement;
 mod patterns;
 mod whisks;
+mod why;
 
 use rayon::prelude::*;
 
@@ -89,7 +90,8 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     section.page.heading(2, "BIOTACT: active whisking");
     section.page.say(format_args!(
         "Six whiskers of 80, 112 and 158 mm (`rigs/head.toml`), moved by the module's pattern \
-         generator in closed loop with what they feel, before {} textures at {} distances, {} \
+         generator in closed loop with what they feel, each by a motor under the module's \
+         position control, before {} textures at {} distances, {} \
          whisks each. A hit rate is the mean over {DRAWS} random choices of training whisks; all \
          other whisks validate. The paper's curves are drawn without numbers; its text says: {}.",
         TEXTURES.len(),
@@ -129,9 +131,9 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
             section.score(name, what, hits.at(method, task, 1, most));
         }
     }
-    let why = why(request, &visits, most)?;
-    claims(&mut section, &hits, most, &why);
-    movement::section(&mut section, request, recordings)?;
+    let why = why::section(&mut section, request, recordings, most)?;
+    claims(&mut section, &hits, most, &why.hits);
+    movement::section(&mut section, request, recordings, &why.biphasic)?;
     Ok(section)
 }
 
@@ -148,38 +150,6 @@ fn table(section: &mut Section, hits: &Hits, method: Method, most: usize) {
     }
     let header = format!("task | whisking | {}", counts.join(" | "));
     section.page.table(&header, rows);
-}
-
-/// Why textures are told no better, measured: which axis tells them, and how
-/// the bins widen with the range that more whisks bring.
-fn why(request: &Request, visits: &Visits, most: usize) -> Result<String, Error> {
-    let order: Vec<usize> = (0..request.scale.whisks()).collect();
-    let split = order.split_at(most);
-    let mut axes = Vec::new();
-    for axis in [0, 1] {
-        let hit = visits.hit_rate_of_axis(axis, Task::Texture, 0, split)?;
-        axes.push(100.0 * hit);
-    }
-    let width = |count: usize| {
-        let (low, high) = visits.range(0, order.get(..count).unwrap_or(&[]), 1);
-        high - low
-    };
-    Ok(format!(
-        "x alone tells textures at {:.0} %, y alone at {:.0} % (unmodulated, {most} training \
-         whisks; chance 33). The tip lies on the surface, so that bending along the whisk is set \
-         by where the surface is; texture is in what small vibration and slip add. 100 bins over \
-         the whole range, smoothed over 5, are coarse for that: the range of y is {:.0} codes \
-         over one whisk of each condition and {:.0} over {most}, its smoothing {:.0} codes, the \
-         noise 4. Whisks repeat themselves: x differs between whisks by little more than that \
-         noise (see the spread below), as motors here follow without error. Likely, but not \
-         varied: one training whisk then teaches as much as many, and more repeatable contacts, \
-         the paper's explanation of RCP's gain, have little to add",
-        axes[0],
-        axes[1],
-        width(1),
-        width(most),
-        width(most) / 20.0
-    ))
 }
 
 fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {

@@ -18,19 +18,19 @@ const DIP_DEG: f64 = 0.5;
 
 /// Mean of some visits.
 #[derive(Debug, Default, Clone, Copy)]
-struct Movement {
+pub(super) struct Movement {
     /// Share of whisks with two peaks or more, percent.
-    biphasic: f64,
+    pub(super) biphasic: f64,
     /// Contacts of the left side a whisk, parted by 10 ms or more.
-    contacts: f64,
+    pub(super) contacts: f64,
     /// Share of time in which the left side touches, percent.
     touching: f64,
     /// Largest θ' of a whisk, degrees.
     peak_deg: f64,
     /// Largest deflection |x| of a whisk, codes.
-    deflection: f64,
+    pub(super) deflection: f64,
     /// Spread of x between whisks at the same time of the whisk, codes.
-    spread: f64,
+    pub(super) spread: f64,
 }
 
 /// Peaks of a whisk's angle that are parted by dips of [`DIP_DEG`] or more.
@@ -78,7 +78,7 @@ fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> 
 
 /// The movement of one visit. Whisks begin retracted, so that no whisk's
 /// peaks are cut in two.
-fn movement(visit: &Recording, ticks: usize) -> Movement {
+pub(super) fn movement(visit: &Recording, ticks: usize) -> Movement {
     let whisks = (visit.len() / ticks.max(1)).max(1);
     let mut sum = Movement::default();
     for whisk in 0..whisks {
@@ -123,6 +123,7 @@ pub(super) fn section(
     section: &mut Section,
     request: &Request,
     recordings: &Recordings,
+    why: &str,
 ) -> Result<(), Error> {
     let all = recordings.of(Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
@@ -181,7 +182,7 @@ pub(super) fn section(
             strong.biphasic, strong.contacts
         ),
         strong.biphasic > 50.0 && strong.contacts > 1.5 && gentle < 5.0,
-        "protraction rises again within the whisk, but too weakly to reach the surface a second time; why was not varied",
+        why,
     );
     time_histories(section, request, &all)
 }

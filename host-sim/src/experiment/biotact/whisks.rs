@@ -123,7 +123,7 @@ impl Visits {
         let learning = self.some(strategy, learning);
         let validation = self.some(strategy, validation);
         match method {
-            Method::Bayes => bayes(task, &ALL, learning, validation),
+            Method::Bayes => bayes(task, &ALL, Options::default(), learning, validation),
             Method::Template => self.template(task, learning, validation),
         }
     }
@@ -138,7 +138,25 @@ impl Visits {
     ) -> Result<f64, Error> {
         let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
         let learning = self.some(strategy, learning);
-        bayes(task, &picked, learning, self.some(strategy, validation))
+        let validation = self.some(strategy, validation);
+        bayes(task, &picked, Options::default(), learning, validation)
+    }
+
+    /// The same of naive Bayes with histograms smoothed by so many bins.
+    pub(super) fn hit_rate_smoothed(
+        &self,
+        smooth: f64,
+        task: Task,
+        strategy: usize,
+        (learning, validation): (&[usize], &[usize]),
+    ) -> Result<f64, Error> {
+        let options = Options {
+            smooth,
+            ..Options::default()
+        };
+        let learning = self.some(strategy, learning);
+        let validation = self.some(strategy, validation);
+        bayes(task, &ALL, options, learning, validation)
     }
 
     /// The least and most code of a channel over some whisks of a strategy.
@@ -173,10 +191,11 @@ const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 fn bayes<'w>(
     task: Task,
     picked: &[usize],
+    options: Options,
     learning: impl Iterator<Item = &'w Whisk>,
     validation: impl Iterator<Item = &'w Whisk>,
 ) -> Result<f64, Error> {
-    let mut trainer = Trainer::new(picked.len(), Options::default()).map_err(refused)?;
+    let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
     // Classes are numbered as they first appear: put them in order.
     let mut sorted: Vec<&Whisk> = learning.collect();
     sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));

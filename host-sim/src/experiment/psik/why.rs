@@ -18,14 +18,14 @@ type Other = (&'static str, fn(&mut Pad));
 /// What is varied, one thing at a time.
 const OTHERS: [Other; 5] = [
     ("a sweep of 1.2 s, tips 2.5 times as fast", |pad| {
-        pad.sweep_s = 1.2
+        pad.sweep_s = 1.2;
     }),
     ("shafts that lean by 45 degrees", |pad| {
-        pad.layout.lean_deg = 45.0
+        pad.layout.lean_deg = 45.0;
     }),
     ("tips of 0.07 mm", |pad| pad.layout.tip_diameter_m = 0.07e-3),
     ("a distance that differs by 1 mm either way", |pad| {
-        pad.distance_spread_m = 0.001
+        pad.distance_spread_m = 0.001;
     }),
     ("readings of 14 bits", |pad| pad.bits = 14),
 ];
@@ -147,7 +147,7 @@ pub(super) fn section(
     section.page.say(format_args!(
         "**What the paper leaves open** decides. Hit rates in percent with {learning} sweeps of \
          each paper to learn from and {testing} to test with (standard error 4 to 6 points), one \
-         thing changed at a time; the first three were as here in a first run, whose result led to \
+         thing changed at a time; the first four were so in a first run, whose result led to \
          the present choices (`rigs/pad.toml` has the reasons)."
     ));
     let cells = |(what, [three, all]): &(&str, [f64; 2])| {
