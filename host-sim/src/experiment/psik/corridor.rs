@@ -3,7 +3,7 @@
 
 use tactile::score::Confusion;
 
-use super::{Row, learn, refused};
+use super::{PENALTIES, Row, learn, refused};
 use crate::Error;
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::{Section, confusion};
@@ -35,7 +35,7 @@ pub(super) fn section(
             rows.extend(steps(run).into_iter().map(|row| (case, row)));
         }
     }
-    let network = learn(&rows, seed_of(request.seed, &[66]))?;
+    let network = learn(&rows, seed_of(request.seed, &[66]), PENALTIES[0])?;
 
     let (mut by_run, mut by_step) = (Confusion::new(4), Confusion::new(4));
     let (mut off, mut squares, mut count) = (0.0_f64, 0.0, 0.0_f64);
