@@ -186,7 +186,8 @@ pub(super) fn section(page: &mut Page, sections: &[Section]) {
             let instructions = form.and_then(Form::instructions);
             let cell = |text: Option<String>| text.unwrap_or_else(|| "not counted".to_owned());
             vec![
-                score.classifier.to_owned(),
+                // |DFT| must not end the cell.
+                score.classifier.replace('|', "\\|"),
                 score.task.clone(),
                 format!("**{:.1}**", score.hit),
                 cell(instructions.map(|n| format!("{n:.0}"))),

@@ -185,8 +185,8 @@ fn claims(section: &mut Section, means: &[f64; 5], knee: [f64; 3]) {
         "neither the robot's speed nor the scale of its floors contradicts the paper, whose tip \
         goes \"at a few cm/sec over cm-scale features\": ours goes at some 8 cm/s over features of \
         2 to 8 mm, so that 100 ms hold one to four of them, and longer windows go on to help \
-        (LEP12 below: a faster robot does better). The paper's early gain must then come from \
-        vibration that is faster than the features, of which the simulated whisker has less",
+        (LEP12 below: a faster robot does better). Not measured: whether the paper's early \
+        gain comes from vibration that is faster than the features",
     );
     section.claim(
         "LEP10: the hit rate falls from artificial training to natural validation",
