@@ -25,9 +25,8 @@
 
 use super::vector::{V3, add, dot, length2, scale};
 
-/// Rounds by which the size of the normal force and the direction of sliding are
-/// found, at most.
-const ROUNDS: usize = 8;
+/// Rounds by which the direction of sliding is found, at most; mostly three.
+const ROUNDS: usize = 24;
 
 /// A contact problem in a frame (normal, first tangent, second tangent).
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +41,8 @@ pub(super) struct Problem {
     pub(super) springs: [f64; 2],
     /// Coefficient of friction μ.
     pub(super) friction: f64,
+    /// Where T may point if it slides: where it did before, or zero.
+    pub(super) near: [f64; 2],
 }
 
 /// What a contact does during a step.
@@ -106,84 +107,92 @@ impl Problem {
     }
 
     /// The force on the cone, for a tip that `held` could not hold.
+    ///
+    /// T = μ N e for a direction e, and so N = −g/(M_nn + μ m·e) with M = W + 1/k
+    /// and m = M_nt. Sought is the e that is opposed to the slip r = ξ + m N +
+    /// μ N M_tt e: the root of r·e⊥, by Newton's method on the circle, between
+    /// two directions that it lies between.
     fn slip(&self, held: [f64; 3]) -> Force {
-        let [normal, ..] = self.response;
+        let [[nn, na, nb], [_, aa, ab], [_, _, bb]] = self.response;
+        let nn = nn + self.springs[0];
+        let (aa, bb) = (aa + self.springs[1], bb + self.springs[1]);
         let mu = self.friction;
-        let own = normal[0] + self.springs[0];
-        let mut local = [-self.gap / own, 0.0, 0.0];
+        let loose = -self.gap / nn;
+        let [s, t] = self.stretch;
+        let mut found = Force {
+            local: [loose, 0.0, 0.0],
+            stuck: false,
+        };
+        if mu <= 0.0 {
+            return found;
+        }
+        let against = [-(s + na * loose), -(t + nb * loose)];
+        let Some(mut e) = direction(self.near).or_else(|| direction(against)) else {
+            return found;
+        };
+        let (mut low, mut high) = (None, None);
         for _ in 0..ROUNDS {
-            let [a, b] = self.drag(local);
-            let share = |t: f64| if local[0] > 0.0 { t / local[0] } else { 0.0 };
-            let way = [share(a), share(b)];
-            let push = own + normal[1] * way[0] + normal[2] * way[1];
-            if push <= 0.01 * own {
+            let [x, y] = e;
+            let own = nn + mu * (na * x + nb * y);
+            if own <= 0.01 * nn {
                 // The harder it slides, the harder it is pressed on: it jams.
                 if held[0] > 0.0 {
-                    return Force {
-                        local: held,
-                        stuck: true,
-                    };
+                    found.local = held;
+                    found.stuck = true;
                 }
-                break;
+                return found;
             }
-            let n = -self.gap / push;
-            let change = (n - local[0]).abs();
-            local = [n, n * way[0], n * way[1]];
-            if mu == 0.0 || change <= 1e-9 * n {
-                break;
+            let n = -self.gap / own;
+            let pull = mu * n;
+            let along = [aa * x + ab * y, ab * x + bb * y];
+            let slip = [s + na * n + pull * along[0], t + nb * n + pull * along[1]];
+            let off = slip[1] * x - slip[0] * y;
+            let opposed = -(slip[0] * x + slip[1] * y);
+            if opposed >= 0.0 {
+                found.local = [n, pull * x, pull * y];
+                if off.abs() <= 1e-9 * opposed {
+                    return found;
+                }
+            } else if off.abs() <= -1e-3 * opposed {
+                // A root where it would be drawn along.
+                (low, high) = (None, None);
+                e = [-x, -y];
+                continue;
             }
+            // By how much r·e⊥ changes as e turns.
+            let steep = nb * x - na * y;
+            let less = pull * steep / own * (steep + mu * (along[1] * x - along[0] * y));
+            let turned = bb * x * x + aa * y * y - 2.0 * ab * x * y;
+            let change = opposed + pull * turned - less;
+            *(if off < 0.0 { &mut low } else { &mut high }) = Some(e);
+            let step = if change > off.abs() {
+                -off / change
+            } else {
+                -off.signum()
+            };
+            let next = direction([x - step * y, y + step * x]).unwrap_or(e);
+            e = match (low, high) {
+                (Some(low), Some(high)) if cross(low, next) <= 0.0 || cross(next, high) <= 0.0 => {
+                    direction([low[0] + high[0], low[1] + high[1]]).unwrap_or(next)
+                }
+                _ => next,
+            };
         }
-        Force {
-            local,
-            stuck: false,
-        }
+        // The last that takes energy, or no friction.
+        found
     }
+}
 
-    /// Friction under a normal force of `last`: the T of |T| ≤ μ N with the
-    /// least energy. On the cone (W + 1/k + λ) T = −ξ′, so that the slip −λ T is
-    /// against the force; λ by Newton's method on 1/|T|, which is concave.
-    fn drag(&self, last: [f64; 3]) -> [f64; 2] {
-        let n = last[0];
-        let [_, [na, aa, ab], [nb, _, bb]] = self.response;
-        let reach = self.friction * n;
-        if reach <= 0.0 {
-            return [0.0; 2];
-        }
-        // Principal axes of the tangential response.
-        let (aa, bb) = (aa + self.springs[1], bb + self.springs[1]);
-        let (half, mean) = (0.5 * (aa - bb), f64::midpoint(aa, bb));
-        let spread = length2([half, ab]);
-        let (c, s) = if spread > 1e-12 * mean {
-            let c = (0.5 * (1.0 + half / spread)).max(0.0).sqrt();
-            let s = (0.5 * (1.0 - half / spread)).max(0.0).sqrt();
-            (c, s.copysign(ab))
-        } else {
-            (1.0, 0.0)
-        };
-        let give = [mean + spread, (mean - spread).max(self.springs[1])];
-        let stretch = [self.stretch[0] + na * n, self.stretch[1] + nb * n];
-        let pull = [
-            c * stretch[0] + s * stretch[1],
-            c * stretch[1] - s * stretch[0],
-        ];
-        let of = |more: f64| [pull[0] / (give[0] + more), pull[1] / (give[1] + more)];
-        let mut more = (length2(pull) / reach - give[0]).max(0.0);
-        let mut force = of(more);
-        for _ in 0..ROUNDS {
-            let size = length2(force);
-            if size <= reach * (1.0 + 1e-9) {
-                break;
-            }
-            let fall =
-                force[0] * force[0] / (give[0] + more) + force[1] * force[1] / (give[1] + more);
-            more += size * size / fall * (size / reach - 1.0);
-            force = of(more);
-        }
-        let size = length2(force);
-        let cut = if size > reach { reach / size } else { 1.0 };
-        let [a, b] = force.map(|f| -cut * f);
-        [c * a - s * b, s * a + c * b]
-    }
+#[inline]
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The direction of a vector that has one.
+#[inline]
+fn direction(v: [f64; 2]) -> Option<[f64; 2]> {
+    let size = length2(v);
+    (size > 0.0).then(|| [v[0] / size, v[1] / size])
 }
 
 /// Axes of a contact in the plate's coordinates: the normal of a ground with the

@@ -1,7 +1,7 @@
 //! Where a whisker is, and the flat plate that it may touch.
 
 use super::surface::Surface;
-use super::vector::{V3, across, cross, dot, sub, unit};
+use super::vector::{V3, across, add, cross, dot, scale, sub, unit};
 
 /// A whisker's base in space. The shaft points along z = x × y; the sensor's
 /// axes are x and y.
@@ -47,6 +47,32 @@ pub(super) struct Seen {
     pub(super) z: V3,
 }
 
+impl Seen {
+    /// A vector with these components along x, y and z.
+    #[inline]
+    pub(super) fn space(&self, [x, y, z]: V3) -> V3 {
+        add(add(scale(x, self.x), y, self.y), z, self.z)
+    }
+
+    /// Components of a vector along x, y and z.
+    #[inline]
+    pub(super) fn body(&self, v: V3) -> V3 {
+        [dot(v, self.x), dot(v, self.y), dot(v, self.z)]
+    }
+
+    /// This far on the straight way to another, 0 to 1.
+    #[inline]
+    pub(super) fn towards(&self, other: &Self, share: f64) -> Self {
+        let mix = |a: V3, b: V3| add(a, share, sub(b, a));
+        Self {
+            tip: mix(self.tip, other.tip),
+            x: mix(self.x, other.x),
+            y: mix(self.y, other.y),
+            z: mix(self.z, other.z),
+        }
+    }
+}
+
 impl Plate {
     /// `pose`, with a shaft of length `length_m`, in this plate's coordinates.
     pub(super) fn see(&self, pose: &Pose, length_m: f64) -> Seen {
@@ -55,7 +81,7 @@ impl Plate {
         let side = cross(normal, along);
         let turn = |v: V3| [dot(along, v), dot(side, v), dot(normal, v)];
         let z = pose.z();
-        let tip = super::vector::add(pose.base_m, length_m, z);
+        let tip = add(pose.base_m, length_m, z);
         Seen {
             tip: turn(sub(tip, self.point_m)),
             x: turn(pose.x),

@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use super::beam::Modes;
 use super::pose::Seen;
 use super::shaft::Shaft;
+use super::touching::Give;
 use super::vector::{V3, add};
 use super::{Propagator, Resonator};
 
@@ -76,10 +77,9 @@ impl Shape {
         [sum(&state.axes[0]), sum(&state.axes[1])]
     }
 
-    /// The modal tip in the plate's coordinates, m.
+    /// The modal tip with these deflections in the plate's coordinates, m.
     #[inline]
-    pub(super) fn tip(&self, state: &State, seen: &Seen) -> V3 {
-        let deflections = self.deflections(state);
+    pub(super) fn tip(&self, deflections: [f64; 2], seen: &Seen) -> V3 {
         let [u, v] = deflections;
         let bent = add(add(seen.tip, u, seen.x), v, seen.y);
         add(bent, -self.back(deflections), seen.z)
@@ -105,29 +105,20 @@ impl Shape {
         ]
     }
 
-    /// How far along the shaft the tip of a free step is from where ways of the
-    /// middle between `start` and `end` would bring it, m.
-    #[inline]
-    pub(super) fn behind(&self, start: [f64; 2], free: [f64; 2], end: [f64; 2]) -> f64 {
-        let [u, v] = [0, 1].map(|i| f64::midpoint(start[i], end[i]));
-        let steep = self.shortening / (self.shortening * (u * u + v * v).sqrt()).max(1.0);
-        let along = steep * (u * (free[0] - start[0]) + v * (free[1] - start[1]));
-        self.back(free) - self.back(start) - along
-    }
-
     /// Change of the tip's direction of motion for a change of deflection, rad.
     #[inline]
     pub(super) fn turn(&self, change: f64) -> f64 {
         self.shortening * change
     }
 
-    /// 1/k, normal and tangential, m/N, of a surface in series with what of the
-    /// shaft has no inertia; `along` is the square of the cosine between normal
-    /// and shaft.
+    /// What of the shaft has no inertia here, in series with a surface of this
+    /// compliance, m/N.
     #[inline]
-    pub(super) fn springs(&self, surface: f64, along: f64) -> [f64; 2] {
-        let mix = |share: f64| self.residual_tip * (1.0 - share) + self.axial * share;
-        [surface + mix(along), surface + mix(1.0 - along)]
+    pub(super) fn give(&self, surface: f64) -> Give {
+        Give {
+            across: surface + self.residual_tip,
+            along: surface + self.axial,
+        }
     }
 
     /// Deflections under a force on the tip, with the residual part, m.
@@ -230,16 +221,6 @@ impl State {
         let modes = self.axes.iter_mut().flatten();
         for (mode, more) in modes.zip(more.axes.iter().flatten()) {
             mode.x += more.x;
-        }
-    }
-
-    /// Adds an impulse on the tip in x and y, N s.
-    #[inline]
-    pub(super) fn strike(&mut self, shape: &Shape, impulse: [f64; 2]) {
-        for (axis, impulse) in self.axes.iter_mut().zip(impulse) {
-            for (mode, tip) in axis.iter_mut().zip(&shape.tip) {
-                mode.v += tip * impulse;
-            }
         }
     }
 

@@ -28,7 +28,9 @@
 //! cut and knows nothing of contact.
 
 mod before;
+mod ground;
 mod part;
+mod spring;
 mod telling;
 
 use super::beam::Modes;
@@ -42,6 +44,7 @@ use super::vector::{V3, across, dot, scale, sub, unit};
 use crate::plant::BadPlantSetting;
 use before::Last;
 use part::Touch;
+pub(in crate::physics) use spring::Give;
 
 /// Parts of a step are at most 2 to this power.
 const POWERS: usize = 6;

@@ -28,6 +28,7 @@ fn a_tip_that_only_presses_has_springs_in_series() {
         response: response([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 0.5),
         springs: [0.1, 0.2],
         friction: 0.3,
+        near: [0.0; 2],
     };
     let force = problem.solve();
     assert!((force.local[0] - 1e-3 / 0.6).abs() < 1e-15);
@@ -72,6 +73,7 @@ proptest! {
             response: response(ways, 10.0_f64.powf(give)),
             springs,
             friction,
+            near: [0.0; 2],
         };
         let force = problem.solve();
         let [n, a, b] = force.local;
@@ -89,6 +91,8 @@ proptest! {
             let slip = [s + springs[1] * a, t + springs[1] * b];
             let work = slip[0] * a + slip[1] * b;
             prop_assert!(work <= 1e-6 * slip[0].hypot(slip[1]) * a.hypot(b) + 1e-15, "{work}");
+            let aside = slip[0] * b - slip[1] * a;
+            if aside.abs() > 1e-6 * slip[0].hypot(slip[1]) * a.hypot(b) + 1e-15 { println!("ASIDE {problem:?} {force:?} {aside} {work}"); }
         }
     }
 

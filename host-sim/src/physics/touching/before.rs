@@ -4,7 +4,7 @@ use super::part::Touch;
 use super::{POWERS, TouchingWhisker};
 use crate::physics::pose::{Plate, Pose, Seen};
 use crate::physics::relief::Relief;
-use crate::physics::vector::{V3, add, length, scale, sub};
+use crate::physics::vector::{V3, length, sub};
 
 /// Longest way of the tip in a part, in distances of the finest octave: heights
 /// change from hill to valley over one.
@@ -32,6 +32,7 @@ impl TouchingWhisker {
         let surface = plate.surface.limited();
         if self.relief.0 != surface {
             self.relief = (surface, Relief::new(&surface, self.shape.tip_radius_m));
+            self.touch.ground = None;
         }
         let seen = plate.see(pose, self.shape.length_m);
         if self.last.is_none() {
@@ -41,9 +42,9 @@ impl TouchingWhisker {
         let above = self.last.map(|last| last.above);
         let mut free = self.state;
         free.free(&self.reach.1[0]);
-        let end = self.shape.tip(&free, &seen);
+        let end = self.shape.tip(self.shape.deflections(&free), &seen);
         let start = above.unwrap_or(end[2]);
-        if self.touch.normal_n <= 0.0 {
+        if !self.contact() {
             let clear = start.min(end[2]) - (end[2] - start).abs();
             if clear > self.relief.1.top_m {
                 self.state = free;
@@ -60,22 +61,17 @@ impl TouchingWhisker {
         let parts = 1_u32 << power;
         self.parts = parts;
         let part_s = dt_s / f64::from(parts);
-        let share = 1.0 / f64::from(parts);
-        let step = scale(share, sub(seen.tip, last.tip));
-        let mut here = Seen {
-            tip: last.tip,
-            ..seen
-        };
-        for part in 0..parts {
+        let mut here = last;
+        for part in 1..=parts {
             let old = here;
-            here.tip = if part + 1 == parts {
-                seen.tip
+            here = if part == parts {
+                seen
             } else {
-                add(old.tip, 1.0, step)
+                last.towards(&seen, f64::from(part) / f64::from(parts))
             };
             self.part(&old, &here, power, part_s);
         }
-        let above = self.shape.tip(&self.state, &seen)[2];
+        let above = self.shape.tip(self.shape.deflections(&self.state), &seen)[2];
         self.last = Some(Last { seen, above });
     }
 
@@ -83,7 +79,7 @@ impl TouchingWhisker {
     /// the shaft statically out of it: the contact would throw it out.
     fn lean(&mut self, seen: &Seen) {
         for _ in 0..4 {
-            let tip = self.shape.tip(&self.state, seen);
+            let tip = self.shape.tip(self.shape.deflections(&self.state), seen);
             let deep = self.relief.1.at([tip[0], tip[1]])[0] - tip[2];
             if deep <= 0.0 {
                 return;

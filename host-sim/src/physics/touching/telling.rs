@@ -29,7 +29,7 @@ impl TouchingWhisker {
 
     /// Whether the tip is pressed on the plate at the end of the step.
     pub fn contact(&self) -> bool {
-        self.touch.normal_n > 0.0
+        self.touch.spring_j > 0.0
     }
 
     /// How many parts the last step was cut into; none if the tip stayed clear
@@ -50,6 +50,12 @@ impl TouchingWhisker {
         [normal, square.max(0.0).sqrt()]
     }
 
+    /// How much lower than it is the ground counts, m, as contact had no energy
+    /// to press its spring: an error of the method, not of the energy.
+    pub fn lowered_m(&self) -> f64 {
+        self.touch.lowered_m
+    }
+
     /// Deflection of the tip in x and y, m.
     pub fn tip_m(&self) -> [f64; 2] {
         self.shape.deflection(&self.state, self.force_on_axes())
@@ -63,6 +69,6 @@ impl TouchingWhisker {
     /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes
     /// that move with the base.
     pub fn energy_j(&self) -> f64 {
-        self.state.energy_j(&self.shape) + self.touch.energy_j
+        self.state.energy_j(&self.shape) + self.touch.spring_j
     }
 }
