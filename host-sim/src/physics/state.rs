@@ -258,19 +258,22 @@ impl State {
     }
 
     /// Cuts a deflection of the tip of more than twice the length back to that:
-    /// linear theory has ended long before, and a shaft would have broken.
+    /// linear theory has ended long before, and a shaft would have broken. Says
+    /// whether it did.
     #[inline]
-    pub(super) fn limit(&mut self, shape: &Shape) {
+    pub(super) fn limit(&mut self, shape: &Shape) -> bool {
         let [u, v] = shape.deflections(self);
         let most = 2.0 * shape.length_m;
         let square = u * u + v * v;
-        if square > most * most {
+        let beyond = square > most * most;
+        if beyond {
             let cut = most / square.sqrt();
             for mode in self.axes.iter_mut().flatten() {
                 mode.x *= cut;
                 mode.v *= cut;
             }
         }
+        beyond
     }
 
     pub(super) fn is_finite(&self) -> bool {

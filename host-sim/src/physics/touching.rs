@@ -29,6 +29,7 @@
 
 mod before;
 mod ground;
+mod law;
 mod part;
 mod spring;
 mod telling;

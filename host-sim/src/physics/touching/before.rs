@@ -4,7 +4,7 @@ use super::part::Touch;
 use super::{POWERS, TouchingWhisker};
 use crate::physics::pose::{Plate, Pose, Seen};
 use crate::physics::relief::Relief;
-use crate::physics::vector::{V3, length, sub};
+use crate::physics::vector::{V3, dot, length, sub};
 
 /// Longest way of the tip in a part, in distances of the finest octave: heights
 /// change from hill to valley over one.
@@ -76,7 +76,8 @@ impl TouchingWhisker {
     }
 
     /// Where a plate that was not there holds the tip below its surface, bends
-    /// the shaft statically out of it: the contact would throw it out.
+    /// the shaft statically out of it: the contact would throw it out. What is
+    /// left presses the ground in.
     fn lean(&mut self, seen: &Seen) {
         for _ in 0..4 {
             let tip = self.shape.tip(self.shape.deflections(&self.state), seen);
@@ -91,6 +92,14 @@ impl TouchingWhisker {
             let more = self.shape.bent(up.map(|up| deep * up / square));
             self.state.lean(&more);
             self.state.limit(&self.shape);
+        }
+        let tip = self.shape.tip(self.shape.deflections(&self.state), seen);
+        let deep = self.relief.1.at([tip[0], tip[1]])[0] - tip[2];
+        if deep > 0.0 {
+            let give = self.shape.give(1.0 / self.relief.0.stiffness_n_m);
+            let stretch = seen.body([0.0, 0.0, -deep]);
+            self.touch.spring_j = -0.5 * dot(give.force(stretch), stretch);
+            self.touch.stretch = stretch;
         }
     }
 

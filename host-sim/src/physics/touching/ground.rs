@@ -7,12 +7,7 @@ const NO_WAY_M: f64 = 1e-12;
 /// of the slopes there, corrected along the way (the mean-value discrete gradient
 /// of Gonzalez 1996), so that slopes · way is the difference of the heights.
 #[inline]
-pub(super) fn secant(
-    from: [f64; 2],
-    start: [f64; 3],
-    to: [f64; 2],
-    end: [f64; 3],
-) -> [f64; 2] {
+pub(super) fn secant(from: [f64; 2], start: [f64; 3], to: [f64; 2], end: [f64; 3]) -> [f64; 2] {
     let way = [to[0] - from[0], to[1] - from[1]];
     let mean = [
         f64::midpoint(start[1], end[1]),

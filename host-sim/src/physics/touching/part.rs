@@ -1,56 +1,47 @@
-//! One part of a step in contact: where the ground is, force, friction.
+//! One part of a step in contact: where the foot goes.
 //!
 //! Glossary:
 //!
 //! - *modal tip*: where the modes that are kept bring the tip;
-//! - *foot*: where the tip stands: the modal tip, less
-//! - *stretch* ξ: of what has no inertia here, shaft and ground in series;
-//! - *give* C: ξ = −C F, transverse to the shaft and along it, m/N.
+//! - *stretch*: of what has no inertia here, shaft and ground in series;
+//! - *foot*: where the tip stands on the ground, the modal tip less the stretch.
 //!
-//! # The law of a part
-//!
-//! The force is constant during a part and is that of the stretches at its two
-//! ends, weighed, and of a damper beside the spring:
-//!
-//! −C F = w ξ₁ + (1 − w) ξ₀ + τ (ξ₁ − ξ₀)/dt
-//!
-//! w is ½, which is of second order, where parts resolve the ringing of the tip
-//! on its stretch, and nears 1 where they do not. The foot is held by the ground,
-//! slides on it or is lifted ([`crate::physics::contact`]).
+//! A foot that slides moves along a plane through the grounds at both ends of
+//! its way, so that the plane leads as high as the ground does. The far end is
+//! found by rounds: the force on a plane ([`super::law`]), where it brings the
+//! foot, the plane to there. Steep ground throws the foot about from round to
+//! round; it is then moved by a share of that only (Aitken's, for vectors: Irons
+//! and Tuck 1969).
 //!
 //! # Energy on any ground
 //!
-//! The spring's energy is that of its stretch, whichever way the ground slopes,
-//! and as w ≥ ½ it takes no more than the force works. A foot that slides moves
-//! along a plane through the grounds at both ends of its way (found by rounds),
-//! so that the plane is as high as the ground there. Where rounds have not found
-//! it, the foot is off the ground a little. It is brought there as far as the
-//! part has dissipated the energy for it, and the rest waits for later parts. So
-//! at the end of a part
+//! The stretch's energy does not depend on how the ground slopes, and takes no
+//! more than the force works ([`super::law`]). Where rounds have not quite found
+//! the end, the foot is off the ground. It is brought there as far as the part
+//! has dissipated the energy for it, and the rest waits for later parts. So at the
+//! end of a part
 //!
-//! modes + spring ≤ modes + spring before + work of the base,
+//! modes + stretch ≤ modes + stretch before + work of the base,
 //!
 //! whatever surface, stiffness, speed and step.
 
 use super::TouchingWhisker;
 use super::ground::secant;
-use super::spring::Give;
-use crate::physics::contact::{Force, Frame, Problem};
+use super::law::{Part, Solved};
+use crate::physics::contact::Frame;
 use crate::physics::pose::Seen;
-use crate::physics::state::Reach;
 use crate::physics::vector::{V3, dot, length2, sub};
 
-/// Speed by which friction has gone 63 % of the way from resting to sliding, m/s
-/// (Stribeck; of the order of what is measured on plastics). A tip that is held
-/// across the shaft creeps along it, as the bend draws it back.
-const CREEP_M_S: f64 = 1e-3;
-
-/// Rounds by which the end of a part is found, at most.
+/// Rounds by which the end of a part is found, at most; mostly one.
 const ROUNDS: usize = 8;
 
 /// They are enough once the foot moves by less than this share of the distance
-/// of the finest octave.
+/// of the finest octave, and the way of the tip turns by less than this, rad.
 const NEAR: f64 = 0.1;
+const NEAR_RAD: f64 = 1e-4;
+
+/// Smallest share of a round.
+const LEAST: f64 = 0.05;
 
 /// What the tip and the plate are to each other.
 #[derive(Debug, Clone, Copy, Default)]
@@ -70,39 +61,6 @@ pub(super) struct Touch {
     pub(super) ground: Option<[f64; 3]>,
     /// How much lower than it is the ground counts, m.
     pub(super) lowered_m: f64,
-}
-
-/// A part without its force.
-struct Part<'a> {
-    new: &'a Seen,
-    reach: &'a Reach,
-    part_s: f64,
-    give: Give,
-    touching: bool,
-    /// Deflections at the begin, and at the end without a force.
-    start: [f64; 2],
-    free: [f64; 2],
-    /// Stretch at the begin, turned with the base.
-    stretch: V3,
-    /// The foot at the begin and the ground there.
-    foot: V3,
-    ground: [f64; 3],
-    /// How the base carries the modal tip away from the foot.
-    carried: V3,
-}
-
-/// A part with a force on a plane.
-#[derive(Clone, Copy)]
-struct Solved {
-    frame: Frame,
-    force: Force,
-    /// The force on the axes x and y, N.
-    pushed: [f64; 2],
-    /// At the end, plate coordinates, m.
-    stretch: V3,
-    slipped_m: f64,
-    /// Energy of the spring at the begin less the work on the tip, J.
-    left_j: f64,
 }
 
 impl TouchingWhisker {
@@ -153,7 +111,7 @@ impl TouchingWhisker {
         } else {
             sub(self.shape.tip(end, new), stretch)
         };
-        let (mut missed, mut relax) = (None::<[f64; 2]>, 1.0_f64);
+        let (mut missed, mut relax) = (None, 1.0);
         for round in 1..=ROUNDS {
             let at = |to: V3| self.relief.1.at([to[0], to[1]]);
             let ground = below.take().unwrap_or_else(|| at(to));
@@ -167,100 +125,31 @@ impl TouchingWhisker {
             let miss = [next[0] - to[0], next[1] - to[1]];
             let moved = length2(miss);
             if let Some(old) = missed.replace(miss) {
-                let change = [miss[0] - old[0], miss[1] - old[1]];
-                let square = change[0] * change[0] + change[1] * change[1];
-                if square > 0.0 {
-                    let along = old[0] * change[0] + old[1] * change[1];
-                    relax = (-relax * along / square).clamp(0.05, 1.0);
-                }
+                relax = relaxed(relax, old, miss);
             }
-            if round == ROUNDS || (self.shape.turn(bend) < 1e-4 && moved < near) {
+            if round == ROUNDS || (self.shape.turn(bend) < NEAR_RAD && moved < near) {
                 self.state.push(reach, solved.pushed);
                 self.touch = settled(&part, &solved, at(next), tip);
-                self.state.limit(&self.shape);
+                if self.state.limit(&self.shape) {
+                    self.touch.ground = None;
+                }
                 return;
             }
             to = [to[0] + relax * miss[0], to[1] + relax * miss[1], 0.0];
         }
     }
+}
 
-    /// The force on a plane, for deflections at the end of about `end`.
-    fn solve(&self, part: &Part<'_>, frame: Frame, end: [f64; 2]) -> Solved {
-        let surface = &self.relief.0;
-        let middle = [0, 1].map(|i| f64::midpoint(part.start[i], end[i]));
-        let ways = self.shape.ways(middle, part.new);
-        let local = ways.map(|way| frame.local(way));
-        let [u, v] = [0, 1].map(|i| part.free[i] - part.start[i]);
-        // The tip's way without a force.
-        let carried = frame.local(part.carried);
-        let moved: V3 = core::array::from_fn(|i| carried[i] + u * local[0][i] + v * local[1][i]);
-        let begin = frame.local(part.stretch);
-        let above = if part.touching {
-            0.0
-        } else {
-            ((part.foot[2] - part.ground[0]) * frame.upright).max(0.0)
-        };
-        // The share of the part after it touches down.
-        let late = if moved[0] < 0.0 {
-            (1.0 + above / moved[0]).clamp(1e-9, 1.0)
-        } else {
-            1.0
-        };
-        let weight = part.give.weight(part.reach.response);
-        let lag = part.give.lag_s(surface.damping, self.shape.mobility);
-        let share = late * weight + lag / part.part_s;
-        let sliding = if part.touching {
-            self.touch.slip_m_s
-        } else {
-            length2([moved[1], moved[2]]) / part.part_s
-        };
-        let along = frame.local(part.new.z);
-        let response = |i: usize, j: usize| {
-            part.reach.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j])
-        };
-        let least = part.give.least();
-        let more = |i: usize, j: usize| (part.give.at(along, i, j) - if i == j { least } else { 0.0 }) / share;
-        let mut problem = Problem {
-            gap: above + begin[0] / share + moved[0],
-            stretch: [1, 2].map(|i| begin[i] / share + late * moved[i]),
-            response: core::array::from_fn(|i| core::array::from_fn(|j| response(i, j) + more(i, j))),
-            springs: [least / share; 2],
-            friction: surface.friction
-                + (surface.hold - surface.friction) * libm::exp(-sliding / CREEP_M_S),
-            near: [1, 2].map(|i| dot(frame.axes[i], self.touch.force)),
-        };
-        let on_axes = |force: &Force| local.map(|way| dot(way, force.local));
-        let left = |force: &Force| {
-            let pushed = on_axes(force);
-            let shaft = part.reach.response * (pushed[0] * pushed[0] + pushed[1] * pushed[1]);
-            self.touch.spring_j - dot(force.local, moved) - shaft
-        };
-        let mut force = problem.solve();
-        let mut left_j = left(&force);
-        if left_j < 0.0 {
-            // What slides before it touches down can do this; without friction,
-            // nothing does.
-            problem.friction = 0.0;
-            force = problem.solve();
-            left_j = left(&force);
-        }
-        let stretch = if force.local[0] > 0.0 {
-            core::array::from_fn(|i| {
-                let given: f64 = (0..3).map(|j| part.give.at(along, i, j) * force.local[j]).sum();
-                begin[i] - (begin[i] + given) / share
-            })
-        } else {
-            // The damper holds it back: pressed in, and not pressing.
-            [(begin[0] + above + moved[0]).min(0.0), 0.0, 0.0]
-        };
-        Solved {
-            frame,
-            force,
-            pushed: on_axes(&force),
-            stretch: frame.plate(stretch),
-            slipped_m: problem.slipped(&force),
-            left_j,
-        }
+/// The share of the next round, from what two rounds with `share` between them
+/// have missed by.
+fn relaxed(share: f64, old: [f64; 2], new: [f64; 2]) -> f64 {
+    let change = [new[0] - old[0], new[1] - old[1]];
+    let square = change[0] * change[0] + change[1] * change[1];
+    if square > 0.0 {
+        let along = old[0] * change[0] + old[1] * change[1];
+        (-share * along / square).clamp(LEAST, 1.0)
+    } else {
+        share
     }
 }
 
@@ -271,18 +160,21 @@ fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], tip: V3) -> Touch
     // Straight up or down: the ground is known there.
     let deep = ground[0] - foot[2];
     let body = part.new.body(solved.stretch);
-    let normal = part.new.body(frame.axes[0]);
     let left_j = solved.left_j.max(0.0);
-    let (stretch, paid) = part.give.within(left_j, body, part.new.body([0.0, 0.0, -deep]));
-    if dot(stretch, normal) >= 0.0 {
+    let (stretch, paid) = part
+        .give
+        .within(left_j, body, part.new.body([0.0, 0.0, -deep]));
+    let own = part.give.force(stretch);
+    let force = part.new.space(own);
+    let normal_n = dot(force, frame.axes[0]);
+    if normal_n <= 0.0 {
         return Touch::default();
     }
-    let force = part.give.force(stretch);
     Touch {
         stretch,
-        spring_j: -0.5 * dot(force, stretch),
-        force: part.new.space(force),
-        normal_n: dot(force, normal).max(0.0),
+        spring_j: -0.5 * dot(own, stretch),
+        force,
+        normal_n,
         stuck: solved.force.stuck,
         slip_m_s: solved.slipped_m / part.part_s,
         ground: Some(ground),

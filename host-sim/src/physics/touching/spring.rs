@@ -58,7 +58,9 @@ impl Give {
         }
         let room = energy_j - a;
         if room <= 0.0 {
-            let keep = (energy_j.max(0.0) / a.max(f64::MIN_POSITIVE)).sqrt().min(1.0);
+            let keep = (energy_j.max(0.0) / a.max(f64::MIN_POSITIVE))
+                .sqrt()
+                .min(1.0);
             return (stretch.map(|s| keep * s), 0.0);
         }
         // The larger root of c s² + b s = room, which is below 1.
