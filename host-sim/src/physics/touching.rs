@@ -183,8 +183,7 @@ impl TouchingWhisker {
             self.touch = Touch::default();
         }
         if self.sensor.due(dt_s) {
-            let force = self.force_on_axes();
-            let rotation = self.shape.rotation(&self.state, force);
+            let rotation = self.shape.rotation(&self.state, self.touch.pull);
             self.sensor.advance(rotation, dt_s);
         } else {
             self.sensor.advance([0.0; 2], dt_s);

@@ -100,6 +100,7 @@ impl TouchingWhisker {
             let stretch = seen.body([0.0, 0.0, -deep]);
             self.touch.spring_j = -0.5 * dot(give.force(stretch), stretch);
             self.touch.stretch = stretch;
+            self.touch.normal_n = deep / give.across;
         }
     }
 

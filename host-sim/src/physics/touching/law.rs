@@ -68,7 +68,20 @@ pub(super) struct Solved {
     pub(super) left_j: f64,
 }
 
+/// What a part without a force leaves of a stretch: F = 0 in the law.
+#[inline]
+pub(super) fn kept(share: f64) -> f64 {
+    (1.0 - 1.0 / share).max(0.0)
+}
+
 impl TouchingWhisker {
+    /// s of a part in contact for a share of it.
+    #[inline]
+    pub(super) fn share(&self, reach: &Reach, part_s: f64, give: &Give, late: f64) -> f64 {
+        let lag_s = give.lag_s(self.relief.0.damping, self.shape.mobility);
+        late * give.weight(reach.response) + lag_s / part_s
+    }
+
     /// The force on a plane, for deflections at the end of about `end`.
     pub(super) fn solve(&self, part: &Part<'_>, frame: Frame, end: [f64; 2]) -> Solved {
         let surface = &self.relief.0;
@@ -91,9 +104,7 @@ impl TouchingWhisker {
         } else {
             1.0
         };
-        let weight = part.give.weight(part.reach.response);
-        let lag = part.give.lag_s(surface.damping, self.shape.mobility);
-        let share = late * weight + lag / part.part_s;
+        let share = self.share(part.reach, part.part_s, &part.give, late);
         let sliding = if part.touching {
             self.touch.slip_m_s
         } else {
@@ -141,8 +152,7 @@ impl TouchingWhisker {
                 begin[i] - (begin[i] + given) / share
             })
         } else {
-            // The damper holds it back: pressed in, and not pressing.
-            [(begin[0] + above + moved[0]).min(0.0), 0.0, 0.0]
+            begin.map(|b| kept(share) * b)
         };
         Solved {
             frame,

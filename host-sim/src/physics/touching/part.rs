@@ -27,7 +27,8 @@
 
 use super::TouchingWhisker;
 use super::ground::secant;
-use super::law::{Part, Solved};
+use super::law::{Part, Solved, kept};
+use super::spring::Give;
 use crate::physics::contact::Frame;
 use crate::physics::pose::Seen;
 use crate::physics::vector::{V3, dot, length2, sub};
@@ -48,11 +49,13 @@ const LEAST: f64 = 0.05;
 pub(super) struct Touch {
     /// Stretch along the whisker's axes x, y and z, m.
     pub(super) stretch: V3,
-    /// Its energy, J; positive: in contact.
+    /// Its energy, J.
     pub(super) spring_j: f64,
-    /// Force on the tip, plate coordinates, N.
+    /// Its force on the axes x and y, N.
+    pub(super) pull: [f64; 2],
+    /// Force on the tip, the mean of the part, plate coordinates, N.
     pub(super) force: V3,
-    /// Its normal component.
+    /// Its normal component; positive: in contact.
     pub(super) normal_n: f64,
     pub(super) stuck: bool,
     /// Speed at which it slides, m/s.
@@ -61,6 +64,19 @@ pub(super) struct Touch {
     pub(super) ground: Option<[f64; 3]>,
     /// How much lower than it is the ground counts, m.
     pub(super) lowered_m: f64,
+}
+
+impl Touch {
+    /// A foot in the air with a stretch.
+    fn of(give: &Give, stretch: V3) -> Self {
+        let force = give.force(stretch);
+        Self {
+            stretch,
+            spring_j: -0.5 * dot(force, stretch),
+            pull: [force[0], force[1]],
+            ..Self::default()
+        }
+    }
 }
 
 impl TouchingWhisker {
@@ -72,7 +88,8 @@ impl TouchingWhisker {
         let start = self.shape.deflections(&self.state);
         self.state.free(reach);
         let free = self.shape.deflections(&self.state);
-        let touching = self.touch.spring_j > 0.0;
+        let give = self.shape.give(1.0 / self.relief.0.stiffness_n_m);
+        let touching = self.contact();
         let mut end = free;
         let mut below = None;
         if touching {
@@ -80,10 +97,13 @@ impl TouchingWhisker {
             let push = |way: V3| reach.response * dot(way, self.touch.force);
             end = [end[0] + push(new.x), end[1] + push(new.y)];
         } else {
-            let to = self.shape.tip(free, new);
+            let keep = kept(self.share(reach, part_s, &give, 1.0));
+            let stretch = self.touch.stretch.map(|s| keep * s);
+            let to = sub(self.shape.tip(free, new), new.space(stretch));
             let ground = self.relief.1.at([to[0], to[1]]);
             if to[2] >= ground[0] {
-                self.touch = Touch::default();
+                self.touch = Touch::of(&give, stretch);
+                self.touch.ground = Some(ground);
                 return;
             }
             below = Some(ground);
@@ -96,7 +116,7 @@ impl TouchingWhisker {
             new,
             reach,
             part_s,
-            give: self.shape.give(1.0 / self.relief.0.stiffness_n_m),
+            give,
             touching,
             start,
             free,
@@ -161,23 +181,18 @@ fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], tip: V3) -> Touch
     let deep = ground[0] - foot[2];
     let body = part.new.body(solved.stretch);
     let left_j = solved.left_j.max(0.0);
-    let (stretch, paid) = part
-        .give
-        .within(left_j, body, part.new.body([0.0, 0.0, -deep]));
-    let own = part.give.force(stretch);
-    let force = part.new.space(own);
-    let normal_n = dot(force, frame.axes[0]);
-    if normal_n <= 0.0 {
-        return Touch::default();
-    }
+    // A foot in the air stays there.
+    let normal_n = solved.force.local[0];
+    let deep = if normal_n > 0.0 { deep } else { deep.max(0.0) };
+    let up = part.new.body([0.0, 0.0, -deep]);
+    let (stretch, paid) = part.give.within(left_j, body, up);
     Touch {
-        stretch,
-        spring_j: -0.5 * dot(own, stretch),
-        force,
+        force: frame.plate(solved.force.local),
         normal_n,
         stuck: solved.force.stuck,
         slip_m_s: solved.slipped_m / part.part_s,
         ground: Some(ground),
         lowered_m: (1.0 - paid) * deep,
+        ..Touch::of(&part.give, stretch)
     }
 }

@@ -4,17 +4,6 @@ use super::TouchingWhisker;
 use crate::physics::vector::dot;
 
 impl TouchingWhisker {
-    /// Force of the contact in the whisker's axes, N.
-    pub(super) fn force_on_axes(&self) -> [f64; 2] {
-        match &self.last {
-            Some(last) => [
-                dot(self.touch.force, last.seen.x),
-                dot(self.touch.force, last.seen.y),
-            ],
-            None => [0.0; 2],
-        }
-    }
-
     /// What the sensor says, x and y, each within ±1: rotation of the base over
     /// full scale, as last measured. A tip that is pushed towards +x reads
     /// positive.
@@ -29,7 +18,7 @@ impl TouchingWhisker {
 
     /// Whether the tip is pressed on the plate at the end of the step.
     pub fn contact(&self) -> bool {
-        self.touch.spring_j > 0.0
+        self.touch.normal_n > 0.0
     }
 
     /// How many parts the last step was cut into; none if the tip stayed clear
@@ -58,12 +47,12 @@ impl TouchingWhisker {
 
     /// Deflection of the tip in x and y, m.
     pub fn tip_m(&self) -> [f64; 2] {
-        self.shape.deflection(&self.state, self.force_on_axes())
+        self.shape.deflection(&self.state, self.touch.pull)
     }
 
     /// Rotation of the base in x and y as it is, rad.
     pub fn rotation_rad(&self) -> [f64; 2] {
-        self.shape.rotation(&self.state, self.force_on_axes())
+        self.shape.rotation(&self.state, self.touch.pull)
     }
 
     /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes

@@ -32,7 +32,7 @@ fn any_release() -> impl Strategy<Value = Release> {
     (0.0..0.7_f64, -0.05..0.05_f64, [-0.2..0.2_f64, -0.2..0.2])
 }
 
-const MATERIALS: [Material; 26] = {
+pub(super) const MATERIALS: [Material; 26] = {
     use Grit::{
         P40, P50, P60, P80, P100, P120, P150, P180, P220, P240, P280, P320, P360, P400, P500, P600,
     };

@@ -1,7 +1,8 @@
 //! Textures: jumps, dead zones, seeds, and what depends on the material.
 
+use super::energy::MATERIALS;
 use super::{DT, QUIET, floor};
-use crate::physics::{Material, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
+use crate::physics::{Biotact, Material, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// A reading, and whether the tip touched.
 type Read = ([f64; 2], bool);
@@ -107,4 +108,39 @@ fn a_floor_rings_where_the_whisker_does_with_its_tip_held() {
     ];
     let top = bands.iter().copied().fold(0.0, f64::max);
     assert_eq!(bands[3], top, "{bands:?}");
+}
+
+#[test]
+fn the_ground_stays_where_it_is() {
+    // Drawn over every material at 0.2 m/s: where contact cannot pay for the
+    // ground's height at once, it soon does.
+    let (sine, cosine) = 15.0_f64.to_radians().sin_cos();
+    let half = 0.5_f64.sqrt();
+    let shafts = [
+        Shaft::floor_robot(),
+        Shaft::biotact(Biotact::Front),
+        Shaft::psikharpax(1),
+    ];
+    for material in MATERIALS {
+        let surface = Surface::of(material);
+        for shaft in &shafts {
+            let mut whisker = TouchingWhisker::new(shaft, &QUIET, 1).unwrap();
+            let (mut touching, mut lowered) = (0, 0);
+            for n in 0..2000 {
+                let pose = Pose {
+                    base_m: [1e-4 * f64::from(n), 0.0, shaft.length_m * (sine - 0.05)],
+                    x: [-half, half, 0.0],
+                    y: [half * sine, half * sine, cosine],
+                };
+                whisker.step(&pose, Some(&floor(surface)), DT);
+                touching += u32::from(whisker.contact());
+                lowered += u32::from(whisker.lowered_m() > 0.01 * surface.height_m);
+            }
+            assert!(touching > 1000, "{material:?} {touching}");
+            assert!(
+                lowered <= touching / 200,
+                "{material:?} {lowered} {touching}"
+            );
+        }
+    }
 }
