@@ -55,11 +55,17 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
     table("Parts of a tick before the plate, in the mean:", |m| {
         m.parts
     });
+    table(
+        "Most by which contact took the ground for lower than it is (see below), m:",
+        |m| m.lowered_m,
+    );
     page.say(
-        "On a flat plate the error falls with the length of a part. Where a tip sticks and slips \
-         or jumps from stone to stone, a small error decides which grain holds it, and two runs \
-         part for a while however short their ticks: where the last column is as large as the \
-         others, the error at a time says little, and the spreads are what to go by.",
+        "The error falls with the tick wherever the tip slides, first with what a tick knows of \
+         the base's way, then with the length of a part; cutting long ticks finer brings little, \
+         as the table below shows. Where a tip jams before a steep grain and jumps, or sticks and \
+         slips on steep stones, a small error decides when it lets go, and two runs part for a \
+         while however short their ticks: where the last column is as large as the others, the \
+         error at a time says little, and the spreads are what to go by.",
     );
     page.picture(
         "contact.svg",
@@ -92,21 +98,21 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
         "The whisker is bent, let go over or under a plate, and rings and bounces for 0.2 s \
          with its base at rest, at all five ticks. Kinetic and elastic energy together must \
          not rise. The largest rise from a tick to the next is, as a share of the most energy \
-         there was (rounding is about 1e-16 of it). Over a smooth plate none is possible at \
-         any stiffness. On a textured one there are rises, and they are errors of the method: \
-         height and slope of the ground are taken at one place for a whole part.",
+         there was (rounding is about 1e-16 of it). Where ground under the tip turns out higher \
+         than a part has taken it for, contact counts it as lower until what it dissipates has \
+         paid for the difference: the last column has the most that it did.",
     );
     let rows = energy::rises()?.into_iter();
     page.table(
-        "plate | largest rise",
-        rows.map(|(name, rise)| vec![name, short(rise)]),
+        "plate | largest rise | ground lower by at most, m",
+        rows.map(|(name, [rise, lowered])| vec![name, short(rise), short(lowered)]),
     );
     Ok(())
 }
 
 fn csv(measured: &[Against]) -> String {
     let mut csv = "surface,tick_hz,times_finer,rms,largest,spread_ratio,change_ratio,share_cut,\
-                   mean_parts,most_parts\n"
+                   mean_parts,most_parts,lowered_m\n"
         .to_owned();
     let mut line = |name: &str, hz: u32, finer: usize, m: &Measured| {
         let numbers = [m.rms, m.largest, m.spread, m.change, m.share, m.parts];
@@ -114,9 +120,10 @@ fn csv(measured: &[Against]) -> String {
         // Writing to a string does not fail. Names with a comma are quoted.
         let _ = writeln!(
             csv,
-            "\"{name}\",{hz},{},{cells},{}",
+            "\"{name}\",{hz},{},{cells},{},{:.1e}",
             1 << finer,
-            m.most_parts
+            m.most_parts,
+            m.lowered_m
         );
     };
     for against in measured {
@@ -193,12 +200,16 @@ mod tests {
         for against in &measured {
             let [coarse, .., fine] = &against.ticks;
             assert!((0.2..0.8).contains(&fine.share), "{against:?}");
-            assert!(fine.rms < 0.4 && coarse.rms > 0.0, "{against:?}");
+            assert!(fine.rms < 0.1 && coarse.rms > 0.0, "{against:?}");
             assert!((fine.spread - 1.0).abs() < 0.05, "{against:?}");
+            // Tarmac and P80 decide by small differences when they let go.
+            if !["tarmac", "P80"].contains(&against.name) {
+                assert!(fine.rms < 0.3 * coarse.rms, "{against:?}");
+                assert!(against.half.rms < 0.1 * fine.rms, "{against:?}");
+            }
         }
         let flat = &measured[0];
-        assert!(flat.ticks[4].rms < 0.7 * flat.ticks[0].rms, "{flat:?}");
-        assert!(flat.half.rms < 0.25 * flat.ticks[4].rms, "{flat:?}");
+        assert!(flat.ticks[2].rms < 0.2 * flat.ticks[0].rms, "{flat:?}");
         // Eight surfaces at five ticks, and cut finer in three ways.
         assert_eq!(csv(&measured).lines().count(), 1 + 8 * 8);
     }

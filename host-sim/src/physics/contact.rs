@@ -1,27 +1,20 @@
-//! One contact over one step: normal force and friction, implicit.
+//! One contact over one part of a step: normal force and friction, implicit.
 //!
 //! Glossary:
 //!
-//! - *response* W: displacement of the tip at the end of the step for a force of
+//! - *response* W: displacement of the tip at the end of the part for a force of
 //!   1 N that acts all through it;
-//! - *springs*: the surface in series with the part of the shaft that has no
-//!   inertia here (residual modes, length), one normal and one tangential;
-//! - *stretch* ξ: elongation of the tangential spring, from the place where the
-//!   surface holds it to the tip.
+//! - *springs* 1/k: how much further a force displaces it, without inertia;
+//! - *stretch* ξ: way of the tip along the ground from where it is held, without
+//!   the force; *gap* g: its distance to the ground, likewise.
 //!
-//! Sought is a force that is constant during the step and meets at its end
+//! Sought is a force that is constant during the part, with
 //!
-//! N = max(0, −k_n g), |T| ≤ μ N, T = −k_t ξ,
+//! N ≥ 0, g + (W + 1/k) F = 0 along the normal, |T| ≤ μ N,
 //!
-//! with the gap g and stretch ξ that it brings about itself. Where T would pass
-//! the cone, the surface lets go until it lies on it, opposed to the sliding.
-//!
-//! # Energy
-//!
-//! A constant force does the work F·Δp exactly, and the springs' energies are
-//! convex, so what they take is at least what their force at the end of the step
-//! does: modes and springs together gain nothing, at any stiffness and any
-//! length of the step. What slips is lost.
+//! and ξ + (W + 1/k) F = slip along the ground. Where T would pass the cone, the
+//! tip slips against it: T · slip ≤ 0, so that friction takes energy. What modes
+//! and springs exchange is in the law that sets the problem.
 
 use super::vector::{V3, add, dot, length2, scale};
 
@@ -35,7 +28,8 @@ pub(super) struct Problem {
     pub(super) gap: f64,
     /// Stretch without slip and without the force, m.
     pub(super) stretch: [f64; 2],
-    /// W, m/N; symmetric and positive.
+    /// W, m/N; symmetric and positive. What of the springs is not the same in all
+    /// directions may be part of it.
     pub(super) response: [[f64; 3]; 3],
     /// 1/k_n and 1/k_t, m/N; positive.
     pub(super) springs: [f64; 2],

@@ -16,7 +16,8 @@ pub struct Surface {
     pub grain_m: f64,
     /// Stiffness against a tip that presses on it, N/m, 1 to 1e9.
     pub stiffness_n_m: f64,
-    /// Damping ratio of a tip that bounces on it, 0 to 10.
+    /// Damping ratio of a tip that rings on it and on what of the shaft has no
+    /// inertia, 0 to 10.
     pub damping: f64,
     /// Coefficient of friction that holds a resting tip, `friction` to 10.
     pub hold: f64,

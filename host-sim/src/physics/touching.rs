@@ -19,13 +19,15 @@
 //! # Method
 //!
 //! Modes are propagated exactly, free or under the force of the contact, which
-//! is constant during a part and found at its end ([`super::contact`]). So the
-//! sum of modal and elastic energy never grows at any stiffness or step while
-//! the base rests on a smooth plate. Then the contact's own damping takes a
-//! share of the tip's velocity against the ground, by an impulse that never
-//! pulls. A step is cut in parts by how far the tip travels over the grains and
-//! how fast the highest mode rings; one that stays clear of the plate is not
-//! cut and knows nothing of contact.
+//! is constant during a part and found implicitly, with friction and the
+//! contact's own damping, to the second order where parts resolve what rings
+//! ([`law`]). Where the tip goes meanwhile and how high the ground is there are
+//! found together ([`part`]). The sum of modal and elastic energy never grows
+//! while the base rests, on any ground, at any stiffness and step.
+//!
+//! A step is cut in parts by how far the tip travels over the grains and how fast
+//! the highest mode rings; one that stays clear of the plate is not cut and knows
+//! nothing of contact.
 
 mod before;
 mod ground;

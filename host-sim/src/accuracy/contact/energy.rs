@@ -14,9 +14,10 @@ const OVERLAPS_DEG: [f64; 3] = [-3.0, -0.2, 5.0];
 const SECONDS: f64 = 0.2;
 
 /// Largest rise of the energy from one tick to the next, as a share of the most
-/// there was; over bends, overlaps and ticks.
-fn rise(subject: &Subject, surface: Surface) -> Result<f64, Error> {
-    let mut worst: f64 = 0.0;
+/// there was; and by how much the ground counted as lower than it is, at most, m;
+/// over bends, overlaps and ticks.
+fn rise(subject: &Subject, surface: Surface) -> Result<[f64; 2], Error> {
+    let (mut worst, mut lowered) = (0.0_f64, 0.0_f64);
     for hz in TICKS_HZ {
         let dt_s = 1.0 / f64::from(hz);
         for bend in BENDS {
@@ -33,18 +34,19 @@ fn rise(subject: &Subject, surface: Surface) -> Result<f64, Error> {
                     let energy = whisker.energy_j();
                     up = f64::max(up, energy - last);
                     most = most.max(energy);
+                    lowered = lowered.max(whisker.lowered_m());
                     last = energy;
                 }
                 worst = worst.max(up / most.max(f64::MIN_POSITIVE));
             }
         }
     }
-    Ok(worst)
+    Ok([worst, lowered])
 }
 
-/// Largest rises by plate: smooth ones without damping, by stiffness and
+/// Largest rises and lowerings by plate: smooth ones without damping, by stiffness and
 /// friction, and textured ones as they are.
-pub(super) fn rises() -> Result<Vec<(String, f64)>, Error> {
+pub(super) fn rises() -> Result<Vec<(String, [f64; 2])>, Error> {
     let subject = Subject::new()?;
     let mut list = Vec::new();
     for stiffness_n_m in STIFFNESSES_N_M {
@@ -70,7 +72,7 @@ pub(super) fn rises() -> Result<Vec<(String, f64)>, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Subject, rise};
+    use super::{Subject, rise, surfaces};
     use crate::physics::{Material, Surface};
 
     #[test]
@@ -82,8 +84,18 @@ mod tests {
                 damping: 0.0,
                 ..Surface::of(Material::Flat)
             };
-            let rise = rise(&subject, surface).unwrap();
-            assert!(rise < 1e-9, "{stiffness_n_m}: {rise:e}");
+            let [rise, _] = rise(&subject, surface).unwrap();
+            assert!(rise < 1e-12, "{stiffness_n_m}: {rise:e}");
+        }
+    }
+
+    #[test]
+    fn textured_plates_create_nothing_and_stay_where_they_are() {
+        let subject = Subject::new().unwrap();
+        for (name, surface) in surfaces() {
+            let [rise, lowered] = rise(&subject, surface).unwrap();
+            assert!(rise < 1e-12, "{name}: {rise:e}");
+            assert!(lowered <= 1e-6 + surface.height_m, "{name}: {lowered:e}");
         }
     }
 }

@@ -101,6 +101,8 @@ struct Heard {
     share: f64,
     parts: f64,
     most_parts: u32,
+    /// Most by which the ground counted as lower than it is, m.
+    lowered_m: f64,
 }
 
 fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Heard, Error> {
@@ -110,6 +112,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
     let every = hz / SAMPLES_HZ;
     let dt_s = 1.0 / f64::from(hz);
     let (mut cut, mut parts, mut most_parts) = (0_u32, 0_u64, 0);
+    let mut lowered_m = 0.0_f64;
     let mut rotations = Vec::new();
     for n in 0..=ticks {
         let phase = TAU * WHISK[0] * f64::from(n) * dt_s;
@@ -118,6 +121,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
         cut += u32::from(whisker.parts() > 0);
         parts += u64::from(whisker.parts());
         most_parts = most_parts.max(whisker.parts());
+        lowered_m = lowered_m.max(whisker.lowered_m());
         if n > 0 && n.is_multiple_of(every) {
             rotations.push(whisker.rotation_rad());
         }
@@ -127,6 +131,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
         share: f64::from(cut) / f64::from(ticks),
         parts: parts as f64 / f64::from(cut.max(1)),
         most_parts,
+        lowered_m,
     })
 }
 
@@ -146,6 +151,8 @@ pub(in crate::accuracy) struct Measured {
     pub(in crate::accuracy) share: f64,
     pub(super) parts: f64,
     pub(super) most_parts: u32,
+    /// Most by which the ground counted as lower than it is, m.
+    pub(super) lowered_m: f64,
 }
 
 impl Measured {
@@ -166,6 +173,7 @@ impl Measured {
             share: heard.share,
             parts: heard.parts,
             most_parts: heard.most_parts,
+            lowered_m: heard.lowered_m,
         }
     }
 }

@@ -31,7 +31,7 @@ use super::law::{Part, Solved, kept};
 use super::spring::Give;
 use crate::physics::contact::Frame;
 use crate::physics::pose::Seen;
-use crate::physics::vector::{V3, dot, length2, sub};
+use crate::physics::vector::{V3, dot, length2, scale, sub};
 
 /// Rounds by which the end of a part is found, at most; mostly one.
 const ROUNDS: usize = 8;
@@ -90,18 +90,21 @@ impl TouchingWhisker {
         let free = self.shape.deflections(&self.state);
         let give = self.shape.give(1.0 / self.relief.0.stiffness_n_m);
         let touching = self.contact();
+        let stretch = new.space(self.touch.stretch);
         let mut end = free;
-        let mut below = None;
+        let (mut to, mut below);
         if touching {
             // Forces change little from part to part.
             let push = |way: V3| reach.response * dot(way, self.touch.force);
             end = [end[0] + push(new.x), end[1] + push(new.y)];
+            to = sub(self.shape.tip(end, new), stretch);
+            below = None;
         } else {
             let keep = kept(self.share(reach, part_s, &give, 1.0));
-            let stretch = self.touch.stretch.map(|s| keep * s);
-            let to = sub(self.shape.tip(free, new), new.space(stretch));
+            to = sub(self.shape.tip(free, new), scale(keep, stretch));
             let ground = self.relief.1.at([to[0], to[1]]);
             if to[2] >= ground[0] {
+                let stretch = scale(keep, self.touch.stretch);
                 self.touch = Touch::of(&give, stretch);
                 self.touch.ground = Some(ground);
                 return;
@@ -110,7 +113,6 @@ impl TouchingWhisker {
         }
         let tip = self.shape.tip(start, old);
         let foot = sub(tip, old.space(self.touch.stretch));
-        let stretch = new.space(self.touch.stretch);
         let here = || self.relief.1.at([foot[0], foot[1]]);
         let part = Part {
             new,
@@ -126,11 +128,9 @@ impl TouchingWhisker {
             carried: sub(sub(self.shape.tip(start, new), stretch), foot),
         };
         let near = NEAR * self.relief.1.finest_m;
-        let mut to = if touching && self.touch.stuck {
-            foot
-        } else {
-            sub(self.shape.tip(end, new), stretch)
-        };
+        if touching && self.touch.stuck {
+            to = foot;
+        }
         let (mut missed, mut relax) = (None, 1.0);
         for round in 1..=ROUNDS {
             let at = |to: V3| self.relief.1.at([to[0], to[1]]);
