@@ -39,7 +39,7 @@ const LATEST: f64 = 1e-9;
 pub(super) struct Part<'a> {
     pub(super) new: &'a Seen,
     pub(super) reach: &'a Reach,
-    pub(super) part_s: f64,
+    pub(super) dt_s: f64,
     pub(super) give: Give,
     pub(super) touching: bool,
     /// Deflections at the begin, and at the end without a force.
@@ -104,11 +104,11 @@ impl TouchingWhisker {
         } else {
             1.0
         };
-        let share = self.share(part.reach, part.part_s, &part.give, late);
+        let share = self.share(part.reach, part.dt_s, &part.give, late);
         let sliding = if part.touching {
             self.touch.slip_m_s
         } else {
-            length2([moved[1], moved[2]]) / part.part_s
+            length2([moved[1], moved[2]]) / part.dt_s
         };
         let along = frame.local(part.new.z);
         let response = |i: usize, j: usize| {

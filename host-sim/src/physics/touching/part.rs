@@ -117,7 +117,7 @@ impl TouchingWhisker {
         let part = Part {
             new,
             reach,
-            part_s,
+            dt_s: part_s,
             give,
             touching,
             start,
@@ -190,7 +190,7 @@ fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], tip: V3) -> Touch
         force: frame.plate(solved.force.local),
         normal_n,
         stuck: solved.force.stuck,
-        slip_m_s: solved.slipped_m / part.part_s,
+        slip_m_s: solved.slipped_m / part.dt_s,
         ground: Some(ground),
         lowered_m: (1.0 - paid) * deep,
         ..Touch::of(&part.give, stretch)
