@@ -13,12 +13,15 @@
 //!
 //! what [`crate::physics::contact`] solves. A foot that touches down late, for a
 //! share l of the part, has ξ₀ = 0, a gap to close first, and s = l w + τ/h; for
-//! w = ½ this is the mean of a force that grows evenly from then on.
+//! w = ½ this is the mean of a force that grows evenly from then on. A foot in
+//! the air has F = 0, and so ξ₁ = (1 − 1/s) ξ₀; zero where s < 1.
 //!
 //! # Energy
 //!
 //! The spring gains ½ (ξ₁ + ξ₀)·C⁻¹(ξ₁ − ξ₀), the force does F·(ξ₁ − ξ₀ + slip).
 //! The sum is −(s − ½) (ξ₁ − ξ₀)·C⁻¹(ξ₁ − ξ₀) + F·slip, and neither is positive.
+//! Of a foot that touches down, friction might still give energy; it then has
+//! none in that part.
 
 use super::TouchingWhisker;
 use super::spring::Give;

@@ -1,4 +1,5 @@
-//! The massless spring between modal tip and foot.
+//! The massless spring between modal tip and foot: what it gives, its energy, and
+//! how coarse a part is for it.
 
 use crate::physics::vector::{V3, add, dot};
 
@@ -31,7 +32,9 @@ impl Give {
         [-x / self.across, -y / self.across, -z / self.along]
     }
 
-    /// w for a part in which 1 N moves the modal tip by `response`, m.
+    /// w for a part in which 1 N moves the modal tip by `response`, m: above ½ by
+    /// the square of the part's length, so that the second order stays, and near
+    /// 1 where the modes give way by far more than the spring.
     #[inline]
     pub(super) fn weight(&self, response: f64) -> f64 {
         let coarse = 0.25 * response / self.across;
