@@ -62,10 +62,9 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
     page.say(
         "The error falls with the tick wherever the tip slides, first with what a tick knows of \
          the base's way, then with the length of a part; cutting long ticks finer brings little, \
-         as the table below shows. Where a tip jams before a steep grain and jumps, or sticks and \
-         slips on steep stones, a small error decides when it lets go, and two runs part for a \
-         while however short their ticks: where the last column is as large as the others, the \
-         error at a time says little, and the spreads are what to go by.",
+         as the table below shows. Where a tip jams before a steep grain and jumps (P80), or \
+         sticks and slips on steep stones (tarmac), a small error decides when it lets go: the \
+         error at a time then takes far shorter parts to fall, and the spreads are what to go by.",
     );
     page.picture(
         "contact.svg",

@@ -41,10 +41,15 @@ impl Give {
         (0.5 + coarse) / (1.0 + coarse)
     }
 
-    /// τ = 2 ζ/ω of a tip that rings on its stretch with ω² = mobility/C, s.
+    /// τ = 2 ζ/ω of a tip that rings on its stretch with ω² = mobility/C, s; zero
+    /// for one that does not move.
     #[inline]
     pub(super) fn lag_s(&self, damping: f64, mobility: f64) -> f64 {
-        2.0 * damping * (self.across / mobility).sqrt()
+        if mobility > 0.0 {
+            2.0 * damping * (self.across / mobility).sqrt()
+        } else {
+            0.0
+        }
     }
 
     /// A stretch with as much of a change, 0 to 1, as an energy allows; less
