@@ -8,7 +8,7 @@ use crate::physics::vector::{V3, dot, length, sub};
 
 /// Longest way of the tip in a part, in distances of the finest octave: heights
 /// change from hill to valley over one.
-const TRAVEL: f64 = 0.5;
+const TRAVEL: f64 = 0.25;
 
 /// Largest phase of the highest mode in a part, rad.
 const PHASE: f64 = 1.0;
