@@ -39,9 +39,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         // No block ends within a count, or every sample ends one.
         for (name, block) in [("open", 10_000), ("block", 1)] {
             let path = output(&format!("{name}{classes}.model"))?;
-            fs::write(path, model(classes, block)?)?;
+            fs::write(path, model(2, classes, block)?)?;
         }
     }
+    fs::write(output("single4.model")?, model(1, 4, 10_000)?)?;
     Ok(())
 }
 
@@ -200,13 +201,13 @@ fn sections() -> String {
     format!("/// H50.\npub const SECTIONS: [[f64; 5]; 2] = {sections:?};\n")
 }
 
-/// A model of sensor codes of two channels whose classes overlap.
-fn model(classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
+/// A model of sensor codes of one or two channels whose classes overlap.
+fn model(channels: usize, classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
     let options = Options {
         block,
         ..Options::default()
     };
-    let mut trainer = Trainer::new(2, options)?;
+    let mut trainer = Trainer::new(channels, options)?;
     let mut random = 1_u32;
     let mut code = |middle: u32| {
         // The sum of two is a triangle around the middle; a common generator
@@ -221,7 +222,7 @@ fn model(classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
         let name = format!("class {class}");
         for _ in 0..500 {
             let sample = [code(2_000 + 400 * class), code(5_000 - 300 * class)];
-            trainer.add(&name, &sample)?;
+            trainer.add(&name, sample.get(..channels).unwrap_or(&sample))?;
         }
     }
     Ok(trainer.train()?.as_bytes().to_vec())

@@ -46,9 +46,9 @@ const POSE_BINS: usize = 3001;
 const fn one_axis(classifier: &'static str) -> Form {
     Form {
         classifier,
-        kernels: &[("classifier push K=4", 1.0)],
+        kernels: &[("classifier push of one channel K=4", 1.0)],
         bytes: (state(4, false), table(347, 1, 4)),
-        note: "instructions of two axes, at most: a kernel of one axis is not counted",
+        note: "",
     }
 }
 

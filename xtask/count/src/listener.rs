@@ -1,4 +1,4 @@
-//! A classifier of two channels and what it heard.
+//! A classifier of one or two channels and what it heard.
 
 use tactile::{Classes, Model, Sequential, SequentialEvidence, State, Supported, Threshold};
 
@@ -20,7 +20,12 @@ pub fn open_4() -> &'static [u8] {
     model!("open4")
 }
 
-/// The same of nine classes.
+/// The same of one channel.
+pub fn single_4() -> &'static [u8] {
+    model!("single4")
+}
+
+/// The same of two channels and nine classes.
 pub fn open_9() -> &'static [u8] {
     model!("open9")
 }
@@ -35,17 +40,17 @@ pub fn block_9() -> &'static [u8] {
     model!("block9")
 }
 
-/// A classifier of `K` classes and its state.
+/// A classifier of `K` classes by `C` channels and its state.
 #[derive(Debug)]
-pub struct Listener<const K: usize>
+pub struct Listener<const K: usize, const C: usize = 2>
 where
     Classes<K>: Supported,
 {
-    classifier: Sequential<'static, 2, K>,
+    classifier: Sequential<'static, C, K>,
     state: State<SequentialEvidence<K>, K>,
 }
 
-impl<const K: usize> Listener<K>
+impl<const K: usize, const C: usize> Listener<K, C>
 where
     Classes<K>: Supported,
 {
@@ -55,14 +60,14 @@ where
     /// If the build script made another.
     pub fn new(model: &'static [u8]) -> Self {
         let model = Model::parse(model).expect("a model");
-        let classifier = Sequential::new(&model, THRESHOLD).expect("two channels, K classes");
+        let classifier = Sequential::new(&model, THRESHOLD).expect("C channels, K classes");
         let state = classifier.state();
         Self { classifier, state }
     }
 
     /// The samples that a decision used; 0: none fell.
     #[inline]
-    pub fn push(&mut self, codes: [i32; 2]) -> u32 {
+    pub fn push(&mut self, codes: [i32; C]) -> u32 {
         let decision = self.classifier.push(&mut self.state, &codes);
         decision.map_or(0, |decision| decision.samples())
     }

@@ -19,11 +19,11 @@ pub struct Channel<R: Format> {
 }
 
 impl<R: Format> Channel<R> {
-    /// Takes a frame in: what the classifier says, and the contact or
+    /// Takes the frame of a number in: what the classifier says, and the contact or
     /// `strongest`, whichever is more.
     #[inline]
-    pub fn listen(&mut self, bytes: &[u8; 8], strongest: R) -> (u32, R) {
-        let Ok(frame) = Decoder::new().decode(bytes) else {
+    pub fn listen(&mut self, number: u32, strongest: R) -> (u32, R) {
+        let Ok(frame) = Decoder::new().decode(frame(number)) else {
             return (1 << 31, strongest);
         };
         let words = [frame.first(), frame.second()];
@@ -75,15 +75,15 @@ impl<R: Format, const S: usize, const N: usize> Pipeline<R, S, N> {
     pub fn tick_by(
         &mut self,
         call: u32,
-        listen: impl Fn(&mut Channel<R>, &[u8; 8], R) -> (u32, R),
+        listen: impl Fn(&mut Channel<R>, u32, R) -> (u32, R),
         whisk: impl Fn(&mut State<R, S, N>, [R; S]),
         follow: impl Fn(&mut [[Channel<R>; N]; S], &State<R, S, N>) -> u32,
     ) -> u32 {
         let mut contact = [R::ZERO; S];
         for (side, channels) in self.channels.iter_mut().enumerate() {
             for (n, channel) in channels.iter_mut().enumerate() {
-                let bytes = frame(call + (side * N + n) as u32);
-                let (said, strongest) = listen(channel, bytes, contact[side]);
+                let number = call + (side * N + n) as u32;
+                let (said, strongest) = listen(channel, number, contact[side]);
                 self.said = self.said.wrapping_add(said);
                 contact[side] = strongest;
             }

@@ -1,8 +1,8 @@
-//! A sample of two channels, which ends no block.
+//! A sample of one or two channels, which ends no block.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Two;
-use count::listener::{Listener, open_4, open_9};
+use count::listener::{Listener, open_4, open_9, single_4};
 use count::samples::codes;
 use count::{kernel, program};
 
@@ -12,6 +12,9 @@ fn kernels() {
     kernel!("integer": "classifier push K=4",
         (codes: Two<i32>, listener: &mut Listener<4>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(open_4()));
+    kernel!("integer": "classifier push of one channel K=4",
+        (code: i32, listener: &mut Listener<4, 1>) -> u32 { listener.push([code]) },
+        |call| codes(call).0, Listener::new(single_4()));
     kernel!("integer": "classifier push K=9",
         (codes: Two<i32>, listener: &mut Listener<9>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(open_9()));

@@ -29,8 +29,8 @@ fn tick<R: Format>() {
 /// Not inlined, as the next two: each counts its addresses from its own part.
 #[cfg(not(machine = "microbit"))]
 #[inline(never)]
-fn listen<R: Format>(channel: &mut Channel<R>, bytes: &[u8; 8], strongest: R) -> (u32, R) {
-    channel.listen(bytes, strongest)
+fn listen<R: Format>(channel: &mut Channel<R>, number: u32, strongest: R) -> (u32, R) {
+    channel.listen(number, strongest)
 }
 
 #[cfg(not(machine = "microbit"))]
