@@ -29,6 +29,7 @@ mod psik;
 mod record;
 mod recording;
 mod request;
+mod spectrogram;
 mod whole;
 
 pub use dataset::Dataset;

@@ -2,6 +2,7 @@
 //! unmodulated and with two strengths of RCP; naive Bayes and the template by
 //! sum of squares after one to eight training whisks.
 
+mod histories;
 mod movement;
 mod patterns;
 mod whisks;
@@ -133,7 +134,8 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     }
     let why = why::section(&mut section, request, recordings, most)?;
     claims(&mut section, &hits, most, &why.hits);
-    movement::section(&mut section, request, recordings, &why.biphasic)?;
+    movement::section(&mut section, request, recordings, &why.biphasic);
+    histories::section(&mut section, request, recordings)?;
     Ok(section)
 }
 

@@ -1,12 +1,9 @@
 //! How the head moves: whether a whisk has one peak or two, how long it
-//! touches, and what RCP leaves of the deflection (BIOTACT Figs. 8 and 12).
+//! touches, and what RCP leaves of the deflection (BIOTACT Fig. 8).
 
-use crate::Error;
-use crate::accuracy::chart::{Mark, draw};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
 use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
-use crate::experiment::picture::{Curve, FOLDER, linear, panel};
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
@@ -70,7 +67,7 @@ fn contacts(touching: &[f64], least: usize) -> usize {
 }
 
 /// One column of a visit from tick `from` to `to`.
-fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> {
+pub(super) fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> {
     let rows = visit.part(from, to).chunks_exact(COLUMNS);
     rows.filter_map(|row| row.get(column).map(|x| f64::from(*x)))
         .collect()
@@ -124,7 +121,7 @@ pub(super) fn section(
     request: &Request,
     recordings: &Recordings,
     why: &str,
-) -> Result<(), Error> {
+) {
     let all = recordings.of(Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let smooth = TEXTURES.len() - 1;
@@ -184,45 +181,6 @@ pub(super) fn section(
         strong.biphasic > 50.0 && strong.contacts > 1.5 && gentle < 5.0,
         why,
     );
-    time_histories(section, request, &all)
-}
-
-/// Fig. 12, upper parts: x of a short whisker over one whisk.
-fn time_histories(
-    section: &mut Section,
-    request: &Request,
-    all: &[&Recording],
-) -> Result<(), Error> {
-    let ticks = request.rigs.head.whisk_ticks();
-    let dt_s = 1.0 / request.rigs.head.tick_hz;
-    let mut panels = Vec::new();
-    for texture in [TEXTURES.len() - 1, 0] {
-        let mut curves = Vec::new();
-        for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
-            if let Some(visit) = all.get(number(strategy, texture, 1)) {
-                let x = column(visit, ticks, 2 * ticks, 0);
-                let points = x.iter().enumerate().map(|(n, x)| (n as f64 * dt_s, *x));
-                curves.push(Curve::new(name, points.collect()));
-            }
-        }
-        let ends = curves.iter().flat_map(|curve| &curve.points);
-        let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), point| {
-            (low.min(point.1), high.max(point.1))
-        });
-        let x = linear("s", 0.0, ticks as f64 * dt_s);
-        let y = linear("sensor codes", low, high);
-        panels.push(panel(TEXTURES[texture].0, x, y, &curves, Mark::Nothing));
-    }
-    section.page.say(
-        "**Fig. 12**, time histories: x of the left 80 mm whisker over one whisk at 10 mm. RCP \
-         cuts the deflection short; textures differ less than strategies, as in the paper. The \
-         figure's spectrograms (reassigned Gabor transforms) are left out.",
-    );
-    let what = "One whisk with and without RCP";
-    section
-        .page
-        .picture_in(FOLDER, "biotact-fig12.svg", what, draw(&panels)?);
-    Ok(())
 }
 
 #[cfg(test)]
