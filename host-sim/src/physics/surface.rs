@@ -53,7 +53,7 @@ pub enum Material {
 
 /// FEPA grades of abrasive paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs, reason = "the names are the grades")]
+#[expect(missing_docs, reason = "the names are the grades")]
 pub enum Grit {
     P40,
     P50,
