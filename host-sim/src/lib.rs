@@ -1,23 +1,19 @@
 //! The whisker module on a PC: the firmware library runs unchanged on a mock
 //! SPI bus and a mock motor, with whisker and surface behind them.
 
-pub mod accuracy;
 pub mod bench;
 pub mod bus;
 pub mod commands;
 pub mod decisions;
 mod error;
-pub mod experiment;
 pub mod listening;
 pub mod motor;
 pub mod output;
-pub mod physics;
 pub mod plant;
 pub mod plot;
 pub mod progress;
 pub mod recording;
 pub mod report;
-pub mod rigs;
 pub mod run;
 pub mod trace;
 pub mod world;

@@ -5,12 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
-use host_sim::accuracy::LongRun;
-use host_sim::commands::experiment::Asked;
-use host_sim::commands::{
-    classify, experiment, main_job, merge, record, report as accuracy, run, train,
-};
-use host_sim::experiment::{Name, Shard};
+use host_sim::commands::{classify, main_job, record, run, train};
 use host_sim::progress::Verbosity;
 use host_sim::report;
 use scene::Rule;
@@ -98,101 +93,6 @@ enum Command {
         #[arg(long, value_name = "FILE.csv")]
         out: PathBuf,
     },
-    /// Runs the experiments of the papers on simulated rigs and writes
-    /// DIR/experiments.md with tables and figures beside the papers'
-    Experiment {
-        #[command(subcommand)]
-        which: Which,
-    },
-    /// Measures the accuracy of every integrator, number format and function
-    /// and writes DIR/accuracy.md with its pictures
-    Report {
-        /// Where documents are: instructions.csv is read, the report written there
-        #[arg(long, value_name = "DIR", default_value = "docs")]
-        out: PathBuf,
-        /// Run ten minutes in place of showing the kept 24 hours
-        #[arg(long)]
-        quick: bool,
-        /// Run the 24 hours anew and keep them (DIR/accuracy/long-run.csv)
-        #[arg(long, conflicts_with = "quick")]
-        long: bool,
-        /// Only say whether the report is up to date; timings of the PC are left out
-        #[arg(long, conflicts_with_all = ["quick", "long"])]
-        check: bool,
-    },
-}
-
-#[derive(Subcommand)]
-enum Which {
-    /// LEP10: naive Bayes over fixed windows, on four floors
-    Lep10(Options),
-    /// LEP12: sequential Bayes, spectral template and neural network, on four floors
-    Lep12(Options),
-    /// BIOTACT: six whisking whiskers, with and without RCP
-    Biotact(Options),
-    /// POSE: one contact at an unknown angle and speed
-    Pose(Options),
-    /// PSIK: 33 vibrissae, sandpapers and corridors
-    Psikharpax(Options),
-    /// All of them
-    All(Options),
-    /// Joins the parts of all shards and evaluates them
-    Merge {
-        /// The parts, in any order
-        #[arg(required = true, value_name = "PART")]
-        parts: Vec<PathBuf>,
-        /// The folder of the rigs that the parts were made on; those built in if none
-        #[arg(long, value_name = "DIR")]
-        rigs: Option<PathBuf>,
-        /// Where to write
-        #[arg(long, value_name = "DIR", default_value = "out/experiments")]
-        out: PathBuf,
-    },
-}
-
-/// How an experiment is run.
-#[derive(clap::Args)]
-struct Options {
-    /// Fewer trials, whisks, contacts, sweeps and runs; the same physics
-    #[arg(long)]
-    quick: bool,
-    /// All chance comes from it
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Record only share i of n, into a part file
-    #[arg(long, value_name = "i/n")]
-    shard: Option<Shard>,
-    /// The folder of the rigs' files (rigs/*.toml); those built in if none
-    #[arg(long, value_name = "DIR")]
-    rigs: Option<PathBuf>,
-    /// Where to write
-    #[arg(long, value_name = "DIR", default_value = "out/experiments")]
-    out: PathBuf,
-}
-
-impl Which {
-    fn work(self, verbosity: Verbosity) -> Result<String, Error> {
-        let (names, options) = match self {
-            Self::Lep10(options) => (vec![Name::Lep10], options),
-            Self::Lep12(options) => (vec![Name::Lep12], options),
-            Self::Biotact(options) => (vec![Name::Biotact], options),
-            Self::Pose(options) => (vec![Name::Pose], options),
-            Self::Psikharpax(options) => (vec![Name::Psikharpax], options),
-            Self::All(options) => (Name::ALL.to_vec(), options),
-            Self::Merge { parts, rigs, out } => {
-                return merge::merge(&parts, rigs.as_deref(), &out);
-            }
-        };
-        let asked = Asked {
-            names,
-            quick: options.quick,
-            seed: options.seed,
-            shard: options.shard,
-            rigs: options.rigs,
-            out: options.out,
-        };
-        experiment::experiment(&asked, verbosity)
-    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -244,20 +144,6 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }) => {
             let rule = rule(name, threshold, window)?;
             Some(classify::classify(&model, &data, rule, &out, verbosity)?)
-        }
-        Some(Command::Experiment { which }) => Some(which.work(verbosity)?),
-        Some(Command::Report {
-            out,
-            quick,
-            long,
-            check,
-        }) => {
-            let long_run = match (long, quick) {
-                (true, _) => LongRun::Anew,
-                (false, true) => LongRun::Quick,
-                (false, false) => LongRun::Kept,
-            };
-            Some(accuracy::report(&out, long_run, check, verbosity)?)
         }
     };
     if let Some(summary) = summary {

@@ -21,21 +21,7 @@ pub use surface::Surface;
 pub use textured::{Textured, TexturedSettings, WhiskerSettings};
 pub use whisker::{Elastic, ElasticSettings};
 
-/// A plant setting that is out of its range, by its name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("plant setting {0} is out of range")]
-pub struct BadPlantSetting(pub &'static str);
-
-impl BadPlantSetting {
-    /// `value` if it is in `lo..=hi`.
-    pub(crate) fn check(name: &'static str, value: f64, lo: f64, hi: f64) -> Result<f64, Self> {
-        if (lo..=hi).contains(&value) {
-            Ok(value)
-        } else {
-            Err(Self(name))
-        }
-    }
-}
+use physics::BadSetting;
 
 /// How many whiskers there are, and where their obstacles.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,10 +46,10 @@ impl Head {
     }
 
     /// Checks stiffness and obstacles.
-    fn check(&self) -> Result<(), BadPlantSetting> {
-        BadPlantSetting::check("stiffness", self.stiffness, 0.0, 100.0)?;
+    fn check(&self) -> Result<(), BadSetting> {
+        BadSetting::check("stiffness", self.stiffness, 0.0, 100.0)?;
         if self.obstacle_deg.iter().any(|limit| limit.is_nan()) {
-            return Err(BadPlantSetting("obstacle_deg"));
+            return Err(BadSetting("obstacle_deg"));
         }
         Ok(())
     }

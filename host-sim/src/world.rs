@@ -7,8 +7,8 @@ use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 use crate::Error;
 use crate::bench::{AnyAngle, AnyMotor, IdealMotor};
 use crate::motor::{Brushed, Brushless, MotorSettings, SimMotor};
-use crate::physics::{Biotact, Follicle, Shaft};
 use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
+use physics::{Biotact, Follicle, Shaft};
 
 /// The motors of all whiskers and the surface they meet.
 pub struct World {

@@ -42,7 +42,7 @@ pub(crate) fn all() -> Result<(), Fault> {
     // files are what the generated documents must hold), then all tests.
     docs::all(true)?;
     // Every experiment of the papers, cut short.
-    let experiments = ["run", "--release", "--quiet", "-p", "host-sim", "--"];
+    let experiments = ["run", "--release", "--quiet", "-p", "studies", "--"];
     let quick = ["--quiet", "experiment", "all", "--quick", "--out"];
     let out = target().join("experiments");
     run(cargo(&experiments).args(quick).arg(out))?;

@@ -33,7 +33,7 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
         "--release",
         "--quiet",
         "-p",
-        "host-sim",
+        "studies",
         "--",
         "report",
     ];

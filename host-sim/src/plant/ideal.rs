@@ -1,6 +1,6 @@
 //! Contact as BIOTACT simulates it: a spring without dynamics.
 
-use super::{BadPlantSetting, Head, Plant};
+use super::{BadSetting, Head, Plant};
 
 /// BIOTACT eq. 11: x = ⟨σ_x max(0, θ′ − θ′_lim)⟩ within ±1, y = 0.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ impl Ideal {
     ///
     /// # Errors
     /// A stiffness out of range or an obstacle that is not a number.
-    pub fn new(head: Head) -> Result<Self, BadPlantSetting> {
+    pub fn new(head: Head) -> Result<Self, BadSetting> {
         head.check()?;
         let x = head.limits().map(|_| 0.0).collect();
         Ok(Self { head, x })

@@ -3,7 +3,7 @@
 
 use scene::Texture;
 
-use crate::physics::Noise;
+use physics::Noise;
 
 /// What a surface is to the tip of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! The ideal plant against BIOTACT eq. 11, and the list of whiskers.
 
-use super::{BadPlantSetting, Head, Ideal, Plant};
+use super::{BadSetting, Head, Ideal, Plant};
 
 fn head() -> Head {
     Head {
@@ -69,10 +69,10 @@ fn bad_settings_are_named() {
         change(&mut head);
         Ideal::new(head).map(|_| ())
     };
-    let stiffness = Err(BadPlantSetting("stiffness"));
+    let stiffness = Err(BadSetting("stiffness"));
     assert_eq!(with(|h| h.stiffness = -0.1), stiffness);
     assert_eq!(with(|h| h.stiffness = f64::NAN), stiffness);
-    let obstacle = Err(BadPlantSetting("obstacle_deg"));
+    let obstacle = Err(BadSetting("obstacle_deg"));
     assert_eq!(with(|h| h.obstacle_deg[1] = f64::NAN), obstacle);
     assert_eq!(with(|_| ()), Ok(()));
 }

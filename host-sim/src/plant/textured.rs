@@ -35,8 +35,8 @@ use core::iter::repeat;
 use scene::Texture;
 
 use super::surface::{Profile, Surface};
-use super::{BadPlantSetting, Head, Plant};
-use crate::physics::{Noise, Propagator, Resonator};
+use super::{BadSetting, Head, Plant};
+use physics::{Noise, Propagator, Resonator};
 pub use settings::{TexturedSettings, WhiskerSettings};
 
 /// Largest angle (degrees, either sign) and speed (degrees a second) that are
@@ -81,7 +81,7 @@ impl Textured {
     ///
     /// # Errors
     /// The first setting out of its range.
-    pub fn new(head: Head, settings: TexturedSettings, seed: u64) -> Result<Self, BadPlantSetting> {
+    pub fn new(head: Head, settings: TexturedSettings, seed: u64) -> Result<Self, BadSetting> {
         head.check()?;
         settings.check()?;
         let each = head.whiskers_per_side.max(1);

@@ -18,8 +18,8 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::{BadPlantSetting, Head, Plant};
-use crate::physics::{
+use super::{BadSetting, Head, Plant};
+use physics::{
     Facing, Grit, Material, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker,
 };
 
@@ -94,9 +94,9 @@ impl Elastic {
     /// # Errors
     /// The first setting out of its range; `stiffness` too where it asks for a
     /// full scale of the sensor above 3 rad or below 1e-6.
-    pub fn new(head: Head, settings: ElasticSettings, seed: u64) -> Result<Self, BadPlantSetting> {
+    pub fn new(head: Head, settings: ElasticSettings, seed: u64) -> Result<Self, BadSetting> {
         head.check()?;
-        let check = BadPlantSetting::check;
+        let check = BadSetting::check;
         check("slant_deg", settings.facing.slant_deg, 0.0, 80.0)?;
         check("tilt_deg", settings.facing.tilt_deg, -80.0, 80.0)?;
         let shaft = settings.shaft;
@@ -108,7 +108,7 @@ impl Elastic {
         } else if head.limits().all(f64::is_infinite) {
             3.0
         } else {
-            return Err(BadPlantSetting("stiffness"));
+            return Err(BadSetting("stiffness"));
         };
         let sensor = SensorSettings {
             full_scale_rad,
@@ -125,7 +125,7 @@ impl Elastic {
             })
         };
         let whiskers = (0..).zip(head.limits()).map(swung);
-        let whiskers = whiskers.collect::<Result<_, BadPlantSetting>>()?;
+        let whiskers = whiskers.collect::<Result<_, BadSetting>>()?;
         Ok(Self {
             head,
             settings,

@@ -1,6 +1,6 @@
 //! What textured surfaces do to whiskers, in numbers.
 
-use crate::plant::BadPlantSetting;
+use crate::plant::BadSetting;
 
 /// A whisker's shaft.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,10 +79,10 @@ impl Default for TexturedSettings {
 }
 
 impl TexturedSettings {
-    pub(super) fn check(&self) -> Result<(), BadPlantSetting> {
-        let check = BadPlantSetting::check;
+    pub(super) fn check(&self) -> Result<(), BadSetting> {
+        let check = BadSetting::check;
         if self.whiskers.is_empty() {
-            return Err(BadPlantSetting("whiskers"));
+            return Err(BadSetting("whiskers"));
         }
         for whisker in &self.whiskers {
             check("length_m", whisker.length_m, 1e-3, 1.0)?;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Textured, TexturedSettings, WhiskerSettings};
-use crate::plant::{BadPlantSetting, Head, Plant, Surface};
+use crate::plant::{BadSetting, Head, Plant, Surface};
 
 const TICK_S: f64 = 5e-4;
 
@@ -257,7 +257,7 @@ fn bad_settings_are_named() {
         Textured::new(head(1), settings, 1).map(|_| ()).err()
     };
     assert_eq!(with(|_| ()), None);
-    let bad = |name| Some(BadPlantSetting(name));
+    let bad = |name| Some(BadSetting(name));
     assert_eq!(with(|s| s.whiskers.clear()), bad("whiskers"));
     assert_eq!(with(|s| s.whiskers[0].damping = 1.0), bad("damping"));
     assert_eq!(with(|s| s.creep_deg_s = 0.0), bad("creep_deg_s"));

@@ -6,8 +6,8 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Elastic, ElasticSettings};
-use crate::physics::{Biotact, Material, Shaft, Surface};
-use crate::plant::{BadPlantSetting, Head, Plant};
+use crate::plant::{BadSetting, Head, Plant};
+use physics::{Biotact, Material, Shaft, Surface};
 
 const TICK_S: f64 = 5e-4;
 
@@ -189,7 +189,7 @@ fn bad_settings_are_named() {
         change(&mut settings);
         Elastic::new(head, settings, 1).map(|_| ()).err()
     };
-    let bad = |name| Some(BadPlantSetting(name));
+    let bad = |name| Some(BadSetting(name));
     assert_eq!(with(head(1), |_| ()), None);
     assert_eq!(with(head(1), |s| s.shaft.length_m = 2.0), bad("length_m"));
     assert_eq!(

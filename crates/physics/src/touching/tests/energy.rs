@@ -1,0 +1,220 @@
+//! Contact takes energy or keeps it, and stays finite whatever happens.
+
+use proptest::prelude::*;
+
+use super::{QUIET, flat, floor};
+use crate::{Biotact, Grit, Material, Pose, Shaft, Surface, TouchingWhisker};
+
+/// Pointing down at an angle, the tip of the straight shaft `above` the floor.
+fn slanted(angle: f64, length_m: f64, above: f64) -> Pose {
+    let (sine, cosine) = angle.sin_cos();
+    Pose {
+        base_m: [0.0, 0.0, length_m * sine + above],
+        x: [sine, 0.0, cosine],
+        y: [0.0, -1.0, 0.0],
+    }
+}
+
+fn any_shaft() -> impl Strategy<Value = Shaft> {
+    prop_oneof![
+        Just(Shaft::floor_robot()),
+        Just(Shaft::biotact(Biotact::Front)),
+        Just(Shaft::psikharpax(1)),
+        Just(Shaft::psikharpax(8)),
+    ]
+}
+
+/// Angle below the level, and in lengths: height of the straight tip above the
+/// floor, and bend.
+type Release = (f64, f64, [f64; 2]);
+
+fn any_release() -> impl Strategy<Value = Release> {
+    (0.0..0.7_f64, -0.05..0.05_f64, [-0.2..0.2_f64, -0.2..0.2])
+}
+
+pub(super) const MATERIALS: [Material; 26] = {
+    use Grit::{
+        P40, P50, P60, P80, P100, P120, P150, P180, P220, P240, P280, P320, P360, P400, P500, P600,
+    };
+    use Material::Sandpaper;
+    [
+        Material::Flat,
+        Material::SmoothPlastic,
+        Material::Aluminium,
+        Sandpaper(P40),
+        Sandpaper(P50),
+        Sandpaper(P60),
+        Sandpaper(P80),
+        Sandpaper(P100),
+        Sandpaper(P120),
+        Sandpaper(P150),
+        Sandpaper(P180),
+        Sandpaper(P220),
+        Sandpaper(P240),
+        Sandpaper(P280),
+        Sandpaper(P320),
+        Sandpaper(P360),
+        Sandpaper(P400),
+        Sandpaper(P500),
+        Sandpaper(P600),
+        Material::RoughCarpet,
+        Material::SmoothCarpet,
+        Material::Tarmac,
+        Material::Vinyl,
+        Material::Relief(5),
+        Material::Relief(20),
+        Material::Relief(100),
+    ]
+};
+
+/// Let go with the base at rest, a whisker's energy does not rise.
+fn released(
+    shaft: &Shaft,
+    surface: Surface,
+    (angle, above, bend): Release,
+    dt_s: f64,
+) -> Result<(), TestCaseError> {
+    let plate = floor(surface);
+    let length = shaft.length_m;
+    let pose = slanted(angle, length, above * length);
+    let mut whisker = TouchingWhisker::new(shaft, &QUIET, 1).unwrap();
+    whisker.bend(bend.map(|b| b * length));
+    let mut most = whisker.energy_j();
+    let mut last = f64::INFINITY;
+    for n in 0..400 {
+        whisker.step(&pose, Some(&plate), dt_s);
+        let energy = whisker.energy_j();
+        prop_assert!(energy.is_finite());
+        // The first step may find the tip below the ground.
+        if n > 0 {
+            let room = 1e-12 * most;
+            prop_assert!(energy <= last + room, "{n}: {energy:e} after {last:e}");
+        }
+        most = most.max(energy);
+        last = energy;
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    /// Released bent, over, on or under a smooth plate, with the base at rest.
+    #[test]
+    fn energy_never_rises(
+        shaft in any_shaft(),
+        stiffness in 0.0..9.0_f64,
+        damping in prop_oneof![Just(0.0), 0.0..2.0_f64],
+        friction in prop_oneof![Just(0.0), 0.0..2.0_f64],
+        extra in 1.0..2.0_f64,
+        release in any_release(),
+        dt in -4.5..-2.5_f64,
+    ) {
+        let surface = flat(10.0_f64.powf(stiffness), damping, extra * friction, friction);
+        released(&shaft, surface, release, 10.0_f64.powf(dt))?;
+    }
+
+    /// The same on every material.
+    #[test]
+    fn energy_never_rises_on_any_material(
+        shaft in any_shaft(),
+        material in prop::sample::select(&MATERIALS),
+        seed: u64,
+        release in any_release(),
+        dt_s in 1e-4..2e-3_f64,
+    ) {
+        released(&shaft, Surface::of(material).piece(seed), release, dt_s)?;
+    }
+
+    /// The same on surfaces that no material has, slippery and undamped too.
+    #[test]
+    fn energy_never_rises_on_any_surface(
+        shaft in any_shaft(),
+        height in -7.0..-2.0_f64,
+        grain in -6.0..-1.0_f64,
+        stiffness in 0.0..9.0_f64,
+        damping in prop_oneof![Just(0.0), 0.0..2.0_f64],
+        friction in prop_oneof![Just(0.0), 0.0..2.0_f64],
+        extra in 1.0..2.0_f64,
+        seed: u64,
+        release in any_release(),
+        dt in -4.5..-2.5_f64,
+    ) {
+        let surface = Surface {
+            height_m: 10.0_f64.powf(height),
+            grain_m: 10.0_f64.powf(grain),
+            seed,
+            ..flat(10.0_f64.powf(stiffness), damping, extra * friction, friction)
+        };
+        released(&shaft, surface, release, 10.0_f64.powf(dt))?;
+    }
+
+    /// Any surface, shaft, speed and step: finite, and the sensor in its range.
+    #[test]
+    fn nothing_breaks_it(
+        length in -3.0..0.0_f64,
+        slender in 10.0..1000.0_f64,
+        youngs in 6.0..12.0_f64,
+        stiffness in 0.0..9.0_f64,
+        friction in 0.0..10.0_f64,
+        height in 0.0..0.01_f64,
+        grain in -6.0..-1.0_f64,
+        speed in -100.0..100.0_f64,
+        angle in -1.57..1.57_f64,
+        dt in -6.0..0.0_f64,
+        seed: u64,
+    ) {
+        let length_m = 10.0_f64.powf(length);
+        let shaft = Shaft {
+            length_m,
+            hub_diameter_m: (length_m / slender).max(1e-5),
+            tip_diameter_m: (length_m / slender / 8.0).max(1e-6),
+            youngs_pa: 10.0_f64.powf(youngs),
+            ..Shaft::floor_robot()
+        };
+        let surface = Surface {
+            height_m: height,
+            grain_m: 10.0_f64.powf(grain),
+            seed,
+            ..flat(10.0_f64.powf(stiffness), 0.3, friction, friction)
+        };
+        let dt_s = 10.0_f64.powf(dt);
+        let mut whisker = TouchingWhisker::new(&shaft, &QUIET, seed).unwrap();
+        for n in 0..60 {
+            let mut pose = slanted(angle, length_m, -0.3 * length_m);
+            let way = speed * dt_s * f64::from(n);
+            pose.base_m[0] += way;
+            pose.base_m[2] += 0.2 * length_m * way.sin();
+            whisker.step(&pose, Some(&floor(surface)), dt_s);
+            let energy = whisker.energy_j();
+            prop_assert!(energy.is_finite() && energy < 1e12, "{energy}");
+            prop_assert!(whisker.reading().iter().all(|r| r.abs() <= 1.0));
+            prop_assert!(whisker.force_n().iter().all(|f| f.is_finite() && *f >= 0.0), "{n} {whisker:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_not_believed() {
+    let plate = floor(flat(1e5, 0.3, 0.5, 0.4));
+    let mut whisker = super::robot();
+    let good = slanted(0.2, 0.2, -5e-3);
+    for _ in 0..100 {
+        whisker.step(&good, Some(&plate), 5e-4);
+    }
+    let before = whisker.tip_m();
+    let mut bad = good;
+    bad.base_m[1] = f64::NAN;
+    let mut bad_plate = plate;
+    bad_plate.point_m[2] = f64::NAN;
+    bad_plate.surface.friction = f64::NAN;
+    whisker.step(&bad, Some(&plate), 0.0);
+    whisker.step(&bad, Some(&plate), f64::NAN);
+    assert_eq!(whisker.tip_m(), before);
+    whisker.step(&bad, Some(&plate), 5e-4);
+    whisker.step(&good, Some(&bad_plate), 5e-4);
+    assert!(whisker.tip_m().iter().all(|u| u.is_finite()));
+    whisker.rest();
+    assert_eq!(whisker.tip_m(), [0.0; 2]);
+    assert_eq!((whisker.energy_j(), whisker.contact()), (0.0, false));
+}

@@ -1,0 +1,240 @@
+//! Panels of curves with linear or logarithmic axes, as SVG documents.
+
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::prelude::*;
+
+use host_sim::Error;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Fault = Box<dyn std::error::Error>;
+
+/// An axis: its name and what it covers.
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    pub(crate) name: &'static str,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) log: bool,
+}
+
+impl Axis {
+    /// A logarithmic axis of whole decades around the positive of `values`.
+    pub(crate) fn decades(name: &'static str, values: impl Iterator<Item = f64>) -> Self {
+        let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
+            ends = (ends.0.min(value), ends.1.max(value));
+        }
+        let (low, high) = if ends.0 <= ends.1 { ends } else { (1.0, 1.0) };
+        let power = |exponent: f64| libm::pow(10.0, exponent);
+        let from = libm::log10(low).floor();
+        let to = libm::log10(high).ceil().max(from + 1.0);
+        Self {
+            name,
+            low: power(from),
+            high: power(to),
+            log: true,
+        }
+    }
+
+    /// 1, 2 or 5 times a power of ten: four to ten of them on a linear axis.
+    fn step(&self) -> f64 {
+        let rough = ((self.high - self.low) / 10.0).max(f64::MIN_POSITIVE);
+        let power = libm::pow(10.0, libm::log10(rough).floor());
+        let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= rough);
+        factor.unwrap_or(10.0) * power
+    }
+
+    fn place(&self, value: f64) -> f64 {
+        let scale = |x: f64| if self.log { libm::log10(x) } else { x };
+        (scale(value) - scale(self.low)) / (scale(self.high) - scale(self.low))
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let place = self.place(*value).clamp(-0.1, 1.1);
+        limit.0 + (place * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        let most = hint.max_num_points().max(2);
+        if !self.log {
+            let step = self.step();
+            let first = (self.low / step).ceil() as i64;
+            let last = (self.high / step + 1e-9).floor() as i64;
+            return (first..=last).map(|n| n as f64 * step).collect();
+        }
+        let [from, to] = [self.low, self.high].map(|x| libm::log10(x).round() as i32);
+        let every = ((to - from) as usize).div_ceil(most.min(12)).max(1);
+        (from..=to)
+            .step_by(every)
+            .map(|exponent| libm::pow(10.0, f64::from(exponent)))
+            .collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Axis {
+    fn format_ext(&self, value: &f64) -> String {
+        if self.log {
+            format!("{value:.0e}")
+        } else {
+            let digits = (-libm::log10(self.step()).floor()).max(0.0) as usize;
+            format!("{value:.digits$}")
+        }
+    }
+}
+
+/// How a point is marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mark {
+    Nothing,
+    Dot,
+    Ring,
+}
+
+/// Points of one kind.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    pub(crate) name: String,
+    pub(crate) colour: RGBColor,
+    pub(crate) mark: Mark,
+    pub(crate) joined: bool,
+    pub(crate) points: Vec<(f64, f64)>,
+}
+
+/// One diagram.
+#[derive(Debug, Clone)]
+pub(crate) struct Panel {
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) series: Vec<Series>,
+}
+
+/// Colours that stay apart in print.
+pub(crate) const COLOURS: [RGBColor; 8] = [
+    RGBColor(110, 110, 110),
+    RGBColor(0, 90, 170),
+    RGBColor(200, 90, 0),
+    RGBColor(0, 130, 60),
+    RGBColor(150, 40, 140),
+    RGBColor(190, 20, 20),
+    RGBColor(130, 110, 0),
+    RGBColor(0, 130, 150),
+];
+
+const WIDTH: u32 = 1000;
+const PANEL_HEIGHT: u32 = 330;
+const LEGEND_ROW: i32 = 22;
+const LEGEND_COLUMNS: usize = 3;
+
+/// The panels, two beside each other, over one legend (that of the first).
+///
+/// # Errors
+/// [`Error::Work`] if the drawing library fails.
+pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
+    let mut svg = String::new();
+    match draw_on(&mut svg, panels) {
+        Ok(()) => Ok(svg),
+        Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
+    }
+}
+
+fn draw_on(svg: &mut String, panels: &[Panel]) -> Result<(), Fault> {
+    let columns = panels.len().clamp(1, 2);
+    let rows = panels.len().div_ceil(columns).max(1);
+    let legend: &[Series] = panels.first().map_or(&[], |panel| &panel.series);
+    let legend_height = LEGEND_ROW as u32 * (legend.len().div_ceil(LEGEND_COLUMNS) as u32) + 12;
+    let height = PANEL_HEIGHT * rows as u32;
+    let root = SVGBackend::with_string(svg, (WIDTH, height + legend_height)).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (diagrams, below) = root.split_vertically(height);
+    for (panel, area) in panels.iter().zip(diagrams.split_evenly((rows, columns))) {
+        draw_panel(panel, &area)?;
+    }
+    for (n, series) in legend.iter().enumerate() {
+        let x = 40 + (n % LEGEND_COLUMNS) as i32 * (WIDTH as i32 / LEGEND_COLUMNS as i32);
+        let y = 12 + (n / LEGEND_COLUMNS) as i32 * LEGEND_ROW;
+        if series.joined {
+            let line = [(x, y), (x + 28, y)];
+            below.draw(&PathElement::new(line, series.colour.stroke_width(2)))?;
+        }
+        if let Some(style) = style(series) {
+            below.draw(&Circle::new((x + 14, y), 4, style))?;
+        }
+        let font = ("sans-serif", 14).into_font();
+        below.draw(&Text::new(series.name.clone(), (x + 36, y - 7), font))?;
+    }
+    root.present()?;
+    Ok(())
+}
+
+fn style(series: &Series) -> Option<ShapeStyle> {
+    match series.mark {
+        Mark::Nothing => None,
+        Mark::Dot => Some(series.colour.filled()),
+        Mark::Ring => Some(series.colour.stroke_width(2)),
+    }
+}
+
+fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), Fault> {
+    let mut chart = ChartBuilder::on(area)
+        .caption(&panel.title, ("sans-serif", 17))
+        .margin(10)
+        .margin_right(24)
+        .x_label_area_size(42)
+        .y_label_area_size(66)
+        .build_cartesian_2d(panel.x.clone(), panel.y.clone())?;
+    chart
+        .configure_mesh()
+        .light_line_style(WHITE)
+        .x_desc(panel.x.name)
+        .y_desc(panel.y.name)
+        .draw()?;
+    for series in &panel.series {
+        if series.joined {
+            let line = series.points.iter().copied();
+            chart.draw_series(LineSeries::new(line, series.colour.stroke_width(2)))?;
+        }
+        if let Some(style) = style(series) {
+            let points = series.points.iter();
+            chart.draw_series(points.map(|point| Circle::new(*point, 4, style)))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Axis;
+
+    #[test]
+    fn decades_enclose_their_values_and_places_are_even() {
+        let axis = Axis::decades("", [3e-4, 0.2, f64::NAN, 0.0].into_iter());
+        assert!((axis.low / 1e-4 - 1.0).abs() < 1e-12 && (axis.high - 1.0).abs() < 1e-12);
+        assert!((axis.place(1e-3) - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_linear_axis_counts_in_round_steps() {
+        for (high, step) in [(24.0, 5.0), (1.0, 0.1), (3e-3, 5e-4)] {
+            let axis = Axis {
+                name: "",
+                low: 0.0,
+                high,
+                log: false,
+            };
+            assert!((axis.step() / step - 1.0).abs() < 1e-12, "{high}");
+        }
+    }
+}

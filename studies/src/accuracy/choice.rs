@@ -1,0 +1,105 @@
+//! The pictures to pick an integrator by, and what they say in words.
+
+use super::counts::{Counts, Target};
+use super::integrators::{Errors, FREQUENCIES_HZ, TICKS_HZ, diagram};
+use super::page::Page;
+use super::schemes::Scheme;
+use host_sim::Error;
+
+/// Errors that one might live with, degrees.
+const BOUNDS_DEG: [f64; 3] = [0.05, 1e-3, 1e-4];
+
+/// Error against instructions a second for every processor.
+pub(super) fn section(page: &mut Page, measured: &[Errors], counts: &Counts) -> Result<(), Error> {
+    if counts.is_empty() {
+        page.say(
+            "Instructions are **not counted** yet (`docs/instructions.csv` is missing; \
+             `cargo xtask count` writes it). Until then the error stands against the tick rate.",
+        );
+        let svg = diagram(measured, "ticks a second", |scheme| {
+            matches!(scheme, Scheme::Product(..)).then_some(1.0)
+        })?;
+        if let Some(svg) = svg {
+            page.picture("choose.svg", "error against tick rate", svg);
+        }
+        return Ok(());
+    }
+    for (target, file) in Target::ALL.into_iter().zip(["choose.svg", "choose-m0.svg"]) {
+        let cost = |scheme| match scheme {
+            Scheme::Product(integrator, format) => counts.tick(integrator, format, target),
+            Scheme::RungeKutta | Scheme::Split => None,
+        };
+        let Some(svg) = diagram(measured, "instructions a second", cost)? else {
+            continue;
+        };
+        page.say(format_args!(
+            "**{}.** The points of a curve are ticks of 2, 1, 0.5, 0.25 and 0.1 ms, from left to \
+             right.",
+            target.name()
+        ));
+        let what = format!("error against instructions a second, {}", target.name());
+        page.picture(file, &what, svg);
+        page.say("The cheapest that keeps its error below a bound:");
+        let row = |(f, frequency_hz): (usize, &f64)| {
+            let cell = |bound| cheapest(measured, f, bound, cost);
+            let first = vec![format!("{frequency_hz} Hz")];
+            [first, BOUNDS_DEG.map(cell).to_vec()].concat()
+        };
+        page.table(
+            "f_W | 0.05 degrees | 0.001 degrees | 0.0001 degrees",
+            FREQUENCIES_HZ.iter().enumerate().map(row),
+        );
+    }
+    Ok(())
+}
+
+/// Scheme and tick of least work whose error stays below `bound`, at the
+/// `f`th frequency.
+fn cheapest(
+    measured: &[Errors],
+    f: usize,
+    bound: f64,
+    cost: impl Fn(Scheme) -> Option<f64>,
+) -> String {
+    let mut best: Option<(f64, String)> = None;
+    for errors in measured {
+        let row = errors.degrees.get(f).into_iter().flatten();
+        for (hz, degrees) in TICKS_HZ.iter().zip(row) {
+            let Some(work) = cost(errors.scheme).map(|cost| cost * hz) else {
+                continue;
+            };
+            let better = best.as_ref().is_none_or(|(least, _)| work < *least);
+            if *degrees <= bound && better {
+                let name = errors.scheme.name();
+                let millions = work / 1e6;
+                let text = format!("{name}, {} ms ({millions:.2} million/s)", 1e3 / hz);
+                best = Some((work, text));
+            }
+        }
+    }
+    best.map_or_else(|| "none".to_owned(), |(_, text)| text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cheapest;
+    use crate::accuracy::integrators::Errors;
+    use crate::accuracy::schemes::Scheme;
+
+    #[test]
+    fn the_cheapest_below_the_bound_is_neither_the_best_nor_the_cheapest_of_all() {
+        let errors = |scheme, error: f64| Errors {
+            scheme,
+            degrees: [[error, 2.0 * error, 4.0 * error, 8.0 * error, 16.0 * error]; 4],
+        };
+        let measured = [
+            errors(Scheme::RungeKutta, 1e-3),
+            errors(Scheme::Split, 2e-3),
+        ];
+        let cost = |scheme| Some(if scheme == Scheme::Split { 10.0 } else { 100.0 });
+        // Split reaches 0.01 at 0.25 ms and 4000 · 10, Runge-Kutta at 1 ms and 1000 · 100.
+        let found = cheapest(&measured, 0, 0.01, cost);
+        assert_eq!(found, "comparison: split step f64, 0.5 ms (0.02 million/s)");
+        assert_eq!(cheapest(&measured, 0, 1e-4, cost), "none");
+    }
+}

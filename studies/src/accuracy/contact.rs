@@ -1,0 +1,215 @@
+//! Contact of an elastic whisker with plates: error against run time, and
+//! whether contact creates energy.
+//!
+//! # Glossary
+//!
+//! - **rotation**: of the whisker's base, what its sensor measures, in x and y.
+//! - **spread**: root mean square distance from the mean.
+//! - **change**: of the rotation within 2 ms, what textures make of it.
+//! - **part**: ticks before a plate are cut into 1, 2, 4 … 32 parts.
+
+mod energy;
+mod runs;
+mod timing;
+
+use std::fmt::Write;
+
+use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::page::{Page, short};
+use host_sim::Error;
+use runs::{Measured, TICKS_HZ};
+
+pub(super) use runs::{Against, measure};
+pub(super) use timing::section as timing;
+
+/// Ticks that the last two tables look at, Hz.
+const USUAL_HZ: u32 = 2_000;
+
+/// The section. `measured` is what [`measure`] returned.
+pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error> {
+    page.heading(2, "Contact");
+    page.say(
+        "The middle whisker of BIOTACT (112 mm, 50 Hz) whisks at 2 Hz, by 10 degrees to both \
+         sides of 3 degrees before first touch, against a plate that the shaft meets at 30 \
+         degrees; for 2 s from rest. Rotations of its base are compared every 2 ms with those \
+         of 128,000 ticks a second that are cut four times finer than usual. Errors are in \
+         spreads of the reference's rotation. A coarse tick also knows the base's way at its \
+         ticks only, and moves it uniformly in between: that is part of the error.",
+    );
+    let header = "surface | 500 Hz | 1 kHz | 2 kHz | 4 kHz | 8 kHz | reference at half its rate";
+    let mut table = |what: &str, value: fn(&Measured) -> f64| {
+        page.say(what);
+        let row = |against: &Against| {
+            let all = against.ticks.iter().chain([&against.half]);
+            let cells = all.map(|measured| short(value(measured)));
+            std::iter::once(against.name.to_owned())
+                .chain(cells)
+                .collect()
+        };
+        page.table(header, measured.iter().map(row));
+    };
+    table("Root mean square error:", |m| m.rms);
+    table("Largest error:", |m| m.largest);
+    table("Spread of the rotation over the reference's:", |m| m.spread);
+    table("Spread of its change within 2 ms, likewise:", |m| m.change);
+    table("Parts of a tick before the plate, in the mean:", |m| {
+        m.parts
+    });
+    table(
+        "Most by which contact took the ground for lower than it is (see below), m:",
+        |m| m.lowered_m,
+    );
+    page.say(
+        "The error falls with the tick wherever the tip slides, first with what a tick knows of \
+         the base's way, then with the length of a part; cutting long ticks finer brings little, \
+         as the table below shows. Where a tip jams before a steep grain and jumps (P80), or \
+         sticks and slips on steep stones (tarmac), a small error decides when it lets go: the \
+         error at a time then takes far shorter parts to fall, and the spreads are what to go by.",
+    );
+    page.picture(
+        "contact.svg",
+        "error of the rotation against parts a second, and its vibration against the tick",
+        picture(measured)?,
+    );
+    page.say("What cutting the ticks of 2 kHz finer brings, root mean square error:");
+    let row = |against: &Against| {
+        let cells = against
+            .finer
+            .iter()
+            .map(|m| format!("{} ({:.1})", short(m.rms), m.parts));
+        std::iter::once(against.name.to_owned())
+            .chain(cells)
+            .collect()
+    };
+    page.table(
+        "surface | usual (parts) | twice | four times | eight times",
+        measured.iter().map(row),
+    );
+    page.say(
+        "All figures are in [contact.csv](accuracy/contact.csv); what a tick takes on a PC, \
+         free and in contact, is on [the page of times](accuracy-host.md).",
+    );
+    page.files
+        .push(("accuracy/contact.csv".to_owned(), csv(measured)));
+
+    page.heading(3, "Energy");
+    page.say(
+        "The whisker is bent, let go over or under a plate, and rings and bounces for 0.2 s \
+         with its base at rest, at all five ticks. Kinetic and elastic energy together must \
+         not rise. The largest rise from a tick to the next is, as a share of the most energy \
+         there was (rounding is about 1e-16 of it). Where ground under the tip turns out higher \
+         than a part has taken it for, contact counts it as lower until what it dissipates has \
+         paid for the difference: the last column has the most that it did.",
+    );
+    let rows = energy::rises()?.into_iter();
+    page.table(
+        "plate | largest rise | ground lower by at most, m",
+        rows.map(|(name, [rise, lowered])| vec![name, short(rise), short(lowered)]),
+    );
+    Ok(())
+}
+
+fn csv(measured: &[Against]) -> String {
+    let mut csv = "surface,tick_hz,times_finer,rms,largest,spread_ratio,change_ratio,share_cut,\
+                   mean_parts,most_parts,lowered_m\n"
+        .to_owned();
+    let mut line = |name: &str, hz: u32, finer: usize, m: &Measured| {
+        let numbers = [m.rms, m.largest, m.spread, m.change, m.share, m.parts];
+        let cells = numbers.map(|value| format!("{value:.4e}")).join(",");
+        // Writing to a string does not fail. Names with a comma are quoted.
+        let _ = writeln!(
+            csv,
+            "\"{name}\",{hz},{},{cells},{},{:.1e}",
+            1 << finer,
+            m.most_parts,
+            m.lowered_m
+        );
+    };
+    for against in measured {
+        for (m, hz) in against.ticks.iter().zip(TICKS_HZ) {
+            line(against.name, hz, 0, m);
+        }
+        for (n, m) in against.finer.iter().enumerate().skip(1) {
+            line(against.name, USUAL_HZ, n, m);
+        }
+    }
+    csv
+}
+
+/// Curves of all surfaces: x and y of each tick.
+fn curves(
+    measured: &[Against],
+    point: impl Fn(usize, &Against, &Measured, u32) -> (f64, f64),
+) -> Vec<Series> {
+    let curve = |(n, against): (usize, &Against)| Series {
+        name: against.name.to_owned(),
+        colour: COLOURS.get(n).copied().unwrap_or(COLOURS[0]),
+        mark: Mark::Dot,
+        joined: true,
+        points: against
+            .ticks
+            .iter()
+            .zip(TICKS_HZ)
+            .map(|(m, hz)| point(n, against, m, hz))
+            .collect(),
+    };
+    measured.iter().enumerate().map(curve).collect()
+}
+
+/// A panel of curves whose logarithmic axes fit them.
+fn panel(title: &str, names: [&'static str; 2], series: Vec<Series>) -> Panel {
+    let points = || series.iter().flat_map(|series| series.points.iter());
+    Panel {
+        title: title.to_owned(),
+        x: Axis::decades(names[0], points().map(|point| point.0)),
+        y: Axis::decades(names[1], points().map(|point| point.1)),
+        series,
+    }
+}
+
+fn picture(measured: &[Against]) -> Result<String, Error> {
+    let error = curves(measured, |_, _, m, hz| {
+        let steps = 1.0 - m.share + m.share * m.parts;
+        (steps * f64::from(hz), m.rms)
+    });
+    let change = curves(measured, |_, _, m, hz| {
+        (f64::from(hz), (m.change - 1.0).abs())
+    });
+    draw(&[
+        panel(
+            "error of the rotation",
+            ["parts and free ticks a second", "rms error, spreads"],
+            error,
+        ),
+        panel(
+            "error of the change's spread",
+            ["tick rate, Hz", "|ratio - 1|"],
+            change,
+        ),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{csv, measure};
+
+    #[test]
+    fn shorter_ticks_are_closer_to_the_reference() {
+        let measured = measure().unwrap();
+        for against in &measured {
+            let [coarse, .., fine] = &against.ticks;
+            assert!((0.2..0.8).contains(&fine.share), "{against:?}");
+            assert!(fine.rms < 0.1 && coarse.rms > 0.0, "{against:?}");
+            assert!((fine.spread - 1.0).abs() < 0.05, "{against:?}");
+            // Tarmac and P80 decide by small differences when they let go.
+            if !["tarmac", "P80"].contains(&against.name) {
+                assert!(fine.rms < 0.3 * coarse.rms, "{against:?}");
+                assert!(against.half.rms < 0.1 * fine.rms, "{against:?}");
+            }
+        }
+        let flat = &measured[0];
+        assert!(flat.ticks[2].rms < 0.2 * flat.ticks[0].rms, "{flat:?}");
+        // Eight surfaces at five ticks, and cut finer in three ways.
+        assert_eq!(csv(&measured).lines().count(), 1 + 8 * 8);
+    }
+}

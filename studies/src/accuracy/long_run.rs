@@ -1,0 +1,312 @@
+//! A day of whisking: drift of phase and amplitude in every format.
+//!
+//! Phase is counted by upward zero crossings of ψ₁ of the left side, each
+//! placed by a straight line between the two ticks around it. A day takes a
+//! minute or so, so its results are kept in a table beside the page.
+
+mod whisk;
+
+use std::fmt::Write;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use whisking::{Fix, Real};
+
+use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::page::{Page, short, verdict};
+use super::schemes::{Format, Pace};
+use host_sim::Error;
+use host_sim::progress::{Progress, Verbosity};
+
+/// 2 Hz at 2 kHz.
+const PACE: Pace = Pace {
+    frequency_hz: 2.0,
+    tick_hz: 2_000.0,
+};
+/// A frequency that no number of ticks is whole whisks of: at 2 Hz a whisk is
+/// 1000 ticks, and rounding holds the phase to the orbit that closes.
+const ODD: Pace = Pace {
+    frequency_hz: std::f64::consts::E,
+    ..PACE
+};
+const MINUTE_TICKS: u64 = 120_000;
+/// Largest |r − 1| that is allowed.
+const ROUND: f64 = 1e-3;
+const HEADER: &str = "format,frequency_hz,minutes,phase_whisks,whisks,radius_low,radius_high,theta_low_deg,theta_high_deg";
+
+/// How long to run: stretches after each of which a row is written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Length {
+    stretches: u64,
+    minutes: u64,
+}
+
+/// 24 hours, a row an hour.
+pub(super) const DAY: Length = Length {
+    stretches: 24,
+    minutes: 60,
+};
+/// Ten minutes, a row a minute.
+pub(super) const QUICK: Length = Length {
+    stretches: 10,
+    minutes: 1,
+};
+
+/// The state of a run after a stretch; extremes are those of the stretch.
+#[derive(Debug, Clone, PartialEq)]
+struct Row {
+    format: String,
+    frequency_hz: f64,
+    /// Since the run settled.
+    minutes: u64,
+    /// Phase ahead of the exact frequency, and whisks since the first crossing.
+    phase_whisks: f64,
+    whisks: f64,
+    radius: [f64; 2],
+    theta_deg: [f64; 2],
+}
+
+/// Rows of all formats.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Table(Vec<Row>);
+
+impl Table {
+    /// Runs all formats side by side.
+    pub(super) fn measure(length: Length, verbosity: Verbosity) -> Result<Self, Error> {
+        let formats = Format::ALL.len() as u64;
+        let total = formats * (length.stretches + 1) * length.minutes;
+        let done = AtomicU64::new(0);
+        let mut progress = Progress::new(verbosity, "long run", total);
+        let rows = thread::scope(|scope| {
+            let work = Format::ALL.map(|format| {
+                let done = &done;
+                scope.spawn(move || match format {
+                    Format::F64 => both::<f64>(format, length, done),
+                    Format::F32 => both::<f32>(format, length, done),
+                    Format::Fixed => both::<Fix>(format, length, done),
+                })
+            });
+            while work.iter().any(|thread| !thread.is_finished()) {
+                progress.set(done.load(Ordering::Relaxed));
+                thread::sleep(Duration::from_millis(50));
+            }
+            let lost = |_| Err(Error::Work("the long run broke down".to_owned()));
+            let join = |thread: thread::ScopedJoinHandle<'_, _>| thread.join().unwrap_or_else(lost);
+            work.into_iter().map(join).collect::<Result<Vec<_>, _>>()
+        })?;
+        Ok(Self(rows.concat()))
+    }
+
+    /// Reads what [`Table::csv`] wrote; `None` if there is no such file.
+    pub(super) fn read(path: &Path) -> Result<Option<Self>, Error> {
+        let Ok(text) = std::fs::read_to_string(path) else {
+            return Ok(None);
+        };
+        let rows = text.lines().skip(1).map(Row::parse);
+        let rows: Option<Vec<Row>> = rows.collect();
+        match rows.filter(|rows| !rows.is_empty()) {
+            Some(rows) => Ok(Some(Self(rows))),
+            None => Err(Error::file(
+                path,
+                "is not a table of a long run: run with --long",
+            )),
+        }
+    }
+
+    /// As comma-separated text.
+    pub(super) fn csv(&self) -> String {
+        let mut text = format!("{HEADER}\n");
+        for row in &self.0 {
+            let [low, high] = row.radius;
+            let [back, forth] = row.theta_deg;
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                text,
+                "{},{},{},{:e},{},{low},{high},{back},{forth}",
+                row.format, row.frequency_hz, row.minutes, row.phase_whisks, row.whisks
+            );
+        }
+        text
+    }
+}
+
+impl Row {
+    fn parse(line: &str) -> Option<Self> {
+        let mut cells = line.split(',');
+        let format = cells.next()?.to_owned();
+        let frequency_hz = cells.next()?.parse().ok()?;
+        let minutes = cells.next()?.parse().ok()?;
+        let mut number = || cells.next()?.parse::<f64>().ok();
+        Some(Self {
+            format,
+            frequency_hz,
+            minutes,
+            phase_whisks: number()?,
+            whisks: number()?,
+            radius: [number()?, number()?],
+            theta_deg: [number()?, number()?],
+        })
+    }
+}
+
+/// The whole run at 2 Hz, then one stretch of it at the odd frequency.
+fn both<R: Real>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>, Error> {
+    let mut rows = whisk::run::<R>(format, PACE, length, done)?;
+    let stretch = Length {
+        stretches: 1,
+        ..length
+    };
+    rows.extend(whisk::run::<R>(format, ODD, stretch, done)?);
+    Ok(rows)
+}
+
+/// What the table says.
+pub(super) fn section(page: &mut Page, table: Option<&Table>, quick: bool) -> Result<(), Error> {
+    page.heading(2, "Long run");
+    let Some(Table(rows)) = table else {
+        page.say("Not run yet: `studies report --long` writes `docs/accuracy/long-run.csv`.");
+        return Ok(());
+    };
+    let last = rows.iter().map(|row| row.minutes).max().unwrap_or(0);
+    let ticks = (last + 1) * MINUTE_TICKS;
+    page.say(format_args!(
+        "The exact integrator at 2 Hz and 2 kHz for {} ({ticks} ticks with a minute to settle), \
+         without noise. Phase against the exact frequency by interpolated zero crossings of ψ₁; \
+         amplitude is the range of θ'. At 2 Hz a whisk is exactly 1000 ticks, and rounding holds \
+         the phase to the orbit that closes. A shorter run at {:.4} Hz, where none closes, shows \
+         what rounding does to the frequency elsewhere.",
+        time(last),
+        ODD.frequency_hz
+    ));
+    page.say(if quick {
+        "**This page was written with `--quick`**: ten minutes in place of 24 hours."
+    } else {
+        "A day takes too long for every run of the report. `studies report --long` runs it and \
+         writes `docs/accuracy/long-run.csv`; what stands here is read from there."
+    });
+    let cells = [PACE, ODD].map(|pace| Format::ALL.map(|format| summary(rows, format, pace)));
+    page.table(
+        "run | largest deviation of r from 1 | goal 1e-3 | phase at the end, degrees | \
+         frequency, ppm | drift of the range of θ', degrees",
+        cells.into_iter().flatten().flatten(),
+    );
+    let svg = picture(rows)?;
+    page.picture("long-run.svg", "phase over the run", svg);
+    Ok(())
+}
+
+fn time(minutes: u64) -> String {
+    match minutes {
+        60 => "1 hour".to_owned(),
+        1 => "1 minute".to_owned(),
+        _ if minutes.is_multiple_of(60) => format!("{} hours", minutes / 60),
+        _ => format!("{minutes} minutes"),
+    }
+}
+
+/// The rows of one run, in order.
+fn own(rows: &[Row], format: Format, pace: Pace) -> impl Iterator<Item = &Row> + Clone {
+    let is_own =
+        move |row: &&Row| row.format == format.name() && row.frequency_hz == pace.frequency_hz;
+    rows.iter().filter(is_own)
+}
+
+fn summary(rows: &[Row], format: Format, pace: Pace) -> Option<Vec<String>> {
+    let mut own = own(rows, format, pace);
+    let first = own.clone().next()?;
+    let last = own.clone().last()?;
+    let off = |row: &Row| f64::max(row.radius[1] - 1.0, 1.0 - row.radius[0]);
+    let round = own.clone().map(off).fold(0.0, f64::max);
+    let finite = own.all(|row| row.radius.iter().all(|r| r.is_finite()));
+    let drift = (0..2).map(|end| (last.theta_deg[end] - first.theta_deg[end]).abs());
+    let drift = drift.fold(0.0, f64::max);
+    Some(vec![
+        format!(
+            "{}, {:.4} Hz, {}",
+            format.name(),
+            pace.frequency_hz,
+            time(last.minutes)
+        ),
+        short(round),
+        verdict(finite && round <= ROUND).to_owned(),
+        short(360.0 * last.phase_whisks),
+        short(1e6 * last.phase_whisks / last.whisks.max(1.0)),
+        // A run of one stretch has nothing to drift from.
+        if first == last {
+            String::new()
+        } else {
+            short(drift)
+        },
+    ])
+}
+
+fn picture(rows: &[Row]) -> Result<String, Error> {
+    let hours = |row: &Row| row.minutes as f64 / 60.0;
+    let degrees = |row: &Row| 360.0 * row.phase_whisks;
+    let shown = || {
+        Format::ALL
+            .into_iter()
+            .flat_map(|format| own(rows, format, PACE))
+    };
+    let most = shown().map(|row| degrees(row).abs());
+    let most = 1.1 * most.fold(1e-9, f64::max);
+    let series = |(n, format): (usize, Format)| Series {
+        name: format.name().to_owned(),
+        colour: COLOURS.get(n + 1).copied().unwrap_or(COLOURS[0]),
+        mark: Mark::Dot,
+        joined: true,
+        points: own(rows, format, PACE)
+            .map(|row| (hours(row), degrees(row)))
+            .collect(),
+    };
+    let end = shown().map(hours).fold(0.0, f64::max);
+    draw(&[Panel {
+        title: "phase ahead of exactly 2 Hz".to_owned(),
+        x: Axis {
+            name: "hours",
+            low: 0.0,
+            high: end.max(1e-3),
+            log: false,
+        },
+        y: Axis {
+            name: "degrees of a whisk",
+            low: -most,
+            high: most,
+            log: false,
+        },
+        series: Format::ALL.into_iter().enumerate().map(series).collect(),
+    }])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Length, Table};
+    use host_sim::progress::Verbosity;
+
+    #[test]
+    fn a_table_survives_its_file() {
+        let length = Length {
+            stretches: 2,
+            minutes: 1,
+        };
+        let table = Table::measure(length, Verbosity::Quiet).unwrap();
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), table.csv()).unwrap();
+        assert_eq!(Table::read(file.path()).unwrap(), Some(table.clone()));
+        assert_eq!(table.0.len(), 9);
+        for row in &table.0 {
+            assert!(
+                row.phase_whisks.abs() < 1e-4 && row.whisks > 100.0,
+                "{row:?}"
+            );
+        }
+        std::fs::write(file.path(), "format\nf64,x\n").unwrap();
+        assert!(Table::read(file.path()).is_err());
+        assert_eq!(
+            Table::read(std::path::Path::new("/nowhere/at/all")).unwrap(),
+            None
+        );
+    }
+}

@@ -1,0 +1,121 @@
+//! One format's long run: extremes of every stretch, and the phase.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use whisking::{Integrator, Real, State};
+
+use super::{Length, MINUTE_TICKS, Row};
+use crate::accuracy::integrators::NEAR;
+use crate::accuracy::schemes::{Format, Pace, refused};
+use host_sim::Error;
+
+/// Runs one format; `done` counts minutes.
+pub(super) fn run<R: Real>(
+    format: Format,
+    pace: Pace,
+    length: Length,
+    done: &AtomicU64,
+) -> Result<Vec<Row>, Error> {
+    let settings = pace.settings(Integrator::Exact);
+    let config = settings.build::<R>().map_err(refused)?;
+    let start = settings
+        .start(NEAR.psi, [[NEAR.gain]; 2])
+        .map_err(refused)?;
+    let mut state = State::<R, 2, 1>::new(&start, 1);
+    // A minute: sides in phase, radius one, to rounding.
+    for _ in 0..MINUTE_TICKS {
+        config.step(&mut state, [R::ZERO; 2]);
+    }
+    let mut rows = Vec::new();
+    let mut phase = Phase::default();
+    let mut ticks = 0_u64;
+    for stretch in 1..=length.stretches {
+        let mut square = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut theta = square;
+        for _ in 0..length.minutes {
+            for _ in 0..MINUTE_TICKS {
+                config.step(&mut state, [R::ZERO; 2]);
+                ticks += 1;
+                let [left, right] = config.oscillators.psi(&state.oscillators);
+                let [left, right] = [left, right].map(|psi| psi.map(R::to_f64));
+                for [a, b] in [left, right] {
+                    widen(&mut square, a * a + b * b);
+                }
+                for [angle] in state.theta() {
+                    widen(&mut theta, angle.to_f64());
+                }
+                phase.see(ticks, left[0]);
+            }
+            done.fetch_add(1, Ordering::Relaxed);
+        }
+        rows.push(Row {
+            format: format.name().to_owned(),
+            frequency_hz: pace.frequency_hz,
+            minutes: stretch * length.minutes,
+            phase_whisks: phase.ahead(pace.frequency_hz / pace.tick_hz),
+            whisks: phase.whisks as f64,
+            radius: square.map(libm::sqrt),
+            theta_deg: theta.map(whisking::degrees),
+        });
+    }
+    Ok(rows)
+}
+
+fn widen([low, high]: &mut [f64; 2], value: f64) {
+    *low = low.min(value);
+    *high = high.max(value);
+}
+
+/// Upward crossings of zero. Times are a tick and a part of one, so that a day
+/// costs no digits.
+#[derive(Debug, Default)]
+struct Phase {
+    before: f64,
+    first: Option<(u64, f64)>,
+    last: (u64, f64),
+    /// Since the first.
+    whisks: u64,
+}
+
+impl Phase {
+    fn see(&mut self, tick: u64, now: f64) {
+        // The first sample has nothing before it: zero, which is no crossing.
+        if self.before < 0.0 && now >= 0.0 {
+            self.last = (tick, now / (now - self.before));
+            if self.first.is_none() {
+                self.first = Some(self.last);
+            } else {
+                self.whisks += 1;
+            }
+        }
+        self.before = now;
+    }
+
+    /// Whisks ahead of `cycles` = f_W T a tick.
+    fn ahead(&self, cycles: f64) -> f64 {
+        let (tick, part) = self.first.unwrap_or(self.last);
+        // A crossing lies its part of a tick before the tick that shows it.
+        let ticks = (self.last.0 - tick) as f64 - (self.last.1 - part);
+        self.whisks as f64 - ticks * cycles
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Phase;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_frequency_off_by_ten_ppm_is_seen_with_its_sign() {
+        for ppm in [10.0, -10.0, 0.0] {
+            let mut phase = Phase::default();
+            let rate = (1.0 + 1e-6 * ppm) / 1_000.0;
+            for tick in 1..=100_000_u64 {
+                phase.see(tick, (TAU * rate * tick as f64 - 1.0).sin());
+            }
+            let found = 1e6 * phase.ahead(1e-3) / phase.whisks as f64;
+            assert_eq!(phase.whisks, 99);
+            assert!((found - ppm).abs() < 0.01, "{ppm}: {found}");
+        }
+    }
+}

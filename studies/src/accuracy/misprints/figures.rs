@@ -1,0 +1,142 @@
+//! Runs of the papers' figures, with one formula as printed.
+
+use whisking::gate::{Cia, Gate};
+use whisking::{GateSettings, Integrator, Settings, State, degrees, filter, muscle};
+
+use super::{FREQUENCY_HZ, TICK_HZ};
+use crate::accuracy::schemes::refused;
+use host_sim::Error;
+
+const RUN_TICKS: usize = 20_000;
+/// Obstacles beside the head, degrees, and σ_x a degree (BIOTACT Fig. 7).
+pub(crate) const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
+const STIFFNESS: f64 = 0.1;
+
+/// One formula as printed; the others as read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Printed {
+    Nothing,
+    /// Eq. 7: m = f_W²/100.
+    Mass,
+    /// Eq. 12: contact lifts g to σ_g ζ.
+    Lift,
+    /// Eq. 13: g* = g + T/(τ_g (1 − g)).
+    Decay,
+}
+
+/// What a figure of the paper sets.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Figure {
+    pub(crate) gain: f64,
+    pub(crate) rcp: Option<GateSettings>,
+    pub(crate) cia: Option<GateSettings>,
+    pub(crate) obstacles: bool,
+}
+
+const fn gate(gain: f64, tau_whisks: f64) -> GateSettings {
+    GateSettings {
+        gain,
+        tau_s: tau_whisks / FREQUENCY_HZ,
+    }
+}
+
+pub(crate) const FIG6: Figure = Figure {
+    gain: 2.0,
+    rcp: None,
+    cia: None,
+    obstacles: false,
+};
+pub(crate) const FIG7: Figure = Figure {
+    gain: 1.0,
+    rcp: Some(gate(0.7, 0.25)),
+    cia: None,
+    obstacles: true,
+};
+pub(crate) const FIG8: Figure = Figure {
+    rcp: Some(gate(2.0, 0.1)),
+    ..FIG7
+};
+pub(crate) const FIG9: Figure = Figure {
+    cia: Some(gate(0.5, 0.25)),
+    ..FIG7
+};
+/// Free whisking with CIA that nothing excites.
+pub(super) const FREE: Figure = Figure {
+    gain: 1.0,
+    cia: Some(gate(0.5, 0.25)),
+    ..FIG6
+};
+
+/// A tick: θ' in degrees, π and g of both sides.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row {
+    pub(crate) theta_deg: [f64; 2],
+    pub(crate) contact: [f64; 2],
+    pub(crate) g: [f64; 2],
+}
+
+/// One tick of what lifts g of a whisker above `nominal`; the share of the
+/// decay is T/τ_g.
+fn excite(cia: &Cia<f64>, lift: &mut Gate<f64>, nominal: f64, zeta: f64, printed: Printed) {
+    let g = nominal + lift.value;
+    let [mut step, mut lifted] = [nominal - g, nominal + cia.gain * zeta];
+    match printed {
+        Printed::Nothing | Printed::Mass => return cia.step(lift, nominal, zeta),
+        Printed::Lift => lifted = cia.gain * zeta,
+        Printed::Decay => step = 1.0 / (1.0 - g),
+    }
+    let g = (g + cia.decay.tick * step).max(lifted).clamp(0.0, 2.0);
+    *lift = Gate::new(g - nominal);
+}
+
+/// Ten seconds of `figure`.
+pub(crate) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> {
+    let settings = Settings {
+        tick_hz: TICK_HZ,
+        frequency_hz: FREQUENCY_HZ,
+        integrator: Integrator::Euler,
+        coupling: true,
+        noise: 0.0,
+        rcp: figure.rcp,
+        cia: figure.cia,
+    };
+    let mut config = settings.build::<f64>().map_err(refused)?;
+    let cia = config.cia.take();
+    if printed == Printed::Mass {
+        // h = √(k/m) T; ν = 4 √(k m) keeps 4 h.
+        let h = 10.0 / (FREQUENCY_HZ * TICK_HZ);
+        config.muscle = muscle::Config::Euler(muscle::Euler {
+            spring: h,
+            damping: 4.0 * h,
+        });
+    }
+    let start = settings.start([[1.0, 0.0]; 2], [[figure.gain]; 2]);
+    let mut state = State::<f64, 2, 1>::new(&start.map_err(refused)?, 1);
+    let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ).map_err(refused)?;
+    let mut filters = [filter::State::default(); 2];
+    let tick = |_| {
+        let angles = state.theta().map(|[theta]| degrees(theta));
+        let mut contact = [0.0; 2];
+        if figure.obstacles {
+            let sides = contact.iter_mut().zip(&mut filters);
+            for ((contact, filter), (angle, at)) in sides.zip(angles.iter().zip(OBSTACLES_DEG)) {
+                let x = (STIFFNESS * (angle - at).max(0.0)).min(1.0);
+                *contact = h50.process(filter, x).abs();
+            }
+        }
+        let zeta = contact.iter().copied().fold(0.0, f64::max);
+        if let Some(cia) = &cia {
+            for whisker in state.whiskers.iter_mut().flatten() {
+                excite(cia, &mut whisker.lift, figure.gain, zeta, printed);
+            }
+        }
+        config.step(&mut state, contact);
+        let gains = state.whiskers.each_ref();
+        Row {
+            theta_deg: state.theta().map(|[theta]| degrees(theta)),
+            contact,
+            g: gains.map(|[whisker]| whisker.gain()),
+        }
+    };
+    Ok((0..RUN_TICKS).map(tick).collect())
+}

@@ -1,0 +1,249 @@
+//! What is compared: the product's integrators in every number format, and two
+//! schemes from outside for scale.
+
+use whisking::{Fix, Integrator, Real, Settings};
+
+use super::reference::{Case, GRID, PEAK_GAIN, State, Truth, WHISKS};
+use super::split::Split;
+use host_sim::Error;
+
+/// A number format of the product.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    F64,
+    F32,
+    Fixed,
+}
+
+impl Format {
+    pub(super) const ALL: [Self; 3] = [Self::F64, Self::F32, Self::Fixed];
+
+    /// As the report calls it.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::F64 => "f64",
+            Self::F32 => "f32",
+            Self::Fixed => "fixed",
+        }
+    }
+}
+
+/// As the report calls it.
+pub(super) const fn name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Euler => "euler",
+        Integrator::Exact => "exact",
+    }
+}
+
+/// Both integrators, the papers' first.
+pub(super) const INTEGRATORS: [Integrator; 2] = [Integrator::Euler, Integrator::Exact];
+
+/// A way to step the equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scheme {
+    /// The product's.
+    Product(Integrator, Format),
+    /// The classical Runge-Kutta method in f64: four evaluations a tick.
+    RungeKutta,
+    /// Rotation with radial relaxation, coupling in two halves, and the muscle's
+    /// linear part, each exact; the force at the middle of the tick; f64.
+    Split,
+}
+
+impl Scheme {
+    /// The product's integrators, Euler first, then the comparisons.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let formats = |integrator| Format::ALL.map(|format| Self::Product(integrator, format));
+        let product = INTEGRATORS.into_iter().flat_map(formats);
+        product.chain([Self::RungeKutta, Self::Split])
+    }
+
+    /// As the report calls it.
+    pub(super) fn name(self) -> String {
+        match self {
+            Self::Product(integrator, format) => format!("{} {}", name(integrator), format.name()),
+            Self::RungeKutta => "comparison: Runge-Kutta f64".to_owned(),
+            Self::Split => "comparison: split step f64".to_owned(),
+        }
+    }
+
+    /// Largest error of θ' in degrees over ten whisks of `case`.
+    pub(super) fn error(self, case: &Case, truth: &Truth, pace: Pace) -> Result<f64, Error> {
+        let cycles = pace.frequency_hz / pace.tick_hz;
+        let push = PEAK_GAIN * case.gain;
+        match self {
+            Self::Product(integrator, format) => {
+                let settings = pace.settings(integrator);
+                match format {
+                    Format::F64 => product::<f64>(&settings, case, truth, pace),
+                    Format::F32 => product::<f32>(&settings, case, truth, pace),
+                    Format::Fixed => product::<Fix>(&settings, case, truth, pace),
+                }
+            }
+            Self::RungeKutta => outside(case, truth, pace, |s| s.runge_kutta(cycles, [push; 3])),
+            Self::Split => {
+                let split = Split::new(cycles, push);
+                outside(case, truth, pace, |state| split.step(state))
+            }
+        }
+    }
+}
+
+/// How fast: f_W and the tick rate, Hz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pace {
+    pub(super) frequency_hz: f64,
+    pub(super) tick_hz: f64,
+}
+
+impl Pace {
+    /// Coupled, without noise and gates.
+    pub(super) fn settings(self, integrator: Integrator) -> Settings {
+        Settings {
+            tick_hz: self.tick_hz,
+            frequency_hz: self.frequency_hz,
+            integrator,
+            coupling: true,
+            noise: 0.0,
+            rcp: None,
+            cia: None,
+        }
+    }
+
+    /// Points of the truth a tick.
+    pub(super) fn stride(self) -> Result<usize, Error> {
+        let stride = GRID as f64 * self.frequency_hz / self.tick_hz;
+        if (stride - stride.round()).abs() < 1e-6 && stride.round() >= 1.0 {
+            Ok(stride.round() as usize)
+        } else {
+            Err(Error::Work(format!("{self:?} is not on the grid")))
+        }
+    }
+}
+
+/// Settings of the report that the product refuses: a slip of the report.
+pub(super) fn refused(error: whisking::Error) -> Error {
+    Error::Work(format!("settings of the report: {error}"))
+}
+
+fn product<R: Real>(
+    settings: &Settings,
+    case: &Case,
+    truth: &Truth,
+    pace: Pace,
+) -> Result<f64, Error> {
+    let config = settings.build::<R>().map_err(refused)?;
+    let start = settings.start(case.psi, [[case.gain]; 2]);
+    let mut state = whisking::State::<R, 2, 1>::new(&start.map_err(refused)?, 1);
+    worst(truth, pace, || {
+        config.step(&mut state, [R::ZERO; 2]);
+        state.theta().map(|[theta]| theta.to_f64())
+    })
+}
+
+fn outside(
+    case: &Case,
+    truth: &Truth,
+    pace: Pace,
+    step: impl Fn(&State) -> State,
+) -> Result<f64, Error> {
+    let mut state = State::new(case);
+    worst(truth, pace, || {
+        state = step(&state);
+        state.theta()
+    })
+}
+
+fn worst(truth: &Truth, pace: Pace, mut tick: impl FnMut() -> [f64; 2]) -> Result<f64, Error> {
+    let stride = pace.stride()?;
+    let mut worst = 0.0_f64;
+    for n in 1..=WHISKS * GRID / stride {
+        let found = tick();
+        let expected = truth.theta(n * stride).unwrap_or([f64::NAN; 2]);
+        for (found, expected) in found.iter().zip(expected) {
+            let error = 100.0 * (found - expected).abs();
+            // Not `max`, which drops a NaN.
+            if error > worst || error.is_nan() {
+                worst = error;
+            }
+        }
+    }
+    Ok(worst)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Pace, Scheme};
+    use crate::accuracy::reference::{Case, Truth};
+    use whisking::Integrator::{Euler, Exact};
+
+    const CASE: Case = Case {
+        psi: [[1.0, 0.0], [0.6, 0.5]],
+        gain: 1.0,
+    };
+
+    /// What other programs measured for the same runs.
+    #[test]
+    fn the_comparisons_have_their_known_errors() {
+        let truth = Truth::solve(&CASE);
+        for (scheme, frequency_hz, tick_hz, known) in [
+            (Scheme::RungeKutta, 2.0, 2_000.0, 6.7e-8),
+            (Scheme::RungeKutta, 25.0, 2_000.0, 2.3e-3),
+            (Scheme::RungeKutta, 25.0, 500.0, 1.5),
+            (
+                Scheme::Product(Euler, super::Format::F64),
+                2.0,
+                2_000.0,
+                0.48,
+            ),
+            (
+                Scheme::Product(Euler, super::Format::F64),
+                25.0,
+                500.0,
+                51.0,
+            ),
+        ] {
+            let pace = Pace {
+                frequency_hz,
+                tick_hz,
+            };
+            let found = scheme.error(&CASE, &truth, pace).unwrap();
+            assert!(
+                (found / known - 1.0).abs() < 0.05,
+                "{scheme:?}: {found:e} of {known:e}"
+            );
+        }
+    }
+
+    /// A split of second order: half the tick, a quarter of the error.
+    #[test]
+    fn the_split_step_is_of_second_order() {
+        let truth = Truth::solve(&CASE);
+        let error = |tick_hz| {
+            let pace = Pace {
+                frequency_hz: 8.0,
+                tick_hz,
+            };
+            Scheme::Split.error(&CASE, &truth, pace).unwrap()
+        };
+        let ratio = error(1_000.0) / error(2_000.0);
+        assert!((ratio - 4.0).abs() < 0.2, "{ratio}");
+    }
+
+    #[test]
+    fn an_error_is_that_of_the_worse_side_and_of_the_whole_run() {
+        let truth = Truth::solve(&CASE);
+        let pace = Pace {
+            frequency_hz: 25.0,
+            tick_hz: 2_000.0,
+        };
+        let other = Case {
+            psi: [[1.0, 0.0], [0.6, 0.500_1]],
+            ..CASE
+        };
+        let scheme = Scheme::Product(Exact, super::Format::F64);
+        let [same, moved] = [CASE, other].map(|case| scheme.error(&case, &truth, pace).unwrap());
+        assert!(moved > same + 1e-3, "{same:e} {moved:e}");
+    }
+}

@@ -1,0 +1,5 @@
+//! What the commands of the command line do, a file each.
+
+pub mod experiment;
+pub mod merge;
+pub mod report;

@@ -1,0 +1,53 @@
+//! `studies report`: the accuracy report, written or checked.
+
+use std::path::Path;
+
+use crate::accuracy::{LongRun, report as measure};
+use host_sim::Error;
+use host_sim::output::write_whole;
+use host_sim::progress::Verbosity;
+
+/// Writes the report into the folder `out`, or with `check` says whether what
+/// is there is up to date, timings of the PC aside. Returns what was done.
+///
+/// # Errors
+/// [`Error::Work`] if it is out of date, [`Error::Input`] for a broken table of
+/// results, [`Error::Write`].
+pub fn report(
+    out: &Path,
+    long_run: LongRun,
+    check: bool,
+    verbosity: Verbosity,
+) -> Result<String, Error> {
+    let report = measure(out, long_run, !check, verbosity)?;
+    if check {
+        let differs = |(name, text): &&(String, String)| {
+            std::fs::read(out.join(name)).map_or(true, |found| found != text.as_bytes())
+        };
+        let stale: Vec<String> = report
+            .fixed
+            .iter()
+            .filter(differs)
+            .map(|(name, _)| out.join(name).display().to_string())
+            .collect();
+        return if stale.is_empty() {
+            Ok(format!(
+                "{}: the accuracy report is up to date",
+                out.display()
+            ))
+        } else {
+            Err(Error::Work(format!(
+                "out of date: {}: run studies report",
+                stale.join(", ")
+            )))
+        };
+    }
+    for (name, text) in report.fixed.iter().chain(&report.timings) {
+        write_whole(&out.join(name), text.as_bytes())?;
+    }
+    Ok(format!(
+        "{}: {} files of the accuracy report",
+        out.display(),
+        report.fixed.len() + report.timings.len()
+    ))
+}

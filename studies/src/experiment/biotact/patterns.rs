@@ -1,0 +1,165 @@
+//! BIOTACT Figs. 6 to 9: the pattern generator before simulated obstacles
+//! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
+//!
+//! The runs are those of the report on misprints: forward Euler, 2 kHz, no
+//! noise.
+
+use crate::accuracy::chart::{Mark, draw};
+use crate::accuracy::misprints::figures::{
+    FIG6, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG, Printed, Row, run,
+};
+use crate::experiment::page::Section;
+use crate::experiment::picture::{Curve, FOLDER, linear, panel};
+use host_sim::Error;
+
+/// Ticks a second and a whisk.
+const TICK_HZ: f64 = 2_000.0;
+const WHISK: usize = 1_000;
+/// Whisks that are measured and shown: the last of a run.
+const WHISKS: usize = 3;
+/// Gains of Fig. 6.
+const GAINS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+const LEFT: usize = 0;
+const RIGHT: usize = 1;
+
+/// The last whisks of a run, as read.
+fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
+    let rows = run(figure, Printed::Nothing)?;
+    let from = rows.len().saturating_sub(WHISKS * WHISK);
+    Ok(rows.into_iter().skip(from).collect())
+}
+
+/// Least and largest θ' of a side, degrees.
+fn range(rows: &[Row], side: usize) -> (f64, f64) {
+    let angles = rows.iter().map(|row| row.theta_deg[side]);
+    angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
+        (low.min(angle), high.max(angle))
+    })
+}
+
+/// Contacts of a side a whisk: how often it comes past its obstacle.
+fn contacts(rows: &[Row], side: usize) -> f64 {
+    let beyond = |row: &Row| row.theta_deg[side] > OBSTACLES_DEG[side];
+    let pairs = rows.iter().zip(rows.iter().skip(1));
+    let count = pairs.filter(|(a, b)| !beyond(a) && beyond(b)).count();
+    count as f64 / WHISKS as f64
+}
+
+fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
+    // Every tenth tick is plenty for a picture.
+    let points = rows.iter().enumerate().step_by(10);
+    let points = points.map(|(n, row)| (n as f64 / TICK_HZ, row.theta_deg[side]));
+    Curve::new(name, points.collect())
+}
+
+pub(super) fn section(section: &mut Section) -> Result<(), Error> {
+    gains(section)?;
+    obstacles(section)
+}
+
+/// Fig. 6.
+fn gains(section: &mut Section) -> Result<(), Error> {
+    let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
+    for gain in GAINS {
+        let rows = tail(&Figure { gain, ..FIG6 })?;
+        let (low, high) = range(&rows, LEFT);
+        said.push(format!("{low:.1} to {high:.1} at g = {gain}"));
+        highest.push(high);
+        curves.push(curve(&format!("g = {gain}"), &rows, LEFT));
+    }
+    section.page.say(format_args!(
+        "**Fig. 6**: free whisking with four gains. θ' goes from {} degrees.",
+        said.join(", ")
+    ));
+    let end = (WHISKS * WHISK) as f64 / TICK_HZ;
+    let x = linear("s", 0.0, end);
+    let y = linear("θ', degrees", 50.0, 160.0);
+    let panels = [panel("Fig. 6", x, y, &curves, Mark::Nothing)];
+    let what = "Free whisking with four gains";
+    section
+        .page
+        .picture_in(FOLDER, "biotact-fig6.svg", what, draw(&panels)?);
+    let most = (highest.last().copied().unwrap_or(0.0) - 50.0) / 100.0;
+    section.claim(
+        "BIOTACT Fig. 6: a higher gain gives a higher θ', and at g = 2 θ approaches unity but does not exceed it",
+        "so",
+        format_args!("largest θ = {most:.4} at g = 2"),
+        highest.is_sorted() && (0.95..=1.0).contains(&most),
+        "",
+    );
+    Ok(())
+}
+
+/// Figs. 7 to 9.
+fn obstacles(section: &mut Section) -> Result<(), Error> {
+    let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
+    let end = (WHISKS * WHISK) as f64 / TICK_HZ;
+    let mut panels = Vec::new();
+    let mut runs = Vec::new();
+    for (title, figure) in [
+        ("Fig. 7: RCP, σ_z = 0.7, τ_z = T_W/4", FIG7),
+        ("Fig. 8: RCP, σ_z = 2, τ_z = T_W/10", FIG8),
+        ("Fig. 9: as Fig. 7, and CIA, σ_g = 0.5, τ_g = T_W/4", FIG9),
+    ] {
+        let rows = tail(&figure)?;
+        let level = |name: &str, side: usize| {
+            let at = OBSTACLES_DEG[side];
+            Curve::new(name, vec![(0.0, at), (end, at)])
+        };
+        let curves = [
+            curve("left", &rows, LEFT),
+            curve("right", &rows, RIGHT),
+            curve("not modulated", &free, LEFT),
+            level("obstacle of the left", LEFT),
+            level("obstacle of the right", RIGHT),
+        ];
+        let (x, y) = (linear("s", 0.0, end), linear("θ', degrees", 50.0, 140.0));
+        panels.push(panel(title, x, y, &curves, Mark::Nothing));
+        runs.push(rows);
+    }
+    section.page.say(
+        "**Figs. 7 to 9**: the generator before obstacles at 100 degrees on the left and 125 on \
+         the right (eq. 11, σ_x = 0.1).",
+    );
+    let what = "RCP and CIA before obstacles";
+    section
+        .page
+        .picture_in(FOLDER, "biotact-fig7-9.svg", what, draw(&panels)?);
+    let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| range(rows, side).1);
+    let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side));
+    section.claim(
+        "BIOTACT Fig. 7: RCP holds the left back; the right does not reach its obstacle",
+        "left suppressed, right below 125 degrees",
+        format_args!(
+            "left up to {:.1}, right up to {:.1} degrees",
+            highest(0, LEFT),
+            highest(0, RIGHT)
+        ),
+        highest(0, LEFT) < highest(0, RIGHT) - 5.0 && highest(0, RIGHT) < OBSTACLES_DEG[RIGHT],
+        "",
+    );
+    section.claim(
+        "BIOTACT Fig. 8: strong and fast RCP makes two distinct contacts a whisk",
+        "2",
+        format_args!(
+            "{:.1}; {:.1} with Fig. 7's",
+            touches(1, LEFT),
+            touches(0, LEFT)
+        ),
+        touches(1, LEFT) > 1.5 && touches(0, LEFT) < 1.5,
+        "",
+    );
+    section.claim(
+        "BIOTACT Fig. 9: with CIA the right finds its obstacle",
+        "beyond 125 degrees, 1 contact a whisk",
+        format_args!(
+            "up to {:.1} degrees, {:.1} contacts a whisk; {:.1} without CIA",
+            highest(2, RIGHT),
+            touches(2, RIGHT),
+            touches(0, RIGHT)
+        ),
+        touches(2, RIGHT) > 0.5 && touches(0, RIGHT) == 0.0,
+        "",
+    );
+    Ok(())
+}

@@ -1,0 +1,227 @@
+//! Whisks as the two classifiers of BIOTACT section IV learn and take them.
+
+use tactile::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
+use tactile::template_train::TemplateTrainer;
+use tactile::train::{Options, Trainer};
+
+use super::refused;
+use crate::experiment::dataset::Dataset;
+use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
+use crate::experiment::record::head::{COLUMNS, number};
+use crate::experiment::recording::Recordings;
+use crate::experiment::request::Request;
+use crate::rigs::CHANNELS;
+use host_sim::Error;
+
+/// A classifier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Method {
+    /// Stationary naive Bayes (eq. 15–16).
+    Bayes,
+    /// Sum of squared differences (eq. 17).
+    Template,
+}
+
+impl Method {
+    pub(super) const ALL: [Self; 2] = [Self::Bayes, Self::Template];
+
+    pub(super) const fn text(self) -> &'static str {
+        match self {
+            Self::Bayes => "naive Bayes",
+            Self::Template => "the template by sum of squares",
+        }
+    }
+
+    pub(super) const fn score_name(self) -> &'static str {
+        match self {
+            Self::Bayes => "stationary naive Bayes, 12 channels",
+            Self::Template => "template by sum of squares, 12 channels",
+        }
+    }
+}
+
+/// What is classified.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Task {
+    /// Nine pairs of texture and distance.
+    Both,
+    /// Three textures.
+    Texture,
+    /// Three distances.
+    Distance,
+}
+
+impl Task {
+    pub(super) const ALL: [Self; 3] = [Self::Both, Self::Texture, Self::Distance];
+
+    pub(super) const fn text(self) -> &'static str {
+        match self {
+            Self::Both => "texture and distance",
+            Self::Texture => "texture",
+            Self::Distance => "distance",
+        }
+    }
+
+    /// The class of a condition.
+    const fn class(self, texture: usize, distance: usize) -> usize {
+        match self {
+            Self::Both => texture * DISTANCES_MM.len() + distance,
+            Self::Texture => texture,
+            Self::Distance => distance,
+        }
+    }
+}
+
+/// A whisk: its texture, distance and samples of all channels.
+type Whisk = (usize, usize, Vec<f64>);
+
+/// All whisks, strategy by strategy.
+#[derive(Debug)]
+pub(super) struct Visits {
+    /// `[strategy][whisk number]`: one whisk of each condition.
+    whisks: Vec<Vec<Vec<Whisk>>>,
+    ticks: usize,
+}
+
+impl Visits {
+    pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
+        let all = recordings.of(Dataset::Head);
+        let ticks = request.rigs.head.whisk_ticks();
+        let mut whisks = vec![vec![Vec::new(); request.scale.whisks()]; STRATEGIES.len()];
+        for (strategy, whisks) in whisks.iter_mut().enumerate() {
+            for texture in 0..TEXTURES.len() {
+                for distance in 0..DISTANCES_MM.len() {
+                    let Some(visit) = all.get(number(strategy, texture, distance)) else {
+                        continue;
+                    };
+                    for (n, whisk) in whisks.iter_mut().enumerate() {
+                        let samples = visit.part(n * ticks, (n + 1) * ticks);
+                        let felt = samples.chunks_exact(COLUMNS);
+                        let felt = felt.flat_map(|row| row.iter().take(CHANNELS));
+                        let felt = felt.map(|x| f64::from(*x)).collect();
+                        whisk.push((texture, distance, felt));
+                    }
+                }
+            }
+        }
+        Self { whisks, ticks }
+    }
+
+    fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
+        let whisks = self.whisks.get(strategy).map_or(&[][..], Vec::as_slice);
+        numbers.iter().filter_map(|n| whisks.get(*n)).flatten()
+    }
+
+    /// Share of validation whisks that are classified rightly.
+    pub(super) fn hit_rate(
+        &self,
+        method: Method,
+        task: Task,
+        strategy: usize,
+        (learning, validation): (&[usize], &[usize]),
+    ) -> Result<f64, Error> {
+        let learning = self.some(strategy, learning);
+        let validation = self.some(strategy, validation);
+        match method {
+            Method::Bayes => bayes(task, &ALL, Options::default(), learning, validation),
+            Method::Template => self.template(task, learning, validation),
+        }
+    }
+
+    /// The same of naive Bayes on one axis of all whiskers, 0: x, 1: y.
+    pub(super) fn hit_rate_of_axis(
+        &self,
+        axis: usize,
+        task: Task,
+        strategy: usize,
+        (learning, validation): (&[usize], &[usize]),
+    ) -> Result<f64, Error> {
+        let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
+        let learning = self.some(strategy, learning);
+        let validation = self.some(strategy, validation);
+        bayes(task, &picked, Options::default(), learning, validation)
+    }
+
+    /// The same of naive Bayes with histograms smoothed by so many bins.
+    pub(super) fn hit_rate_smoothed(
+        &self,
+        smooth: f64,
+        task: Task,
+        strategy: usize,
+        (learning, validation): (&[usize], &[usize]),
+    ) -> Result<f64, Error> {
+        let options = Options {
+            smooth,
+            ..Options::default()
+        };
+        let learning = self.some(strategy, learning);
+        let validation = self.some(strategy, validation);
+        bayes(task, &ALL, options, learning, validation)
+    }
+
+    /// The least and most code of a channel over some whisks of a strategy.
+    pub(super) fn range(&self, strategy: usize, numbers: &[usize], channel: usize) -> (f64, f64) {
+        let whisks = self.some(strategy, numbers);
+        let codes =
+            whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
+        codes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(*x), high.max(*x))
+        })
+    }
+
+    fn template<'w>(
+        &self,
+        task: Task,
+        learning: impl Iterator<Item = &'w Whisk>,
+        validation: impl Iterator<Item = &'w Whisk>,
+    ) -> Result<f64, Error> {
+        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks).map_err(refused)?;
+        for (texture, distance, samples) in learning {
+            let class = task.class(*texture, *distance);
+            trainer.add(class, samples).map_err(refused)?;
+        }
+        let templates = trainer.train().map_err(refused)?;
+        Ok(share(&mut templates.recogniser(), task, validation))
+    }
+}
+
+/// Every channel.
+const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+
+fn bayes<'w>(
+    task: Task,
+    picked: &[usize],
+    options: Options,
+    learning: impl Iterator<Item = &'w Whisk>,
+    validation: impl Iterator<Item = &'w Whisk>,
+) -> Result<f64, Error> {
+    let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
+    // Classes are numbered as they first appear: put them in order.
+    let mut sorted: Vec<&Whisk> = learning.collect();
+    sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
+    for (texture, distance, samples) in sorted {
+        let name = format!("class {}", task.class(*texture, *distance));
+        for sample in pick(samples, CHANNELS, picked).chunks_exact(picked.len()) {
+            trainer.add(&name, sample).map_err(refused)?;
+        }
+    }
+    let buf = trainer.train().map_err(refused)?;
+    let model = buf.model().map_err(refused)?;
+    let bayes = Bayes::stationary(&model).map_err(refused)?;
+    Ok(share(&mut Picked::new(bayes, picked), task, validation))
+}
+
+fn share<'w>(
+    recogniser: &mut impl Recogniser,
+    task: Task,
+    validation: impl Iterator<Item = &'w Whisk>,
+) -> f64 {
+    let (mut hits, mut count) = (0_u32, 0_u32);
+    for (texture, distance, samples) in validation {
+        let outcome = first_outcome(recogniser, samples, CHANNELS);
+        let class = task.class(*texture, *distance);
+        hits += u32::from(outcome.is_some_and(|outcome| outcome.class == class));
+        count += 1;
+    }
+    f64::from(hits) / f64::from(count.max(1))
+}

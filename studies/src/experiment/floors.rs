@@ -1,0 +1,248 @@
+//! The floor robot's recordings as LEP10 and LEP12 use them: the first half of
+//! every trial to learn from, the second to validate with.
+
+use rayon::prelude::*;
+use tactile::ModelBuf;
+use tactile::recogniser::{Outcome, Recogniser, outcomes, pick};
+use tactile::train::{Options, Trainer};
+
+use super::dataset::Dataset;
+use super::paper::lep10::FLOORS;
+use super::record::floor::{MOTIONS, number};
+use super::recording::{Recording, Recordings};
+use super::request::{Request, Scale};
+use crate::rigs::Motion;
+use host_sim::Error;
+
+/// Sensor codes of 10 mV: 14 bits over 5 V.
+const CODES_A_BIN: f64 = 16_384.0 * 0.010 / 5.0;
+/// Standard deviation of the smoothing, bins (100 mV).
+const SMOOTH_BINS: f64 = 10.0;
+/// x and y.
+pub(super) const CHANNELS: usize = 2;
+
+/// Samples of one floor.
+#[derive(Debug, Clone)]
+pub(super) struct Stream {
+    /// Which floor.
+    pub(super) floor: usize,
+    /// x, y, x, y, …
+    pub(super) samples: Vec<f64>,
+}
+
+/// A half of every trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Half {
+    First,
+    Second,
+}
+
+/// All trials.
+#[derive(Debug)]
+pub(super) struct Floors<'a> {
+    recordings: Vec<&'a Recording>,
+    scale: Scale,
+    /// Trials of natural motion that are used.
+    natural: usize,
+    /// Samples a second.
+    pub(super) rate_hz: f64,
+}
+
+impl<'a> Floors<'a> {
+    /// As LEP12 has them, with as many trials of natural motion as of each
+    /// rotation.
+    pub(super) fn new(request: &Request, recordings: &'a Recordings) -> Self {
+        Self {
+            recordings: recordings.of(Dataset::Floor),
+            scale: request.scale,
+            natural: request.scale.trials(),
+            rate_hz: request.rigs.floor.tick_hz,
+        }
+    }
+
+    /// As LEP10 has them, with all trials of natural motion.
+    pub(super) fn with_all(request: &Request, recordings: &'a Recordings) -> Self {
+        Self {
+            natural: request.scale.natural_trials(),
+            ..Self::new(request, recordings)
+        }
+    }
+
+    /// A half of every trial of the `motions`, floor by floor.
+    pub(super) fn half(&self, motions: &[Motion], half: Half) -> Vec<Stream> {
+        let mut streams = Vec::new();
+        for floor in 0..FLOORS.len() {
+            for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
+                let trials = match motion {
+                    Motion::Autonomous => self.natural,
+                    _ => self.scale.trials(),
+                };
+                for trial in 0..trials {
+                    let number = number(self.scale, floor, *motion, trial);
+                    let Some(recording) = self.recordings.get(number) else {
+                        continue;
+                    };
+                    let middle = recording.len() / 2;
+                    let samples = match half {
+                        Half::First => recording.segment(0, middle),
+                        Half::Second => recording.segment(middle, recording.len()),
+                    };
+                    streams.push(Stream { floor, samples });
+                }
+            }
+        }
+        streams
+    }
+
+    /// Samples of a time.
+    pub(super) fn samples(&self, seconds: f64) -> usize {
+        (seconds * self.rate_hz).round() as usize
+    }
+}
+
+/// Likelihoods in bins of 10 mV over the range that x and y have together
+/// (LEP10 section III-A), of some of the channels.
+///
+/// The model's bins span each channel's own range, so every class is given the
+/// common range's two ends as samples: 2 among some 10⁵.
+pub(super) fn learn(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
+    let refused = |error: &dyn std::fmt::Display| Error::Work(format!("likelihoods: {error}"));
+    let all = || streams.iter().flat_map(|stream| &stream.samples).copied();
+    let low = all().fold(f64::INFINITY, f64::min);
+    let high = all().fold(f64::NEG_INFINITY, f64::max);
+    let bins = ((high - low) / CODES_A_BIN).ceil().clamp(1.0, 4096.0) as usize;
+    let options = Options {
+        bins,
+        smooth: SMOOTH_BINS,
+        block,
+    };
+    let mut trainer = Trainer::new(picked.len(), options).map_err(|error| refused(&error))?;
+    for stream in streams {
+        let name = FLOORS.get(stream.floor).copied().unwrap_or_default();
+        for sample in pick(&stream.samples, CHANNELS, picked).chunks_exact(picked.len()) {
+            trainer.add(name, sample).map_err(|error| refused(&error))?;
+        }
+    }
+    for name in FLOORS {
+        for end in [low, high] {
+            let sample = vec![end; picked.len()];
+            trainer
+                .add(name, &sample)
+                .map_err(|error| refused(&error))?;
+        }
+    }
+    trainer.train().map_err(|error| refused(&error))
+}
+
+/// Outcomes of each true floor.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tally {
+    /// `[true][decided]`.
+    counts: [[u64; 4]; 4],
+    samples: u64,
+}
+
+impl Tally {
+    /// What a recogniser makes of all streams, each from its start.
+    pub(super) fn of<R: Recogniser>(
+        streams: &[Stream],
+        new: impl Fn() -> Result<R, Error> + Sync,
+    ) -> Result<Self, Error> {
+        let found: Result<Vec<(usize, Vec<Outcome>)>, Error> = streams
+            .par_iter()
+            .map(|stream| {
+                let mut recogniser = new()?;
+                let found = outcomes(&mut recogniser, &stream.samples, CHANNELS);
+                Ok((stream.floor, found))
+            })
+            .collect();
+        let mut tally = Self {
+            counts: [[0; 4]; 4],
+            samples: 0,
+        };
+        for (floor, outcomes) in found? {
+            for outcome in outcomes {
+                tally.add(floor, outcome.class, u64::from(outcome.samples));
+            }
+        }
+        Ok(tally)
+    }
+
+    pub(super) fn empty() -> Self {
+        Self {
+            counts: [[0; 4]; 4],
+            samples: 0,
+        }
+    }
+
+    pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) {
+        let count = self
+            .counts
+            .get_mut(floor)
+            .and_then(|row| row.get_mut(decided));
+        if let Some(count) = count {
+            *count += 1;
+            self.samples += samples;
+        }
+    }
+
+    /// Percent of a true floor's outcomes that are `decided`.
+    pub(super) fn percent(&self, decided: usize, floor: usize) -> f64 {
+        let row = self.counts.get(floor).copied().unwrap_or_default();
+        let total: u64 = row.iter().sum();
+        let count = row.get(decided).copied().unwrap_or(0);
+        100.0 * count as f64 / total.max(1) as f64
+    }
+
+    /// Hit rate of each floor, percent.
+    pub(super) fn hits(&self) -> [f64; 4] {
+        core::array::from_fn(|floor| self.percent(floor, floor))
+    }
+
+    /// Mean hit rate over the floors, percent.
+    pub(super) fn mean_hit(&self) -> f64 {
+        self.hits().iter().sum::<f64>() / 4.0
+    }
+
+    /// Mean samples of an outcome.
+    pub(super) fn mean_samples(&self) -> f64 {
+        let outcomes: u64 = self.counts.iter().flatten().sum();
+        self.samples as f64 / outcomes.max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Stream, Tally, learn};
+    use host_sim::Error;
+    use tactile::recogniser::Bayes;
+
+    /// Floors that differ in x by 500 codes and not in y.
+    fn streams() -> Vec<Stream> {
+        let stream = |floor: usize| Stream {
+            floor,
+            samples: (0..4000)
+                .flat_map(|n| [500.0 * floor as f64 + f64::from(n % 97), f64::from(n % 89)])
+                .collect(),
+        };
+        (0..4).map(stream).collect()
+    }
+
+    #[test]
+    fn a_channel_that_tells_floors_apart_does_and_one_that_does_not_does_not() {
+        let streams = streams();
+        for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0)] {
+            let buf = learn(&streams, &picked, 1).unwrap();
+            let model = buf.model().unwrap();
+            assert_eq!(model.bins(), 49, "1596 codes in bins of 32.77");
+            let tally = Tally::of(&streams, || {
+                let bayes = Bayes::window(&model, 100);
+                let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
+                Ok(tactile::recogniser::Picked::new(bayes, &picked))
+            });
+            let tally = tally.unwrap();
+            assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");
+            assert!((tally.mean_samples() - 100.0).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,300 @@
+//! LEP12: sequential Bayes against maximum likelihood over fixed windows, the
+//! template of the power spectrum and a neural network on it.
+
+mod figures;
+mod spectral;
+mod why;
+
+use super::floors::{Floors, Half, Stream, Tally, learn};
+use super::page::{Section, beside};
+use super::paper::lep10::FLOORS;
+use super::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
+use super::recording::Recordings;
+use super::request::Request;
+use crate::rigs::Motion;
+use host_sim::Error;
+use tactile::recogniser::Bayes;
+use tactile::{Model, ModelBuf, Threshold};
+
+/// Samples of a block of evidence (m of eq. 6).
+const BLOCK: u32 = 20;
+/// Both channels.
+const BOTH: [usize; 2] = [0, 1];
+
+/// 1 − θ of the thresholds of Fig. 6, from θ = 0.5 to 0.99999999.
+const DOUBTS: [f64; 22] = [
+    0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 3e-4, 1e-4,
+    3e-5, 1e-5, 1e-6, 1e-7, 3e-8, 1e-8,
+];
+
+/// Windows of Fig. 5, samples: 10 ms to 1 s.
+const WINDOWS: [u32; 10] = [20, 40, 60, 100, 140, 200, 300, 400, 1000, 2000];
+
+/// A group of trials that is learnt and validated by itself.
+struct Group {
+    name: &'static str,
+    learning: Vec<Stream>,
+    validation: Vec<Stream>,
+    model: ModelBuf,
+}
+
+/// A point of a curve: what was varied, decision time in s, score.
+struct Point {
+    parameter: f64,
+    time_s: f64,
+    tally: Tally,
+}
+
+fn refused(error: impl std::fmt::Display) -> Error {
+    Error::Work(format!("LEP12: {error}"))
+}
+
+impl Group {
+    fn all(floors: &Floors<'_>) -> Result<Vec<Self>, Error> {
+        let motions: [&[Motion]; 4] = [
+            &[Motion::Anticlockwise],
+            &[Motion::Clockwise],
+            &[Motion::Anticlockwise, Motion::Clockwise],
+            &[Motion::Autonomous],
+        ];
+        let group = |(name, motions): (&&'static str, &[Motion])| {
+            let learning = floors.half(motions, Half::First);
+            Ok(Self {
+                name,
+                validation: floors.half(motions, Half::Second),
+                model: learn(&learning, &BOTH, BLOCK)?,
+                learning,
+            })
+        };
+        MOTIONS.iter().zip(motions).map(group).collect()
+    }
+
+    fn model(&self) -> Result<Model<'_>, Error> {
+        self.model.model().map_err(refused)
+    }
+
+    fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point, Error> {
+        let model = self.model()?;
+        let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
+        let tally = Tally::of(&self.validation, || {
+            Bayes::sequential(&model, threshold).map_err(refused)
+        })?;
+        Ok(Point {
+            parameter: 1.0 - doubt,
+            time_s: tally.mean_samples() / rate_hz,
+            tally,
+        })
+    }
+
+    fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
+        let model = self.model()?;
+        let tally = Tally::of(&self.validation, || {
+            Bayes::window(&model, window).map_err(refused)
+        })?;
+        Ok(Point {
+            parameter: f64::from(window),
+            time_s: f64::from(window) / rate_hz,
+            tally,
+        })
+    }
+}
+
+/// Both kinds of curve of one group.
+struct Curves {
+    window: Vec<Point>,
+    sequential: Vec<Point>,
+}
+
+impl Curves {
+    fn of(group: &Group, rate_hz: f64) -> Result<Self, Error> {
+        let window = WINDOWS.iter().map(|window| group.window(*window, rate_hz));
+        let sequential = DOUBTS.iter().map(|doubt| group.sequential(*doubt, rate_hz));
+        Ok(Self {
+            window: window.collect::<Result<_, _>>()?,
+            sequential: sequential.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The sequential point whose mean time is nearest to Table 2's.
+    fn nearest(&self) -> Option<&Point> {
+        let off = |point: &&Point| (point.time_s / TIME_S).ln().abs();
+        self.sequential
+            .iter()
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// Mean hit rate of the window at a time, between the points of the curve.
+    fn window_at(&self, time_s: f64) -> f64 {
+        interpolate(&self.window, time_s)
+    }
+}
+
+/// Mean hit rate at a time, linear between points in order of time.
+fn interpolate(points: &[Point], time_s: f64) -> f64 {
+    let value = |point: &Point| point.tally.mean_hit();
+    for pair in points.windows(2) {
+        if let [a, b] = pair
+            && (a.time_s..=b.time_s).contains(&time_s)
+        {
+            let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(1e-12);
+            return value(a) + share * (value(b) - value(a));
+        }
+    }
+    let ends = (points.first(), points.last());
+    match ends {
+        (Some(first), _) if time_s < first.time_s => value(first),
+        (_, Some(last)) => value(last),
+        _ => 0.0,
+    }
+}
+
+/// Evaluates the recordings.
+pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+    let floors = Floors::new(request, recordings);
+    let rate_hz = floors.rate_hz;
+    let groups = Group::all(&floors)?;
+    let mut section = Section::default();
+    section.page.heading(2, "LEP12: sequential Bayes");
+    section.page.say(
+        "The recordings of LEP10. Evidence is the mean log-likelihood of blocks of 20 samples; \
+         the sequential rule decides where a posterior passes its threshold, the window after a \
+         fixed time. The spectral methods take segments of 400 ms. Each cell: the paper's \
+         percentage / **ours**.",
+    );
+
+    let mut curves = Vec::new();
+    let mut rows: [Vec<[f64; 5]>; 4] = Default::default();
+    let mut times = Vec::new();
+    for group in &groups {
+        let both = Curves::of(group, rate_hz)?;
+        let window = group.window(floors.samples(TIME_S) as u32, rate_hz)?;
+        let nearest = both.nearest().ok_or_else(|| refused("no threshold"))?;
+        times.push((nearest.parameter, nearest.time_s));
+        rows[0].push(with_mean(window.tally.hits()));
+        rows[1].push(with_mean(nearest.tally.hits()));
+        rows[2].push(with_mean(spectral::template(group, rate_hz)?));
+        rows[3].push(with_mean(spectral::network(group, rate_hz, request.seed)?));
+        curves.push(both);
+    }
+    tables(&mut section, &rows, &times);
+    figures::all(&mut section, &groups, &curves, rate_hz)?;
+    let robots = why::robots(request)?;
+    section.page.say(format_args!(
+        "**What the paper does not say of the robot** matters. {robots}."
+    ));
+    let reasons: Vec<String> = groups
+        .iter()
+        .map(|group| why::distributions(group, rate_hz))
+        .collect();
+    claims(&mut section, &rows, &curves, &reasons);
+    for (name, rows) in [
+        "maximum likelihood, window of 200 ms",
+        "sequential Bayes, 200 ms on average",
+        "template of the power spectrum, 400 ms",
+        "network on the power spectrum, 400 ms",
+    ]
+    .into_iter()
+    .zip(&rows)
+    {
+        section.score(
+            name,
+            "four floors, rotating",
+            rows.get(2).map_or(0.0, |row| row[4]),
+        );
+    }
+    Ok(section)
+}
+
+/// The hit rates of the floors, and their mean.
+fn with_mean(hits: [f64; 4]) -> [f64; 5] {
+    let [a, b, c, d] = hits;
+    [a, b, c, d, (a + b + c + d) / 4.0]
+}
+
+fn tables(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
+    let header = format!("motion | {} | mean", FLOORS.join(" | "));
+    for (table, ours) in TABLES.iter().zip(rows) {
+        section
+            .page
+            .say(format_args!("**Table {}**: {}.", table.number, table.what));
+        let line = |(motion, ours): (usize, &[f64; 5])| {
+            let mut cells = vec![MOTIONS[motion].to_owned()];
+            cells.extend((0..4).map(|k| beside(table.percent[motion][k], ours[k])));
+            cells.push(beside(table.mean[motion], ours[4]));
+            cells
+        };
+        let lines: Vec<_> = ours.iter().enumerate().map(line).collect();
+        section.page.table(&header, lines);
+        if table.number == 2 {
+            let said: Vec<String> = MOTIONS
+                .iter()
+                .zip(times)
+                .map(|(motion, (threshold, time))| {
+                    format!("{motion} {:.0} ms at {threshold}", 1000.0 * time)
+                })
+                .collect();
+            section.page.say(format_args!(
+                "Mean decision times nearest to 200 ms, and their thresholds: {}.",
+                said.join("; ")
+            ));
+        }
+        if table.number == 3 {
+            section.page.say(
+                "The paper prints a mean of 48 % for rotating motion; its own floors give 59.5 %.",
+            );
+        }
+    }
+}
+
+fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], reasons: &[String]) {
+    let [window, sequential, template, network] = rows;
+    for (m, motion) in MOTIONS.iter().enumerate() {
+        let at = |table: &Vec<[f64; 5]>| table.get(m).map_or(0.0, |row| row[4]);
+        let nearest = curves.get(m).and_then(Curves::nearest);
+        let time_s = nearest.map_or(TIME_S, |point| point.time_s);
+        let fixed = curves.get(m).map_or(0.0, |both| both.window_at(time_s));
+        let gain = at(sequential) - fixed;
+        let printed = TABLES[1].mean[m] - TABLES[0].mean[m];
+        section.claim(
+            format_args!("LEP12, {motion}: sequential beats the window by 6 points or more at equal mean time"),
+            format_args!("{printed:+.0} points"),
+            format_args!("{:.1} against {fixed:.1} %: {gain:+.1} points", at(sequential)),
+            gain >= SEQUENTIAL_GAIN.0,
+            reasons.get(m).map_or("", String::as_str),
+        );
+        let best = at(template).max(at(network));
+        section.claim(
+            format_args!("LEP12, {motion}: both beat the spectral template and the network"),
+            format_args!(
+                "{:.0} and {:.0} against {:.0} and {:.0} %",
+                TABLES[0].mean[m], TABLES[1].mean[m], TABLES[2].mean[m], TABLES[3].mean[m]
+            ),
+            format_args!(
+                "{:.1} and {:.1} against {:.1} and {:.1} %",
+                at(window),
+                at(sequential),
+                at(template),
+                at(network)
+            ),
+            at(window) > best && at(sequential) > best,
+            reasons.get(m).map_or("", String::as_str),
+        );
+    }
+    let Some(rotating) = curves.get(2) else {
+        return;
+    };
+    let at = |time: f64| interpolate(&rotating.sequential, time);
+    let (first, knee, last) = (at(0.0), at(KNEE_S), at(1.0));
+    let share = (knee - first) / (last - first);
+    section.claim(
+        "LEP12, rotating: most of the gain of the sequential rule comes within 100 ms",
+        "dramatic up to 100 ms, slow after",
+        format_args!(
+            "{first:.0} % at the shortest, {knee:.0} % at 100 ms, {last:.0} % at the longest: \
+             {:.0} % of the gain",
+            100.0 * share
+        ),
+        share > 0.5,
+        reasons.get(2).map_or("", String::as_str),
+    );
+}

@@ -1,0 +1,233 @@
+//! Figs. 4 to 9 of LEP12; the spectra of Fig. 9 are in a file of their own.
+
+mod spectra;
+
+use tactile::Threshold;
+use tactile::recogniser::{Bayes, Recogniser, outcomes};
+
+use super::{Curves, Group, Point, refused};
+use crate::accuracy::chart::{Axis, Mark, Panel, draw};
+use crate::experiment::floors::CHANNELS;
+use crate::experiment::page::Section;
+use crate::experiment::paper::lep10::FLOORS;
+use crate::experiment::paper::lep12::{FIG7, FIG8_THRESHOLDS};
+use crate::experiment::picture::{Curve, FOLDER, linear, panel, percent, top};
+use host_sim::Error;
+
+/// Volts a sensor code.
+const VOLTS: f64 = 5.0 / 16_384.0;
+
+pub(super) fn all(
+    section: &mut Section,
+    groups: &[Group],
+    curves: &[Curves],
+    rate_hz: f64,
+) -> Result<(), Error> {
+    distributions(section, groups)?;
+    hit_rates(section, groups, curves)?;
+    if let Some(rotating) = groups.get(2) {
+        example(section, rotating, rate_hz)?;
+        decision_times(section, rotating, rate_hz)?;
+    }
+    if let Some(anticlockwise) = groups.first() {
+        spectra::figure_9(section, anticlockwise, rate_hz)?;
+    }
+    Ok(())
+}
+
+fn place(section: &mut Section, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
+    let svg = draw(panels)?;
+    section.page.picture_in(FOLDER, name, what, svg);
+    Ok(())
+}
+
+/// Fig. 4: how often each voltage occurs, per floor, channel and motion.
+fn distributions(section: &mut Section, groups: &[Group]) -> Result<(), Error> {
+    let mut panels = Vec::new();
+    for group in groups {
+        let model = group.model()?;
+        for (channel, axis) in ["x", "y"].into_iter().enumerate() {
+            let Some(q) = model.quantiser(channel) else {
+                continue;
+            };
+            let bins = model.bins();
+            let unit = libm::exp2(-f64::from(q.exponent));
+            let volts = |bin: usize| {
+                let share = (bin as f64 + 0.5) / bins as f64;
+                let code = f64::from(q.low) + share * (f64::from(q.high) - f64::from(q.low));
+                (q.origin + code * unit) * VOLTS + 2.5
+            };
+            let curves: Vec<Curve> = FLOORS
+                .iter()
+                .enumerate()
+                .map(|(class, floor)| {
+                    let p = |bin| {
+                        let log2 = model.log2_likelihood(channel, bin, class).unwrap_or(-20.0);
+                        100.0 * libm::exp2(f64::from(log2))
+                    };
+                    Curve::new(floor, (0..bins).map(|bin| (volts(bin), p(bin))).collect())
+                })
+                .collect();
+            let x = linear("V", volts(0), volts(bins.saturating_sub(1)));
+            let y = linear("% a bin", 0.0, top(&curves));
+            let title = format!("{}: {axis}", group.name);
+            panels.push(panel(&title, x, y, &curves, Mark::Nothing));
+        }
+    }
+    section
+        .page
+        .say("**Fig. 4**: how often each voltage occurs (bins of 10 mV, smoothed).");
+    place(section, "lep12-fig4.svg", "Sampling distributions", &panels)
+}
+
+/// Figs. 5 and 6: hit rates against time and threshold.
+fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Result<(), Error> {
+    let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Curve> {
+        let mut curves: Vec<Curve> = (0..FLOORS.len())
+            .map(|k| {
+                let points = points.iter().map(|p| (x(p), p.tally.percent(k, k)));
+                Curve::new(FLOORS[k], points.collect())
+            })
+            .collect();
+        let mean = points.iter().map(|p| (x(p), p.tally.mean_hit()));
+        curves.push(Curve::new("mean", mean.collect()));
+        curves
+    };
+    let (mut fixed, mut sequential) = (Vec::new(), Vec::new());
+    for (group, both) in groups.iter().zip(curves) {
+        let time = |points: &[Point]| Axis::decades("s", points.iter().map(|p| p.time_s));
+        let window = lines(&both.window, &|p| p.time_s);
+        fixed.push(panel(
+            group.name,
+            time(&both.window),
+            percent("%"),
+            &window,
+            Mark::Dot,
+        ));
+        let doubt = |p: &Point| 1.0 - p.parameter;
+        let by_threshold = lines(&both.sequential, &doubt);
+        let x = Axis::decades("1 − threshold", both.sequential.iter().map(doubt));
+        let title = format!("{}: threshold", group.name);
+        sequential.push(panel(&title, x, percent("%"), &by_threshold, Mark::Dot));
+        let by_time = lines(&both.sequential, &|p| p.time_s);
+        let title = format!("{}: mean decision time", group.name);
+        let x = time(&both.sequential);
+        sequential.push(panel(&title, x, percent("%"), &by_time, Mark::Dot));
+    }
+    section
+        .page
+        .say("**Fig. 5**: maximum likelihood, hit rate against the window.");
+    place(section, "lep12-fig5.svg", "Hit rate against window", &fixed)?;
+    section.page.say(
+        "**Fig. 6**: sequential Bayes, hit rate against the threshold (left, as what is missing \
+         to one) and against the mean decision time at that threshold (right).",
+    );
+    place(
+        section,
+        "lep12-fig6.svg",
+        "Hit rate against threshold and time",
+        &sequential,
+    )
+}
+
+/// Fig. 7: posteriors of one stretch of rough carpet.
+fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+    let model = group.model()?;
+    let never = Threshold::new(1.0 - 1e-12).map_err(refused)?;
+    let Some(stream) = group.validation.first() else {
+        return Ok(());
+    };
+    let mut bayes = Bayes::sequential(&model, never).map_err(refused)?;
+    let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
+    let mut passed = FIG7.map(|_| None);
+    let block = super::BLOCK as usize;
+    for (n, sample) in stream.samples.chunks_exact(CHANNELS).take(400).enumerate() {
+        bayes.push(sample);
+        if (n + 1) % block != 0 {
+            continue;
+        }
+        let time_s = (n + 1) as f64 / rate_hz;
+        let posteriors = bayes.posteriors();
+        let most = posteriors.iter().copied().fold(0.0, f64::max);
+        for (found, (threshold, _)) in passed.iter_mut().zip(FIG7) {
+            if most > threshold && found.is_none() {
+                *found = Some(time_s);
+            }
+        }
+        for (curve, p) in curves.iter_mut().zip(posteriors) {
+            curve.points.push((time_s, p));
+        }
+    }
+    let said: Vec<String> = FIG7
+        .iter()
+        .zip(passed)
+        .map(|((threshold, paper), ours)| {
+            let ours = ours.map_or("none".to_owned(), |s: f64| format!("{:.0} ms", 1000.0 * s));
+            format!("{threshold}: {:.0} ms / **{ours}**", 1000.0 * paper)
+        })
+        .collect();
+    section.page.say(format_args!(
+        "**Fig. 7**: posteriors at the beginning of a stretch of rough carpet. Thresholds passed \
+         at (paper / ours): {}.",
+        said.join("; ")
+    ));
+    let x = linear("s", 0.0, 400.0 / rate_hz);
+    let y = linear("posterior", 0.0, 1.0);
+    let panels = [panel("posterior probabilities", x, y, &curves, Mark::Dot)];
+    place(section, "lep12-fig7.svg", "Posteriors", &panels)
+}
+
+/// Fig. 8: how decision times spread, per floor.
+fn decision_times(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+    /// Width of a bar, s, and how many there are.
+    const BAR_S: f64 = 0.02;
+    const BARS: usize = 40;
+    let model = group.model()?;
+    let mut panels: Vec<(usize, Vec<Curve>)> = (0..FLOORS.len()).map(|k| (k, Vec::new())).collect();
+    let mut means = Vec::new();
+    for theta in FIG8_THRESHOLDS {
+        let threshold = Threshold::new(theta).map_err(refused)?;
+        let mut cells = vec![format!("{theta}")];
+        for (floor, curves) in &mut panels {
+            let mut counts = [0_u32; BARS];
+            let (mut sum, mut count) = (0.0, 0_u32);
+            for stream in group
+                .validation
+                .iter()
+                .filter(|stream| stream.floor == *floor)
+            {
+                let mut bayes = Bayes::sequential(&model, threshold).map_err(refused)?;
+                for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
+                    let time_s = f64::from(outcome.samples) / rate_hz;
+                    let bar = ((time_s / BAR_S) as usize).min(BARS - 1);
+                    counts[bar] += 1;
+                    sum += time_s;
+                    count += 1;
+                }
+            }
+            let share = |n: u32| 100.0 * f64::from(n) / f64::from(count.max(1));
+            let points = counts.iter().enumerate();
+            let points = points.map(|(bar, n)| ((bar as f64 + 0.5) * BAR_S, share(*n)));
+            curves.push(Curve::new(&format!("threshold {theta}"), points.collect()));
+            cells.push(format!("{:.0}", 1000.0 * sum / f64::from(count.max(1))));
+        }
+        means.push(cells);
+    }
+    let panels: Vec<Panel> = panels
+        .iter()
+        .map(|(floor, curves)| {
+            let x = linear("decision time, s", 0.0, BAR_S * BARS as f64);
+            let y = linear("% of decisions", 0.0, top(curves));
+            panel(FLOORS[*floor], x, y, curves, Mark::Nothing)
+        })
+        .collect();
+    section.page.say(
+        "**Fig. 8**: decision times, rotating motion (the last bar holds all longer ones); mean \
+         times in ms below.",
+    );
+    place(section, "lep12-fig8.svg", "Decision times", &panels)?;
+    section
+        .page
+        .table(&format!("threshold | {}", FLOORS.join(" | ")), means);
+    Ok(())
+}

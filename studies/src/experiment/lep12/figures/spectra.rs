@@ -1,0 +1,94 @@
+//! Fig. 9 of LEP12: the power spectra of the whisker on each floor.
+
+use tactile::spectrum::{Bins, Measure, Spectrum};
+
+use super::super::{Group, refused};
+use super::place;
+use crate::accuracy::chart::Mark;
+use crate::experiment::floors::CHANNELS;
+use crate::experiment::page::Section;
+use crate::experiment::paper::lep10::FLOORS;
+use crate::experiment::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
+use crate::experiment::picture::{Curve, linear, panel, top};
+use host_sim::Error;
+
+/// Fig. 9: mean power spectra of anticlockwise motion.
+pub(super) fn figure_9(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+    let block = (SEGMENT_S * rate_hz).round() as usize;
+    let bins = Bins::between(block as u32, rate_hz, 0.0, 120.0).map_err(refused)?;
+    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let mut panels = Vec::new();
+    let mut peaks = Vec::new();
+    for (channel, axis) in ["x", "y"].into_iter().enumerate() {
+        let mut curves = Vec::new();
+        for (floor, name) in FLOORS.iter().enumerate() {
+            let mut sum = vec![0.0; bins.count];
+            let mut count = 0.0;
+            for stream in group.learning.iter().filter(|stream| stream.floor == floor) {
+                for segment in stream.samples.chunks_exact(block * CHANNELS) {
+                    let line = segment.iter().skip(channel).step_by(CHANNELS).copied();
+                    let line: Vec<f64> = line.collect();
+                    let mean = line.iter().sum::<f64>() / block as f64;
+                    let power = spectrum
+                        .of_samples(line.iter().map(|x| x - mean), Measure::Power)
+                        .map_err(refused)?;
+                    for (sum, power) in sum.iter_mut().zip(power) {
+                        *sum += power;
+                    }
+                    count += 1.0;
+                }
+            }
+            let points: Vec<(f64, f64)> = sum
+                .iter()
+                .enumerate()
+                .map(|(bin, power)| (bins.frequency(bin, rate_hz), power / f64::max(count, 1.0)))
+                .collect();
+            let above = points.iter().filter(|(hz, _)| *hz >= 20.0);
+            let peak = above
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .map_or(0.0, |p| p.0);
+            peaks.push(peak);
+            curves.push(Curve::new(name, points));
+        }
+        let total: f64 = curves.iter().flat_map(|c| &c.points).map(|p| p.1).sum();
+        for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {
+            point.1 *= 4.0 / total.max(f64::MIN_POSITIVE);
+        }
+        let x = linear("Hz", 0.0, 120.0);
+        let y = linear("power / mean total", 0.0, top(&curves));
+        panels.push(panel(axis, x, y, &curves, Mark::Nothing));
+    }
+    section.page.say(format_args!(
+        "**Fig. 9**: mean power spectra over 400 ms, anticlockwise motion. The paper's peak at \
+         {:.0} to {:.0} Hz; ours above 20 Hz, floor by floor: x {}, y {} Hz.",
+        FIG9_PEAK_HZ.0,
+        FIG9_PEAK_HZ.1,
+        hertz(peaks.get(..4)),
+        hertz(peaks.get(4..)),
+    ));
+    place(section, "lep12-fig9.svg", "Power spectra", &panels)?;
+    let normal = peaks.get(4..).unwrap_or(&[]);
+    let in_range = normal.iter().all(|hz| (27.5..=42.5).contains(hz));
+    section.claim(
+        "LEP12 Fig. 9: the power of the whisker's vibration peaks at 30 to 40 Hz (y, normal to the floor; within a bin)",
+        "30 to 40 Hz",
+        format_args!(
+            "x {}, y {} Hz",
+            hertz(peaks.get(..4)),
+            hertz(peaks.get(4..))
+        ),
+        in_range,
+        "along the floor (x) the tip slides, and the power falls from the lowest frequencies on; \
+         normal to it the tip is supported and the shaft rings",
+    );
+    Ok(())
+}
+
+fn hertz(peaks: Option<&[f64]>) -> String {
+    let text: Vec<String> = peaks
+        .unwrap_or(&[])
+        .iter()
+        .map(|hz| format!("{hz:.1}"))
+        .collect();
+    text.join(", ")
+}

@@ -1,0 +1,102 @@
+//! The spectral methods of LEP12 section 5: the template of the power
+//! spectrum, and a neural network of 120–20–4 units on it.
+//!
+//! Both hear x and y, as the other classifiers do, up to 120 Hz: above that
+//! "the power is close to zero". The template takes every bin above zero
+//! frequency: the paper's spectra show no offset. The network's
+//! 120 inputs are 2 to 120 Hz in steps of 2 Hz of each of them (a transform of
+//! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
+//! come of 400 ms).
+
+use rayon::prelude::*;
+use tactile::mlp::train::{Options, Trainer};
+use tactile::recogniser::outcomes;
+use tactile::spectral_train::SpectralTrainer;
+use tactile::spectrum::{Bins, Measure, Spectrum};
+
+use super::{Group, refused};
+use crate::experiment::floors::{CHANNELS, Stream, Tally};
+use crate::experiment::paper::lep10::FLOORS;
+use crate::experiment::paper::lep12::SEGMENT_S;
+use crate::rigs::seed_of;
+use host_sim::Error;
+
+/// Highest frequency, Hz.
+const HIGHEST_HZ: f64 = 120.0;
+/// Length of the network's transform, s.
+const TRANSFORM_S: f64 = 0.5;
+
+/// Hit rates of the template, percent.
+pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
+    let block = (SEGMENT_S * rate_hz).round() as usize;
+    let bins = Bins::between(block as u32, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
+    let mut trainer =
+        SpectralTrainer::new(CHANNELS, bins, block, Measure::Power).map_err(refused)?;
+    for stream in &group.learning {
+        trainer
+            .add(stream.floor, &stream.samples)
+            .map_err(refused)?;
+    }
+    let templates = trainer.train().map_err(refused)?;
+    let mut tally = Tally::empty();
+    for stream in &group.validation {
+        let mut recogniser = templates.recogniser();
+        for segment in stream.samples.chunks_exact(block * CHANNELS) {
+            for outcome in outcomes(&mut recogniser, segment, CHANNELS) {
+                tally.add(stream.floor, outcome.class, block as u64);
+            }
+        }
+    }
+    Ok(tally.hits())
+}
+
+/// The inputs of the network for every segment of a stream, with its floor.
+fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<(usize, Vec<f64>)>, Error> {
+    let block = (SEGMENT_S * rate_hz).round() as usize;
+    let points = (TRANSFORM_S * rate_hz).round() as u32;
+    let bins = Bins::between(points, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
+    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let mut rows = Vec::new();
+    for segment in stream.samples.chunks_exact(block * CHANNELS) {
+        let mut row = Vec::with_capacity(CHANNELS * bins.count);
+        for channel in 0..CHANNELS {
+            let line = || segment.iter().skip(channel).step_by(CHANNELS);
+            let mean = line().sum::<f64>() / block as f64;
+            let power = spectrum.of_samples(line().map(|x| x - mean), Measure::Power);
+            row.extend(power.map_err(refused)?);
+        }
+        rows.push((stream.floor, row));
+    }
+    Ok(rows)
+}
+
+/// Hit rates of the network, percent: the mean of ten trainings.
+pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4], Error> {
+    const SESSIONS: u64 = 10;
+    let all = |streams: &[Stream]| -> Result<Vec<(usize, Vec<f64>)>, Error> {
+        let rows: Result<Vec<_>, Error> = streams.iter().map(|s| rows(s, rate_hz)).collect();
+        Ok(rows?.into_iter().flatten().collect())
+    };
+    let (learning, validation) = (all(&group.learning)?, all(&group.validation)?);
+    let sessions: Result<Vec<[f64; 4]>, Error> = (0..SESSIONS)
+        .into_par_iter()
+        .map(|session| {
+            let options = Options::spectrum(seed_of(seed, &[12, session]));
+            let inputs = learning.first().map_or(0, |(_, row)| row.len());
+            let mut trainer = Trainer::new(inputs, options).map_err(refused)?;
+            for (floor, row) in &learning {
+                trainer.add(FLOORS[*floor], row).map_err(refused)?;
+            }
+            let network = trainer.train().map_err(refused)?.network;
+            let mut tally = Tally::empty();
+            for (floor, row) in &validation {
+                // Floors come in order, so that outputs are numbered as they.
+                tally.add(*floor, network.classify(row).map_err(refused)?, 1);
+            }
+            Ok(tally.hits())
+        })
+        .collect();
+    let sessions = sessions?;
+    let mean = |k: usize| sessions.iter().map(|hits| hits[k]).sum::<f64>() / SESSIONS as f64;
+    Ok(core::array::from_fn(mean))
+}

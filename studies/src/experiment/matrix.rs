@@ -1,0 +1,98 @@
+//! Confusion matrices as pictures: a square of shaded cells each.
+
+use plotters::prelude::*;
+
+use host_sim::Error;
+
+/// A confusion matrix with its names.
+#[derive(Debug, Clone)]
+pub(super) struct Matrix {
+    pub(super) title: String,
+    /// Names of the classes.
+    pub(super) classes: Vec<String>,
+    /// `[true][named]`.
+    pub(super) counts: Vec<Vec<u64>>,
+}
+
+type Fault = Box<dyn std::error::Error>;
+
+/// Pixels of a panel, of its square of cells, and where that begins.
+const PANEL: (u32, u32) = (330, 330);
+const SQUARE: i32 = 240;
+const CORNER: (i32, i32) = (78, 36);
+
+/// The colour of a share of a row, 0 to 1: from white to dark blue.
+fn shade(share: f64) -> RGBColor {
+    let share = share.clamp(0.0, 1.0);
+    let part = |dark: f64| (255.0 - share * (255.0 - dark)).round() as u8;
+    RGBColor(part(10.0), part(50.0), part(110.0))
+}
+
+/// The matrices in so many columns.
+///
+/// # Errors
+/// [`Error::Work`] if the drawing library fails.
+pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String, Error> {
+    let mut svg = String::new();
+    match draw_on(&mut svg, matrices, columns.max(1)) {
+        Ok(()) => Ok(svg),
+        Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
+    }
+}
+
+fn draw_on(svg: &mut String, matrices: &[Matrix], columns: usize) -> Result<(), Fault> {
+    let rows = matrices.len().div_ceil(columns).max(1);
+    let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
+    let root = SVGBackend::with_string(svg, size).into_drawing_area();
+    root.fill(&WHITE)?;
+    for (matrix, area) in matrices.iter().zip(root.split_evenly((rows, columns))) {
+        let text = |text: &str, at: (i32, i32), size: i32| {
+            area.draw(&Text::new(text.to_owned(), at, ("sans-serif", size)))
+        };
+        text(&matrix.title, (10, 8), 16)?;
+        let (left, top) = CORNER;
+        let step = SQUARE / (matrix.classes.len().max(1) as i32);
+        let end = step * matrix.classes.len() as i32;
+        for (n, (name, counts)) in matrix.classes.iter().zip(&matrix.counts).enumerate() {
+            let y = top + step * n as i32;
+            text(name, (8, y + step / 2 - 7), 13)?;
+            // Names below need room: every second one where there are many.
+            if matrix.classes.len() < 6 || n.is_multiple_of(2) {
+                text(name, (left + step * n as i32 + 2, top + end + 6), 13)?;
+            }
+            let all: u64 = counts.iter().sum();
+            for (k, count) in counts.iter().enumerate() {
+                let x = left + step * k as i32;
+                let share = *count as f64 / all.max(1) as f64;
+                let cell = Rectangle::new([(x, y), (x + step, y + step)], shade(share).filled());
+                area.draw(&cell)?;
+            }
+        }
+        let frame = [(left, top), (left + end, top + end)];
+        area.draw(&Rectangle::new(frame, RGBColor(110, 110, 110)))?;
+    }
+    root.present()?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Matrix, draw, shade};
+    use plotters::style::RGBColor;
+
+    #[test]
+    fn every_cell_is_drawn_in_the_shade_of_its_share() {
+        let matrix = Matrix {
+            title: "two".to_owned(),
+            classes: vec!["a".to_owned(), "b".to_owned()],
+            counts: vec![vec![4, 0], vec![1, 3]],
+        };
+        let svg = draw(&[matrix], 1).unwrap();
+        assert_eq!(shade(0.0), RGBColor(255, 255, 255));
+        // 255 − 0.25 · 245, 0.25 · 205 and 0.25 · 145 below 255.
+        assert_eq!(shade(0.25), RGBColor(194, 204, 219));
+        for colour in ["#0A326E", "#C2CCDB"] {
+            assert_eq!(svg.matches(colour).count(), 1, "{colour}");
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Confusion matrices of POSE: what each classifier makes of angle, speed and
+//! texture.
+
+use super::Scores;
+use crate::experiment::matrix::{Matrix, draw};
+use crate::experiment::page::Section;
+use crate::experiment::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};
+use crate::experiment::picture::FOLDER;
+use crate::experiment::record::table::speeds;
+use host_sim::Error;
+
+/// The picture; classifiers one below the other.
+pub(super) fn section(section: &mut Section, rows: &[&Scores; 3]) -> Result<(), Error> {
+    let numbers = |values: &[f64]| values.iter().map(|value| format!("{value:.0}")).collect();
+    let classes: [(&str, Vec<String>); 3] = [
+        ("angle, degrees", numbers(&ANGLES_DEG)),
+        ("speed, mm/s", numbers(&speeds())),
+        ("texture", TEXTURES.map(str::to_owned).to_vec()),
+    ];
+    let mut matrices = Vec::new();
+    for (row, scores) in ROWS.iter().zip(rows) {
+        for ((what, classes), score) in classes.iter().zip(&scores.0) {
+            matrices.push(Matrix {
+                title: format!("{}: {what}", row.what),
+                classes: classes.clone(),
+                counts: (0..classes.len())
+                    .map(|truth| (0..classes.len()).map(|k| score.count(truth, k)).collect())
+                    .collect(),
+            });
+        }
+    }
+    section.page.say(
+        "**Confusion**: a row is the true class, a column the one that was named; the darker, \
+         the larger its share of the row.",
+    );
+    let svg = draw(&matrices, classes.len())?;
+    let what = "Confusion matrices of three classifiers";
+    section
+        .page
+        .picture_in(FOLDER, "pose-confusion.svg", what, svg);
+    Ok(())
+}

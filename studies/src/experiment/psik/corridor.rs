@@ -1,0 +1,113 @@
+//! The corridors of PSIK section 3.3: a network on the IMP of both pads votes
+//! at every step; the most votes decide where to turn at the end.
+
+use tactile::score::Confusion;
+
+use super::{PENALTIES, Row, learn, refused};
+use crate::experiment::dataset::Dataset;
+use crate::experiment::page::{Section, confusion};
+use crate::experiment::paper::psik::{CORRIDORS, TABLE_3};
+use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
+use crate::experiment::recording::{Recording, Recordings};
+use crate::experiment::request::Request;
+use crate::rigs::seed_of;
+use host_sim::Error;
+
+/// The inputs of every step of a run.
+fn steps(run: &Recording) -> Vec<Vec<f64>> {
+    let rows = run.part(0, run.len()).chunks_exact(COLUMNS);
+    rows.map(|row| row.iter().take(INPUTS).map(|x| f64::from(*x)).collect())
+        .collect()
+}
+
+pub(super) fn section(
+    section: &mut Section,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
+    let runs = recordings.of(Dataset::Corridor);
+    let (learning, tested, deciding) = request.scale.runs();
+    let taught = learning.saturating_sub(tested);
+    let mut rows: Vec<Row> = Vec::new();
+    for (job, run) in runs.iter().enumerate() {
+        let (case, number) = place(request.scale, job);
+        if number < taught {
+            rows.extend(steps(run).into_iter().map(|row| (case, row)));
+        }
+    }
+    let network = learn(&rows, seed_of(request.seed, &[66]), PENALTIES[0])?;
+
+    let (mut by_run, mut by_step) = (Confusion::new(4), Confusion::new(4));
+    let (mut off, mut squares, mut count) = (0.0_f64, 0.0, 0.0_f64);
+    let mut finished = 0;
+    for (job, run) in runs.iter().enumerate() {
+        let (case, number) = place(request.scale, job);
+        let mut votes = [0_u32; 4];
+        for row in steps(run) {
+            let named = network.classify(&row).map_err(refused)?;
+            if let Some(votes) = votes.get_mut(named) {
+                *votes += 1;
+            }
+            if (taught..learning).contains(&number) {
+                by_step.add(case, Some(named)).map_err(refused)?;
+            }
+        }
+        if number < learning {
+            continue;
+        }
+        let most = (0..4).max_by_key(|k| (votes[*k], 4 - k));
+        by_run.add(case, most).map_err(refused)?;
+        finished += 1;
+        for row in run.part(0, run.len()).chunks_exact(COLUMNS) {
+            let aside = row.get(INPUTS).map_or(0.0, |x| f64::from(*x));
+            off = off.max(aside.abs());
+            squares += aside * aside;
+            count += 1.0;
+        }
+    }
+    let hit = 100.0 * by_run.hit_rate().unwrap_or(0.0);
+    let paper = TABLE_3
+        .iter()
+        .enumerate()
+        .map(|(n, row)| row[n])
+        .sum::<f64>()
+        / 4.0;
+    section.page.say(format_args!(
+        "**Corridors** (`studies/rigs/corridor.toml`): the robot keeps to the middle by D = (1/N) Σ (1 − \
+         V_i) L_i of either side and V_y = (D_left − D_right) · 0.01. {taught} runs of each \
+         corridor and direction to learn from, {tested} to test with (**{:.0} %** of single \
+         steps right), {deciding} to decide in. Over these {finished} runs the neck is off the \
+         middle by **{:.0} mm** in root mean square and {:.0} mm at most; the corridor leaves 50.",
+        100.0 * by_step.hit_rate().unwrap_or(0.0),
+        1000.0 * (squares / count.max(1.0)).sqrt(),
+        1000.0 * off,
+    ));
+    section.page.say(format_args!(
+        "**Table 3**: a row is the true corridor and direction, a column what was decided. Mean \
+         {paper:.0} % in the paper, **{hit:.0} %** here."
+    ));
+    let names = CORRIDORS.map(str::to_owned);
+    confusion(
+        &mut section.page,
+        "true \\ decided",
+        &names,
+        &|row, column| Some(TABLE_3[row][column]),
+        &|row, column| {
+            let sum: u64 = (0..4).map(|k| by_run.count(row, k)).sum();
+            100.0 * by_run.count(row, column) as f64 / sum.max(1) as f64
+        },
+    );
+    section.claim(
+        "PSIK: the robot tells two corridors and their directions apart on its way, steering by touch",
+        format_args!("{paper:.0} %"),
+        format_args!("{hit:.0} %"),
+        hit >= 75.0,
+        "",
+    );
+    section.score(
+        "IMP and network 66–66–4, votes",
+        "two corridors, both ways",
+        hit,
+    );
+    Ok(())
+}

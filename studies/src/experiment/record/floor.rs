@@ -1,0 +1,98 @@
+//! Trials of the floor robot: four floors, three motions, each some times:
+//! natural motion twice as often as either rotation.
+
+use super::refused;
+use super::whiskers;
+use crate::experiment::paper::lep10::FLOORS;
+use crate::experiment::recording::Recording;
+use crate::experiment::request::{Request, Scale};
+use crate::rigs::{Motion, seed_of};
+use host_sim::Error;
+use physics::{Plate, Shaft, TouchingWhisker};
+
+/// Motions in the order of the jobs.
+pub(crate) const MOTIONS: [Motion; 3] =
+    [Motion::Anticlockwise, Motion::Clockwise, Motion::Autonomous];
+
+/// How long the whisker is dragged before a trial begins, s.
+const LEAD_S: f64 = 0.5;
+
+/// Trials of one floor.
+fn each(scale: Scale) -> usize {
+    (MOTIONS.len() - 1) * scale.trials() + scale.natural_trials()
+}
+
+/// How many trials there are.
+pub(crate) fn jobs(scale: Scale) -> usize {
+    FLOORS.len() * each(scale)
+}
+
+/// The job of a trial: trials of a motion together, motions of a floor together.
+pub(crate) fn number(scale: Scale, floor: usize, motion: Motion, trial: usize) -> usize {
+    let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
+    floor * each(scale) + place * scale.trials() + trial
+}
+
+/// The floor and motion of a job.
+fn place(scale: Scale, job: usize) -> (usize, Motion) {
+    let each = each(scale).max(1);
+    let motion = job % each / scale.trials().max(1);
+    let last = MOTIONS.len() - 1;
+    let motion = MOTIONS.get(motion.min(last)).copied();
+    (job / each, motion.unwrap_or(Motion::Autonomous))
+}
+
+/// Records a trial: codes of x and y.
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+    let (floor, motion) = place(request.scale, job);
+    let rig = &request.rigs.floor;
+    let shaft = Shaft::floor_robot();
+    let sensor = whiskers::sensor(rig.full_scale_rad);
+    let mut whisker =
+        TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0])).map_err(refused)?;
+    let plate = Plate {
+        point_m: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        along: [1.0, 0.0, 0.0],
+        surface: whiskers::floor(floor),
+    };
+    let mut drive = rig.drive(
+        motion,
+        shaft.length_m,
+        (floor, plate.surface.height_m),
+        seed_of(seed, &[1]),
+    );
+    let lead = (LEAD_S * rig.tick_hz).round() as usize;
+    let mut codes = Vec::with_capacity(2 * rig.ticks());
+    for tick in 0..lead + rig.ticks() {
+        whisker.step(&drive.step(), Some(&plate), rig.dt_s());
+        if tick >= lead {
+            codes.extend(whisker.codes());
+        }
+    }
+    Ok(Recording::from_codes(2, &codes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MOTIONS, jobs, number, place};
+    use crate::experiment::Scale;
+    use crate::rigs::Motion;
+
+    #[test]
+    fn every_trial_has_a_job_and_natural_motion_has_eight() {
+        let scale = Scale { quick: false };
+        let mut next = 0;
+        for floor in 0..4 {
+            for motion in MOTIONS {
+                let trials = if motion == Motion::Autonomous { 8 } else { 4 };
+                for trial in 0..trials {
+                    assert_eq!(number(scale, floor, motion, trial), next);
+                    assert_eq!(place(scale, next), (floor, motion));
+                    next += 1;
+                }
+            }
+        }
+        assert_eq!(jobs(scale), next);
+    }
+}

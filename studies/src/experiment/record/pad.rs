@@ -1,0 +1,91 @@
+//! Sweeps of the fixed head over sandpapers: the IMP of every vibrissa, summed
+//! over the sweep.
+
+use tactile::imp::{Band, Imp, ImpSweep};
+
+use super::{refused, whiskers};
+use crate::experiment::paper::psik::{RATE_HZ, VIBRISSAE};
+use crate::experiment::recording::Recording;
+use crate::experiment::request::{Request, Scale};
+use crate::rigs::{Chance, panned, seed_of};
+use host_sim::Error;
+use physics::Plate;
+
+/// Sandpapers.
+pub(crate) const PAPERS: usize = 8;
+/// Window of the IMP's mean, samples (86 ms; chosen).
+pub(crate) const WINDOW: u32 = 100;
+
+/// Sweeps of one paper.
+fn sweeps(scale: Scale) -> usize {
+    let (learning, testing) = scale.sweeps();
+    learning + testing
+}
+
+/// How many sweeps there are.
+pub(crate) fn jobs(scale: Scale) -> usize {
+    PAPERS * sweeps(scale)
+}
+
+/// The sandpaper of a job, and which of its sweeps.
+pub(crate) fn place(scale: Scale, job: usize) -> (usize, usize) {
+    let each = sweeps(scale).max(1);
+    (job / each, job % each)
+}
+
+/// A reading in so many bits, with its sign, 2 to 14.
+pub(crate) fn codes(reading: [f64; 2], bits: u32) -> [i16; 2] {
+    let most = f64::from((1_u32 << bits.clamp(2, 14).saturating_sub(1)) - 1);
+    reading.map(|x| (most * x).round().clamp(-most, most) as i16)
+}
+
+/// The codes of all vibrissae at a tick, in order.
+pub(crate) fn row(codes: &[Vec<[i16; 2]>], tick: usize) -> [[i16; 2]; VIBRISSAE] {
+    core::array::from_fn(|n| {
+        let one = codes.get(n).and_then(|codes| codes.get(tick));
+        one.copied().unwrap_or_default()
+    })
+}
+
+/// Records a sweep: one sample of 33 numbers.
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+    let rig = &request.rigs.pad;
+    let (paper, _) = place(request.scale, job);
+    let mut chance = Chance::new(seed_of(seed, &[0]));
+    let sweep = rig.sweep(&mut chance);
+    let [along, up] = sweep.origin_m;
+    let plate = Plate {
+        point_m: [sweep.distance_m, along, up],
+        normal: [-1.0, 0.0, 0.0],
+        along: [0.0, 1.0, 0.0],
+        surface: whiskers::sandpaper(paper),
+    };
+    let mut codes = Vec::with_capacity(VIBRISSAE);
+    for (n, vibrissa) in rig.layout.vibrissae().iter().enumerate() {
+        let seed = seed_of(seed, &[1, n as u64]);
+        let mut whisker = whiskers::vibrissa(
+            (vibrissa.arc, rig.layout.tip_diameter_m),
+            rig.full_scale_rad,
+            seed,
+        )?;
+        let ticks = (0..rig.ticks()).map(|tick| {
+            let pose = panned(&vibrissa.pose, rig.pan(tick));
+            whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
+            self::codes(whisker.reading(), rig.bits)
+        });
+        codes.push(ticks.collect::<Vec<_>>());
+    }
+    let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;
+    let (mut state, mut sum) = (imp.state(), ImpSweep::default());
+    for tick in 0..rig.ticks() {
+        if let Some(window) = imp.push(&mut state, &row(&codes, tick)) {
+            sum.add(&window);
+        }
+    }
+    if let Some(window) = imp.finish(&mut state) {
+        sum.add(&window);
+    }
+    // In codes a sample.
+    let values = sum.sums().iter().map(|x| *x as f32 / 65_536.0);
+    Ok(Recording::new(VIBRISSAE, values.collect()))
+}

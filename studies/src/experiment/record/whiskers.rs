@@ -1,0 +1,123 @@
+//! Which whisker, sensor and surface of the physics each rig has.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::refused;
+use crate::experiment::paper::psik::ARCS;
+use host_sim::Error;
+use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
+
+/// A sensor with a rig's gain.
+pub(crate) fn sensor(full_scale_rad: f64) -> SensorSettings {
+    SensorSettings {
+        full_scale_rad,
+        ..SensorSettings::default()
+    }
+}
+
+/// The whiskers of a side of the head, the front one first.
+pub(crate) fn head() -> [Shaft; 3] {
+    Biotact::ALL.map(Shaft::biotact)
+}
+
+/// A floor by its place in LEP10's tables.
+pub(crate) fn floor(floor: usize) -> Surface {
+    Surface::of(match floor {
+        0 => Material::RoughCarpet,
+        1 => Material::SmoothCarpet,
+        2 => Material::Tarmac,
+        _ => Material::Vinyl,
+    })
+}
+
+/// A texture of the head's experiment by its place in the paper's list.
+pub(crate) fn abrasive(texture: usize) -> Surface {
+    Surface::of(match texture {
+        0 => Material::Sandpaper(Grit::P240),
+        1 => Material::Sandpaper(Grit::P600),
+        _ => Material::SmoothPlastic,
+    })
+}
+
+/// A texture at the table by its place in the paper's list.
+pub(crate) fn table_texture(texture: usize) -> Surface {
+    Surface::of(match texture {
+        0 => Material::Sandpaper(Grit::P80),
+        1 => Material::Sandpaper(Grit::P180),
+        2 => Material::Sandpaper(Grit::P600),
+        _ => Material::Aluminium,
+    })
+}
+
+/// Grades of the eight sandpapers of PSIK Table 2, from coarse to fine. The
+/// paper says "from P180 to P50" and eight of them; FEPA has seven grades in
+/// that range, so P40 is added.
+const GRADES: [Grit; 8] = [
+    Grit::P40,
+    Grit::P50,
+    Grit::P60,
+    Grit::P80,
+    Grit::P100,
+    Grit::P120,
+    Grit::P150,
+    Grit::P180,
+];
+
+/// A sandpaper by its place.
+pub(crate) fn sandpaper(number: usize) -> Surface {
+    let grade = GRADES.get(number).copied().unwrap_or(Grit::P180);
+    Surface::of(Material::Sandpaper(grade))
+}
+
+/// Shafts and modes of the eight arcs.
+type Arcs = Arc<Vec<(Shaft, Modes)>>;
+
+/// Those of each diameter of the tips that was asked for, by its bits: solving
+/// modes takes milliseconds, and there are a hundred thousand vibrissae to make.
+static ARC_SHAFTS: Mutex<BTreeMap<u64, Arcs>> = Mutex::new(BTreeMap::new());
+
+/// Modes of a vibrissa.
+const MODES: usize = 3;
+
+fn arcs(tip_diameter_m: f64) -> Arcs {
+    let of = |arc| {
+        let mut shaft = Shaft::psikharpax(arc);
+        shaft.tip_diameter_m = tip_diameter_m.min(shaft.hub_diameter_m);
+        shaft.modes(MODES).map(|modes| (shaft, modes))
+    };
+    // What another thread had to leave behind is whole: maps are only added to.
+    let mut known = ARC_SHAFTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let new = || Arc::new((1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect());
+    let found = known.entry(tip_diameter_m.to_bits()).or_insert_with(new);
+    Arc::clone(found)
+}
+
+/// A vibrissa of an arc, from 0, with the diameter of its tip. The sensor of the
+/// longest has the gain that is given; the same push aside turns shorter ones the
+/// more, and their sensors have the less.
+pub(crate) fn vibrissa(
+    (arc, tip_diameter_m): (usize, f64),
+    full_scale_rad: f64,
+    seed: u64,
+) -> Result<TouchingWhisker, Error> {
+    let shafts = arcs(tip_diameter_m);
+    let (shaft, modes) = shafts.get(arc).ok_or_else(|| refused("no such arc"))?;
+    let longest = shafts
+        .first()
+        .map_or(shaft.length_m, |(shaft, _)| shaft.length_m);
+    let sensor = SensorSettings {
+        // Sampled at 1157 Hz by a converter of its own: nothing is held.
+        refresh_s: 0.0,
+        ..sensor(full_scale_rad * longest / shaft.length_m)
+    };
+    TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
+}
+
+/// The four walls of relief plexiglass, by number: their periods differ.
+pub(crate) fn wall(number: usize) -> Surface {
+    /// Periods, tenths of a millimetre (chosen; PSIK Fig. 8 has no scale).
+    const PERIODS: [u16; 4] = [30, 60, 100, 160];
+    let period = PERIODS.get(number).copied().unwrap_or(30);
+    Surface::of(Material::Relief(period))
+}

@@ -1,0 +1,126 @@
+//! What a rig recorded, and which recordings there are.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::dataset::Dataset;
+use super::request::Request;
+use host_sim::Error;
+use host_sim::progress::{Progress, Verbosity};
+
+/// What one job of a data set recorded: samples of some channels, one after
+/// another. Sensor codes of 14 bits are exact in single precision.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recording {
+    /// Numbers of a sample.
+    pub channels: usize,
+    /// The samples.
+    pub values: Vec<f32>,
+}
+
+impl Recording {
+    /// Of `channels` numbers a sample.
+    pub fn new(channels: usize, values: Vec<f32>) -> Self {
+        Self { channels, values }
+    }
+
+    /// From sensor codes.
+    pub fn from_codes(channels: usize, codes: &[i16]) -> Self {
+        Self::new(
+            channels,
+            codes.iter().map(|code| f32::from(*code)).collect(),
+        )
+    }
+
+    /// Samples.
+    pub fn len(&self) -> usize {
+        self.values.len() / self.channels.max(1)
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The samples from `from` up to `to` (not included), as far as there are.
+    pub fn part(&self, from: usize, to: usize) -> &[f32] {
+        let end = (to * self.channels).min(self.values.len());
+        let start = (from * self.channels).min(end);
+        self.values.get(start..end).unwrap_or(&[])
+    }
+
+    /// The same in double precision.
+    pub fn segment(&self, from: usize, to: usize) -> Vec<f64> {
+        self.part(from, to).iter().map(|x| f64::from(*x)).collect()
+    }
+}
+
+/// A job of a data set: what one recording comes of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Job {
+    /// Of which set.
+    pub dataset: Dataset,
+    /// Which of its jobs, from 0.
+    pub number: usize,
+}
+
+/// All recordings of a request.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Recordings(BTreeMap<Job, Recording>);
+
+impl Recordings {
+    /// Records `jobs` on all cores. The result depends on neither their order
+    /// nor the number of cores.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if a rig cannot be simulated.
+    pub fn make(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Self, Error> {
+        let bar = Progress::new(verbosity, "recording", jobs.len() as u64);
+        let progress = std::sync::Mutex::new((bar, 0_u64));
+        let made: Result<Vec<(Job, Recording)>, Error> = jobs
+            .par_iter()
+            .map(|job| {
+                let recording = job.dataset.record(request, job.number)?;
+                if let Ok(mut progress) = progress.lock() {
+                    progress.1 += 1;
+                    let done = progress.1;
+                    progress.0.set(done);
+                }
+                Ok((*job, recording))
+            })
+            .collect();
+        Ok(Self(made?.into_iter().collect()))
+    }
+
+    /// The recordings of a set in the order of its jobs.
+    pub fn of(&self, dataset: Dataset) -> Vec<&Recording> {
+        let jobs = self.0.iter().filter(|(job, _)| job.dataset == dataset);
+        jobs.map(|(_, recording)| recording).collect()
+    }
+
+    /// Jobs and recordings in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&Job, &Recording)> {
+        self.0.iter()
+    }
+
+    /// Whether a job's recording is there.
+    pub fn has(&self, job: &Job) -> bool {
+        self.0.contains_key(job)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Adds a recording; gives back the job if there was one already.
+    pub fn add(&mut self, job: Job, recording: Recording) -> Option<Job> {
+        self.0.insert(job, recording).map(|_| job)
+    }
+}

@@ -1,0 +1,8 @@
+//! The laboratory: experiments of the papers on simulated rigs with their
+//! classifiers, and the report of how accurate the numerics are. Nothing that a
+//! board or a simulated scene runs depends on it.
+
+pub mod accuracy;
+pub mod commands;
+pub mod experiment;
+pub mod rigs;

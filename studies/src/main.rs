@@ -1,0 +1,162 @@
+//! The command line. `studies --help` documents it.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use host_sim::Error;
+use host_sim::progress::Verbosity;
+use host_sim::report::{say, warn};
+use studies::accuracy::LongRun;
+use studies::commands::experiment::{self, Asked};
+use studies::commands::{merge, report};
+use studies::experiment::{Name, Shard};
+
+/// The laboratory: the papers' experiments on simulated rigs, and the accuracy
+/// report.
+///
+/// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// No progress on standard error
+    #[arg(long, global = true)]
+    quiet: bool,
+
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Runs the experiments of the papers on simulated rigs and writes
+    /// DIR/experiments.md with tables and figures beside the papers'
+    Experiment {
+        #[command(subcommand)]
+        which: Which,
+    },
+    /// Measures the accuracy of every integrator, number format and function
+    /// and writes DIR/accuracy.md with its pictures
+    Report {
+        /// Where documents are: instructions.csv is read, the report written there
+        #[arg(long, value_name = "DIR", default_value = "docs")]
+        out: PathBuf,
+        /// Run ten minutes in place of showing the kept 24 hours
+        #[arg(long)]
+        quick: bool,
+        /// Run the 24 hours anew and keep them (DIR/accuracy/long-run.csv)
+        #[arg(long, conflicts_with = "quick")]
+        long: bool,
+        /// Only say whether the report is up to date; timings of the PC are left out
+        #[arg(long, conflicts_with_all = ["quick", "long"])]
+        check: bool,
+    },
+}
+
+#[derive(Subcommand)]
+enum Which {
+    /// LEP10: naive Bayes over fixed windows, on four floors
+    Lep10(Options),
+    /// LEP12: sequential Bayes, spectral template and neural network, on four floors
+    Lep12(Options),
+    /// BIOTACT: six whisking whiskers, with and without RCP
+    Biotact(Options),
+    /// POSE: one contact at an unknown angle and speed
+    Pose(Options),
+    /// PSIK: 33 vibrissae, sandpapers and corridors
+    Psikharpax(Options),
+    /// All of them
+    All(Options),
+    /// Joins the parts of all shards and evaluates them
+    Merge {
+        /// The parts, in any order
+        #[arg(required = true, value_name = "PART")]
+        parts: Vec<PathBuf>,
+        /// The folder of the rigs that the parts were made on; those built in if none
+        #[arg(long, value_name = "DIR")]
+        rigs: Option<PathBuf>,
+        /// Where to write
+        #[arg(long, value_name = "DIR", default_value = "out/experiments")]
+        out: PathBuf,
+    },
+}
+
+/// How an experiment is run.
+#[derive(clap::Args)]
+struct Options {
+    /// Fewer trials, whisks, contacts, sweeps and runs; the same physics
+    #[arg(long)]
+    quick: bool,
+    /// All chance comes from it
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Record only share i of n, into a part file
+    #[arg(long, value_name = "i/n")]
+    shard: Option<Shard>,
+    /// The folder of the rigs' files (studies/rigs/*.toml); those built in if none
+    #[arg(long, value_name = "DIR")]
+    rigs: Option<PathBuf>,
+    /// Where to write
+    #[arg(long, value_name = "DIR", default_value = "out/experiments")]
+    out: PathBuf,
+}
+
+impl Which {
+    fn work(self, verbosity: Verbosity) -> Result<String, Error> {
+        let (names, options) = match self {
+            Self::Lep10(options) => (vec![Name::Lep10], options),
+            Self::Lep12(options) => (vec![Name::Lep12], options),
+            Self::Biotact(options) => (vec![Name::Biotact], options),
+            Self::Pose(options) => (vec![Name::Pose], options),
+            Self::Psikharpax(options) => (vec![Name::Psikharpax], options),
+            Self::All(options) => (Name::ALL.to_vec(), options),
+            Self::Merge { parts, rigs, out } => {
+                return merge::merge(&parts, rigs.as_deref(), &out);
+            }
+        };
+        let asked = Asked {
+            names,
+            quick: options.quick,
+            seed: options.seed,
+            shard: options.shard,
+            rigs: options.rigs,
+            out: options.out,
+        };
+        experiment::experiment(&asked, verbosity)
+    }
+}
+
+fn work(arguments: Arguments) -> Result<(), Error> {
+    let verbosity = if arguments.quiet {
+        Verbosity::Quiet
+    } else {
+        Verbosity::Normal
+    };
+    say(match arguments.command {
+        Command::Experiment { which } => which.work(verbosity)?,
+        Command::Report {
+            out,
+            quick,
+            long,
+            check,
+        } => {
+            let long_run = match (long, quick) {
+                (true, _) => LongRun::Anew,
+                (false, true) => LongRun::Quick,
+                (false, false) => LongRun::Kept,
+            };
+            report::report(&out, long_run, check, verbosity)?
+        }
+    });
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    match work(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            warn(format_args!("studies: {error}"));
+            ExitCode::from(error.exit_status())
+        }
+    }
+}

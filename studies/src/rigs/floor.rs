@@ -1,0 +1,266 @@
+//! The floor robot of LEP10 and LEP12: a passive whisker on the front of a
+//! small cleaning robot, dragged over the floor.
+//!
+//! # Glossary
+//!
+//! - **mount**: where the whisker's base is fixed, on the rim of the robot.
+//! - **press**: how far below the floor the tip of a straight whisker would be.
+//! - **spot**: the robot turning about its own centre.
+//! - **autonomous**: turns either way and forward runs, in an order that the
+//!   whisker cannot foresee.
+//!
+//! World frame: x and y along the floor, z up, the floor at z = 0. The
+//! sensor's x is parallel to the floor and y normal to it as far as the
+//! whisker's slope allows (LEP12 section 2).
+
+use serde::Deserialize;
+
+use super::chance::{Chance, Wander};
+use super::read::{OutOfRange, Rig, within};
+use super::vector::{add, cross, direction, turn};
+use physics::Pose;
+
+/// Geometry and motion of the robot; see `studies/rigs/floor.toml` for each key.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each key is documented in rigs/floor.toml")]
+pub struct Floor {
+    pub tick_hz: f64,
+    pub trial_s: f64,
+    pub mount_radius_m: f64,
+    pub mount_bearing_deg: f64,
+    pub azimuth_deg: f64,
+    pub elevation_deg: f64,
+    pub press_m: f64,
+    pub press_sd_m: f64,
+    pub sink_m: [f64; 4],
+    pub wobble_share: f64,
+    pub wobble_s: f64,
+    pub turn_rad_s: f64,
+    pub forward_m_s: f64,
+    pub speed_share_sd: f64,
+    pub speed_s: f64,
+    pub leg_least_s: f64,
+    pub leg_most_s: f64,
+    pub full_scale_rad: f64,
+}
+
+impl Rig for Floor {
+    const FILE: &'static str = "floor.toml";
+    const DEFAULT: &'static str = include_str!("../../rigs/floor.toml");
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
+        within("trial_s", self.trial_s, 0.1, 3600.0)?;
+        within("mount_radius_m", self.mount_radius_m, 0.0, 2.0)?;
+        within("mount_bearing_deg", self.mount_bearing_deg, -180.0, 180.0)?;
+        within("azimuth_deg", self.azimuth_deg, -90.0, 90.0)?;
+        within("elevation_deg", self.elevation_deg, -80.0, -1.0)?;
+        within("press_m", self.press_m, 0.0, 0.1)?;
+        within("press_sd_m", self.press_sd_m, 0.0, 0.1)?;
+        within("wobble_share", self.wobble_share, 0.0, 10.0)?;
+        for sink in self.sink_m {
+            within("sink_m", sink, 0.0, 0.1)?;
+        }
+        within("wobble_s", self.wobble_s, 1e-3, 1e3)?;
+        within("turn_rad_s", self.turn_rad_s, 0.0, 20.0)?;
+        within("forward_m_s", self.forward_m_s, 0.0, 10.0)?;
+        within("speed_share_sd", self.speed_share_sd, 0.0, 0.5)?;
+        within("speed_s", self.speed_s, 1e-3, 1e3)?;
+        within("leg_least_s", self.leg_least_s, 0.01, 1e3)?;
+        within("leg_most_s", self.leg_most_s, self.leg_least_s, 1e3)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
+        Ok(())
+    }
+}
+
+/// How the robot moves during a trial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Turning on the spot, anticlockwise as seen from above.
+    Anticlockwise,
+    /// Turning on the spot, clockwise.
+    Clockwise,
+    /// Turns and forward runs.
+    Autonomous,
+}
+
+/// A robot on its way.
+#[derive(Debug, Clone)]
+pub struct Drive<'r> {
+    rig: &'r Floor,
+    motion: Motion,
+    chance: Chance,
+    wobble: Wander,
+    unevenness: Wander,
+    /// Length of the whisker, for the height of the mount.
+    height_m: f64,
+    place: [f64; 2],
+    heading: f64,
+    /// Turning rate, rad/s, and speed, m/s: what the wheels do now, and want.
+    now: [f64; 2],
+    wanted: [f64; 2],
+    left_s: f64,
+}
+
+impl Floor {
+    /// One tick, s.
+    pub fn dt_s(&self) -> f64 {
+        1.0 / self.tick_hz
+    }
+
+    /// Ticks of a trial.
+    pub fn ticks(&self) -> usize {
+        (self.trial_s * self.tick_hz).round() as usize
+    }
+
+    /// A robot somewhere on a large floor with a whisker of `length_m`. The
+    /// floor is the one of that number in LEP10's tables; `height_m` is the root
+    /// mean square of its heights.
+    pub fn drive(
+        &self,
+        motion: Motion,
+        length_m: f64,
+        ground: (usize, f64),
+        seed: u64,
+    ) -> Drive<'_> {
+        let (floor, height_m) = ground;
+        let sink = self.sink_m.get(floor).copied().unwrap_or(0.0);
+        let mut chance = Chance::new(seed);
+        let reach = length_m * libm::sin(-self.elevation_deg.to_radians());
+        let press = self.press_m + sink + self.press_sd_m * chance.normal();
+        let mut drive = Drive {
+            rig: self,
+            motion,
+            wobble: Wander::new(self.wobble_share * height_m, self.wobble_s, self.dt_s()),
+            unevenness: Wander::new(self.speed_share_sd, self.speed_s, self.dt_s()),
+            height_m: reach - press,
+            place: [chance.between(-50.0, 50.0), chance.between(-50.0, 50.0)],
+            heading: chance.between(0.0, core::f64::consts::TAU),
+            now: [0.0; 2],
+            wanted: [0.0; 2],
+            left_s: 0.0,
+            chance,
+        };
+        drive.choose();
+        drive.now = drive.wanted;
+        drive
+    }
+}
+
+impl Drive<'_> {
+    /// What the wheels shall do next.
+    fn choose(&mut self) {
+        let Floor {
+            turn_rad_s,
+            forward_m_s,
+            leg_least_s,
+            leg_most_s,
+            ..
+        } = *self.rig;
+        self.wanted = match self.motion {
+            Motion::Anticlockwise => [turn_rad_s, 0.0],
+            Motion::Clockwise => [-turn_rad_s, 0.0],
+            Motion::Autonomous => match self.chance.among(3) {
+                0 => [turn_rad_s, 0.0],
+                1 => [-turn_rad_s, 0.0],
+                _ => [0.0, forward_m_s],
+            },
+        };
+        self.left_s = self.chance.between(leg_least_s, leg_most_s);
+    }
+
+    /// Where the whisker is fixed, a tick later.
+    pub fn step(&mut self) -> Pose {
+        /// Time constant with which the wheels follow, s.
+        const WHEELS_S: f64 = 0.05;
+        let dt_s = self.rig.dt_s();
+        self.left_s -= dt_s;
+        if self.left_s <= 0.0 {
+            self.choose();
+        }
+        for (now, wanted) in self.now.iter_mut().zip(self.wanted) {
+            *now += (wanted - *now) * (dt_s / WHEELS_S).min(1.0);
+        }
+        let share = 1.0 + self.unevenness.step(&mut self.chance);
+        let [turning, speed] = self.now.map(|now| now * share);
+        self.heading += turning * dt_s;
+        let (sine, cosine) = libm::sincos(self.heading);
+        self.place[0] += speed * cosine * dt_s;
+        self.place[1] += speed * sine * dt_s;
+
+        let rig = self.rig;
+        let height = self.height_m + self.wobble.step(&mut self.chance);
+        let rim = direction(rig.mount_bearing_deg, 0.0);
+        let mount = turn(rim.map(|part| part * rig.mount_radius_m), self.heading);
+        let base_m = add([self.place[0], self.place[1], height], 1.0, mount);
+        let shaft = turn(direction(rig.azimuth_deg, rig.elevation_deg), self.heading);
+        let x = turn(direction(rig.azimuth_deg + 90.0, 0.0), self.heading);
+        let y = cross(shaft, x);
+        Pose { base_m, x, y }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Floor, Motion};
+    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::vector::{add, cross, dot};
+    use std::path::Path;
+
+    fn calm() -> Floor {
+        let mut rig: Floor = parse(Path::new(Floor::FILE), Floor::DEFAULT).unwrap();
+        rig.press_sd_m = 0.0;
+        rig.wobble_share = 0.0;
+        rig.speed_share_sd = 0.0;
+        rig
+    }
+
+    #[test]
+    fn a_straight_tip_is_as_deep_as_the_press_and_circles_the_robot() {
+        let rig = calm();
+        let length = 0.2;
+        for (motion, sign) in [(Motion::Anticlockwise, 1.0), (Motion::Clockwise, -1.0)] {
+            let mut drive = rig.drive(motion, length, (0, 1e-3), 4);
+            let centre = [drive.place[0], drive.place[1], 0.0];
+            let mut tips = Vec::new();
+            for _ in 0..2000 {
+                let pose = drive.step();
+                let shaft = cross(pose.x, pose.y);
+                assert!((dot(shaft, shaft) - 1.0).abs() < 1e-12);
+                assert!(pose.x[2].abs() < 1e-15, "x is parallel to the floor");
+                assert!(pose.y[2] > 0.9, "y points up: {:?}", pose.y);
+                tips.push(add(add(pose.base_m, length, shaft), -1.0, centre));
+            }
+            // Mount at the front, whisker at 45 degrees: the law of cosines.
+            let level = length * rig.elevation_deg.to_radians().cos();
+            let (r, a) = (rig.mount_radius_m, rig.azimuth_deg.to_radians());
+            let radius = (r * r + level * level + 2.0 * r * level * a.cos()).sqrt();
+            for tip in &tips {
+                assert!(
+                    (tip[2] + rig.press_m + rig.sink_m[0]).abs() < 1e-12,
+                    "{tip:?}"
+                );
+                assert!((tip[0].hypot(tip[1]) - radius).abs() < 1e-12);
+            }
+            let angle = |tip: &[f64; 3]| tip[1].atan2(tip[0]);
+            let swept = (angle(&tips[1]) - angle(&tips[0])).sin() * rig.tick_hz;
+            assert!((swept - sign * rig.turn_rad_s).abs() < 1e-6, "{swept}");
+        }
+    }
+
+    #[test]
+    fn autonomous_motion_turns_both_ways_and_runs_forward() {
+        let rig = calm();
+        let mut drive = rig.drive(Motion::Autonomous, 0.2, (2, 1e-3), 9);
+        let mut seen = [0_u32; 3];
+        for _ in 0..rig.ticks() * 4 {
+            drive.step();
+            let [turning, speed] = drive.now;
+            seen[0] += u32::from(turning > 0.9 * rig.turn_rad_s);
+            seen[1] += u32::from(turning < -0.9 * rig.turn_rad_s);
+            seen[2] += u32::from(speed > 0.9 * rig.forward_m_s);
+        }
+        assert!(seen.iter().all(|count| *count > 10_000), "{seen:?}");
+    }
+}

@@ -1,0 +1,256 @@
+//! The whisking head of BIOTACT: two rows of three whiskers before a flat
+//! surface, moved by the pattern generator that runs on a module, in a closed
+//! loop: what the whiskers feel goes through H50 and RCP back to the muscles,
+//! and motors follow those as their position control, friction and load let them.
+//!
+//! Head frame, from above: x forward along the axis of the cone, y to the
+//! left, z up; the front of the head at x = 0, the surface at x = distance. A
+//! whisker at θ' = 90 degrees points sideways, beyond that forward.
+
+use serde::Deserialize;
+use whisking::filter::{CORNER_HZ, Config as LowPass, State as Smoothed};
+use whisking::{GateSettings, Integrator, Settings, State, degrees};
+
+use super::chance::{Chance, seed_of};
+use super::follow::{Follower, Loop};
+use super::read::{OutOfRange, Rig, within};
+use host_sim::Error;
+use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
+
+/// Sides of the head.
+const SIDES: usize = 2;
+/// Whiskers of a side, the front one first.
+const EACH: usize = 3;
+/// Channels: x and y of every whisker, left side first.
+pub const CHANNELS: usize = 2 * SIDES * EACH;
+
+/// Geometry of the head; see `studies/rigs/head.toml` for each key.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each key is documented in rigs/head.toml")]
+pub struct Head {
+    pub tick_hz: f64,
+    pub whisk_hz: f64,
+    pub noise: f64,
+    pub gain: f64,
+    pub lead_whisks: usize,
+    pub base_back_m: [f64; EACH],
+    pub base_side_m: [f64; EACH],
+    pub placement_sd_m: f64,
+    pub full_scale_rad: f64,
+    pub motor: Loop,
+}
+
+impl Rig for Head {
+    const FILE: &'static str = "head.toml";
+    const DEFAULT: &'static str = include_str!("../../rigs/head.toml");
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
+        within("whisk_hz", self.whisk_hz, 0.05, 25.0)?;
+        within("noise", self.noise, 0.0, 1.0)?;
+        within("gain", self.gain, 0.0, 2.0)?;
+        within("lead_whisks", self.lead_whisks as f64, 0.0, 1000.0)?;
+        for w in 0..EACH {
+            within("base_back_m", self.base_back_m[w], 0.0, 1.0)?;
+            within("base_side_m", self.base_side_m[w], 0.0, 1.0)?;
+        }
+        within("placement_sd_m", self.placement_sd_m, 0.0, 0.1)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
+        self.motor.check()
+    }
+}
+
+/// What the head is put before, and how it whisks there.
+#[derive(Debug, Clone)]
+pub struct Visit<'a> {
+    /// From the front of the head to the surface, m.
+    pub distance_m: f64,
+    /// The surface.
+    pub surface: &'a Surface,
+    /// RCP, if whisking is modulated.
+    pub rcp: Option<GateSettings>,
+    /// Whisks to record.
+    pub whisks: usize,
+    /// Of this visit's chance.
+    pub seed: u64,
+}
+
+/// What a visit brought.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Felt {
+    /// Sensor codes, [`CHANNELS`] a tick.
+    pub codes: Vec<i16>,
+    /// θ' of the front whisker of each side, degrees, each tick.
+    pub angle_deg: Vec<[f64; SIDES]>,
+    /// Whether any whisker of a side touched, each tick.
+    pub touching: Vec<[bool; SIDES]>,
+}
+
+impl Head {
+    /// Ticks of a whisk.
+    pub fn whisk_ticks(&self) -> usize {
+        (self.tick_hz / self.whisk_hz).round() as usize
+    }
+
+    /// Where a whisker is at an angle θ'. Its sensor's x is along protraction.
+    pub fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
+        let left = if side == 0 { 1.0 } else { -1.0 };
+        let (sine, cosine) = libm::sincos(theta_deg.to_radians());
+        let back = self.base_back_m.get(whisker).copied().unwrap_or(0.0);
+        let aside = self.base_side_m.get(whisker).copied().unwrap_or(0.0);
+        // The shaft is (−cos, ± sin, 0): x its derivative by θ', y = shaft × x.
+        Pose {
+            base_m: [-back, left * aside, 0.0],
+            x: [sine, left * cosine, 0.0],
+            y: [0.0, 0.0, -left],
+        }
+    }
+
+    /// Whisks against a surface.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if a setting is refused.
+    pub fn visit(
+        &self,
+        shafts: &[Shaft; EACH],
+        sensor: &SensorSettings,
+        visit: &Visit<'_>,
+    ) -> Result<Felt, Error> {
+        let refused = |error: &dyn std::fmt::Display| Error::Work(format!("head: {error}"));
+        let settings = Settings {
+            tick_hz: self.tick_hz,
+            frequency_hz: self.whisk_hz,
+            integrator: Integrator::Exact,
+            coupling: true,
+            noise: self.noise,
+            rcp: visit.rcp,
+            cia: None,
+        };
+        let config = settings.build::<f64>().map_err(|error| refused(&error))?;
+        // Retracted, so that no whisker begins inside the surface.
+        let start = settings
+            .start::<f64, SIDES, EACH>([[-1.0, 0.0]; SIDES], [[self.gain; EACH]; SIDES])
+            .map_err(|error| refused(&error))?;
+        let mut muscles = State::new(&start, seed_of(visit.seed, &[0]));
+        let h50 = LowPass::<f64>::new(CORNER_HZ, self.tick_hz).map_err(|error| refused(&error))?;
+
+        let mut chance = Chance::new(seed_of(visit.seed, &[1]));
+        let distance = visit.distance_m + self.placement_sd_m * chance.normal();
+        let plate = Plate {
+            point_m: [distance, 0.0, 0.0],
+            normal: [-1.0, 0.0, 0.0],
+            along: [0.0, 1.0, 0.0],
+            surface: *visit.surface,
+        };
+        let mut whiskers = Vec::with_capacity(SIDES * EACH);
+        let mut motors = Vec::with_capacity(SIDES * EACH);
+        for n in 0..SIDES * EACH {
+            let shaft = &shafts[n % EACH];
+            let seed = seed_of(visit.seed, &[2, n as u64]);
+            let whisker = TouchingWhisker::new(shaft, sensor, seed);
+            whiskers.push((
+                whisker.map_err(|error| refused(&error))?,
+                Smoothed::default(),
+            ));
+            let motor = Follower::new(&self.motor, self.tick_hz);
+            motors.push(motor.map_err(|error| refused(&error))?);
+        }
+        let dt_s = 1.0 / self.tick_hz;
+
+        let lead = self.lead_whisks * self.whisk_ticks();
+        let mut felt = Felt::default();
+        for tick in 0..lead + visit.whisks * self.whisk_ticks() {
+            let mut contact = [0.0_f64; SIDES];
+            for (n, (whisker, smoothed)) in whiskers.iter_mut().enumerate() {
+                let x = h50.process(smoothed, whisker.reading()[0]);
+                contact[n / EACH] = contact[n / EACH].max(x.abs());
+            }
+            config.step(&mut muscles, contact);
+            let theta = muscles.theta();
+            let mut touching = [false; SIDES];
+            let mut front = [0.0; SIDES];
+            for (n, ((whisker, _), motor)) in whiskers.iter_mut().zip(&mut motors).enumerate() {
+                let (side, place) = (n / EACH, n % EACH);
+                let wanted = theta[side][place];
+                let angle = if self.motor.follows {
+                    // The follicle's torque; a free whisker's inertia is in the motor's.
+                    let stiffness = shafts[place].follicle.rotation_n_m_rad;
+                    let bent = stiffness * whisker.rotation_rad()[0];
+                    let load = if whisker.contact() { bent } else { 0.0 };
+                    motor.step(wanted, load, dt_s)
+                } else {
+                    degrees(wanted)
+                };
+                if place == 0 {
+                    front[side] = angle;
+                }
+                let pose = self.pose(side, place, angle);
+                whisker.step(&pose, Some(&plate), dt_s);
+                touching[side] |= whisker.contact();
+                if tick >= lead {
+                    felt.codes.extend(whisker.codes());
+                }
+            }
+            if tick >= lead {
+                felt.angle_deg.push(front);
+                felt.touching.push(touching);
+            }
+        }
+        Ok(felt)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Head;
+    use crate::experiment::paper::biotact::{DISTANCES_MM, WHISKERS};
+    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::vector::{add, cross, dot};
+    use std::path::Path;
+
+    fn rig() -> Head {
+        parse(Path::new(Head::FILE), Head::DEFAULT).unwrap()
+    }
+
+    #[test]
+    fn x_is_the_way_of_the_tip_and_the_sides_mirror() {
+        let rig = rig();
+        let tip = |side, theta| {
+            let pose = rig.pose(side, 1, theta);
+            add(pose.base_m, 0.112, cross(pose.x, pose.y))
+        };
+        for side in [0, 1] {
+            let pose = rig.pose(side, 1, 110.0);
+            let step = 1e-4_f64;
+            let moved = add(tip(side, 110.0 + step), -1.0, tip(side, 110.0 - step));
+            let way = moved.map(|part| part / (2.0 * step.to_radians() * 0.112));
+            assert!((dot(way, pose.x) - 1.0).abs() < 1e-9, "{way:?}");
+        }
+        let (left, right) = (tip(0, 100.0), tip(1, 100.0));
+        assert!((left[0] - right[0]).abs() < 1e-15 && (left[1] + right[1]).abs() < 1e-15);
+        assert!(left[1] > 0.1, "the left is at +y");
+        assert!(
+            tip(0, 120.0)[0] > tip(0, 90.0)[0],
+            "protraction goes forward"
+        );
+    }
+
+    /// BIOTACT section II-C: all whiskers can touch a plane orthogonal to the
+    /// axis. Free whisking at gain 1 peaks at 122.9 degrees.
+    #[test]
+    fn every_whisker_touches_the_surface_at_every_distance_when_protracted() {
+        let rig = rig();
+        for distance in DISTANCES_MM {
+            for (whisker, (length_mm, _)) in WHISKERS.into_iter().enumerate() {
+                let reach = |theta: f64| {
+                    let pose = rig.pose(0, whisker, theta);
+                    let shaft = cross(pose.x, pose.y);
+                    add(pose.base_m, length_mm / 1000.0, shaft)[0]
+                };
+                assert!(reach(122.9) > distance / 1000.0, "{distance} {whisker}");
+                assert!(reach(90.0) < 0.0);
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! The XY table of POSE: a textured surface at some angle is carried into a
+//! fixed whisker at some speed, until a threshold of deflection is crossed,
+//! and withdrawn a controller's delay later.
+//!
+//! The whisker points along z; the surface travels along x, which is also the
+//! sensor's x. The angle is that between the surface and its direction of
+//! travel: at 0 degrees it would meet the whisker with its edge, at 90 degrees
+//! it would lie along the shaft (POSE section II-B).
+
+use serde::Deserialize;
+
+use super::read::{OutOfRange, Rig, within};
+
+/// Settings of the table; see `studies/rigs/table.toml` for each key.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each key is documented in rigs/table.toml")]
+pub struct Table {
+    pub tick_hz: f64,
+    pub gap_m: f64,
+    pub gap_sd_m: f64,
+    pub threshold: f64,
+    pub latency_s: f64,
+    pub latency_spread_s: f64,
+    pub retract_m_s: f64,
+    pub acceleration_m_s2: f64,
+    pub half_window: usize,
+    pub full_scale_rad: f64,
+}
+
+impl Rig for Table {
+    const FILE: &'static str = "table.toml";
+    const DEFAULT: &'static str = include_str!("../../rigs/table.toml");
+
+    fn check(&self) -> Result<(), OutOfRange> {
+        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
+        within("gap_m", self.gap_m, 0.0, 0.1)?;
+        within("gap_sd_m", self.gap_sd_m, 0.0, 0.1)?;
+        within("threshold", self.threshold, 1e-4, 1.0)?;
+        within("latency_s", self.latency_s, 0.0, 10.0)?;
+        within(
+            "latency_spread_s",
+            self.latency_spread_s,
+            0.0,
+            self.latency_s,
+        )?;
+        within("retract_m_s", self.retract_m_s, 0.001, 10.0)?;
+        within("acceleration_m_s2", self.acceleration_m_s2, 0.1, 1000.0)?;
+        within("half_window", self.half_window as f64, 1.0, 1e6)?;
+        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
+        Ok(())
+    }
+}
+
+/// The carriage: where the object is along its way, and how fast.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Carriage {
+    /// Place, m.
+    pub x_m: f64,
+    /// Speed, m/s.
+    pub v_m_s: f64,
+}
+
+impl Carriage {
+    /// Moves for `dt_s` towards the speed `wanted_m_s` with at most `most`
+    /// m/s² of acceleration: exact for that acceleration.
+    pub fn step(&mut self, wanted_m_s: f64, most: f64, dt_s: f64) {
+        let change = wanted_m_s - self.v_m_s;
+        let reach = (change.abs() / most).min(dt_s);
+        let pull = most * if change < 0.0 { -1.0 } else { 1.0 };
+        self.x_m += self.v_m_s * reach + 0.5 * pull * reach * reach;
+        self.v_m_s = if reach < dt_s {
+            wanted_m_s
+        } else {
+            self.v_m_s + pull * reach
+        };
+        self.x_m += self.v_m_s * (dt_s - reach);
+    }
+}
+
+/// The surface's normal towards the whisker and the direction along it, for a
+/// surface at `angle_deg` that travels towards +x (`way` = 1) or −x (−1).
+pub fn facing(angle_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
+    let (sine, cosine) = libm::sincos(angle_deg.to_radians());
+    ([way * sine, 0.0, -cosine], [way * cosine, 0.0, sine])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Carriage, facing};
+    use crate::rigs::vector::dot;
+
+    #[test]
+    fn the_carriage_stops_in_its_braking_distance() {
+        let mut carriage = Carriage {
+            x_m: 0.0,
+            v_m_s: 0.1,
+        };
+        for _ in 0..1000 {
+            carriage.step(-0.72, 5.0, 2.5e-4);
+        }
+        // v² = v0² + 2 a x with a = −5: from 0.1 to −0.72 m/s in 0.164 s.
+        let turned = (0.1_f64.powi(2) - 0.72_f64.powi(2)) / 10.0;
+        let expected = turned - 0.72 * (0.25 - 0.164);
+        assert!((carriage.x_m - expected).abs() < 1e-12, "{}", carriage.x_m);
+        assert_eq!(carriage.v_m_s, -0.72);
+    }
+
+    #[test]
+    fn the_surface_faces_the_whisker_and_its_way() {
+        for angle in [10.0, 45.0, 80.0] {
+            for way in [1.0, -1.0] {
+                let (normal, along) = facing(angle, way);
+                assert!(dot(normal, along).abs() < 1e-15);
+                assert!(normal[2] < 0.0 && normal[0] * way > 0.0);
+                // Between the surface and the way: the angle itself.
+                let between = (dot(along, [way, 0.0, 0.0])).acos().to_degrees();
+                assert!((between - angle).abs() < 1e-9);
+            }
+        }
+    }
+}
