@@ -48,7 +48,7 @@ pub const ENTRY_OFFSET_BITS: u32 = 20;
 pub const ENTRY_MAX: u16 = (ENTRY_OFFSET_BITS * ENTRIES_PER_BIT) as u16;
 
 /// Bytes of the checksum at the end.
-pub(crate) const CRC_BYTES: usize = 4;
+pub const CRC_BYTES: usize = 4;
 
 #[derive(Debug, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
 #[repr(C)]
@@ -79,7 +79,7 @@ pub(crate) const fn row_words(classes: usize) -> usize {
 
 /// CRC-32 as in zip and Ethernet. Without a lookup table: it runs once at
 /// start, and a kilobyte of flash is dearer than those milliseconds.
-pub(crate) fn checksum(bytes: &[u8]) -> u32 {
+pub fn checksum(bytes: &[u8]) -> u32 {
     const CRC: crc::Crc<u32, crc::NoTable> =
         crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
     CRC.checksum(bytes)

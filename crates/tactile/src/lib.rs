@@ -31,17 +31,6 @@
 //! classes K are compile-time constants, so the step is straight-line code.
 //! After training everything is an integer; there is no logarithm at run time.
 //!
-//! # What they are compared with
-//!
-//! | module | decides | source |
-//! |---|---|---|
-//! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
-//! | [`spectral_template`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
-//! | [`features`] | by a [`polynomial`] of peak, slope and spectrum | POSE eq. 3–7 |
-//!
-//! They stream too: a sample changes a small state and nothing is kept that
-//! grows with the block. Templates are integers, spectra single precision.
-//!
 //! # Error bounds
 //!
 //! - A table entry is log2 p rounded to 2⁻¹⁰ bit: at most 2⁻¹¹ bit off.
@@ -53,16 +42,10 @@
 //!
 //! # Features
 //!
-//! - `std`: `train` (learning a histogram model, f64), `reference` (an
+//! - `std`: `train` (a histogram model from a recording, f64), `reference` (an
 //!   independent f64 classifier to compare with), `dynamic` (channels and
-//!   classes known only at run time) and the owned `ModelBuf`.
-//! - `study`: learning all the others that the papers compare (`bayes`,
-//!   `template_train`, `spectral_train`, `feature_train`, `regression`,
-//!   `mlp::train`), `recogniser` (one way to ask any of them) and `score` (how
-//!   good they are). It brings FFT, linear algebra and an optimiser.
-//!
-//! Without either, all of them run: [`template`], [`spectral_template`],
-//! [`features`], [`mlp`] and [`imp`] beside the three rules above.
+//!   classes known only at run time), `score` (how good a classifier is) and
+//!   the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]
@@ -71,62 +54,37 @@ extern crate std;
 #[cfg(target_endian = "big")]
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
-#[cfg(feature = "study")]
-pub mod bayes;
-mod choice;
 mod decision;
 #[cfg(feature = "std")]
 pub mod dynamic;
 mod error;
 mod evidence;
 mod exp2;
-#[cfg(feature = "study")]
-pub mod feature_train;
-pub mod features;
-mod fit_error;
 mod format;
-pub mod imp;
 mod likelihoods;
-#[cfg(feature = "study")]
-mod means;
-pub mod mlp;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;
-pub mod polynomial;
 mod quantiser;
-#[cfg(feature = "study")]
-pub mod recogniser;
 #[cfg(feature = "std")]
 pub mod reference;
-#[cfg(feature = "study")]
-pub mod regression;
-#[cfg(feature = "study")]
+#[cfg(feature = "std")]
 pub mod score;
 mod sequential;
-pub mod spectral_template;
-#[cfg(feature = "study")]
-pub mod spectral_train;
-pub mod spectrum;
 mod stationary;
 mod streaming;
-pub mod template;
-#[cfg(feature = "study")]
-pub mod template_train;
 #[cfg(feature = "std")]
 pub mod train;
 #[cfg(feature = "std")]
 mod train_error;
 mod window;
 
-pub use choice::Choice;
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::{Scale, Totals};
-pub use fit_error::FitError;
 pub use format::{
-    ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK, MAX_CHANNELS,
-    MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION,
+    CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
+    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION, checksum,
 };
 pub use likelihoods::{Classes, Likelihoods, Sums, Supported};
 pub use model::{Aligned, Model};

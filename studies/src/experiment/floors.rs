@@ -1,9 +1,9 @@
 //! The floor robot's recordings as LEP10 and LEP12 use them: the first half of
 //! every trial to learn from, the second to validate with.
 
+use classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use rayon::prelude::*;
 use tactile::ModelBuf;
-use tactile::recogniser::{Outcome, Recogniser, outcomes, pick};
 use tactile::train::{Options, Trainer};
 
 use super::dataset::Dataset;
@@ -214,8 +214,8 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::{Stream, Tally, learn};
+    use classifiers::recogniser::Bayes;
     use host_sim::Error;
-    use tactile::recogniser::Bayes;
 
     /// Floors that differ in x by 500 codes and not in y.
     fn streams() -> Vec<Stream> {
@@ -238,7 +238,7 @@ mod tests {
             let tally = Tally::of(&streams, || {
                 let bayes = Bayes::window(&model, 100);
                 let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
-                Ok(tactile::recogniser::Picked::new(bayes, &picked))
+                Ok(classifiers::recogniser::Picked::new(bayes, &picked))
             });
             let tally = tally.unwrap();
             assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");

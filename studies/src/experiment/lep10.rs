@@ -8,9 +8,9 @@ use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
 use crate::rigs::Motion;
+use classifiers::recogniser::{Bayes, Picked};
 use host_sim::Error;
 use tactile::ModelBuf;
-use tactile::recogniser::{Bayes, Picked};
 
 /// Windows of Fig. 4, samples: 0.5 ms to 1 s.
 const WINDOWS: [u32; 11] = [1, 2, 5, 10, 20, 50, 100, 200, 400, 1000, 2000];

@@ -12,8 +12,8 @@ use super::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use super::recording::Recordings;
 use super::request::Request;
 use crate::rigs::Motion;
+use classifiers::recogniser::Bayes;
 use host_sim::Error;
-use tactile::recogniser::Bayes;
 use tactile::{Model, ModelBuf, Threshold};
 
 /// Samples of a block of evidence (m of eq. 6).

@@ -4,9 +4,9 @@
 mod corridor;
 mod why;
 
+use classifiers::mlp::Network;
+use classifiers::mlp::train::{Options, Trainer};
 use rayon::prelude::*;
-use tactile::mlp::Network;
-use tactile::mlp::train::{Options, Trainer};
 use tactile::score::Confusion;
 
 use super::dataset::Dataset;

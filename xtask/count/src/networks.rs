@@ -1,7 +1,7 @@
 //! Networks of the papers' shapes, with weights of no meaning: how many
 //! instructions they take does not depend on them.
 
-use tactile::mlp::{FixedInput, FixedMlp, FixedMlpState, Mlp, MlpInput, MlpState};
+use classifiers::mlp::{FixedInput, FixedMlp, FixedMlpState, Mlp, MlpInput, MlpState};
 
 /// A number from −1 to 1 without any order.
 const fn weight(at: usize) -> f32 {

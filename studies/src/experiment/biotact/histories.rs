@@ -1,7 +1,7 @@
 //! One whisk against smooth plastic and against abrasive, with and without RCP:
 //! x over time, and its spectrum over time (BIOTACT Fig. 12).
 
-use tactile::spectrum::{Bins, Measure, Spectrum};
+use classifiers::spectrum::{Bins, Measure, Spectrum};
 
 use super::movement::column;
 use super::refused;

@@ -1,7 +1,7 @@
 //! Whisks as the two classifiers of BIOTACT section IV learn and take them.
 
-use tactile::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
-use tactile::template_train::TemplateTrainer;
+use classifiers::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
+use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
 use super::refused;

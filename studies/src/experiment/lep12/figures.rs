@@ -2,8 +2,8 @@
 
 mod spectra;
 
+use classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use tactile::Threshold;
-use tactile::recogniser::{Bayes, Recogniser, outcomes};
 
 use super::{Curves, Group, Point, refused};
 use crate::accuracy::chart::{Axis, Mark, Panel, draw};

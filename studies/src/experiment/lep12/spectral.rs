@@ -8,11 +8,11 @@
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).
 
+use classifiers::mlp::train::{Options, Trainer};
+use classifiers::recogniser::outcomes;
+use classifiers::spectral_train::SpectralTrainer;
+use classifiers::spectrum::{Bins, Measure, Spectrum};
 use rayon::prelude::*;
-use tactile::mlp::train::{Options, Trainer};
-use tactile::recogniser::outcomes;
-use tactile::spectral_train::SpectralTrainer;
-use tactile::spectrum::{Bins, Measure, Spectrum};
 
 use super::{Group, refused};
 use crate::experiment::floors::{CHANNELS, Stream, Tally};

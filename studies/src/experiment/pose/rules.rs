@@ -1,13 +1,13 @@
 //! The classifiers of POSE section II-C.
 
+use classifiers::feature_train::{Extractor, FeatureSettings};
+use classifiers::features::Feature;
+use classifiers::regression::Regression;
+use classifiers::spectral_train::SpectralTrainer;
+use classifiers::spectrum::{Bins, Measure};
+use classifiers::template_train::TemplateTrainer;
 use rayon::prelude::*;
-use tactile::feature_train::{Extractor, FeatureSettings};
-use tactile::features::Feature;
-use tactile::regression::Regression;
 use tactile::score::Confusion;
-use tactile::spectral_train::SpectralTrainer;
-use tactile::spectrum::{Bins, Measure};
-use tactile::template_train::TemplateTrainer;
 
 use super::{Scores, Sets, Signal, refused};
 use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};

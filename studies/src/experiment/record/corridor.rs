@@ -1,7 +1,7 @@
 //! Runs of the mobile robot through its corridors: the smoothed IMP of all
 //! vibrissae of both sides, window by window, and where the robot was.
 
-use tactile::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
+use classifiers::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
 
 use super::pad;
 use super::{refused, whiskers};

@@ -1,7 +1,7 @@
 //! Sweeps of the fixed head over sandpapers: the IMP of every vibrissa, summed
 //! over the sweep.
 
-use tactile::imp::{Band, Imp, ImpSweep};
+use classifiers::imp::{Band, Imp, ImpSweep};
 
 use super::{refused, whiskers};
 use crate::experiment::paper::psik::{RATE_HZ, VIBRISSAE};

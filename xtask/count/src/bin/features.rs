@@ -2,11 +2,11 @@
 //! them; the last sample of a block takes the features.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use classifiers::features::{Feature, FeatureRule, Features, FeaturesState};
+use classifiers::polynomial::{Polynomial, Term};
+use classifiers::spectrum::Bank;
 use count::samples::{number, spread};
 use count::{kernel, program};
-use tactile::features::{Feature, FeatureRule, Features, FeaturesState};
-use tactile::polynomial::{Polynomial, Term};
-use tactile::spectrum::Bank;
 
 program!(kernels);
 

@@ -2,10 +2,10 @@
 //! every twenty samples, windows of 200. A pad takes 33 of these.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use classifiers::imp::{Band, Imp, ImpState};
 use count::arguments::Two;
 use count::samples::spread;
 use count::{kernel, program};
-use tactile::imp::{Band, Imp, ImpState};
 
 program!(kernels);
 

@@ -2,10 +2,10 @@
 //! mean is over all inputs of a row; the worst is the last, which decides.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use classifiers::mlp::{FixedMlp, Mlp};
 use count::networks::{Fixed, Single, fixed, single};
 use count::samples::spread;
 use count::{kernel, program};
-use tactile::mlp::{FixedMlp, Mlp};
 
 program!(kernels);
 

@@ -2,11 +2,11 @@
 //! last one of a block decides.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use classifiers::spectral_template::{SpectralState, SpectralTemplate};
+use classifiers::spectrum::{Bank, BankState, Measure};
 use count::arguments::Two;
 use count::samples::pair;
 use count::{kernel, program};
-use tactile::spectral_template::{SpectralState, SpectralTemplate};
-use tactile::spectrum::{Bank, BankState, Measure};
 
 program!(kernels);
 

@@ -1,10 +1,10 @@
 //! A sample under templates; the last one of a window decides.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use classifiers::template::{Template, TemplateState};
 use count::arguments::Two;
 use count::samples::{codes, spread};
 use count::{kernel, program};
-use tactile::template::{Template, TemplateState};
 
 program!(kernels);
 

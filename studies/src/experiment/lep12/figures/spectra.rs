@@ -1,6 +1,6 @@
 //! Fig. 9 of LEP12: the power spectra of the whisker on each floor.
 
-use tactile::spectrum::{Bins, Measure, Spectrum};
+use classifiers::spectrum::{Bins, Measure, Spectrum};
 
 use super::super::{Group, refused};
 use super::place;

@@ -3,11 +3,11 @@
 #[path = "common/rows.rs"]
 mod rows;
 
+use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::{FixedInput, FixedMlp, Mlp, MlpError, MlpInput, Network, Shape};
 use proptest::prelude::*;
 use rows::Random;
 use tactile::Aligned;
-use tactile::mlp::train::{Options, Trainer};
-use tactile::mlp::{FixedInput, FixedMlp, Mlp, MlpError, MlpInput, Network, Shape};
 
 /// Learns to tell made-up rows, and yields as many new ones.
 fn learnt(
@@ -261,5 +261,5 @@ fn a_network_is_as_large_as_it_says() {
     assert_eq!(size_of::<FixedMlp<120, 20, 4>>(), fixed);
     let odd = 33 * (12 + 66 + 2) + 4 * 33 + 8 * (66 + 4) + 8;
     assert_eq!(size_of::<FixedMlp<33, 33, 8>>(), odd);
-    assert_eq!(size_of::<tactile::imp::ImpState<33>>(), 32 * 33 + 8);
+    assert_eq!(size_of::<classifiers::imp::ImpState<33>>(), 32 * 33 + 8);
 }

@@ -6,7 +6,7 @@
 //! 0.1 %), while a multiplication takes as long, and the larger of the papers'
 //! networks has 5 KB of weights at 16 bits, half of what f32 needs.
 
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 mod rounding;
 
 use super::error::MlpError;

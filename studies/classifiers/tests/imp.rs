@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use classifiers::imp::{Band, Imp, ImpError, ImpSweep, Peaks, deflection};
 use proptest::prelude::*;
-use tactile::imp::{Band, Imp, ImpError, ImpSweep, Peaks, deflection};
 
 /// Codes a sample of one vibrissa's x and y, no window but the whole.
 fn imp_of(signal: impl Iterator<Item = [f64; 2]>, band: u16) -> (f64, u32) {

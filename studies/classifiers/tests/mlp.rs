@@ -3,9 +3,9 @@
 #[path = "common/rows.rs"]
 mod rows;
 
+use classifiers::mlp::train::{Options, TrainError, Trained, Trainer};
+use classifiers::mlp::{MlpError, Network, Shape};
 use rows::Random;
-use tactile::mlp::train::{Options, TrainError, Trained, Trainer};
-use tactile::mlp::{MlpError, Network, Shape};
 
 fn options(hidden: usize) -> Options {
     Options {

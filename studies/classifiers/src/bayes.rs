@@ -8,15 +8,15 @@
 //! - **separate**: a model of textures, whatever the distance, and one of
 //!   distances, whatever the texture.
 //!
-//! The rules are [`crate::Sequential`], [`crate::Window`] and
-//! [`crate::Stationary`] for all of these: what differs is the training data,
+//! The rules are [`tactile::Sequential`], [`crate::Window`] and
+//! [`tactile::Stationary`] for all of these: what differs is the training data,
 //! which [`learn`] arranges. For the stream see [`crate::recogniser`]: a
 //! [`crate::recogniser::Picked`] with the same channels.
 
 use std::vec::Vec;
 
-use crate::model_buf::ModelBuf;
-use crate::train::{Options, TrainError, Trainer};
+use tactile::ModelBuf;
+use tactile::train::{Options, TrainError, Trainer};
 
 /// Which of a whisker's channels are heard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,8 +128,8 @@ pub fn learn<'s>(
 mod tests {
     use super::*;
     use crate::recogniser::{Bayes, Picked, first_outcome};
-    use crate::score::Confusion;
     use std::vec;
+    use tactile::score::Confusion;
 
     const OPTIONS: Options = Options {
         bins: 50,

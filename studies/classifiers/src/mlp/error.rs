@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::format::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_WEIGHT, MLP_VERSION};
+use super::limits::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_WEIGHT, MLP_VERSION};
 
 /// Why a network is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub enum MlpError {
     /// The checksum does not match: the file is damaged.
     Checksum,
     /// The bytes do not start on a four-byte boundary: see
-    /// [`crate::include_model`].
+    /// [`tactile::include_model`].
     Misaligned,
 }
 

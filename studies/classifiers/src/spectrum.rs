@@ -33,13 +33,13 @@
 //! The mean of the block counts in that bound: subtract the rest position first.
 
 mod bank;
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 mod fft;
 
 use core::fmt;
 
 pub use bank::{Bank, BankState};
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 pub use fft::Spectrum;
 
 /// Which bins of which transform: k = first, first + step, …, `count` of them.

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use tactile::FitError;
-use tactile::recogniser::{Recogniser, first_outcome, outcomes};
-use tactile::spectral_template::SpectralTemplate;
-use tactile::spectral_train::{SpectralTemplates, SpectralTrainer};
-use tactile::spectrum::{Bank, Bins, Measure, SpectrumError};
+use classifiers::FitError;
+use classifiers::recogniser::{Recogniser, first_outcome, outcomes};
+use classifiers::spectral_template::SpectralTemplate;
+use classifiers::spectral_train::{SpectralTemplates, SpectralTrainer};
+use classifiers::spectrum::{Bank, Bins, Measure, SpectrumError};
 
 /// 40 bins of 2.5 Hz at 2 kHz, as LEP12's.
 const BLOCK: usize = 800;

@@ -3,12 +3,12 @@
 
 use std::f64::consts::TAU;
 
+use classifiers::FitError;
+use classifiers::feature_train::{Extractor, FeatureSettings, FeatureTrainer};
+use classifiers::features::{Feature, FeatureRule};
+use classifiers::recogniser::{Recogniser, first_outcome};
+use classifiers::regression::Regression;
 use proptest::prelude::*;
-use tactile::FitError;
-use tactile::feature_train::{Extractor, FeatureSettings, FeatureTrainer};
-use tactile::features::{Feature, FeatureRule};
-use tactile::recogniser::{Recogniser, first_outcome};
-use tactile::regression::Regression;
 
 const RATE: f64 = 4000.0;
 const BLOCK: usize = 2000;

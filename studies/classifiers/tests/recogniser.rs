@@ -1,8 +1,8 @@
 //! Recognisers answer as what they wrap, and refuse what does not fit.
 
+use classifiers::recogniser::{Bayes, Outcome, Picked, Recogniser, first_outcome, outcomes, pick};
 use tactile::Threshold;
 use tactile::dynamic;
-use tactile::recogniser::{Bayes, Outcome, Picked, Recogniser, first_outcome, outcomes, pick};
 use tactile::train::{Options, Trainer};
 
 /// Channel 0 tells nothing, channel 1 is 0 or 1 but for one sample in ten.

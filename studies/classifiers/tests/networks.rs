@@ -6,11 +6,11 @@ mod rows;
 
 use std::f64::consts::TAU;
 
+use classifiers::imp::{Band, ImpError, ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
+use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::{MlpError, Network, Shape, SpectrumInputs, SpectrumRecogniser};
+use classifiers::recogniser::{Recogniser, first_outcome, outcomes};
 use rows::Random;
-use tactile::imp::{Band, ImpError, ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
-use tactile::mlp::train::{Options, Trainer};
-use tactile::mlp::{MlpError, Network, Shape, SpectrumInputs, SpectrumRecogniser};
-use tactile::recogniser::{Recogniser, first_outcome, outcomes};
 
 const RATE_HZ: f64 = 2000.0;
 

@@ -3,7 +3,8 @@
 use zerocopy::{FromBytes, Immutable, KnownLayout};
 
 use super::error::MlpError;
-use super::format::{MAX_SCALED, MAX_WEIGHT, body, check_shape};
+use super::format::{body, check_shape};
+use super::limits::{MAX_SCALED, MAX_WEIGHT};
 use super::logistic::logistic;
 
 /// One input: its scale, and its weight in each of H hidden units. They lie
@@ -66,7 +67,7 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
     }
 
     /// Reads a network in place. `bytes` must be the file and no more, on a
-    /// four-byte boundary: [`crate::include_model`] sees to that.
+    /// four-byte boundary: [`tactile::include_model`] sees to that.
     ///
     /// # Errors
     ///

@@ -24,7 +24,7 @@
 //!
 //! | form | numbers | for |
 //! |---|---|---|
-//! | `Network` (feature `study`) | f64 | learning, experiments |
+//! | `Network` (feature `train`) | f64 | learning, experiments |
 //! | [`Mlp`] | f32 | parts with an FPU |
 //! | [`FixedMlp`] | 16-bit weights, 32-bit sums | parts without |
 //!
@@ -45,22 +45,23 @@
 mod error;
 mod fixed;
 mod format;
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 mod gradient;
+mod limits;
 mod logistic;
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 mod network;
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 mod recogniser;
 mod single;
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 pub mod train;
 
 pub use error::MlpError;
 pub use fixed::{FixedInput, FixedMlp, FixedMlpState};
-pub use format::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_SCALED, MAX_WEIGHT, MLP_VERSION};
-#[cfg(feature = "study")]
+pub use limits::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_SCALED, MAX_WEIGHT, MLP_VERSION};
+#[cfg(feature = "train")]
 pub use network::{Network, Shape};
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 pub use recogniser::{SPECTRUM_BINS, SpectrumInputs, SpectrumRecogniser};
 pub use single::{Mlp, MlpInput, MlpState};

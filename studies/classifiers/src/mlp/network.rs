@@ -6,7 +6,8 @@ use std::vec::Vec;
 
 use super::error::MlpError;
 use super::fixed::FixedMlp;
-use super::format::{MAX_SCALED, MAX_WEIGHT, check_shape, write};
+use super::format::{check_shape, write};
+use super::limits::{MAX_SCALED, MAX_WEIGHT};
 use super::single::Mlp;
 
 /// Units of a network.

@@ -1,10 +1,10 @@
 //! Templates against the sum of the definition, and the board's against the PC's.
 
+use classifiers::FitError;
+use classifiers::recogniser::{Recogniser, first_outcome};
+use classifiers::template::{Template, WrongShape};
+use classifiers::template_train::{TemplateTrainer, Templates};
 use proptest::prelude::*;
-use tactile::FitError;
-use tactile::recogniser::{Recogniser, first_outcome};
-use tactile::template::{Template, WrongShape};
-use tactile::template_train::{TemplateTrainer, Templates};
 
 const CHANNELS: usize = 2;
 const CLASSES: usize = 3;

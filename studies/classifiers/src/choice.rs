@@ -40,7 +40,7 @@ impl Choice {
     }
 }
 
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 impl From<Choice> for crate::recogniser::Outcome {
     fn from(choice: Choice) -> Self {
         Self {

@@ -7,18 +7,14 @@
 //! - **segment**: the samples of one trial, whisk or window.
 //! - **outcome**: the class that a recogniser names, and after how many samples.
 //!
-//! [`Bayes`] wraps the three rules of [`crate::dynamic`]; [`Picked`] lets a
+//! [`Bayes`] wraps the three rules of [`tactile::dynamic`]; [`Picked`] lets a
 //! recogniser hear only some channels (x alone, y alone, one whisker).
 
 use std::boxed::Box;
 use std::vec::Vec;
 
-use crate::decision::Decision;
-use crate::dynamic::{self, Classifier};
-use crate::error::SetupError;
-use crate::model::Model;
-use crate::quantiser::Quantiser;
-use crate::sequential::Threshold;
+use tactile::dynamic::{self, Classifier};
+use tactile::{Decision, Model, Quantiser, SetupError, Threshold};
 
 /// What a recogniser found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +59,7 @@ impl<R: Recogniser + ?Sized> Recogniser for Box<R> {
 /// even at the end, or there are no channels.
 ///
 /// ```
-/// use tactile::recogniser::{Outcome, Recogniser, first_outcome};
+/// use classifiers::recogniser::{Outcome, Recogniser, first_outcome};
 ///
 /// /// Counts.
 /// struct Third(u32);
@@ -128,7 +124,7 @@ pub struct Bayes<'m> {
 }
 
 impl<'m> Bayes<'m> {
-    /// Sequential analysis (LEP12); see [`crate::Sequential`].
+    /// Sequential analysis (LEP12); see [`tactile::Sequential`].
     ///
     /// # Errors
     ///
@@ -137,7 +133,7 @@ impl<'m> Bayes<'m> {
         dynamic::sequential(model, threshold).map(|c| Self::new(model, c))
     }
 
-    /// Maximum likelihood over windows (LEP10); see [`crate::Window`].
+    /// Maximum likelihood over windows (LEP10); see [`tactile::Window`].
     ///
     /// # Errors
     ///
@@ -147,7 +143,7 @@ impl<'m> Bayes<'m> {
     }
 
     /// Stationary naive Bayes (BIOTACT eq. 15–16), which decides at the end of
-    /// a segment; see [`crate::Stationary`].
+    /// a segment; see [`tactile::Stationary`].
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The file of a network, and the limits that all forms keep to.
+//! The file of a network.
 //!
 //! Little-endian, read in place: a header, for each input its offset, gain and
 //! H weights, H biases, for each output its H weights, O biases (all f32), and
@@ -8,22 +8,8 @@ use zerocopy::little_endian::U16;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use super::error::MlpError;
-use crate::format::{CRC_BYTES, checksum};
-
-/// Version of the file that this code writes and reads.
-pub const MLP_VERSION: u16 = 1;
-
-/// Most inputs of a network.
-pub const MAX_INPUTS: usize = 4096;
-/// Most hidden units.
-pub const MAX_HIDDEN: usize = 1024;
-/// Most outputs, that is classes.
-pub const MAX_OUTPUTS: usize = 256;
-/// Largest weight or bias: with [`MAX_SCALED`] and [`MAX_INPUTS`], a drive
-/// stays below 2⁴³, far from what an f32 can hold.
-pub const MAX_WEIGHT: f32 = 1_048_576.0;
-/// Largest scaled input, standard deviations; what lies beyond counts as this.
-pub const MAX_SCALED: f32 = 1024.0;
+use super::limits::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MLP_VERSION};
+use tactile::{CRC_BYTES, checksum};
 
 const MAGIC: [u8; 4] = *b"WMLP";
 
@@ -91,7 +77,7 @@ pub(super) fn body(
 }
 
 /// The file of a network whose shape is checked.
-#[cfg(feature = "study")]
+#[cfg(feature = "train")]
 pub(super) fn write(
     inputs: usize,
     hidden: usize,

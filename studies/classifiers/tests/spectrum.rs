@@ -1,8 +1,8 @@
 //! The spectrum against closed forms and NumPy, and the board's against the PC's.
 
+use classifiers::spectrum::{Bank, Bins, Measure, Spectrum, SpectrumError};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
-use tactile::spectrum::{Bank, Bins, Measure, Spectrum, SpectrumError};
 
 /// The sum of the definition.
 fn dft(x: &[f64], points: u32, k: u32) -> f64 {

@@ -1,10 +1,10 @@
 //! What classifiers keep in memory and in flash, as their documentation says.
 
-use tactile::features::FeaturesState;
-use tactile::polynomial::Term;
-use tactile::spectral_template::SpectralState;
-use tactile::spectrum::{Bank, BankState};
-use tactile::template::TemplateState;
+use classifiers::features::FeaturesState;
+use classifiers::polynomial::Term;
+use classifiers::spectral_template::SpectralState;
+use classifiers::spectrum::{Bank, BankState};
+use classifiers::template::TemplateState;
 
 #[test]
 fn states_and_tables_have_their_sizes() {

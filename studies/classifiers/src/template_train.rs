@@ -8,9 +8,9 @@ use std::vec::Vec;
 use crate::choice::Choice;
 use crate::fit_error::FitError;
 use crate::means::{Means, check_segment, check_window};
-use crate::quantiser::Quantiser;
 use crate::recogniser::{Outcome, Recogniser};
 use crate::template::add_squares;
+use tactile::Quantiser;
 
 /// Adds up the training signals.
 #[derive(Debug, Clone)]

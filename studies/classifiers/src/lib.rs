@@ -1,0 +1,54 @@
+//! The classifiers that the papers compare with the product's (`tactile`), and
+//! that no scene names. Like the product's they stream: a sample changes a
+//! small state, and nothing is kept that grows with the block.
+//!
+//! | module | decides | source |
+//! |---|---|---|
+//! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
+//! | [`spectral_template`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
+//! | [`features`] | by a [`polynomial`] of peak, slope and spectrum | POSE eq. 3–7 |
+//! | [`mlp`] | by a network with one hidden layer, an input at a time | LEP12 section 5.2, PSIK section 3.2.1 |
+//! | [`imp`] | by the vibrations of a whisker pad | PSIK section 3.1 |
+//!
+//! Templates and vibrations are integers, spectra single precision, networks
+//! either.
+//!
+//! # Features
+//!
+//! - `train`: training them (`template_train`, `spectral_train`,
+//!   `feature_train`, `regression`, `mlp::train`), naive Bayes in the forms that
+//!   the papers compare (`bayes`), and one way to ask any classifier
+//!   (`recogniser`). It brings std, FFT, linear algebra and an optimiser.
+//!
+//! Without it the crate is `no_std`: what a board would run, and what is counted.
+#![cfg_attr(not(test), no_std)]
+
+#[cfg(feature = "train")]
+extern crate std;
+
+#[cfg(feature = "train")]
+pub mod bayes;
+mod choice;
+#[cfg(feature = "train")]
+pub mod feature_train;
+pub mod features;
+mod fit_error;
+pub mod imp;
+#[cfg(feature = "train")]
+mod means;
+pub mod mlp;
+pub mod polynomial;
+#[cfg(feature = "train")]
+pub mod recogniser;
+#[cfg(feature = "train")]
+pub mod regression;
+pub mod spectral_template;
+#[cfg(feature = "train")]
+pub mod spectral_train;
+pub mod spectrum;
+pub mod template;
+#[cfg(feature = "train")]
+pub mod template_train;
+
+pub use choice::Choice;
+pub use fit_error::FitError;
