@@ -26,12 +26,12 @@ mod state;
 mod surface;
 mod swing;
 mod touching;
-mod vector;
+pub mod vector;
 mod whiskers;
 
 pub use beam::{Mode, Modes};
 pub use error::BadSetting;
-pub use noise::Noise;
+pub use noise::{Noise, box_muller};
 pub use pose::{Plate, Pose};
 pub use resonator::{Propagator, Resonator};
 pub use sensor::SensorSettings;

@@ -27,17 +27,25 @@ impl Noise {
         ((self.random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
     }
 
-    /// The next number (Box and Muller), at most 8.6 in size.
+    /// The next number, at most 8.6 in size.
     #[expect(clippy::should_implement_trait, reason = "the stream has no end")]
     pub fn next(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
             return spare;
         }
-        let radius = (-2.0 * libm::log(self.uniform())).sqrt();
-        let (sine, cosine) = libm::sincos(TAU * self.uniform());
-        self.spare = Some(radius * sine);
-        radius * cosine
+        let [number, spare] = box_muller([self.uniform(), self.uniform()]);
+        self.spare = Some(spare);
+        number
     }
+}
+
+/// Two independent standard normal numbers from two uniform ones, the first in
+/// (0, 1], the second in \[0, 1\]: √(−2 ln u₁) times cosine and sine of 2π u₂
+/// (Box and Muller 1958).
+pub fn box_muller([first, second]: [f64; 2]) -> [f64; 2] {
+    let radius = (-2.0 * libm::log(first)).sqrt();
+    let (sine, cosine) = libm::sincos(TAU * second);
+    [radius * cosine, radius * sine]
 }
 
 #[cfg(test)]
@@ -45,7 +53,7 @@ mod tests {
     use super::Noise;
 
     #[test]
-    fn moments_are_a_standard_normal_s_and_successors_independent() {
+    fn moments_are_those_of_a_standard_normal_and_successors_independent() {
         let mut noise = Noise::new(5);
         let count = 1_000_000;
         let (mut moments, mut product, mut last) = ([0.0; 4], 0.0, 0.0);
