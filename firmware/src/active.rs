@@ -2,7 +2,7 @@
 //! each whisker.
 
 use whisking::motor::{self, MotorDriver, StallConfig, StallGuard};
-use whisking::{Real, pd};
+use whisking::{PatternGenerator, Real, pd};
 
 use crate::io::AngleInput;
 use crate::sensing::Reading;

@@ -7,7 +7,9 @@ mod common;
 use acceptance::claims::{Claim, Figure, Quantity, RUN_S, TABLE};
 use acceptance::reference::{Row, Settings};
 use whisking::gate::Gate;
-use whisking::{GateSettings, Integrator, Start, State, degrees, filter, gate, muscle};
+use whisking::{
+    GateSettings, Integrator, PatternGenerator, Start, State, degrees, filter, gate, muscle,
+};
 
 fn measure(claim: &Claim, settings: &Settings, rows: &[Row]) -> f64 {
     claim

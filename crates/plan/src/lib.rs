@@ -172,7 +172,7 @@ pub fn contact<R: Real>(scene: &Scene) -> Result<Option<filter::Config<R>>, Mism
 mod tests {
     use super::{Mismatch, contact, motion};
     use scene::Scene;
-    use whisking::State;
+    use whisking::{State, oscillator::OscillatorIntegrator};
 
     const SCENE: &str = r#"
 name = "rcp7"

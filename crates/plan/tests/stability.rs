@@ -3,7 +3,8 @@
 
 use plan::{Instability, Mismatch, Unstable, cautions, check, motion};
 use scene::Scene;
-use whisking::{Integrator, Settings, State, oscillator::Psi};
+use whisking::oscillator::{OscillatorIntegrator, Psi};
+use whisking::{Integrator, PatternGenerator, Settings, State};
 
 fn scene(frequency_hz: f64, tick_hz: u32, integrator: &str, tau_s: [f64; 2]) -> Scene {
     let [rcp, cia] = tau_s;

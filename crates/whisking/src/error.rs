@@ -1,6 +1,9 @@
 //! What is wrong with settings: one small value that names the parameter.
 
 use core::fmt;
+use core::ops::RangeInclusive;
+
+use crate::ranges;
 
 /// A setting that can be refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,9 +36,13 @@ pub struct Error {
 }
 
 impl Error {
-    /// `value` when it lies within `lo..=hi` (a NaN lies nowhere), otherwise the error.
-    pub(crate) fn check(parameter: Parameter, value: f64, lo: f64, hi: f64) -> Result<f64, Self> {
-        if (lo..=hi).contains(&value) {
+    /// `value` if it lies within `range` (a NaN lies in none), otherwise the error.
+    pub(crate) fn check(
+        parameter: Parameter,
+        value: f64,
+        range: &RangeInclusive<f64>,
+    ) -> Result<f64, Self> {
+        if range.contains(&value) {
             Ok(value)
         } else {
             Err(Self { parameter })
@@ -45,27 +52,45 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let gate = format_args!(
+            "a gain of {}, a time constant of {:e} to {:e} s",
+            Allowed(&ranges::GATE_GAIN),
+            ranges::GATE_TAU_S.start(),
+            ranges::GATE_TAU_S.end(),
+        );
         let (name, allowed) = match self.parameter {
-            Parameter::TickHz => ("tick rate", "200 to 20,000 Hz"),
-            Parameter::Frequency => ("whisk frequency", "0.05 to 25 Hz"),
-            Parameter::Noise => ("noise", "0 to 1"),
-            Parameter::Gain => ("nominal gain", "0 to 2"),
-            Parameter::Start => ("start state", "-1.5 to 1.5"),
-            Parameter::Rcp => (
-                "RCP",
-                "a gain of 0 to 100, a time constant of 1e-6 to 1e5 s",
+            Parameter::TickHz => (
+                "tick rate",
+                format_args!("{} Hz", Allowed(&ranges::TICK_HZ)),
             ),
-            Parameter::Cia => (
-                "CIA",
-                "a gain of 0 to 100, a time constant of 1e-6 to 1e5 s",
+            Parameter::Frequency => (
+                "whisk frequency",
+                format_args!("{} Hz", Allowed(&ranges::FREQUENCY_HZ)),
             ),
-            Parameter::Corner => ("corner frequency", "above zero, below half the tick rate"),
+            Parameter::Noise => ("noise", format_args!("{}", Allowed(&ranges::NOISE))),
+            Parameter::Gain => ("nominal gain", format_args!("{}", Allowed(&ranges::GAIN))),
+            Parameter::Start => ("start state", format_args!("{}", Allowed(&ranges::PSI))),
+            Parameter::Rcp => ("RCP", gate),
+            Parameter::Cia => ("CIA", gate),
+            Parameter::Corner => (
+                "corner frequency",
+                format_args!("above zero, below half the tick rate"),
+            ),
             Parameter::Pd => (
                 "position control",
-                "finite, not negative, minimum below maximum",
+                format_args!("finite, not negative, minimum below maximum"),
             ),
         };
         write!(f, "{name} out of range: allowed is {allowed}")
+    }
+}
+
+/// A range as text.
+struct Allowed<'a>(&'a RangeInclusive<f64>);
+
+impl fmt::Display for Allowed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} to {}", self.0.start(), self.0.end())
     }
 }
 

@@ -24,6 +24,7 @@ pub const CORNER_HZ: f64 = 50.0;
 
 /// Coefficients of one third-order Butterworth low-pass filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::filter))]
 pub struct Config<R: Real> {
     /// g/(1 + g) of the first-order section.
     pub first: R::Coefficient,

@@ -17,6 +17,7 @@ pub struct Gate<R: Real> {
 
 /// What one tick takes of an exponential decay.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
 pub struct Decay<R: Real> {
     /// 1 − exp(−T/τ), or its first-order value T/τ in the papers' integrator,
     /// at most 1.
@@ -33,6 +34,7 @@ const SLOW: f64 = 1.0 / 256.0;
 
 /// Rapid cessation of protraction (eq. 10): z = ⟨max(z − decay · z, σ_z π)⟩ on \[0, 1\].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
 pub struct Rcp<R: Real> {
     /// Decay of z with τ_z.
     pub decay: Decay<R>,
@@ -43,6 +45,7 @@ pub struct Rcp<R: Real> {
 /// Contact-induced asymmetry (eqs. 12 and 13): g returns to its nominal value
 /// and is lifted to g_nominal + σ_g ζ, on \[0, 2\].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
 pub struct Cia<R: Real> {
     /// Return of g with τ_g.
     pub decay: Decay<R>,

@@ -23,12 +23,14 @@
 //!
 //! [`Settings`] (physical units, f64) are checked and turned into a [`Config`]
 //! and a [`Start`] of the number format `R` outside the tick; the tick is
-//! [`Config::step`] on a small [`State`] and cannot fail. `Config` and `Start`
-//! print (`{:?}`) as Rust expressions, so a build script can make them
-//! constants: what a constant configuration leaves out (`None`, the other
-//! integrator) the compiler leaves out too.
+//! [`PatternGenerator::step`] on a small [`State`] and cannot fail. The parts of
+//! a `Config` are types: a board names those that its scene has, and the others
+//! are not in its program. With the feature `bake` a build script writes the
+//! type and the value of a configuration as Rust source ([`Config::source`]).
 #![cfg_attr(not(test), no_std)]
 
+#[cfg(feature = "bake")]
+mod bake;
 mod error;
 pub mod filter;
 pub mod gate;
@@ -37,18 +39,23 @@ mod math;
 pub mod motor;
 pub mod muscle;
 pub mod noise;
+mod optional;
 pub mod oscillator;
 pub mod pd;
+pub mod ranges;
 mod real;
 mod settings;
 mod start;
 mod step;
 
+#[cfg(feature = "bake")]
+pub use bake::Source;
 pub use error::{Error, Parameter};
-pub use real::{Factor, Factors, FineFactor, Fix, Real};
+pub use optional::{Absent, Optional, Present};
+pub use real::{Constant, Factor, Factors, FineFactor, Fix, Real};
 pub use settings::{GateSettings, Integrator, Settings};
 pub use start::Start;
-pub use step::{Config, State, Whisker};
+pub use step::{Config, PatternGenerator, State, Whisker};
 
 /// Degrees of the motor a unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
 pub const DEGREES_PER_UNIT: f64 = 100.0;

@@ -26,8 +26,20 @@ const STIFFNESS: f64 = 10.0;
 /// ν/√(k m).
 const DAMPING: f64 = 4.0;
 
-/// Which integrator steps the muscles, with its constants.
+/// Steps a muscle.
+pub trait MuscleIntegrator<R: Real> {
+    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9, `before`
+    /// and `after` the drive W at the two ends of the tick.
+    ///
+    /// The force is between 0 and 1 and both integrators are bounded for bounded
+    /// forces: where the drives are those of an oscillator from the start on, |θ|
+    /// stays below 2.5 and what is kept below 5, at any f_W T and for any gains.
+    fn step(&self, state: &mut State<R>, gain: R, before: R, after: R);
+}
+
+/// An integrator chosen at run time, with its constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
@@ -37,6 +49,7 @@ pub enum Config<R: Real> {
 
 /// f at the last tick and its backward differences; unused by Euler.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct History<R> {
     /// f, ∇f, ∇²f, ∇³f.
     pub force: [R; 4],
@@ -79,18 +92,12 @@ impl<R: Real> State<R> {
     }
 }
 
-impl<R: Real> Config<R> {
-    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9, `before`
-    /// and `after` the drive W at the two ends of the tick.
-    ///
-    /// The force is between 0 and 1 and both integrators are bounded for bounded
-    /// forces: where the drives are those of an oscillator from the start on, |θ|
-    /// stays below 2.5 and what is kept below 5, at any f_W T and for any gains.
+impl<R: Real> MuscleIntegrator<R> for Config<R> {
     #[inline]
-    pub fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
+    fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
         match self {
-            Self::Euler(euler) => euler.step(state, gain, before),
-            Self::Exact(exact) => exact.step(state, gain, after),
+            Self::Euler(euler) => euler.step(state, gain, before, after),
+            Self::Exact(exact) => exact.step(state, gain, before, after),
         }
     }
 }

@@ -79,6 +79,7 @@ fn normal_q24(word: u32) -> i32 {
 
 /// Amplitude and filter of the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::noise))]
 pub struct Config<R: Real> {
     /// 4 T σ_η √(tick rate/2 kHz): what is filtered is a quarter of η, so that
     /// no format has to hold 4.9.

@@ -14,6 +14,7 @@ mod exact;
 mod tests;
 
 pub use euler::Euler;
+pub(crate) use exact::keep;
 pub use exact::{Exact, Linear, Turn};
 
 use crate::Real;
@@ -34,7 +35,8 @@ pub struct State<R: Real, const S: usize> {
 }
 
 impl<R: Real, const S: usize> State<R, S> {
-    /// From what [`keep`] made of the ψ to start from.
+    /// From [`Start::oscillators`](crate::Start::oscillators): ψ itself for
+    /// [`Euler`], half a tick before it by modes for [`Exact`].
     pub fn new(kept: [Psi<R>; S]) -> Self {
         Self {
             kept,
@@ -43,8 +45,22 @@ impl<R: Real, const S: usize> State<R, S> {
     }
 }
 
-/// Which integrator steps the oscillators, with its constants.
+/// Steps the oscillators.
+pub trait OscillatorIntegrator<R: Real> {
+    /// One tick. `noise` is T P_i (eq. 5); each state is limited to ±1.5
+    /// afterwards, NaN included.
+    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>);
+
+    /// ψ_1 of every side, which drives its muscles; within ±1.5 to rounding.
+    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S];
+
+    /// ψ of every side.
+    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S];
+}
+
+/// An integrator chosen at run time, with its constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
@@ -52,32 +68,27 @@ pub enum Config<R: Real> {
     Exact(Exact<R>),
 }
 
-impl<R: Real> Config<R> {
-    /// One tick. `noise` is T P_i (eq. 5); each state is limited to ±1.5
-    /// afterwards, NaN included.
+impl<R: Real> OscillatorIntegrator<R> for Config<R> {
     #[inline]
-    pub fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
+    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
         match self {
             Self::Euler(euler) => euler.step(state, noise),
             Self::Exact(exact) => exact.step(state, noise),
         }
     }
 
-    /// ψ_1 of every side, which drives its muscles; within ±1.5 to rounding.
     #[inline]
-    pub fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
+    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
         match self {
-            Self::Euler(_) => state.kept.map(|[drive, _]| drive),
-            Self::Exact(exact) => exact.drives(&state.kept),
+            Self::Euler(euler) => euler.drives(state),
+            Self::Exact(exact) => exact.drives(state),
         }
     }
 
-    /// ψ of every side.
-    pub fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
+    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
         match self {
-            Self::Euler(_) => state.kept,
-            // Rounding may lead out of a corner.
-            Self::Exact(exact) => exact.psi(&state.kept).map(limited),
+            Self::Euler(euler) => euler.psi(state),
+            Self::Exact(exact) => exact.psi(state),
         }
     }
 }
@@ -94,19 +105,6 @@ fn pull<R: Real>([a, b]: Psi<R>, share: R::Fine) -> Psi<R> {
     match R::unit(a, b) {
         Some([x, y]) => [(x - a).times_fine(share), (y - b).times_fine(share)],
         None => [R::ONE.times_fine(share), R::ZERO],
-    }
-}
-
-/// What the integrator of `config` keeps of the ψ to start from. `cycles` is f_W T.
-pub(crate) fn keep<R: Real, const S: usize>(
-    config: &Config<R>,
-    psi: &[Psi<f64>; S],
-    cycles: f64,
-    coupling: bool,
-) -> [Psi<f64>; S] {
-    match config {
-        Config::Euler(_) => *psi,
-        Config::Exact(_) => exact::keep(psi, cycles, coupling),
     }
 }
 

@@ -8,6 +8,7 @@
 //! register, and integers are limited at half the cost.
 
 use crate::motor::Duty;
+use crate::ranges::pd as ranges;
 use crate::{DEGREES_PER_UNIT, Error, Parameter, Real, protraction};
 
 /// Corner of the low-pass on the measured velocity, Hz.
@@ -20,24 +21,26 @@ const FULL: f64 = 16_777_216.0;
 /// Gains and limits in physical units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// k_p, duty a degree of error.
+    /// k_p, duty per degree of error, within [`ranges::KP`].
     pub kp: f64,
-    /// k_d, duty a degree a second.
+    /// k_d, duty per degree per second, within [`ranges::KD`].
     pub kd: f64,
-    /// Largest duty, 0 to 1.
+    /// Largest duty, within [`ranges::LIMIT`].
     pub limit: f64,
-    /// Largest change of the duty, a second.
+    /// Largest change of the duty per second, within [`ranges::SLEW_PER_S`].
     pub slew_per_s: f64,
-    /// Lowest setpoint, degrees θ'.
+    /// Lowest setpoint in degrees θ', within [`ranges::ANGLE_DEG`].
     pub min_deg: f64,
-    /// Highest setpoint, degrees θ'.
+    /// Highest setpoint in degrees θ', `min_deg` or more, within [`ranges::ANGLE_DEG`].
     pub max_deg: f64,
-    /// Degrees of the whisker a count of the encoder.
+    /// Degrees of the whisker per count of the encoder, within
+    /// [`ranges::DEGREES_PER_COUNT`].
     pub degrees_per_count: f64,
 }
 
 /// The same a tick and a unit of protraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::pd))]
 pub struct Config<R: Real> {
     /// Duty a unit of error.
     pub kp: R::Coefficient,
@@ -71,15 +74,15 @@ impl Settings {
     /// [`Parameter::Pd`] if a value is not finite, negative where it must not
     /// be, or the lowest setpoint is not below the highest.
     pub fn build<R: Real>(&self, tick_hz: f64) -> Result<Config<R>, Error> {
-        let check = |value, lo, hi| Error::check(Parameter::Pd, value, lo, hi);
-        check(tick_hz, f64::MIN_POSITIVE, f64::MAX)?;
-        check(self.kp, 0.0, 1e6)?;
-        check(self.kd, 0.0, 1e6)?;
-        check(self.limit, 0.0, 1.0)?;
-        check(self.slew_per_s, 0.0, 1e12)?;
-        check(self.min_deg, -1e4, 1e4)?;
-        check(self.max_deg, self.min_deg, 1e4)?;
-        check(self.degrees_per_count, 0.0, 360.0)?;
+        let check = |value, range: &_| Error::check(Parameter::Pd, value, range);
+        check(tick_hz, &(f64::MIN_POSITIVE..=f64::MAX))?;
+        check(self.kp, &ranges::KP)?;
+        check(self.kd, &ranges::KD)?;
+        check(self.limit, &ranges::LIMIT)?;
+        check(self.slew_per_s, &ranges::SLEW_PER_S)?;
+        check(self.min_deg, &ranges::ANGLE_DEG)?;
+        check(self.max_deg, &(self.min_deg..=*ranges::ANGLE_DEG.end()))?;
+        check(self.degrees_per_count, &ranges::DEGREES_PER_COUNT)?;
         let smooth = -libm::expm1(-core::f64::consts::TAU * VELOCITY_CORNER_HZ / tick_hz);
         Ok(Config {
             kp: R::coefficient(self.kp * DEGREES_PER_UNIT),

@@ -10,6 +10,23 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 pub use fix::{Factor, Factors, FineFactor, Fix};
 
+/// A constant of the tick, as configurations hold it; with the feature `bake`
+/// one that can be written as Rust source.
+#[cfg(not(feature = "bake"))]
+pub trait Constant: Copy + Debug + PartialEq + 'static {}
+#[cfg(not(feature = "bake"))]
+impl<T: Copy + Debug + PartialEq + 'static> Constant for T {}
+
+/// A constant of the tick, as configurations hold it, that can be written as
+/// Rust source.
+#[cfg(feature = "bake")]
+pub trait Constant:
+    Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize
+{
+}
+#[cfg(feature = "bake")]
+impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize> Constant for T {}
+
 /// A number format of the tick.
 ///
 /// States lie within ±4. Constants of the tick have types of their own,
@@ -17,25 +34,22 @@ pub use fix::{Factor, Factors, FineFactor, Fix};
 /// its digits. Stated errors are the largest absolute ones in f32 and in
 /// [`Fix`], measured by the tests of this crate.
 pub trait Real:
-    Copy
-    + Debug
+    Constant
     + Default
-    + PartialEq
     + PartialOrd
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Neg<Output = Self>
-    + 'static
 {
     /// A constant of the tick, to multiply with.
-    type Coefficient: Copy + Debug + PartialEq + 'static;
+    type Coefficient: Constant;
 
     /// A constant below one whose error would gather over many ticks.
-    type Fine: Copy + Debug + PartialEq + 'static;
+    type Fine: Constant;
 
     /// `K` constants below one of the tick that are used together and share a scale.
-    type Row<const K: usize>: Copy + Debug + PartialEq + 'static;
+    type Row<const K: usize>: Constant;
 
     /// What rounding took from a long sum.
     type Carry: Copy + Debug + Default + PartialEq + 'static;

@@ -2,7 +2,7 @@
 
 use crate::step::Config;
 use crate::{Error, Parameter, Real};
-use crate::{gate, muscle, noise, oscillator};
+use crate::{gate, muscle, noise, oscillator, ranges};
 
 /// How oscillators, muscles and gates are stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,24 +16,24 @@ pub enum Integrator {
 /// Gain and time constant of a modulation by contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GateSettings {
-    /// σ_z or σ_g, 0 to 100.
+    /// σ_z or σ_g, within [`ranges::GATE_GAIN`].
     pub gain: f64,
-    /// τ_z or τ_g in seconds, 1e-6 to 1e5.
+    /// τ_z or τ_g in seconds, within [`ranges::GATE_TAU_S`].
     pub tau_s: f64,
 }
 
 /// The pattern generator and its modulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Control rate 1/T, 200 to 20,000 Hz.
+    /// Control rate 1/T in Hz, within [`ranges::TICK_HZ`].
     pub tick_hz: f64,
-    /// Whisk frequency f_W, 0.05 to 25 Hz.
+    /// Whisk frequency f_W in Hz, within [`ranges::FREQUENCY_HZ`].
     pub frequency_hz: f64,
     /// Which integrator.
     pub integrator: Integrator,
     /// Whether the sides pull each other into phase (eq. 4).
     pub coupling: bool,
-    /// σ_η of eq. 5, 0 to 1; 0 leaves the noise out.
+    /// σ_η of eq. 5, within [`ranges::NOISE`]; 0 leaves the noise out.
     pub noise: f64,
     /// RCP (eq. 10); `None` leaves it out.
     pub rcp: Option<GateSettings>,
@@ -42,10 +42,10 @@ pub struct Settings {
 }
 
 impl GateSettings {
-    fn check(self, parameter: Parameter) -> Result<Self, Error> {
-        Error::check(parameter, self.gain, 0.0, 100.0)?;
-        Error::check(parameter, self.tau_s, 1e-6, 1e5)?;
-        Ok(self)
+    fn check(self, parameter: Parameter) -> Result<(), Error> {
+        Error::check(parameter, self.gain, &ranges::GATE_GAIN)?;
+        Error::check(parameter, self.tau_s, &ranges::GATE_TAU_S)?;
+        Ok(())
     }
 }
 
@@ -57,9 +57,18 @@ impl Settings {
 
     /// Checks the settings.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        Error::check(Parameter::TickHz, self.tick_hz, 200.0, 20_000.0)?;
-        Error::check(Parameter::Frequency, self.frequency_hz, 0.05, 25.0)?;
-        Error::check(Parameter::Noise, self.noise, 0.0, 1.0)?;
+        Error::check(Parameter::TickHz, self.tick_hz, &ranges::TICK_HZ)?;
+        Error::check(
+            Parameter::Frequency,
+            self.frequency_hz,
+            &ranges::FREQUENCY_HZ,
+        )?;
+        Error::check(Parameter::Noise, self.noise, &ranges::NOISE)?;
+        for (gate, parameter) in [(self.rcp, Parameter::Rcp), (self.cia, Parameter::Cia)] {
+            if let Some(gate) = gate {
+                gate.check(parameter)?;
+            }
+        }
         Ok(())
     }
 
@@ -83,17 +92,15 @@ impl Settings {
         let decay = |settings: GateSettings| {
             gate::Decay::new(settings.tau_s * self.tick_hz, self.integrator)
         };
-        let rcp = self.rcp.map(|rcp| rcp.check(Parameter::Rcp)).transpose()?;
-        let cia = self.cia.map(|cia| cia.check(Parameter::Cia)).transpose()?;
         Ok(Config {
             oscillators,
             muscle,
             peak_gain: R::from_f64(muscle::PEAK_GAIN),
-            rcp: rcp.map(|rcp| gate::Rcp {
+            rcp: self.rcp.map(|rcp| gate::Rcp {
                 decay: decay(rcp),
                 gain: R::coefficient(rcp.gain),
             }),
-            cia: cia.map(|cia| gate::Cia {
+            cia: self.cia.map(|cia| gate::Cia {
                 decay: decay(cia),
                 gain: R::coefficient(cia.gain),
             }),

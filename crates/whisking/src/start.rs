@@ -9,10 +9,11 @@
 
 use crate::muscle::{self, History, PEAK_GAIN, acceleration, pace};
 use crate::oscillator::{self, Psi, field};
-use crate::{Error, Integrator, Parameter, Real, Settings};
+use crate::{Error, Integrator, Parameter, Real, Settings, ranges};
 
-/// Constants of the start of a run; prints as a Rust expression.
+/// Constants of the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Start<R, const S: usize, const N: usize> {
     /// What the integrator keeps of ψ of each side.
     pub oscillators: [Psi<R>; S],
@@ -88,19 +89,20 @@ impl Settings {
     /// The start from `psi` with whiskers of nominal gain `gain`, at rest.
     ///
     /// # Errors
-    /// [`Parameter::Start`] for a ψ beyond ±1.5, [`Parameter::Gain`] for a gain
-    /// outside 0 to 2, or what [`Settings::build`] refuses.
+    /// [`Parameter::Start`] for a ψ outside [`ranges::PSI`], [`Parameter::Gain`]
+    /// for a gain outside [`ranges::GAIN`], or what [`Settings::build`] refuses.
     pub fn start<R: Real, const S: usize, const N: usize>(
         &self,
         psi: [Psi<f64>; S],
         gain: [[f64; N]; S],
     ) -> Result<Start<R, S, N>, Error> {
         for x in psi.iter().flatten() {
-            Error::check(Parameter::Start, *x, -1.5, 1.5)?;
+            Error::check(Parameter::Start, *x, &ranges::PSI)?;
         }
         for g in gain.iter().flatten() {
-            Error::check(Parameter::Gain, *g, 0.0, 2.0)?;
+            Error::check(Parameter::Gain, *g, &ranges::GAIN)?;
         }
+        self.check()?;
         let mut history = [[History::default(); N]; S];
         if self.integrator == Integrator::Exact {
             for (side, (gains, histories)) in gain.iter().zip(&mut history).enumerate() {
@@ -109,8 +111,10 @@ impl Settings {
                 }
             }
         }
-        let config = self.build::<R>()?;
-        let kept = oscillator::keep(&config.oscillators, &psi, self.cycles(), self.coupling);
+        let kept = match self.integrator {
+            Integrator::Euler => psi,
+            Integrator::Exact => oscillator::keep(&psi, self.cycles(), self.coupling),
+        };
         Ok(Start {
             oscillators: kept.map(|p| p.map(R::from_f64)),
             drive: psi.map(|p| R::from_f64(p[0].drive())),
@@ -177,7 +181,7 @@ impl<R: Real, const S: usize, const N: usize> Start<R, S, N> {
 #[cfg(test)]
 mod tests {
     use super::{Equations, Joint};
-    use crate::{Fix, Integrator, Real, Settings, State};
+    use crate::{Fix, Integrator, PatternGenerator, Real, Settings, State};
 
     /// Largest error of θ' in degrees over ten whisks against 64 Runge-Kutta steps a tick.
     fn error<R: Real>(frequency_hz: f64, tick_hz: f64, gain: f64, psi: [[f64; 2]; 2]) -> f64 {

@@ -2,24 +2,48 @@
 //! muscles by whiskers.
 
 use crate::gate::{self, Gate};
-use crate::muscle;
-use crate::{Real, Start, noise, oscillator};
+use crate::muscle::{self, MuscleIntegrator};
+use crate::oscillator::{self, OscillatorIntegrator};
+use crate::{Optional, Real, Start, noise};
 
 /// Constants of the tick in number format `R`.
+///
+/// The parts are types. A board names concrete ones, such as
+/// [`oscillator::Exact`], [`Present`](crate::Present) and
+/// [`Absent`](crate::Absent), so that its program has the code of those alone;
+/// the defaults are chosen at run time, for simulations of any scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R: Real> {
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
+pub struct Config<
+    R: Real,
+    Oscillators = oscillator::Config<R>,
+    Muscle = muscle::Config<R>,
+    Rcp = Option<gate::Rcp<R>>,
+    Cia = Option<gate::Cia<R>>,
+    Noise = Option<noise::Config<R>>,
+> {
     /// The oscillators' integrator.
-    pub oscillators: oscillator::Config<R>,
+    pub oscillators: Oscillators,
     /// The muscles' integrator.
-    pub muscle: muscle::Config<R>,
+    pub muscle: Muscle,
     /// 1.45, the peak of the muscle gain (eq. 8).
     pub peak_gain: R,
     /// RCP, if the module has it.
-    pub rcp: Option<gate::Rcp<R>>,
+    pub rcp: Rcp,
     /// CIA, if the module has it.
-    pub cia: Option<gate::Cia<R>>,
+    pub cia: Cia,
     /// Noise, if the module has it.
-    pub noise: Option<noise::Config<R>>,
+    pub noise: Noise,
+}
+
+/// The pattern generator of a module: what steps its [`State`].
+pub trait PatternGenerator<R: Real> {
+    /// One tick. `contact` is π of each side (eq. 9), from the angle before
+    /// this tick: a muscle moves with the z and g that follow it.
+    ///
+    /// Whatever comes in, NaN included, the state stays finite and in its
+    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
+    fn step<const S: usize, const N: usize>(&self, state: &mut State<R, S, N>, contact: [R; S]);
 }
 
 /// One whisker: its muscle and its gain g.
@@ -80,19 +104,19 @@ impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
     }
 }
 
-impl<R: Real> Config<R> {
-    /// One tick. `contact` is π of each side (eq. 9), from the angle before
-    /// this tick: a muscle moves with the z and g that follow it.
-    ///
-    /// Whatever comes in, NaN included, the state stays finite and in its
-    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
+impl<R, Oscillators, Muscle, Rcp, Cia, Noise> PatternGenerator<R>
+    for Config<R, Oscillators, Muscle, Rcp, Cia, Noise>
+where
+    R: Real,
+    Oscillators: OscillatorIntegrator<R>,
+    Muscle: MuscleIntegrator<R>,
+    Rcp: Optional<gate::Rcp<R>>,
+    Cia: Optional<gate::Cia<R>>,
+    Noise: Optional<noise::Config<R>>,
+{
     #[inline]
-    pub fn step<const S: usize, const N: usize>(
-        &self,
-        state: &mut State<R, S, N>,
-        contact: [R; S],
-    ) {
-        if let Some(rcp) = &self.rcp {
+    fn step<const S: usize, const N: usize>(&self, state: &mut State<R, S, N>, contact: [R; S]) {
+        if let Some(rcp) = self.rcp.part() {
             for (z, pi) in state.z.iter_mut().zip(contact) {
                 rcp.step(z, pi);
             }
@@ -101,10 +125,7 @@ impl<R: Real> Config<R> {
         let stronger = contact.into_iter().reduce(|zeta, pi| pi.max(zeta));
         let zeta = stronger.unwrap_or(R::ZERO);
 
-        let noise = self
-            .noise
-            .as_ref()
-            .map(|noise| noise.step(&mut state.noise));
+        let noise = self.noise.part().map(|noise| noise.step(&mut state.noise));
         self.oscillators
             .step(&mut state.oscillators, noise.as_ref());
 
@@ -114,7 +135,7 @@ impl<R: Real> Config<R> {
             let after = drives[side].drive();
             let open = self.peak_gain * (R::ONE - state.z[side].mean);
             for whisker in whiskers {
-                if let Some(cia) = &self.cia {
+                if let Some(cia) = self.cia.part() {
                     cia.step(&mut whisker.lift, whisker.nominal, zeta);
                 }
                 let gain = open * (whisker.nominal + whisker.lift.mean);

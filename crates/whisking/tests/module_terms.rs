@@ -1,8 +1,9 @@
 //! Every term of the muscles, of the gain (BIOTACT eqs. 7 and 8) and of the
 //! position control's filter against the same written out in f64.
 
-use whisking::muscle::{self, PEAK_GAIN};
-use whisking::{Fix, GateSettings, Integrator, Real, Settings, State, pd};
+use whisking::muscle::{self, MuscleIntegrator, PEAK_GAIN};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, pd};
 
 fn settings(integrator: Integrator) -> Settings {
     Settings {

@@ -2,7 +2,7 @@
 //! far from the circle and near it, with one side and with two.
 
 use core::f64::consts::TAU;
-use whisking::oscillator::{self, Psi};
+use whisking::oscillator::{self, OscillatorIntegrator, Psi};
 use whisking::{Fix, Integrator, Real, Settings};
 
 const TICK_HZ: f64 = 2000.0;

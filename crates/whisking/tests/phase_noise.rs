@@ -6,7 +6,8 @@
 //! pulled back; along it nothing does, so the phase of a side alone walks with
 //! that variance, in rad².
 
-use whisking::{Integrator, Settings, State};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Integrator, PatternGenerator, Settings, State};
 
 /// Mean square of the phase after ten seconds, over `SEEDS` runs of two sides.
 fn variance(integrator: Integrator, tick_hz: f64) -> f64 {

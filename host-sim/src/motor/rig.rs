@@ -3,7 +3,7 @@
 
 use firmware::AngleInput;
 use whisking::motor::{HBridge, MotorDriver};
-use whisking::{GateSettings, Integrator, Settings, State, filter, pd};
+use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, filter, pd};
 
 use super::{MotorSettings, SimDir, SimEncoder, SimMotor, SimPwm};
 

@@ -3,6 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use whisking::muscle::MuscleIntegrator;
+use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Config, Fix, Integrator, Real, muscle, oscillator};
 
 use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};

@@ -2,7 +2,8 @@
 //! back to normal afterwards. The same is a test with more levels
 //! (`tests/tests/stability`); here stand its figures.
 
-use whisking::{Fix, GateSettings, Integrator, Real, Settings, State, filter};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};
 
 use super::page::{Page, short};
 use super::schemes::refused;

@@ -2,7 +2,7 @@
 //! jumps.
 
 use whisking::gate::Gate;
-use whisking::{Fix, GateSettings, Integrator, Real, Settings, State};
+use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State};
 
 use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
 use super::page::{Page, short};

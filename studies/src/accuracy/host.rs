@@ -5,7 +5,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use whisking::{Fix, Integrator, Real, State};
+use whisking::{Fix, Integrator, PatternGenerator, Real, State};
 
 use super::contact::{self, Against};
 use super::functions::{Function, Maker, point};

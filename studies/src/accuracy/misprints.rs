@@ -7,7 +7,8 @@
 
 pub(crate) mod figures;
 
-use whisking::{Integrator, State};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Integrator, PatternGenerator, State};
 
 use figures::{FIG6, FIG7, FIG8, FIG9, FREE, Figure, Printed, Row, run};
 

@@ -1,7 +1,7 @@
 //! What is compared: the product's integrators in every number format, and two
 //! schemes from outside for scale.
 
-use whisking::{Fix, Integrator, Real, Settings};
+use whisking::{Fix, Integrator, PatternGenerator, Real, Settings};
 
 use super::reference::{Case, GRID, PEAK_GAIN, State, Truth, WHISKS};
 use super::split::Split;

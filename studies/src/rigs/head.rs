@@ -9,7 +9,7 @@
 
 use serde::Deserialize;
 use whisking::filter::{CORNER_HZ, Config as LowPass, State as Smoothed};
-use whisking::{GateSettings, Integrator, Settings, State, degrees};
+use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, degrees};
 
 use super::chance::{Chance, seed_of};
 use super::follow::{Follower, Loop};

@@ -2,7 +2,8 @@
 //! the phase is off by at most 3e-4 of a cycle in f32 and 1e-7 in
 //! fixed point.
 
-use whisking::{Fix, Integrator, Real, Settings, State};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Fix, Integrator, PatternGenerator, Real, Settings, State};
 
 const TICKS: u32 = 2_000_000;
 

@@ -4,7 +4,8 @@
 use std::fmt::Debug;
 
 use whisking::muscle::History;
-use whisking::{Config, Fix, Real, Settings, Start, State, Whisker, filter};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Config, Fix, PatternGenerator, Real, Settings, Start, State, Whisker, filter};
 
 use crate::axes::{Case, INPUTS, Input, NOMINAL, Random};
 

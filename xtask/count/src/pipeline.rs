@@ -3,7 +3,7 @@
 //! classifier of nine classes; for each side an oscillator and a drive.
 
 use mlx90333::Decoder;
-use whisking::{Start, State, filter, pd};
+use whisking::{PatternGenerator, Start, State, filter, pd};
 
 use crate::format::Format;
 use crate::listener::{Listener, open_9};

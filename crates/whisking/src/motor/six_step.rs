@@ -16,6 +16,7 @@ use super::{
 
 /// Settings of a [`SixStep`] driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
 pub struct SixStepConfig {
     /// Magnet pole pairs of the rotor: electrical turns per rotor turn. Used
     /// only to state the resolution.

@@ -1,11 +1,12 @@
 //! The papers' integrator: forward Euler, with θ, v and the force at the state
 //! before the step.
 
-use super::{DAMPING, State, pace};
+use super::{DAMPING, MuscleIntegrator, State, pace};
 use crate::Real;
 
 /// Constants of forward Euler.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct Euler<R: Real> {
     /// h = ω_n T.
     pub spring: R::Coefficient,
@@ -20,11 +21,13 @@ impl<R: Real> Euler<R> {
             damping: R::coefficient(DAMPING * pace(cycles)),
         }
     }
+}
 
+impl<R: Real> MuscleIntegrator<R> for Euler<R> {
     /// θ and v are held within ±2, which no sane input reaches (the static
     /// solution at full drive is 1.015), because large steps let them grow.
     #[inline]
-    pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
+    fn step(&self, state: &mut State<R>, gain: R, drive: R, _after: R) {
         let push = gain * (drive * state.theta.exp_neg_square());
         let [velocity, _] = state.kept;
         let limited = |x: R| x.clamp(-R::TWO, R::TWO);

@@ -12,7 +12,7 @@
 //! one drive a tick. The gain multiplies after the differences are taken, so
 //! that a jump of z or g does not enter the history.
 
-use super::{State, pace};
+use super::{MuscleIntegrator, State, pace};
 use crate::Real;
 use crate::linalg::{Matrix, exponential};
 
@@ -21,6 +21,7 @@ const RATES: [f64; 2] = [0.267_949_192_431_122_7, 3.732_050_807_568_877];
 
 /// Constants of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct Exact<R: Real> {
     /// The slow lag and the fast one.
     pub lags: [Lag<R>; 2],
@@ -30,6 +31,7 @@ pub struct Exact<R: Real> {
 
 /// A first-order lag over one tick, in increments.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct Lag<R: Real> {
     /// 1 − exp(−λ T), of the way to a f.
     pub decay: R::Fine,
@@ -79,9 +81,11 @@ impl<R: Real> Exact<R> {
     fn theta(&self, [slow, fast]: [R; 2]) -> R {
         slow + (slow - fast).times(self.lead)
     }
+}
 
+impl<R: Real> MuscleIntegrator<R> for Exact<R> {
     #[inline]
-    pub(super) fn step(&self, state: &mut State<R>, gain: R, drive: R) {
+    fn step(&self, state: &mut State<R>, gain: R, _before: R, drive: R) {
         let [f, d1, d2, d3] = state.history.force;
         let push = gain * f;
         let way = [0, 1].map(|i| (push - state.kept[i]).times_fine(self.lags[i].decay));

@@ -1,7 +1,7 @@
 //! What the muscles must do, whoever steps them.
 
 use super::exact::Lag;
-use super::{Config, Euler, Exact, History, State, pace};
+use super::{Config, Euler, Exact, History, MuscleIntegrator, State, pace};
 use crate::{Fix, Real};
 
 #[test]

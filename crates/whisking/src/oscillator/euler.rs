@@ -1,11 +1,12 @@
 //! The papers' integrator: forward Euler, every right-hand side at the state
 //! before the step. It keeps ψ itself.
 
-use super::{Psi, State, TAU_PERIODS, limited, pull};
+use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
 use crate::Real;
 
 /// Constants of forward Euler.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Euler<R: Real> {
     /// T/τ_r.
     pub relax: R::Fine,
@@ -41,13 +42,11 @@ impl<R: Real> Euler<R> {
         // A lone side pulls on itself, which is nothing.
         core::array::from_fn(|side| self.rate(psi[side], psi[(side + 1) % S][0]))
     }
+}
 
+impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
     #[inline]
-    pub(super) fn step<const S: usize>(
-        &self,
-        state: &mut State<R, S>,
-        noise: Option<&[Psi<R>; S]>,
-    ) {
+    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
         let mut change = self.increments(&state.kept);
         // Loops over constant bounds: the compiler unrolls them, as it does not
         // flattened iterators.
@@ -60,5 +59,13 @@ impl<R: Real> Euler<R> {
             }
             state.kept[side] = limited(state.kept[side]);
         }
+    }
+    #[inline]
+    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
+        state.kept.map(|[drive, _]| drive)
+    }
+
+    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
+        state.kept
     }
 }

@@ -11,13 +11,14 @@
 //! ψ = L½ χ is worked out where it is asked for. Without noise the limit cycle
 //! has radius one to rounding, at any f_W T.
 
-use super::{Psi, State, TAU_PERIODS, limited, pull};
+use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
 use crate::Real;
 use crate::linalg::{Matrix, exponential, identity, scaled};
 
 /// Constants of the structure-preserving step, in increments (coefficients
 /// near one would cost formats with few digits several of them).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Exact<R: Real> {
     /// A whole tick of L.
     pub tick: Linear<R>,
@@ -35,6 +36,7 @@ pub struct Exact<R: Real> {
 
 /// exp(A t) − 1 of either mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Linear<R: Real> {
     /// Of the mean: a rotation.
     pub mean: Turn<R>,
@@ -44,6 +46,7 @@ pub struct Linear<R: Real> {
 
 /// (x, y) → (−a x − c y, c x − b y), what a rotation and a decay add to a vector.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Turn<R: Real> {
     /// a and b, of which an error would show in the radius.
     pub shrink: [R::Fine; 2],
@@ -201,19 +204,6 @@ impl<R: Real> Exact<R> {
         }
     }
 
-    #[inline]
-    pub(super) fn step<const S: usize>(
-        &self,
-        state: &mut State<R, S>,
-        noise: Option<&[Psi<R>; S]>,
-    ) {
-        let linear = self.tick.increments(&state.kept);
-        match self.near(&sums(&state.kept, &linear), &linear) {
-            Some(change) => state.change(&change, noise),
-            None => self.far(state, noise),
-        }
-    }
-
     /// What R changes at `modes`, where every side is near the circle, and
     /// `linear`.
     ///
@@ -274,7 +264,7 @@ impl<R: Real> Exact<R> {
         let turned = sums(&state.kept, &linear);
         let pulls = crossed(&turned).map(|side| pull(side, self.relax));
         state.change(&sums(&linear, &modes(&pulls)), noise);
-        let psi = self.psi(&state.kept);
+        let psi = self.unlimited(&state.kept);
         let within = psi.map(limited);
         if within != psi {
             let modes = modes(&within);
@@ -282,16 +272,26 @@ impl<R: Real> Exact<R> {
         }
     }
 
-    /// ψ of every side.
-    pub(super) fn psi<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
+    /// ψ of every side, before the limits.
+    fn unlimited<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
         crossed(&sums(kept, &self.half.increments(kept)))
     }
+}
 
-    /// ψ_1 of every side.
+impl<R: Real> OscillatorIntegrator<R> for Exact<R> {
     #[inline]
-    pub(super) fn drives<const S: usize>(&self, kept: &[Psi<R>; S]) -> [R; S] {
+    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
+        let linear = self.tick.increments(&state.kept);
+        match self.near(&sums(&state.kept, &linear), &linear) {
+            Some(change) => state.change(&change, noise),
+            None => self.far(state, noise),
+        }
+    }
+
+    #[inline]
+    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
         let mut now = [R::ZERO; S];
-        for ((now, kept), half) in now.iter_mut().zip(kept).zip(&self.drive) {
+        for ((now, kept), half) in now.iter_mut().zip(&state.kept).zip(&self.drive) {
             *now = kept[0] - R::dot(*kept, half);
         }
         let mut drives = now;
@@ -300,10 +300,15 @@ impl<R: Real> Exact<R> {
         }
         drives
     }
+
+    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
+        // Rounding may lead out of a corner.
+        self.unlimited(&state.kept).map(limited)
+    }
 }
 
 /// χ = L½⁻¹ ψ by modes.
-pub(super) fn keep<const S: usize>(
+pub(crate) fn keep<const S: usize>(
     psi: &[Psi<f64>; S],
     cycles: f64,
     coupling: bool,

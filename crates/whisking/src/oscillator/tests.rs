@@ -1,6 +1,6 @@
 //! What the oscillators must do, whoever steps them.
 
-use super::{Config, Euler, Exact, Psi, State, keep};
+use super::{Config, Euler, Exact, OscillatorIntegrator, Psi, State, keep};
 use crate::{Fix, Real};
 
 /// Oscillators at work: configuration and state.
@@ -8,15 +8,15 @@ struct Running<R: Real, const S: usize>(Config<R>, State<R, S>);
 
 impl<R: Real, const S: usize> Running<R, S> {
     fn exact(cycles: f64, psi: [Psi<f64>; S]) -> Self {
-        Self::new(Config::Exact(Exact::new(cycles, true)), cycles, psi)
+        let config = Config::Exact(Exact::new(cycles, true));
+        Self::new(config, keep(&psi, cycles, true))
     }
 
     fn euler(cycles: f64, psi: [Psi<f64>; S]) -> Self {
-        Self::new(Config::Euler(Euler::new(cycles, true)), cycles, psi)
+        Self::new(Config::Euler(Euler::new(cycles, true)), psi)
     }
 
-    fn new(config: Config<R>, cycles: f64, psi: [Psi<f64>; S]) -> Self {
-        let kept = keep(&config, &psi, cycles, true);
+    fn new(config: Config<R>, kept: [Psi<f64>; S]) -> Self {
         Self(config, State::new(kept.map(|p| p.map(R::from_f64))))
     }
 

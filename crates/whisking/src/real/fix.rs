@@ -34,6 +34,7 @@ const fn product(x: i32, y: i32) -> i32 {
 /// Products with constants and readings saturate at ±4; sums of two such
 /// cannot wrap around, and no state of the tick comes near that.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Fix(
     /// The value times 2^28.
     pub i32,

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use whisking::{Integrator, Real, State};
+use whisking::oscillator::OscillatorIntegrator;
+use whisking::{Integrator, PatternGenerator, Real, State};
 
 use super::{Length, MINUTE_TICKS, Row};
 use crate::accuracy::integrators::NEAR;

@@ -1,7 +1,9 @@
 //! Runs of the papers' figures, with one formula as printed.
 
 use whisking::gate::{Cia, Gate};
-use whisking::{GateSettings, Integrator, Settings, State, degrees, filter, muscle};
+use whisking::{
+    GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter, muscle,
+};
 
 use super::{FREQUENCY_HZ, TICK_HZ};
 use crate::accuracy::schemes::refused;

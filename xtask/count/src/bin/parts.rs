@@ -6,6 +6,8 @@ use count::format::Format;
 use count::samples::{drives, number};
 use count::{each_format, kernel, program};
 use whisking::gate::Gate;
+use whisking::muscle::MuscleIntegrator;
+use whisking::oscillator::OscillatorIntegrator;
 use whisking::{filter, muscle, oscillator, pd};
 
 program!(kernels);

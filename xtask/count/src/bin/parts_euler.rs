@@ -5,7 +5,8 @@ use count::arguments::Three;
 use count::format::Format;
 use count::samples::drives;
 use count::{each_format, kernel, program};
-use whisking::{muscle, oscillator};
+use whisking::muscle::{self, MuscleIntegrator};
+use whisking::oscillator::{self, OscillatorIntegrator};
 
 program!(kernels);
 

@@ -4,7 +4,7 @@
 use count::format::Format;
 use count::samples::number;
 use count::{each_format, kernel, program};
-use whisking::State;
+use whisking::{PatternGenerator, State};
 
 program!(kernels);
 

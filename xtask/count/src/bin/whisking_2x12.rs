@@ -5,7 +5,7 @@ use count::arguments::Two;
 use count::format::Format;
 use count::samples::pair;
 use count::{each_format, kernel, program};
-use whisking::State;
+use whisking::{PatternGenerator, State};
 
 program!(kernels);
 

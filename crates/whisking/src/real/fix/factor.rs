@@ -6,6 +6,7 @@ use crate::math::product::{by_constant, by_half, high};
 /// A constant with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
 /// 3.1e-5 of its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Factor {
     /// Magnitude 2^14 to 2^15 − 1, or zero.
     pub mantissa: i16,
@@ -15,6 +16,7 @@ pub struct Factor {
 
 /// A constant below one: `mantissa` · 2^-(32 + `shift`), within 5e-10 of its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct FineFactor {
     /// Magnitude 2^30 to 2^31 − 1, or zero.
     pub mantissa: i32,
@@ -24,6 +26,7 @@ pub struct FineFactor {
 
 /// Constants below one with a scale in common: `mantissas` · 2^-(16 + `shift`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Factors<const K: usize> {
     /// Magnitude of the largest 2^14 to 2^15 − 1, or all zero.
     pub mantissas: [i16; K],
