@@ -1,5 +1,6 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `flash`, `docs`.
 
+mod arrows;
 mod ci;
 mod cost;
 mod count;
@@ -27,6 +28,12 @@ enum Command {
     /// All that CI checks: format, lints, generated documents, the firmware
     /// build, the main job, all tests
     Ci,
+    /// Fails on a dependency against the order of the crates, on a circle of files
+    /// within a crate, and on a type name that is public in two
+    Arrows {
+        /// Only these packages
+        packages: Vec<String>,
+    },
     /// Builds the firmware of a scene and prints its flash and RAM bytes
     Firmware(Build),
     /// Builds the firmware of a scene, flashes it and streams its log
@@ -147,6 +154,7 @@ impl Emulate {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci => ci::all(),
+        Command::Arrows { packages } => arrows::all(&packages),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),
         Command::Flash(build) => firmware::build(build.board, &build.scene)
