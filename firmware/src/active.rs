@@ -86,7 +86,7 @@ pub struct ActiveConfig<R: Real> {
 
 /// The motor of one whisker, its angle input and its controller.
 #[derive(Debug)]
-pub struct Follower<R, M, A> {
+pub struct Servo<R, M, A> {
     motor: M,
     angle: A,
     pd: pd::State<R>,
@@ -98,7 +98,7 @@ pub struct Follower<R, M, A> {
     rest: u16,
 }
 
-impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
+impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// A motor that is off, its whisker at rest (θ = 0) where the angle input now is.
     pub fn new(mut motor: M, mut angle: A, stall: StallConfig) -> Self {
         motor.off();
@@ -125,20 +125,20 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
         self.guard.reset();
     }
 
-    /// One tick towards protraction `setpoint`; off while `sound` is false.
+    /// One tick towards protraction `setpoint`; off while `valid` is false.
     #[inline]
     fn step(
         &mut self,
         config: &ActiveConfig<R>,
         setpoint: R,
-        sound: bool,
+        valid: bool,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
         let counts = self.angle.counts();
         let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
-        if self.rest > 0 || !sound {
+        if self.rest > 0 || !valid {
             self.idle(place, events);
             return;
         }
@@ -156,7 +156,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
         }
     }
 
-    /// One tick of a motor that rests after a fault, or whose sensor is unsound.
+    /// One tick of a motor that rests after a fault, or whose sensor is invalid.
     #[cold]
     fn idle(&mut self, place: Place, events: &mut impl FnMut(Event)) {
         if self.rest == 0 {
@@ -184,20 +184,17 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Follower<R, M, A> {
     }
 }
 
-/// Whiskers that whisk: the pattern generator of the module and a follower each.
+/// Whiskers that whisk: the pattern generator of the module and a servo each.
 #[derive(Debug)]
 pub struct Active<R: Real, M, A, const S: usize, const N: usize> {
     state: whisking::State<R, S, N>,
-    followers: [[Follower<R, M, A>; N]; S],
+    servos: [[Servo<R, M, A>; N]; S],
 }
 
 impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
     /// A module at its start.
-    pub const fn new(
-        state: whisking::State<R, S, N>,
-        followers: [[Follower<R, M, A>; N]; S],
-    ) -> Self {
-        Self { state, followers }
+    pub const fn new(state: whisking::State<R, S, N>, servos: [[Servo<R, M, A>; N]; S]) -> Self {
+        Self { state, servos }
     }
 
     /// Oscillators, gates and whiskers.
@@ -205,9 +202,9 @@ impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
         &self.state
     }
 
-    /// The followers, for a simulation that looks at their hardware.
-    pub const fn followers_mut(&mut self) -> &mut [[Follower<R, M, A>; N]; S] {
-        &mut self.followers
+    /// The servos, for a simulation that looks at their hardware.
+    pub const fn servos_mut(&mut self) -> &mut [[Servo<R, M, A>; N]; S] {
+        &mut self.servos
     }
 }
 
@@ -225,26 +222,23 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
         events: &mut impl FnMut(Event),
     ) {
         config.whisking.step(&mut self.state, contact);
-        for (side, (followers, whiskers)) in self
-            .followers
-            .iter_mut()
-            .zip(&self.state.whiskers)
-            .enumerate()
+        for (side, (servos, whiskers)) in
+            self.servos.iter_mut().zip(&self.state.whiskers).enumerate()
         {
-            for (w, (follower, whisker)) in followers.iter_mut().zip(whiskers).enumerate() {
+            for (w, (servo, whisker)) in servos.iter_mut().zip(whiskers).enumerate() {
                 let place = Place {
                     side: side as u8,
                     whisker: w as u8,
                 };
-                let sound = readings[side][w].sound;
-                follower.step(config, whisker.muscle.theta, sound, place, events);
+                let valid = readings[side][w].valid;
+                servo.step(config, whisker.muscle.theta, valid, place, events);
             }
         }
     }
 
     fn off(&mut self) {
-        for follower in self.followers.iter_mut().flatten() {
-            follower.off();
+        for servo in self.servos.iter_mut().flatten() {
+            servo.off();
         }
     }
 }

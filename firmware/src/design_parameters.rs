@@ -5,7 +5,7 @@
 
 use whisking::motor::{Duty, StallConfig};
 
-use crate::Patience;
+use crate::HoldLimits;
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
@@ -31,8 +31,8 @@ pub const RETRY_S: f64 = 1.0;
 pub const STALL_S: f64 = 0.2;
 
 /// How long bad frames are borne at `tick_hz` ticks a second.
-pub const fn patience(tick_hz: u32) -> Patience {
-    Patience {
+pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
+    HoldLimits {
         hold: ticks(HOLD_S, tick_hz),
         recover: ticks(RECOVER_S, tick_hz),
     }

@@ -15,7 +15,7 @@
 //!
 //! A module is generic over what it reads ([`FrameSource`]), how it moves
 //! ([`Motion`]: [`Passive`] or [`Active`]), what it decides ([`Perception`]:
-//! `()` or [`Touch`]) and its [`Clock`]. What a scene leaves out is a type
+//! `()` or [`Classifying`]) and its [`Clock`]. What a scene leaves out is a type
 //! without state and code, or a `None` in a constant [`Config`].
 #![cfg_attr(not(test), no_std)]
 
@@ -28,10 +28,12 @@ mod perception;
 mod sensing;
 mod timing;
 
-pub use active::{Active, ActiveConfig, Follower, Motion, Passive};
+pub use active::{Active, ActiveConfig, Motion, Passive, Servo};
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
 pub use module::{Config, Module};
-pub use perception::{Listener, NotCodes, Perception, Stream, Touch, TouchConfig, shifts};
-pub use sensing::{Patience, Reading, Sensor};
+pub use perception::{
+    Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, SampleClassifier, shifts,
+};
+pub use sensing::{HoldLimits, Reading, Sensor};
 pub use timing::Timing;

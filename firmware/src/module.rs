@@ -3,7 +3,7 @@
 use mlx90333::Decoder;
 use whisking::{Real, filter};
 
-use crate::sensing::{Patience, Reading, Sensor};
+use crate::sensing::{HoldLimits, Reading, Sensor};
 use crate::{Clock, Event, FrameSource, Motion, Perception, Place, Timing};
 
 /// Constants of a module. A board holds it in a `const`, so that the compiler
@@ -13,7 +13,7 @@ pub struct Config<R: Real, M, P> {
     /// How the sensors' frames are read.
     pub decoder: Decoder,
     /// How long bad frames are bridged.
-    pub patience: Patience,
+    pub hold_limits: HoldLimits,
     /// H50 on x, where something needs contact signals.
     pub contact: Option<filter::Config<R>>,
     /// How it moves.
@@ -96,7 +96,7 @@ where
                     side: side as u8,
                     whisker: w as u8,
                 };
-                *reading = sensor.read(config.decoder, config.patience, place, events);
+                *reading = sensor.read(config.decoder, config.hold_limits, place, events);
             }
         }
         readings

@@ -53,7 +53,7 @@ impl<R: Copy, P: Perception<R, S, N>, const S: usize, const N: usize> Perception
 }
 
 /// A classifier of the two channels of one whisker, and its state.
-pub trait Listener {
+pub trait SampleClassifier {
     /// Takes one sample as the sensor's codes, 0 to 16383; a decision may fall.
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision>;
 
@@ -61,9 +61,9 @@ pub trait Listener {
     fn reset(&mut self);
 }
 
-/// Constants of [`Touch`].
+/// Constants of [`Classifying`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TouchConfig<R> {
+pub struct ClassifyingConfig<R> {
     /// Samples count only while contact π of the whisker's side is at least
     /// this; `None`: always.
     pub contact_min: Option<R>,
@@ -75,45 +75,48 @@ pub struct TouchConfig<R> {
 /// texture is in the vibration above 50 Hz. While the sensor has a fault there
 /// is nothing to listen to.
 #[derive(Debug)]
-pub struct Touch<L> {
-    listener: L,
+pub struct Classifying<L> {
+    classifier: L,
 }
 
-impl<L> Touch<L> {
-    /// Listens by `listener`.
-    pub const fn new(listener: L) -> Self {
-        Self { listener }
+impl<L> Classifying<L> {
+    /// With this classifier.
+    pub const fn new(classifier: L) -> Self {
+        Self { classifier }
     }
 
     /// The classifier.
-    pub const fn listener_mut(&mut self) -> &mut L {
-        &mut self.listener
+    pub const fn classifier_mut(&mut self) -> &mut L {
+        &mut self.classifier
     }
 }
 
-impl<R: Real, L: Listener, const S: usize, const N: usize> Perception<R, S, N> for Touch<L> {
-    type Config = TouchConfig<R>;
+impl<R: Real, L: SampleClassifier, const S: usize, const N: usize> Perception<R, S, N>
+    for Classifying<L>
+{
+    type Config = ClassifyingConfig<R>;
 
     #[inline]
     fn step(
         &mut self,
-        config: &TouchConfig<R>,
+        config: &ClassifyingConfig<R>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
     ) -> Option<Decision> {
         let reading = readings.first()?.first()?;
         let contact = *contact.first()?;
         let touching = config.contact_min.is_none_or(|least| contact >= least);
-        if !reading.sound || !touching {
+        if !reading.valid || !touching {
             return None;
         }
-        self.listener.push([reading.x.code14(), reading.y.code14()])
+        self.classifier
+            .push([reading.x.code14(), reading.y.code14()])
     }
 }
 
 /// A classifier of `K` classes that reads its model in place.
 #[derive(Debug)]
-pub struct Stream<'m, R: Rule<K>, const K: usize>
+pub struct CodeClassifier<'m, R: Rule<K>, const K: usize>
 where
     Classes<K>: Supported,
 {
@@ -158,7 +161,7 @@ pub fn shifts(model: &Model<'_>) -> Result<[u32; 2], NotCodes> {
     }
 }
 
-impl<'m, R: Rule<K>, const K: usize> Stream<'m, R, K>
+impl<'m, R: Rule<K>, const K: usize> CodeClassifier<'m, R, K>
 where
     Classes<K>: Supported,
 {
@@ -178,7 +181,7 @@ where
     }
 }
 
-impl<R: Rule<K>, const K: usize> Listener for Stream<'_, R, K>
+impl<R: Rule<K>, const K: usize> SampleClassifier for CodeClassifier<'_, R, K>
 where
     Classes<K>: Supported,
 {

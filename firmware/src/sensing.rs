@@ -16,7 +16,7 @@ pub struct Reading {
     pub fresh: bool,
     /// False while the sensor has a fault: x and y are then at rest and the
     /// motor must be off.
-    pub sound: bool,
+    pub valid: bool,
 }
 
 impl Reading {
@@ -24,7 +24,7 @@ impl Reading {
         x: Word::MID,
         y: Word::MID,
         fresh: false,
-        sound: true,
+        valid: true,
     };
 }
 
@@ -33,13 +33,13 @@ impl Reading {
 pub struct Sensor<F> {
     source: F,
     last: Reading,
-    /// Ticks in succession: bad ones while sound, good ones while not.
+    /// Ticks in succession: bad ones while valid, good ones while not.
     run: u16,
 }
 
 /// How long a reading is held and how long a recovery takes, in ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Patience {
+pub struct HoldLimits {
     /// Bad ticks that are bridged.
     pub hold: u16,
     /// Good ticks before a faulty sensor is trusted again.
@@ -74,20 +74,20 @@ impl<F: FrameSource> Sensor<F> {
     }
 
     /// Takes the frame of this tick. Bad ones are bridged with the last good
-    /// reading for `patience.hold` ticks, then the sensor counts as faulty
-    /// until `patience.recover` good ones have come in a row.
+    /// reading for `hold_limits.hold` ticks, then the sensor counts as faulty
+    /// until `hold_limits.recover` good ones have come in a row.
     #[inline]
     pub fn read(
         &mut self,
         decoder: Decoder,
-        patience: Patience,
+        hold_limits: HoldLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) -> Reading {
         match decode(decoder, self.source.take()) {
-            Ok((x, y)) if self.last.sound => self.keep(x, y),
-            Ok((x, y)) => self.recover(x, y, patience, place, events),
-            Err(fault) => self.bridge(fault, patience, place, events),
+            Ok((x, y)) if self.last.valid => self.keep(x, y),
+            Ok((x, y)) => self.recover(x, y, hold_limits, place, events),
+            Err(fault) => self.bridge(fault, hold_limits, place, events),
         }
         self.last
     }
@@ -100,7 +100,7 @@ impl<F: FrameSource> Sensor<F> {
             x,
             y,
             fresh: true,
-            sound: true,
+            valid: true,
         };
     }
 
@@ -111,12 +111,12 @@ impl<F: FrameSource> Sensor<F> {
         &mut self,
         x: Word,
         y: Word,
-        patience: Patience,
+        hold_limits: HoldLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
         self.run = self.run.saturating_add(1);
-        if self.run >= patience.recover {
+        if self.run >= hold_limits.recover {
             self.keep(x, y);
             events(Event::SensorBack(place));
         }
@@ -128,20 +128,20 @@ impl<F: FrameSource> Sensor<F> {
     fn bridge(
         &mut self,
         fault: SensorFault,
-        patience: Patience,
+        hold_limits: HoldLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
-        if !self.last.sound {
+        if !self.last.valid {
             self.run = 0;
             return;
         }
         self.run = self.run.saturating_add(1);
         self.last.fresh = false;
-        if self.run > patience.hold {
+        if self.run > hold_limits.hold {
             self.run = 0;
             self.last = Reading {
-                sound: false,
+                valid: false,
                 ..Reading::REST
             };
             events(Event::SensorLost(place, fault));
@@ -151,7 +151,7 @@ impl<F: FrameSource> Sensor<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Patience, Reading, Sensor};
+    use super::{HoldLimits, Reading, Sensor};
     use crate::io::{BusError, FrameSource};
     use crate::{Event, Place, SensorFault};
     use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
@@ -181,7 +181,7 @@ mod tests {
 
     fn play(script: &[Taken]) -> (Vec<Reading>, Vec<(usize, Event)>) {
         let mut sensor = Sensor::new(Script(script.iter().copied()));
-        let patience = Patience {
+        let hold_limits = HoldLimits {
             hold: 3,
             recover: 2,
         };
@@ -192,7 +192,7 @@ mod tests {
         let mut events = Vec::new();
         let readings = (0..script.len())
             .map(|tick| {
-                sensor.read(Decoder::new(), patience, place, &mut |e| {
+                sensor.read(Decoder::new(), hold_limits, place, &mut |e| {
                     events.push((tick, e));
                 })
             })
@@ -205,7 +205,7 @@ mod tests {
         let bad = Ok(Some([0xFF; FRAME_LEN]));
         let [first, second] = good([0x9000, 0xA000]);
         let (readings, events) = play(&[first, bad, bad, bad, second, bad, bad, bad, bad, bad]);
-        assert!(readings[..8].iter().all(|r| r.sound));
+        assert!(readings[..8].iter().all(|r| r.valid));
         assert_eq!(readings[3].x.raw(), 0x9000, "held");
         assert!(!readings[3].fresh && readings[4].fresh);
         let place = Place {
@@ -215,7 +215,7 @@ mod tests {
         let lost = Event::SensorLost(place, SensorFault::Frame(FrameError::NoSensor));
         assert_eq!(events, [(8, lost)], "told once");
         assert_eq!(readings[8].x, Word::MID, "a faulty sensor feels nothing");
-        assert!(!readings[9].sound);
+        assert!(!readings[9].valid);
     }
 
     #[test]
@@ -234,7 +234,7 @@ mod tests {
                 (7, Event::SensorBack(place)),
             ]
         );
-        assert!(!readings[6].sound && readings[7].sound && readings[8].sound);
+        assert!(!readings[6].valid && readings[7].valid && readings[8].valid);
         assert_eq!(readings[8].x.raw(), 0x4000);
     }
 

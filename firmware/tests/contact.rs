@@ -1,7 +1,7 @@
 //! Contact of a side (BIOTACT eq. 9): the largest |H50(x)| of its whiskers,
 //! whichever of them is bent and whichever way.
 
-use firmware::{BusError, Clock, Config, FrameSource, Module, Passive, Patience};
+use firmware::{BusError, Clock, Config, FrameSource, HoldLimits, Module, Passive};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
 use whisking::filter;
 
@@ -34,7 +34,7 @@ const REST: u16 = 0x8000;
 fn contact(words: [[u16; 2]; 2]) -> [f64; 2] {
     let config = Config::<f64, (), ()> {
         decoder: Decoder::new(),
-        patience: Patience {
+        hold_limits: HoldLimits {
             hold: 1,
             recover: 1,
         },

@@ -5,8 +5,8 @@ use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Module, Patience, Place,
-    Polled, SensorFault,
+    Active, ActiveConfig, AngleInput, Clock, Config, Event, HoldLimits, Module, Place, Polled,
+    SensorFault, Servo,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{Duty, HBridge, StallConfig};
@@ -108,7 +108,7 @@ fn config() -> Config<f32, ActiveConfig<f32>, ()> {
     };
     Config {
         decoder: Decoder::new(),
-        patience: Patience {
+        hold_limits: HoldLimits {
             hold: 1,
             recover: 2,
         },
@@ -171,8 +171,8 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     let config = config();
     let start = SETTINGS.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
     let bridge = HBridge::new(pwm.clone(), pin.clone());
-    let follower = Follower::new(bridge, Encoder(counts.into_iter()), STALL);
-    let active = Active::new(whisking::State::new(&start, 1), [[follower]]);
+    let servo = Servo::new(bridge, Encoder(counts.into_iter()), STALL);
+    let active = Active::new(whisking::State::new(&start, 1), [[servo]]);
     let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
     let mut module = Module::new([[sensor]], active, (), Microseconds(40));
 

@@ -4,10 +4,10 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use firmware::design_parameters::{RETRY_S, patience, stall, ticks};
+use firmware::design_parameters::{RETRY_S, hold_limits, stall, ticks};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Clock, Config, Event, Follower, Listener, Module, Polled,
-    Touch, TouchConfig,
+    Active, ActiveConfig, AngleInput, Classifying, ClassifyingConfig, Clock, Config, Event, Module,
+    Polled, SampleClassifier, Servo,
 };
 use mlx90333::{Decoder, Mlx90333};
 use scene::{Numbers, Scene};
@@ -45,9 +45,9 @@ impl AngleInput for AnyAngle {
 }
 
 /// Any classifier of one whisker.
-pub struct AnyListener<'m>(pub Box<dyn Listener + 'm>);
+pub struct AnyListener<'m>(pub Box<dyn SampleClassifier + 'm>);
 
-impl Listener for AnyListener<'_> {
+impl SampleClassifier for AnyListener<'_> {
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
         self.0.push(codes)
     }
@@ -136,7 +136,7 @@ type HostModule<'m, R, const S: usize, const N: usize> = Module<
     R,
     Polled<SimSpi>,
     Option<Active<R, AnyMotor, AnyAngle, S, N>>,
-    Option<Touch<AnyListener<'m>>>,
+    Option<Classifying<AnyListener<'m>>>,
     NoClock,
     S,
     N,
@@ -144,7 +144,7 @@ type HostModule<'m, R, const S: usize, const N: usize> = Module<
 
 struct Shaped<'m, R: Real, const S: usize, const N: usize> {
     module: HostModule<'m, R, S, N>,
-    config: Config<R, Option<ActiveConfig<R>>, Option<TouchConfig<R>>>,
+    config: Config<R, Option<ActiveConfig<R>>, Option<ClassifyingConfig<R>>>,
 }
 
 impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
@@ -175,7 +175,7 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
 
     fn forget(&mut self) {
         if let Some(touch) = self.module.perception_mut() {
-            touch.listener_mut().reset();
+            touch.classifier_mut().reset();
         }
     }
 }
@@ -237,14 +237,14 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
         None => None,
         Some(plan) => {
             let stall = stall(scene.tick_hz, plan.stall_q15);
-            let followers = array(|| {
+            let servos = array(|| {
                 let (motor, angle) = drives.next()?;
-                Some(Follower::new(motor, angle, stall))
+                Some(Servo::new(motor, angle, stall))
             })
             .ok_or_else(|| misfit("motors"))?;
             Some(Active::new(
                 whisking::State::new(&plan.start, scene.seed),
-                followers,
+                servos,
             ))
         }
     };
@@ -269,7 +269,7 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
     let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
     let config = Config {
         decoder: Decoder::new(),
-        patience: patience(scene.tick_hz),
+        hold_limits: hold_limits(scene.tick_hz),
         contact,
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
@@ -277,12 +277,17 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
             retry: ticks(RETRY_S, scene.tick_hz),
             stall: stall(scene.tick_hz, plan.stall_q15),
         }),
-        perception: parts.listener.is_some().then(|| TouchConfig {
+        perception: parts.listener.is_some().then(|| ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),
         }),
         period: 0,
     };
-    let module = Module::new(sensors, motion, parts.listener.map(Touch::new), NoClock);
+    let module = Module::new(
+        sensors,
+        motion,
+        parts.listener.map(Classifying::new),
+        NoClock,
+    );
     Ok(Box::new(Shaped { module, config }))
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use firmware::{Listener, Stream};
+use firmware::{CodeClassifier, SampleClassifier};
 use scene::Rule;
 use tactile::{Model, ModelBuf, Sequential, Threshold, Window};
 
@@ -62,19 +62,19 @@ fn streaming<'m, const K: usize>(model: &Model<'m>, rule: Rule) -> Result<AnyLis
 where
     tactile::Classes<K>: tactile::Supported,
 {
-    let boxed = |listener: Box<dyn Listener + 'm>| AnyListener(listener);
+    let boxed = |listener: Box<dyn SampleClassifier + 'm>| AnyListener(listener);
     match rule {
         Rule::Sequential { threshold } => {
             let threshold = Threshold::new(threshold).map_err(of_rule)?;
             let classifier = Sequential::<2, K>::new(model, threshold).map_err(of_rule)?;
             Ok(boxed(Box::new(
-                Stream::new(model, classifier).map_err(of_model)?,
+                CodeClassifier::new(model, classifier).map_err(of_model)?,
             )))
         }
         Rule::Window { samples } => {
             let classifier = Window::<2, K>::new(model, samples).map_err(of_rule)?;
             Ok(boxed(Box::new(
-                Stream::new(model, classifier).map_err(of_model)?,
+                CodeClassifier::new(model, classifier).map_err(of_model)?,
             )))
         }
     }

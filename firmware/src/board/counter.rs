@@ -7,28 +7,28 @@ use firmware::Clock;
 use stm32_metapac::timer::vals::Urs;
 
 use super::timing::TickPeriod;
-use crate::here::TICKER;
+use crate::here::TICK_TIMER;
 
 /// The timer that interrupts once a tick.
-pub(crate) struct Ticker(());
+pub(crate) struct TickTimer(());
 
-impl Ticker {
+impl TickTimer {
     /// The first tick comes one period from now.
     pub(crate) fn start(period: TickPeriod) -> Self {
-        TICKER.psc().write_value(period.prescaler - 1);
-        TICKER.arr().write(|w| w.set_arr(period.period - 1));
+        TICK_TIMER.psc().write_value(period.prescaler - 1);
+        TICK_TIMER.arr().write(|w| w.set_arr(period.period - 1));
         // The prescaler takes effect with an update; that one is no tick.
-        TICKER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
-        TICKER.egr().write(|w| w.set_ug(true));
-        TICKER.dier().write(|w| w.set_uie(true));
-        TICKER.cr1().modify(|w| w.set_cen(true));
+        TICK_TIMER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
+        TICK_TIMER.egr().write(|w| w.set_ug(true));
+        TICK_TIMER.dier().write(|w| w.set_uie(true));
+        TICK_TIMER.cr1().modify(|w| w.set_cen(true));
         Self(())
     }
 
     /// The interrupt has been seen.
     #[inline]
     pub(crate) fn acknowledge(&mut self) {
-        TICKER.sr().write(|w| w.set_uif(false));
+        TICK_TIMER.sr().write(|w| w.set_uif(false));
     }
 }
 

@@ -4,11 +4,13 @@
 use firmware::AngleInput;
 use stm32_metapac::timer::vals::{CcmrInputCcs, FilterValue, Sms};
 
-use crate::here::{ENCODER, encoder_count};
+use super::pin_config::{Mode, PinConfig};
+use super::wiring::{EncoderA, EncoderB};
+use crate::here::{ENCODER, ENCODER_FUNCTION, encoder_count};
 
 /// A level counts after eight equal samples of the timer's clock: 100 ns at 80 MHz.
 const FILTER: FilterValue = FilterValue::FCK_INT_N8;
-/// A capture channel listens to its own input (the register description names
+/// A capture channel uses its own input (the register description names
 /// the setting after channel 4's).
 const OWN_INPUT: CcmrInputCcs = CcmrInputCcs::TI4;
 
@@ -45,6 +47,10 @@ pub(crate) type Encoder = Widened<crate::here::EncoderCount>;
 impl Encoder {
     /// Counts from zero at the whisker's present angle.
     pub(crate) fn start() -> Self {
+        // Pulled up, for encoders with open collectors.
+        let input = PinConfig::new(Mode::AlternateInput(ENCODER_FUNCTION)).pulled_up();
+        EncoderA::new(input);
+        EncoderB::new(input);
         ENCODER.ccmr_input(0).write(|w| {
             for channel in 0..2 {
                 w.set_ccs(channel, OWN_INPUT);

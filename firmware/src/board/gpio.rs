@@ -1,6 +1,6 @@
-//! Pins as types without size. How a pin is configured differs between chip
-//! families (`gpio_v1.rs`, `gpio_v2.rs`, by the version of their registers);
-//! the rest is here.
+//! Pins as types without size, behind the traits of embedded-hal. How a pin is
+//! configured differs between chip families (`gpio_v1.rs`, `gpio_v2.rs`, by the
+//! version of their registers).
 
 use core::convert::Infallible;
 use core::marker::PhantomData;
@@ -9,29 +9,8 @@ use embedded_hal::digital::{ErrorType, InputPin, OutputPin};
 use stm32_metapac::gpio::{Gpio, vals::Idr};
 use stm32_metapac::{GPIOA, GPIOB, GPIOC};
 
+use super::pin_config::PinConfig;
 use crate::here::gpio::configure;
-
-/// What a pin does.
-#[derive(Clone, Copy)]
-pub(crate) enum Mode {
-    /// Follows the program, push-pull.
-    Output,
-    /// Is read by the program, pulled up.
-    InputPulledUp,
-    /// Follows a peripheral, push-pull.
-    Drives(Function),
-    /// The same with fast edges.
-    DrivesFast(Function),
-    /// Follows a peripheral, open drain.
-    DrivesOpenDrain(Function),
-    /// Is read by a peripheral.
-    Hears(Function),
-    /// The same, pulled up.
-    HearsPulledUp(Function),
-}
-
-/// Number of a pin's alternate function; chips with one a pin ignore it.
-pub(crate) type Function = u8;
 
 /// A port of pins.
 pub(crate) trait Port {
@@ -62,11 +41,14 @@ impl Port for C {
 pub(crate) struct Pin<P, const N: usize>(PhantomData<P>);
 
 impl<P: Port, const N: usize> Pin<P, N> {
-    /// In `mode` from now on; an output starts low.
-    pub(crate) fn new(mode: Mode) -> Self {
+    /// The registers of its port and its number there.
+    pub(crate) const PORT_AND_NUMBER: (Gpio, usize) = (P::REGISTERS, N);
+
+    /// Configured from now on; an output starts low.
+    pub(crate) fn new(config: PinConfig) -> Self {
         let mut pin = Self(PhantomData);
         pin.low();
-        configure(P::REGISTERS, N, mode);
+        configure(P::REGISTERS, N, config);
         pin
     }
 
@@ -74,7 +56,7 @@ impl<P: Port, const N: usize> Pin<P, N> {
     pub(crate) fn new_high() -> Self {
         let mut pin = Self(PhantomData);
         pin.high();
-        configure(P::REGISTERS, N, Mode::Output);
+        configure(P::REGISTERS, N, PinConfig::OUTPUT);
         pin
     }
 

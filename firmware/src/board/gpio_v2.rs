@@ -4,32 +4,30 @@
 use stm32_metapac::gpio::Gpio;
 use stm32_metapac::gpio::vals::{Moder, Ospeedr, Ot, Pupdr};
 
-use crate::board::gpio::Mode;
+use crate::board::pin_config::{Mode, PinConfig, Pull, Speed};
 
-/// Puts pin `n` of `port`, 0 to 15, into `mode`; the mode register last, so that the pin
-/// never drives with half a configuration.
+/// Configures pin `n` of `port`, 0 to 15; the mode register last, so that the
+/// pin never drives with half a configuration.
 #[inline(never)]
-pub(crate) fn configure(port: Gpio, n: usize, mode: Mode) {
-    let (moder, function) = match mode {
+pub(crate) fn configure(port: Gpio, n: usize, config: PinConfig) {
+    let (moder, function) = match config.mode {
+        Mode::Input => (Moder::INPUT, None),
         Mode::Output => (Moder::OUTPUT, None),
-        Mode::InputPulledUp => (Moder::INPUT, None),
-        Mode::Drives(function)
-        | Mode::DrivesFast(function)
-        | Mode::DrivesOpenDrain(function)
-        | Mode::Hears(function)
-        | Mode::HearsPulledUp(function) => (Moder::ALTERNATE, Some(function)),
+        Mode::AlternateInput(function)
+        | Mode::AlternateOutput(function)
+        | Mode::AlternateOpenDrain(function) => (Moder::ALTERNATE, Some(function)),
     };
-    let pull = match mode {
-        Mode::InputPulledUp | Mode::HearsPulledUp(_) => Pupdr::PULL_UP,
-        _ => Pupdr::FLOATING,
+    let pull = match config.pull {
+        Pull::Floating => Pupdr::FLOATING,
+        Pull::Up => Pupdr::PULL_UP,
     };
-    let kind = match mode {
-        Mode::DrivesOpenDrain(_) => Ot::OPEN_DRAIN,
+    let kind = match config.mode {
+        Mode::AlternateOpenDrain(_) => Ot::OPEN_DRAIN,
         _ => Ot::PUSH_PULL,
     };
-    let speed = match mode {
-        Mode::DrivesFast(_) => Ospeedr::HIGH_SPEED,
-        _ => Ospeedr::LOW_SPEED,
+    let speed = match config.speed {
+        Speed::Low => Ospeedr::LOW_SPEED,
+        Speed::High => Ospeedr::HIGH_SPEED,
     };
     if let Some(function) = function {
         port.afr(n / 8).modify(|w| w.set_afr(n % 8, function));

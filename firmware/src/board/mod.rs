@@ -3,7 +3,7 @@
 //!
 //! Three things are a board's own, in a file of its name beside this one, which
 //! is `crate::here`: its clocks, its pins and timers as constants, and which of
-//! the drivers that exist in several versions (`gpio_*`, `spi_*`, `mover_*`) its
+//! the drivers that exist in several versions (`gpio_*`, `spi_*`, `dma_*`) its
 //! chip has. What a scene has of its own comes from the build script into
 //! [`scene`]. Nothing else chooses: no feature or `cfg` of a scene is asked
 //! anywhere. See docs/boards.md for how to add a board.
@@ -27,6 +27,7 @@ pub(crate) mod log;
 pub(crate) mod motion;
 pub(crate) mod motors;
 pub(crate) mod outputs;
+pub(crate) mod pin_config;
 #[macro_use]
 pub mod program;
 pub(crate) mod pwm;
@@ -36,3 +37,4 @@ pub(crate) mod sensor;
 pub(crate) mod timing;
 pub(crate) mod touch;
 pub(crate) mod watchdog;
+pub(crate) mod wiring;

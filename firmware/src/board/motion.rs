@@ -4,15 +4,14 @@
 use core::marker::PhantomData;
 
 use firmware::design_parameters::{RETRY_S, stall, ticks};
-use firmware::{Active, ActiveConfig, Follower, Motion, Passive, Place};
+use firmware::{Active, ActiveConfig, Motion, Passive, Place, Servo};
 use whisking::motor::{Fault, MotorDriver, StallConfig};
 
 use super::encoder::Encoder;
-use super::gpio::{A, Mode, Pin};
 use super::log;
 use super::motors::Motor;
 use super::scene::{Number, TICK_HZ};
-use crate::here::{ENCODER_PINS, clock_motor};
+use crate::here::clock_motor;
 
 /// Constants of a [`Moves`].
 pub(crate) type Config<M> = <<M as Moves>::Motion as Motion<Number, 1, 1>>::Config;
@@ -91,13 +90,10 @@ where
 
     fn start() -> Self::Motion {
         clock_motor();
-        // Channels A and B are pulled up, for encoders with open collectors.
-        Pin::<A, 0>::new(Mode::HearsPulledUp(ENCODER_PINS));
-        Pin::<A, 1>::new(Mode::HearsPulledUp(ENCODER_PINS));
         let encoder = Encoder::start();
         let motor = S::Motor::start(Self::STALL);
         let state = whisking::State::new(&S::START, S::SEED);
-        Active::new(state, [[Follower::new(motor, encoder, Self::STALL)]])
+        Active::new(state, [[Servo::new(motor, encoder, Self::STALL)]])
     }
 
     fn tell_fault(place: Place, fault: Fault) {

@@ -1,10 +1,15 @@
-//! The motors that a scene can name, and their pins: the same on every board.
+//! The motors that a scene can name: the same on every board.
 
 use whisking::motor::{HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
 
-use super::gpio::{A, B, C, Mode, Pin};
+use super::gpio::Pin;
+use super::pin_config::{Mode, PinConfig};
 use super::pwm::{self, Channel};
-use crate::here::{MOTOR_PINS, free_hall_pins};
+use super::wiring::{Direction, Enables, Halls, Pwm1, Pwm2, Pwm3};
+use crate::here::{PWM_FUNCTION, free_hall_pins};
+
+/// A pin as output of the PWM timer.
+const PWM_PIN: PinConfig = PinConfig::new(Mode::AlternateOutput(PWM_FUNCTION));
 
 /// A motor and its power stage.
 pub(crate) trait Motor {
@@ -15,30 +20,25 @@ pub(crate) trait Motor {
     fn start(stall: StallConfig) -> Self::Driver;
 }
 
-/// A brushed motor on an H-bridge: PWM on PA8, direction on PB5.
+/// A brushed motor on an H-bridge.
 pub(crate) struct Brushed;
 
 impl Motor for Brushed {
-    type Driver = HBridge<Channel<0>, Pin<B, 5>>;
+    type Driver = HBridge<Channel<0>, Direction>;
 
     fn start(_: StallConfig) -> Self::Driver {
         let (pwm, _, _) = pwm::start();
-        let motor = HBridge::new(pwm, Pin::new(Mode::Output)).with_buffered_pwm();
-        Pin::<A, 8>::new(Mode::Drives(MOTOR_PINS));
+        let motor = HBridge::new(pwm, Direction::new(PinConfig::OUTPUT)).with_buffered_pwm();
+        Pwm1::new(PWM_PIN);
         motor
     }
 }
 
-/// A brushless motor on three half-bridges (L6230): inputs on PA8 to PA10,
-/// enables on PC10 to PC12, Hall sensors on PA15, PB3 and PB10.
+/// A brushless motor with Hall sensors on three half-bridges (L6230).
 pub(crate) struct Brushless;
 
 impl Motor for Brushless {
-    type Driver = SixStep<
-        (Channel<0>, Channel<1>, Channel<2>),
-        (Pin<C, 10>, Pin<C, 11>, Pin<C, 12>),
-        (Pin<A, 15>, Pin<B, 3>, Pin<B, 10>),
-    >;
+    type Driver = SixStep<(Channel<0>, Channel<1>, Channel<2>), Enables, Halls>;
 
     fn start(stall: StallConfig) -> Self::Driver {
         let config = SixStepConfig {
@@ -46,15 +46,14 @@ impl Motor for Brushless {
             ..SixStepConfig::DEFAULT
         };
         free_hall_pins();
-        let output = Mode::Output;
+        let output = PinConfig::OUTPUT;
         let enables = (Pin::new(output), Pin::new(output), Pin::new(output));
-        let input = Mode::InputPulledUp;
+        let input = PinConfig::INPUT.pulled_up();
         let halls = (Pin::new(input), Pin::new(input), Pin::new(input));
         let motor = SixStep::new(pwm::start(), enables, halls, config).with_buffered_pwm();
-        let drives = Mode::Drives(MOTOR_PINS);
-        Pin::<A, 8>::new(drives);
-        Pin::<A, 9>::new(drives);
-        Pin::<A, 10>::new(drives);
+        Pwm1::new(PWM_PIN);
+        Pwm2::new(PWM_PIN);
+        Pwm3::new(PWM_PIN);
         motor
     }
 }

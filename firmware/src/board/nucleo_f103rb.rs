@@ -2,7 +2,7 @@
 //!
 //! | for | peripheral | pins |
 //! |---|---|---|
-//! | sensor | SPI1, paced by TIM4, moved by DMA1 channels 2 and 7 | PA5 PA6 PA7, /SS PB6 |
+//! | sensor | SPI1, bytes spaced by TIM4, moved by DMA1 channels 2 and 7 | PA5 PA6 PA7, /SS PB6 |
 //! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
 //! | angle | TIM2, 16 bits | PA0 PA1 |
 //! | tick | TIM3 | |
@@ -33,8 +33,8 @@ const _: () = assert!(CORE_HZ == 72_000_000 && APB1_HZ <= 36_000_000);
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
     spi_bus_hz: CORE_HZ,
-    pacer_hz: 2 * APB1_HZ,
-    ticker_hz: 2 * APB1_HZ,
+    byte_timer_hz: 2 * APB1_HZ,
+    tick_timer_hz: 2 * APB1_HZ,
     counter_hz: CORE_HZ,
     pwm_hz: CORE_HZ,
     watchdog_hz: [30_000, 40_000, 60_000],
@@ -45,11 +45,11 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_647);
 
 #[cfg(target_os = "none")]
+#[path = "dma_channels.rs"]
+pub(crate) mod dma;
+#[cfg(target_os = "none")]
 #[path = "gpio_v1.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
-#[path = "mover_channels.rs"]
-pub(crate) mod mover;
 #[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
@@ -68,23 +68,23 @@ mod chip {
 
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::counter::SysTick;
-    use crate::board::gpio::Function;
+    use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
 
-    /// Lets the SPI send a byte.
-    pub(crate) const PACER: TimGp16 = TIM4;
-    /// Makes the ticks.
-    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Requests each byte of a frame.
+    pub(crate) const BYTE_TIMER: TimGp16 = TIM4;
+    /// Interrupts once a tick.
+    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp16 = TIM2;
     /// DMA1 channel 2, counted from 0: requested by SPI1_RX (RM0008, table 78).
-    pub(crate) const COLLECTOR: usize = 1;
+    pub(crate) const RX_DMA: usize = 1;
     /// DMA1 channel 7: requested by TIM4_UP.
-    pub(crate) const FEEDER: usize = 6;
+    pub(crate) const TX_DMA: usize = 6;
     /// Each pin has one alternate function without remapping: SPI1, TIM2, TIM1.
-    pub(crate) const SPI_PINS: Function = 0;
-    pub(crate) const ENCODER_PINS: Function = 0;
-    pub(crate) const MOTOR_PINS: Function = 0;
+    pub(crate) const SPI_FUNCTION: AlternateFunction = 0;
+    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 0;
+    pub(crate) const PWM_FUNCTION: AlternateFunction = 0;
 
     /// What [`ENCODER`] counts.
     pub(crate) type EncoderCount = u16;

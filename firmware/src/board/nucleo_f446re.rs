@@ -2,7 +2,7 @@
 //!
 //! | for | peripheral | pins |
 //! |---|---|---|
-//! | sensor | SPI1, paced by TIM8, moved by DMA2 streams 0 and 1 | PA5 PA6 PA7, /SS PB6 |
+//! | sensor | SPI1, bytes spaced by TIM8, moved by DMA2 streams 0 and 1 | PA5 PA6 PA7, /SS PB6 |
 //! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
 //! | angle | TIM2, 32 bits | PA0 PA1 |
 //! | tick | TIM3 | |
@@ -41,8 +41,8 @@ const _: () = assert!(APB1_HZ <= 45_000_000 && APB2_HZ <= 90_000_000);
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
     spi_bus_hz: APB2_HZ,
-    pacer_hz: 2 * APB2_HZ,
-    ticker_hz: 2 * APB1_HZ,
+    byte_timer_hz: 2 * APB2_HZ,
+    tick_timer_hz: 2 * APB1_HZ,
     counter_hz: 2 * APB1_HZ,
     pwm_hz: 2 * APB2_HZ,
     watchdog_hz: [17_000, 32_000, 47_000],
@@ -53,11 +53,11 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 8_000 && CLOCKS.slot_counts(1_000) == 12_096);
 
 #[cfg(target_os = "none")]
+#[path = "dma_streams.rs"]
+pub(crate) mod dma;
+#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
-#[path = "mover_streams.rs"]
-pub(crate) mod mover;
 #[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
@@ -75,21 +75,21 @@ mod chip {
     use stm32_metapac::{DBGMCU, FLASH, RCC, TIM2, TIM3, TIM5, TIM8};
 
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
-    use crate::board::gpio::Function;
+    use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
 
-    /// Lets the SPI send a byte.
-    pub(crate) const PACER: TimAdv = TIM8;
-    /// Makes the ticks.
-    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Requests each byte of a frame.
+    pub(crate) const BYTE_TIMER: TimAdv = TIM8;
+    /// Interrupts once a tick.
+    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp32 = TIM2;
     /// Alternate function of the SPI's pins, SPI1.
-    pub(crate) const SPI_PINS: Function = 5;
+    pub(crate) const SPI_FUNCTION: AlternateFunction = 5;
     /// Of the encoder's pins, TIM2.
-    pub(crate) const ENCODER_PINS: Function = 1;
+    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 1;
     /// Of the PWM's pins, TIM1.
-    pub(crate) const MOTOR_PINS: Function = 1;
+    pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
 
     /// What [`ENCODER`] counts.
     pub(crate) type EncoderCount = u32;

@@ -2,7 +2,7 @@
 //!
 //! | for | peripheral | pins |
 //! |---|---|---|
-//! | sensor | SPI1, paced by TIM6, moved by DMA1 channels 1 and 2 | PA5 PA6 PA7, /SS PB6 |
+//! | sensor | SPI1, bytes spaced by TIM6, moved by DMA1 channels 1 and 2 | PA5 PA6 PA7, /SS PB6 |
 //! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
 //! | angle | TIM2, 32 bits | PA0 PA1 |
 //! | tick | TIM3 | |
@@ -35,8 +35,8 @@ const _: () = assert!(CORE_HZ == 64_000_000);
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
     spi_bus_hz: CORE_HZ,
-    pacer_hz: CORE_HZ,
-    ticker_hz: CORE_HZ,
+    byte_timer_hz: CORE_HZ,
+    tick_timer_hz: CORE_HZ,
     counter_hz: CORE_HZ,
     pwm_hz: CORE_HZ,
     watchdog_hz: [29_500, 32_000, 34_000],
@@ -47,11 +47,11 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_200 && CLOCKS.slot_counts(1_000) == 5_248);
 
 #[cfg(target_os = "none")]
+#[path = "dma_channels.rs"]
+pub(crate) mod dma;
+#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
-#[path = "mover_channels.rs"]
-pub(crate) mod mover;
 #[cfg(target_os = "none")]
 #[path = "spi_v2.rs"]
 pub(crate) mod spi;
@@ -68,29 +68,29 @@ mod chip {
 
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::counter::SysTick;
-    use crate::board::gpio::Function;
+    use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
 
-    /// Lets the SPI send a byte.
-    pub(crate) const PACER: TimBasic = TIM6;
-    /// Makes the ticks.
-    pub(crate) const TICKER: TimGp16 = TIM3;
+    /// Requests each byte of a frame.
+    pub(crate) const BYTE_TIMER: TimBasic = TIM6;
+    /// Interrupts once a tick.
+    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp32 = TIM2;
     /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
-    pub(crate) const COLLECTOR: usize = 0;
+    pub(crate) const RX_DMA: usize = 0;
     /// DMA1 channel 2.
-    pub(crate) const FEEDER: usize = 1;
+    pub(crate) const TX_DMA: usize = 1;
     /// Number of the request SPI1_RX (RM0444, table of the DMAMUX inputs).
     const SPI1_RX: u8 = 16;
     /// Of TIM6_UP.
     const TIM6_UP: u8 = 38;
     /// Alternate function of the SPI's pins, SPI1.
-    pub(crate) const SPI_PINS: Function = 0;
+    pub(crate) const SPI_FUNCTION: AlternateFunction = 0;
     /// Of the encoder's pins, TIM2.
-    pub(crate) const ENCODER_PINS: Function = 2;
+    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 2;
     /// Of the PWM's pins, TIM1.
-    pub(crate) const MOTOR_PINS: Function = 2;
+    pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
 
     /// What [`ENCODER`] counts.
     pub(crate) type EncoderCount = u32;
@@ -177,8 +177,8 @@ mod chip {
         RCC.apbenr1().modify(|w| w.set_tim6en(true));
         RCC.apbenr2().modify(|w| w.set_spi1en(true));
         settle();
-        DMAMUX1.ccr(COLLECTOR).write(|w| w.set_dmareq_id(SPI1_RX));
-        DMAMUX1.ccr(FEEDER).write(|w| w.set_dmareq_id(TIM6_UP));
+        DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
+        DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
     }
 
     /// Clock for motor and encoder.

@@ -12,7 +12,7 @@
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use firmware::Event;
-use firmware::design_parameters::patience;
+use firmware::design_parameters::hold_limits;
 use heapless::spsc::{Consumer, Producer};
 use mlx90333::Decoder;
 
@@ -43,7 +43,7 @@ type Inner = firmware::Module<
 const CONFIG: firmware::Config<Number, motion::Config<Moving>, touch::Config<Deciding>> =
     firmware::Config {
         decoder: Decoder::new(),
-        patience: patience(TICK_HZ),
+        hold_limits: hold_limits(TICK_HZ),
         contact: scene::CONTACT,
         motion: Moving::CONFIG,
         perception: Deciding::CONFIG,
@@ -165,8 +165,8 @@ impl Idle {
     }
 }
 
-/// The program of a board: binds the tasks to the interrupts of the ticker and
-/// of the collector.
+/// The program of a board: binds the tasks to the interrupts of the tick timer
+/// and of the rx DMA.
 #[macro_export]
 macro_rules! program {
     (tick: $tick:ident, end_of_frame: $end_of_frame:ident) => {
@@ -180,7 +180,7 @@ macro_rules! program {
             use firmware::Event;
             use heapless::spsc::{Producer, Queue};
 
-            use $crate::board::counter::Ticker;
+            use $crate::board::counter::TickTimer;
             use $crate::board::program::{self, Idle, Module};
             use $crate::board::scene::TICK_HZ;
             use $crate::here::CLOCKS;
@@ -192,7 +192,7 @@ macro_rules! program {
 
             #[local]
             struct Local {
-                ticker: Ticker,
+                tick_timer: TickTimer,
                 say: Producer<'static, Event>,
                 idle: Idle,
             }
@@ -203,16 +203,16 @@ macro_rules! program {
                 let (module, names) = program::start(cx.core);
                 let (say, heard) = cx.local.queue.split();
                 let local = Local {
-                    ticker: Ticker::start(const { CLOCKS.tick(TICK_HZ) }),
+                    tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
                     say,
                     idle: Idle::new(heard, names),
                 };
                 (Shared { module }, local)
             }
 
-            #[task(binds = $tick, priority = 2, shared = [module], local = [ticker, say])]
+            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, say])]
             fn tick(mut cx: tick::Context) {
-                cx.local.ticker.acknowledge();
+                cx.local.tick_timer.acknowledge();
                 let say = cx.local.say;
                 cx.shared.module.lock(|module| program::tick(module, say));
             }

@@ -34,11 +34,11 @@ pub(crate) enum ClockError {
     NoPll,
 }
 
-/// Waits until `ready`, within [`CLOCK_PATIENCE`](super::timing::CLOCK_PATIENCE).
+/// Waits until `ready`, within [`CLOCK_WAIT_LOOPS`](super::timing::CLOCK_WAIT_LOOPS).
 ///
 /// # Errors
 /// `error` if it did not come.
 pub(crate) fn wait(error: ClockError, ready: impl Fn() -> bool) -> Result<(), ClockError> {
-    let came = (0..super::timing::CLOCK_PATIENCE).any(|_| ready());
+    let came = (0..super::timing::CLOCK_WAIT_LOOPS).any(|_| ready());
     if came { Ok(()) } else { Err(error) }
 }

@@ -15,10 +15,10 @@ pub(crate) struct Clocks {
     pub(crate) core_hz: u32,
     /// What the sensor's SPI divides.
     pub(crate) spi_bus_hz: u32,
-    /// What the timer that paces the SPI's bytes counts.
-    pub(crate) pacer_hz: u32,
-    /// What the timer that makes the ticks counts.
-    pub(crate) ticker_hz: u32,
+    /// What the byte timer counts.
+    pub(crate) byte_timer_hz: u32,
+    /// What the tick timer counts.
+    pub(crate) tick_timer_hz: u32,
     /// What the counter that measures the ticks counts.
     pub(crate) counter_hz: u32,
     /// What the timer of the motor's PWM counts.
@@ -49,7 +49,7 @@ const WATCHDOG_DIVIDER: u32 = 4;
 
 /// Loops to wait for a clock before giving up: over a second at the 8 or 16 MHz
 /// a chip starts with, because the ST-LINK gives its clock only once it is awake.
-pub(crate) const CLOCK_PATIENCE: u32 = 4_000_000;
+pub(crate) const CLOCK_WAIT_LOOPS: u32 = 4_000_000;
 
 impl Clocks {
     /// These clocks, once it is certain that all that follows from them is in
@@ -67,7 +67,7 @@ impl Clocks {
         let bites_ms =
             self.watchdog_counts() as u32 * WATCHDOG_DIVIDER * 1_000 / self.watchdog_hz[2];
         assert!(bites_ms >= 2 * 1_000 / TICK_MIN_HZ + 2);
-        assert!(TickPeriod::new(TICK_MIN_HZ, self.ticker_hz).counts() > 0);
+        assert!(TickPeriod::new(TICK_MIN_HZ, self.tick_timer_hz).counts() > 0);
         self
     }
 
@@ -116,26 +116,26 @@ impl Clocks {
         }
     }
 
-    /// Counts of the pacer in the slot for a tick rate. For constants: does not
+    /// Counts of the byte timer in the slot for a tick rate. For constants: does not
     /// compile for a rate that the build script refuses.
     pub(crate) const fn slot_counts(&self, tick_hz: u32) -> u16 {
         let Some(slot_ns) = self.slot_ns(tick_hz) else {
             panic!("the tick is shorter than a sensor frame");
         };
-        let counts = slot_ns as u64 * (self.pacer_hz / 1_000_000) as u64 / 1_000;
+        let counts = slot_ns as u64 * (self.byte_timer_hz / 1_000_000) as u64 / 1_000;
         assert!(counts <= u16::MAX as u64);
         counts as u16
     }
 
-    /// Prescaler and period of the ticker.
+    /// Prescaler and period of the tick timer.
     pub(crate) const fn tick(&self, tick_hz: u32) -> TickPeriod {
-        TickPeriod::new(tick_hz, self.ticker_hz)
+        TickPeriod::new(tick_hz, self.tick_timer_hz)
     }
 
     /// The tick in counts of the counter.
     pub(crate) const fn tick_counts(&self, tick_hz: u32) -> u32 {
         let counts = self.tick(tick_hz).counts() as u64;
-        (counts * self.counter_hz as u64 / self.ticker_hz as u64) as u32
+        (counts * self.counter_hz as u64 / self.tick_timer_hz as u64) as u32
     }
 
     /// Counts of the PWM's timer in a period; the duty has this many steps.

@@ -3,7 +3,7 @@
 
 use core::marker::PhantomData;
 
-use firmware::{Perception, Stream, Touch, TouchConfig};
+use firmware::{Classifying, ClassifyingConfig, CodeClassifier, Perception};
 use tactile::{Classes, Decision, Model, SequentialRule, Supported, Threshold, WindowRule};
 
 use super::log;
@@ -87,18 +87,18 @@ impl<S: AtThreshold, const K: usize> Decides for Sequential<S, K>
 where
     Classes<K>: Supported,
 {
-    type Perception = Touch<Stream<'static, SequentialRule, K>>;
+    type Perception = Classifying<CodeClassifier<'static, SequentialRule, K>>;
     type Names = Model<'static>;
 
-    const CONFIG: TouchConfig<Number> = TouchConfig {
+    const CONFIG: ClassifyingConfig<Number> = ClassifyingConfig {
         contact_min: S::CONTACT_MIN,
     };
 
     fn start() -> Option<(Self::Perception, Self::Names)> {
         let model = Model::parse(S::model()).ok()?;
         let classifier = tactile::Sequential::new(&model, S::THRESHOLD).ok()?;
-        let stream = Stream::new(&model, classifier).ok()?;
-        Some((Touch::new(stream), model))
+        let stream = CodeClassifier::new(&model, classifier).ok()?;
+        Some((Classifying::new(stream), model))
     }
 }
 
@@ -109,17 +109,17 @@ impl<S: ByWindow, const K: usize> Decides for Window<S, K>
 where
     Classes<K>: Supported,
 {
-    type Perception = Touch<Stream<'static, WindowRule, K>>;
+    type Perception = Classifying<CodeClassifier<'static, WindowRule, K>>;
     type Names = Model<'static>;
 
-    const CONFIG: TouchConfig<Number> = TouchConfig {
+    const CONFIG: ClassifyingConfig<Number> = ClassifyingConfig {
         contact_min: S::CONTACT_MIN,
     };
 
     fn start() -> Option<(Self::Perception, Self::Names)> {
         let model = Model::parse(S::model()).ok()?;
         let classifier = tactile::Window::new(&model, S::SAMPLES).ok()?;
-        let stream = Stream::new(&model, classifier).ok()?;
-        Some((Touch::new(stream), model))
+        let stream = CodeClassifier::new(&model, classifier).ok()?;
+        Some((Classifying::new(stream), model))
     }
 }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::path::Path;
 use std::rc::Rc;
 
-use firmware::Listener;
+use firmware::SampleClassifier;
 use scene::Scene;
 use tactile::Decision;
 
@@ -42,7 +42,7 @@ pub fn record(
 /// Listens without deciding: keeps the codes.
 struct Recorder(Rc<RefCell<Vec<[f64; 2]>>>);
 
-impl Listener for Recorder {
+impl SampleClassifier for Recorder {
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
         self.0.borrow_mut().push(codes.map(f64::from));
         None

@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use firmware::{Event, Listener};
+use firmware::{Event, SampleClassifier};
 use host_sim::bench::AnyListener;
 use host_sim::run::{Happened, Run};
 use host_sim::trace::Row;
@@ -46,7 +46,7 @@ pub(crate) fn textured(at_deg: f64) -> String {
 
 struct Ear(Rc<RefCell<Vec<[u16; 2]>>>);
 
-impl Listener for Ear {
+impl SampleClassifier for Ear {
     fn push(&mut self, codes: [u16; 2]) -> Option<tactile::Decision> {
         self.0.borrow_mut().push(codes);
         None

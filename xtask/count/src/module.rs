@@ -5,10 +5,10 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{RETRY_S, patience, stall, ticks};
+use firmware::design_parameters::{RETRY_S, hold_limits, stall, ticks};
 use firmware::{
-    Active, ActiveConfig, AngleInput, BusError, Clock, Config, Event, Follower, FrameSource,
-    Module, Stream, Touch, TouchConfig,
+    Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
+    CodeClassifier, Config, Event, FrameSource, Module, Servo,
 };
 use mlx90333::{Decoder, FRAME_LEN};
 use tactile::{Model, Sequential, SequentialRule};
@@ -109,7 +109,7 @@ impl Clock for Counter {
 
 type Motor = HBridge<Compare, Pin>;
 type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
-type Perception = Touch<Stream<'static, SequentialRule, 9>>;
+type Perception = Classifying<CodeClassifier<'static, SequentialRule, 9>>;
 
 /// A module and the last event that it told.
 #[derive(Debug)]
@@ -121,9 +121,9 @@ pub struct Whole<R: Format, const S: usize, const N: usize> {
 impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     /// Frame, contact filter, RCP, CIA, oscillators, muscles, position control
     /// and a classifier of nine classes; no noise, which few scenes have.
-    const CONFIG: Config<R, ActiveConfig<R>, TouchConfig<R>> = Config {
+    const CONFIG: Config<R, ActiveConfig<R>, ClassifyingConfig<R>> = Config {
         decoder: Decoder::new(),
-        patience: patience(TICK_HZ),
+        hold_limits: hold_limits(TICK_HZ),
         contact: Some(R::H50),
         motion: ActiveConfig {
             whisking: R::WHISKING,
@@ -131,7 +131,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
             retry: ticks(RETRY_S, TICK_HZ),
             stall: STALL,
         },
-        perception: TouchConfig { contact_min: None },
+        perception: ClassifyingConfig { contact_min: None },
         period: PERIOD,
     };
 
@@ -142,11 +142,11 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     pub fn new(start: &Start<R, S, N>) -> Self {
         let model = Model::parse(open_9()).expect("a model");
         let classifier = Sequential::new(&model, THRESHOLD).expect("two channels, nine classes");
-        let stream = Stream::new(&model, classifier).expect("learnt from codes");
-        let followers = core::array::from_fn(|_| {
+        let stream = CodeClassifier::new(&model, classifier).expect("learnt from codes");
+        let servos = core::array::from_fn(|_| {
             core::array::from_fn(|_| {
                 let motor = HBridge::new(Compare(0), Pin(false)).with_buffered_pwm();
-                Follower::new(motor, Encoder(0), STALL)
+                Servo::new(motor, Encoder(0), STALL)
             })
         });
         let sources = core::array::from_fn(|side| {
@@ -154,9 +154,9 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
                 next: (side + w) as u32,
             })
         });
-        let motion = Active::new(State::new(start, 1), followers);
+        let motion = Active::new(State::new(start, 1), servos);
         Self {
-            module: Module::new(sources, motion, Touch::new(stream), Counter(0)),
+            module: Module::new(sources, motion, Classifying::new(stream), Counter(0)),
             told: None,
         }
     }

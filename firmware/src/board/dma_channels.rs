@@ -1,38 +1,38 @@
-//! DMA by channels (STM32F1, STM32G0): one collects the bytes that the SPI
-//! received, one feeds it one a request. Which two is the board's to say.
+//! DMA with channels (STM32F1, STM32G0): one moves the bytes that the SPI
+//! received (rx), one sends it a byte a request (tx). The board's file names them.
 
 use stm32_metapac::DMA1;
 use stm32_metapac::bdma::vals::{Dir, Pl};
 
-use crate::here::{COLLECTOR, FEEDER};
+use crate::here::{RX_DMA, TX_DMA};
 
-/// Tells both where to fetch and where to put.
+/// Sets the addresses of both.
 ///
 /// `received` must have room for as many bytes as each [`start`] moves, and
-/// both must live for ever.
+/// both must be static.
 pub(crate) fn set_up(data_register: u32, received: u32, sent: u32) {
-    for (channel, memory) in [(COLLECTOR, received), (FEEDER, sent)] {
+    for (channel, memory) in [(RX_DMA, received), (TX_DMA, sent)] {
         DMA1.ch(channel).par().write_value(data_register);
         DMA1.ch(channel).mar().write_value(memory);
     }
 }
 
-/// Both move `bytes`: the collector to successive addresses, the feeder always
-/// the same one.
+/// Starts a transfer of `bytes` on both: the rx DMA to successive addresses, the
+/// tx DMA always from the same one.
 #[inline]
 pub(crate) fn start(bytes: u16) {
     // A channel takes a new count only while it is off, and stays on at its end.
     stop();
     DMA1.ifcr().write(|w| {
-        for channel in [COLLECTOR, FEEDER] {
+        for channel in [RX_DMA, TX_DMA] {
             w.set_gif(channel, true);
             w.set_tcif(channel, true);
             w.set_htif(channel, true);
             w.set_teif(channel, true);
         }
     });
-    DMA1.ch(COLLECTOR).ndtr().write(|w| w.set_ndt(bytes));
-    DMA1.ch(COLLECTOR).cr().write(|w| {
+    DMA1.ch(RX_DMA).ndtr().write(|w| w.set_ndt(bytes));
+    DMA1.ch(RX_DMA).cr().write(|w| {
         w.set_dir(Dir::FROM_PERIPHERAL);
         w.set_minc(true);
         w.set_pl(Pl::VERY_HIGH);
@@ -40,40 +40,40 @@ pub(crate) fn start(bytes: u16) {
         w.set_teie(true);
         w.set_en(true);
     });
-    DMA1.ch(FEEDER).ndtr().write(|w| w.set_ndt(bytes));
-    DMA1.ch(FEEDER).cr().write(|w| {
+    DMA1.ch(TX_DMA).ndtr().write(|w| w.set_ndt(bytes));
+    DMA1.ch(TX_DMA).cr().write(|w| {
         w.set_dir(Dir::FROM_MEMORY);
         w.set_en(true);
     });
 }
 
-/// Whether the collector has ended, well or not.
+/// Whether the rx DMA has ended, with or without an error.
 #[inline]
 pub(crate) fn has_ended() -> bool {
     let flags = DMA1.isr().read();
-    flags.tcif(COLLECTOR) || flags.teif(COLLECTOR)
+    flags.tcif(RX_DMA) || flags.teif(RX_DMA)
 }
 
-/// Whether the collector has moved all, and neither met an error.
+/// Whether the rx DMA has moved all bytes, and neither met an error.
 #[inline]
 pub(crate) fn is_complete() -> bool {
     let flags = DMA1.isr().read();
-    flags.tcif(COLLECTOR) && !flags.teif(COLLECTOR) && !flags.teif(FEEDER)
+    flags.tcif(RX_DMA) && !flags.teif(RX_DMA) && !flags.teif(TX_DMA)
 }
 
-/// The interrupt has been seen. The flags stay.
+/// Acknowledges the interrupt. The flags stay.
 #[inline]
 pub(crate) fn acknowledge() {
-    DMA1.ch(COLLECTOR).cr().modify(|w| {
+    DMA1.ch(RX_DMA).cr().modify(|w| {
         w.set_tcie(false);
         w.set_teie(false);
     });
 }
 
-/// Stops both, wherever they are.
+/// Stops both at once, in the middle of a transfer too.
 #[inline]
 pub(crate) fn stop() {
-    for channel in [COLLECTOR, FEEDER] {
+    for channel in [RX_DMA, TX_DMA] {
         DMA1.ch(channel).cr().write(|_| {});
     }
 }
