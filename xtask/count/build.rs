@@ -4,10 +4,10 @@
 //! A number format is measured when it has a line in [`constants`].
 
 use std::error::Error;
-use std::fmt::Debug;
 use std::path::PathBuf;
 use std::{env, fs};
 
+use databake::{Bake, CrateEnv};
 use tactile::train::{Options, Trainer};
 use whisking::{GateSettings, Integrator, Real, Settings, filter, pd};
 
@@ -157,28 +157,10 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-/// `const NAME: TYPE = VALUE;`, the value in a scope with the names that it
-/// prints, of which several are alike.
-fn part(name: &str, of_type: &str, value: &impl Debug) -> String {
-    let module = of_type.split_once("::").map_or("", |(module, _)| module);
-    let names = match module {
-        "oscillator" => "oscillator::{Config, Config::*, Euler, Exact, Linear, Turn}",
-        "muscle" => "muscle::{Config, Config::*, Euler, Exact, Lag}",
-        "noise" | "filter" => "filter::Config",
-        "gate" => "gate::{Cia, Decay, Rcp}",
-        "pd" => "pd::Config",
-        _ => "{Start, muscle::History}",
-    };
-    let mut value = format!("{value:?}");
-    if module == "noise" {
-        // Two types of one short name, one in the other.
-        value = value.replacen("Config", "noise::Config", 1);
-    }
-    format!(
-        "    const {name}: {of_type} = {{\n        \
-         #[allow(unused_imports, reason = \"as the value needs\")]\n        \
-         use whisking::{names};\n        {value}\n    }};\n"
-    )
+/// `const NAME: TYPE = VALUE;`.
+fn part(name: &str, of_type: &str, value: &impl Bake) -> String {
+    let value = value.bake(&CrateEnv::default());
+    format!("    const {name}: {of_type} = {value};\n")
 }
 
 /// H50 as two second-order sections b0, b1, b2, a1, a2 (denominator

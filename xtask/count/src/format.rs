@@ -4,17 +4,10 @@
 use whisking::{Real, Start, filter, gate, muscle, noise, oscillator, pd};
 
 /// Made by the build script.
-#[allow(
-    clippy::enum_glob_use,
-    clippy::excessive_precision,
-    clippy::unreadable_literal,
-    reason = "names and numbers as they print"
-)]
+#[allow(clippy::unreadable_literal, reason = "numbers as they print")]
 mod constants {
     use super::Format;
-    use whisking::{
-        Factor, Factors, FineFactor, Fix, Start, filter, gate, muscle, noise, oscillator, pd,
-    };
+    use whisking::{Fix, Start, filter, gate, muscle, noise, oscillator, pd};
 
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
 }
