@@ -1,5 +1,4 @@
-//! The accuracy report: `docs/accuracy.md`, its pictures, and the timings of
-//! this PC on a page of their own, all generated.
+//! The accuracy report: `docs/measured/accuracy.md` and its pictures, generated.
 //!
 //! # Glossary
 //!
@@ -8,23 +7,21 @@
 //! - **largest error**: of θ' in degrees, over ten whisks from the first tick
 //!   and both sides, against the continuous equations.
 //! - **instructions**: of a tick or function on a microcontroller, counted in
-//!   an emulator (`docs/instructions.csv`, from `cargo xtask count`).
+//!   an emulator (`docs/measured/instructions.csv`, from `cargo xtask count`).
 //! - **exact**, **euler**: the product's integrators; **f64**, **f32**,
 //!   **fixed**: its number formats.
 //!
 //! Each section is a module that measures and appends its text, tables and
-//! pictures. All but the timings is the same, byte for byte, in every run.
+//! pictures. All of it is the same, byte for byte, in every run.
 
 mod boundaries;
 pub(crate) mod chart;
 mod choice;
-pub(crate) mod classifier;
 mod contact;
 mod corners;
 mod counts;
 mod functions;
 mod gates;
-mod host;
 mod integrators;
 mod long_run;
 pub(crate) mod misprints;
@@ -59,27 +56,13 @@ const LONG_RUN: &str = "accuracy/long-run.csv";
 /// Generated files: path below the folder of documents, and contents.
 pub type Files = Vec<(String, String)>;
 
-/// What a report consists of.
-#[derive(Debug)]
-pub struct Report {
-    /// The same in every run.
-    pub fixed: Files,
-    /// Timings of this PC; empty unless asked for.
-    pub timings: Files,
-}
-
 /// Measures everything. `docs` is the folder whose tables of instructions and
 /// of the long run are read.
 ///
 /// # Errors
 /// [`Error::Input`] if a table of results is broken, [`Error::Work`] if a
 /// picture fails.
-pub fn report(
-    docs: &Path,
-    long_run: LongRun,
-    timings: bool,
-    verbosity: Verbosity,
-) -> Result<Report, Error> {
+pub fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Files, Error> {
     let counts = Counts::read(&docs.join("instructions.csv"));
     let (day, kept) = match long_run {
         LongRun::Kept => (Table::read(&docs.join(LONG_RUN))?, None),
@@ -91,7 +74,6 @@ pub fn report(
         }
     };
     let near = integrators::measure(&integrators::NEAR)?;
-    let touched = contact::measure()?;
 
     let mut page = Page::default();
     introduction(&mut page);
@@ -101,31 +83,15 @@ pub fn report(
     gates::section(&mut page)?;
     boundaries::section(&mut page)?;
     corners::section(&mut page)?;
-    contact::section(&mut page, &touched)?;
+    contact::section(&mut page, &contact::measure()?)?;
     long_run::section(&mut page, day.as_ref(), long_run == LongRun::Quick)?;
     misprints::section(&mut page)?;
-    let pictures = classifier::section(&mut page.text)?;
-    page.files.extend(pictures);
 
-    let mut timed = Files::new();
-    if timings {
-        let host = host::page(&near, &touched)?;
-        timed.extend(files(host, "accuracy-host.md"));
-    }
-    let mut fixed = files(page, "accuracy.md");
-    fixed.extend(kept);
-    Ok(Report {
-        fixed,
-        timings: timed,
-    })
-}
-
-/// The page under its name, and its pictures.
-fn files(page: Page, name: &str) -> Files {
     let text = format!("{}\n", page.text.trim_end());
-    let mut files = vec![(name.to_owned(), text)];
+    let mut files = vec![("accuracy.md".to_owned(), text)];
     files.extend(page.files);
-    files
+    files.extend(kept);
+    Ok(files)
 }
 
 fn introduction(page: &mut Page) {
@@ -149,7 +115,6 @@ fn introduction(page: &mut Page) {
         "Truth is the continuous equations, solved with 40,000 Runge-Kutta steps a whisk, within \
          1e-10 degrees of an independent solver of eighth order. Forward Euler is the papers' \
          integrator and reproduces their figures, but its limit cycle is too wide. Where curves \
-         of f32 and fixed flatten, rounding has taken over, and a shorter tick does not help. \
-         Times on a PC are on [a page of their own](accuracy-host.md).",
+         of f32 and fixed flatten, rounding has taken over, and a shorter tick does not help.",
     );
 }

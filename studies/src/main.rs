@@ -39,7 +39,7 @@ enum Command {
     /// and writes DIR/accuracy.md with its pictures
     Report {
         /// Where documents are: instructions.csv is read, the report written there
-        #[arg(long, value_name = "DIR", default_value = "docs")]
+        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
         out: PathBuf,
         /// Run ten minutes in place of showing the kept 24 hours
         #[arg(long)]
@@ -47,7 +47,7 @@ enum Command {
         /// Run the 24 hours anew and keep them (DIR/accuracy/long-run.csv)
         #[arg(long, conflicts_with = "quick")]
         long: bool,
-        /// Only say whether the report is up to date; timings of the PC are left out
+        /// Only say whether the report is up to date
         #[arg(long, conflicts_with_all = ["quick", "long"])]
         check: bool,
     },

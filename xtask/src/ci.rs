@@ -35,7 +35,7 @@ pub(crate) fn all() -> Result<(), Fault> {
     }
 
     run(&mut cargo(&["test", "-p", "count", "--lib"]))?;
-    // Counts anew what docs/instructions.csv and docs/cost.csv say.
+    // Counts anew what docs/measured/instructions.csv and docs/measured/cost.csv say.
     cost::all(None, true)?;
 
     // What the README tells a newcomer to run: the main job (its output and its

@@ -1,7 +1,7 @@
 //! What each stage of a tick costs, beside its goal and what others take: from
 //! the counts of `cargo xtask count` and from the emulated board. The table is
 //! committed, so that no stage can become dearer unseen, and shown in
-//! docs/cost.md.
+//! docs/measured/cost.md.
 
 mod page;
 mod reasons;
@@ -16,13 +16,13 @@ use crate::{count, emulate, firmware};
 use stages::{BOARD_STAGES, STAGES, Source};
 
 /// The committed table.
-const TABLE: &str = "docs/cost.csv";
+const TABLE: &str = "docs/measured/cost.csv";
 
 /// How the board keeps its time, over ten minutes.
-const DEADLINES: &str = "docs/deadlines.csv";
+const DEADLINES: &str = "docs/measured/deadlines.csv";
 
 /// The page that shows both.
-const PAGE: &str = "docs/cost.md";
+const PAGE: &str = "docs/measured/cost.md";
 
 const HEADER: &str = "stage,target,mean,worst,goal,peer";
 
@@ -75,7 +75,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 }
 
 /// Ten minutes of the noisiest scene on the emulated board; writes
-/// docs/deadlines.csv and the page.
+/// docs/measured/deadlines.csv and the page.
 ///
 /// # Errors
 /// If a tick is missed, or nothing can be built or run.
@@ -89,7 +89,7 @@ pub(crate) fn deadlines() -> Result<(), Fault> {
     write_page(false)
 }
 
-/// Writes docs/cost.md from the committed tables, or checks that it is up to date.
+/// Writes docs/measured/cost.md from the committed tables, or checks that it is up to date.
 ///
 /// # Errors
 /// If a table is missing or, checking, the page differs.
@@ -100,7 +100,7 @@ pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
     let page = page::page(
         &read(&text(TABLE)?)?,
         &text(DEADLINES)?,
-        &text("docs/sizes.csv")?,
+        &text("docs/measured/sizes.csv")?,
     )?;
     let path = top().join(PAGE);
     if check {
@@ -115,7 +115,7 @@ pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
 }
 
 fn measured() -> Result<Vec<Row>, Fault> {
-    let path: PathBuf = top().join("docs/instructions.csv");
+    let path: PathBuf = top().join("docs/measured/instructions.csv");
     let known =
         fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     let counted = count::known(&known)?;

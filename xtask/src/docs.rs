@@ -27,7 +27,7 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     let model = fs::read(top().join("out/textures/textures.model"));
     let model = model.map_err(|error| format!("out/textures/textures.model: {error}"))?;
     write("scenes/models/textures.model", &model, check)?;
-    // It shows docs/instructions.csv, which `cargo xtask count` writes.
+    // It shows docs/measured/instructions.csv, which `cargo xtask count` writes.
     let report = [
         "run",
         "--release",

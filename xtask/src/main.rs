@@ -43,7 +43,7 @@ enum Command {
     /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
     Emulate(Emulate),
     /// Counts the instructions of every kernel on emulated processors
-    /// (needs qemu-system-arm) and writes docs/instructions.csv
+    /// (needs qemu-system-arm) and writes docs/measured/instructions.csv
     Count {
         /// The table to write or to check
         #[arg(long)]
@@ -53,8 +53,8 @@ enum Command {
         check: bool,
     },
     /// Says what each stage of a tick costs, beside its goal and what others take
-    /// (from docs/instructions.csv and the emulated board); writes docs/cost.csv and
-    /// docs/cost.md
+    /// (from docs/measured/instructions.csv and the emulated board); writes docs/measured/cost.csv and
+    /// docs/measured/cost.md
     Cost {
         /// The table to write or to check; - prints it alone
         #[arg(long)]
@@ -62,13 +62,13 @@ enum Command {
         /// Count everything anew and only say whether a stage has become dearer
         #[arg(long)]
         check: bool,
-        /// Instead: measure ten minutes of the noisiest scene (docs/deadlines.csv)
+        /// Instead: measure ten minutes of the noisiest scene (docs/measured/deadlines.csv)
         #[arg(long, conflicts_with_all = ["csv", "check"])]
         deadlines: bool,
     },
     /// Builds the firmware of every scene for every board that takes it, and
     /// prints flash, static RAM, stack, and the time that host-sim takes; writes
-    /// docs/sizes.csv
+    /// docs/measured/sizes.csv
     Size {
         /// The table to write or to check; - prints it alone
         #[arg(long)]

@@ -14,7 +14,7 @@
 //! `Spectrum` (feature `study`) is a planned FFT in double precision. [`Bank`]
 //! is for the board: a second-order resonator a bin, stepped with every sample.
 //!
-//! Why not an FFT on the board: counted on a Cortex-M4F (`docs/instructions.csv`),
+//! Why not an FFT on the board: counted on a Cortex-M4F (`docs/measured/instructions.csv`),
 //! one of 1024 points takes 48,130 instructions, all in the tick that ends the
 //! block, more than half of a tick of 500 µs at 168 MHz. The bank takes about
 //! 9.6 a bin in every tick, and in the last another 19 a bin for powers or 41

@@ -11,7 +11,7 @@
 //!
 //! The errors are summed as samples come in, so no window is kept: the state
 //! is 8 K + 8 bytes. A sample takes some 5 instructions a class and channel on a
-//! Cortex-M4F (`docs/instructions.csv`). The templates are the larger part: 2 n C K bytes.
+//! Cortex-M4F (`docs/measured/instructions.csv`). The templates are the larger part: 2 n C K bytes.
 //!
 //! Sums are exact integers. What is lost is the rounding of a template to half
 //! a code: e differs from that of the real mean by at most

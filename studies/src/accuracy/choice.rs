@@ -13,7 +13,7 @@ const BOUNDS_DEG: [f64; 3] = [0.05, 1e-3, 1e-4];
 pub(super) fn section(page: &mut Page, measured: &[Errors], counts: &Counts) -> Result<(), Error> {
     if counts.is_empty() {
         page.say(
-            "Instructions are **not counted** yet (`docs/instructions.csv` is missing; \
+            "Instructions are **not counted** yet (`docs/measured/instructions.csv` is missing; \
              `cargo xtask count` writes it). Until then the error stands against the tick rate.",
         );
         let svg = diagram(measured, "ticks a second", |scheme| {

@@ -10,7 +10,6 @@
 
 mod energy;
 mod runs;
-mod timing;
 
 use std::fmt::Write;
 
@@ -20,7 +19,6 @@ use host_sim::Error;
 use runs::{Measured, TICKS_HZ};
 
 pub(super) use runs::{Against, measure};
-pub(super) use timing::section as timing;
 
 /// Ticks that the last two tables look at, Hz.
 const USUAL_HZ: u32 = 2_000;
@@ -85,10 +83,7 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
         "surface | usual (parts) | twice | four times | eight times",
         measured.iter().map(row),
     );
-    page.say(
-        "All figures are in [contact.csv](accuracy/contact.csv); what a tick takes on a PC, \
-         free and in contact, is on [the page of times](accuracy-host.md).",
-    );
+    page.say("All figures are in [contact.csv](accuracy/contact.csv).");
     page.files
         .push(("accuracy/contact.csv".to_owned(), csv(measured)));
 

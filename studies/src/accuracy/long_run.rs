@@ -166,7 +166,9 @@ fn both<R: Real>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec
 pub(super) fn section(page: &mut Page, table: Option<&Table>, quick: bool) -> Result<(), Error> {
     page.heading(2, "Long run");
     let Some(Table(rows)) = table else {
-        page.say("Not run yet: `studies report --long` writes `docs/accuracy/long-run.csv`.");
+        page.say(
+            "Not run yet: `studies report --long` writes `docs/measured/accuracy/long-run.csv`.",
+        );
         return Ok(());
     };
     let last = rows.iter().map(|row| row.minutes).max().unwrap_or(0);
@@ -184,7 +186,7 @@ pub(super) fn section(page: &mut Page, table: Option<&Table>, quick: bool) -> Re
         "**This page was written with `--quick`**: ten minutes in place of 24 hours."
     } else {
         "A day takes too long for every run of the report. `studies report --long` runs it and \
-         writes `docs/accuracy/long-run.csv`; what stands here is read from there."
+         writes `docs/measured/accuracy/long-run.csv`; what stands here is read from there."
     });
     let cells = [PACE, ODD].map(|pace| Format::ALL.map(|format| summary(rows, format, pace)));
     page.table(

@@ -8,7 +8,7 @@ use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 
 /// Writes the report into the folder `out`, or with `check` says whether what
-/// is there is up to date, timings of the PC aside. Returns what was done.
+/// is there is up to date. Returns what was done.
 ///
 /// # Errors
 /// [`Error::Work`] if it is out of date, [`Error::Input`] for a broken table of
@@ -19,13 +19,12 @@ pub fn report(
     check: bool,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let report = measure(out, long_run, !check, verbosity)?;
+    let files = measure(out, long_run, verbosity)?;
     if check {
         let differs = |(name, text): &&(String, String)| {
             std::fs::read(out.join(name)).map_or(true, |found| found != text.as_bytes())
         };
-        let stale: Vec<String> = report
-            .fixed
+        let stale: Vec<String> = files
             .iter()
             .filter(differs)
             .map(|(name, _)| out.join(name).display().to_string())
@@ -42,12 +41,12 @@ pub fn report(
             )))
         };
     }
-    for (name, text) in report.fixed.iter().chain(&report.timings) {
+    for (name, text) in &files {
         write_whole(&out.join(name), text.as_bytes())?;
     }
     Ok(format!(
         "{}: {} files of the accuracy report",
         out.display(),
-        report.fixed.len() + report.timings.len()
+        files.len()
     ))
 }

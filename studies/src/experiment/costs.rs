@@ -4,7 +4,7 @@ use super::page::Section;
 use crate::accuracy::page::Page;
 
 /// Counted kernels, as `cargo xtask count` left them.
-const COUNTED: &str = include_str!("../../../docs/instructions.csv");
+const COUNTED: &str = include_str!("../../../docs/measured/instructions.csv");
 
 /// What a classifier's board form consists of.
 struct Form {

@@ -2,7 +2,7 @@
 //!
 //! `cargo xtask count` builds the programs of this package for a Cortex-M4F
 //! and a Cortex-M0 (whose instruction set is also that of the Cortex-M0+), runs
-//! them in QEMU and makes the table `docs/instructions.csv` of what they print.
+//! them in QEMU and makes the table `docs/measured/instructions.csv` of what they print.
 //! These are instructions, not cycles: what they take depends on the part, its
 //! flash and its caches.
 //!

@@ -1,4 +1,4 @@
-//! docs/cost.md, and the table for a person to read.
+//! docs/measured/cost.md, and the table for a person to read.
 
 use std::fmt::Write as _;
 
@@ -16,7 +16,7 @@ const INTRODUCTION: &str = "# What it costs\n\n\
      twelve whiskers a side, each with all of it. *Floor* is a\nkernel written by hand once \
      for the purpose, without limits or faults; the other peers are what a\nuser would pick \
      instead (`xtask/src/cost/stages.rs`).\n\n\
-     `cargo xtask cost` measures all of it and writes docs/cost.csv; CI fails if a stage becomes \
+     `cargo xtask cost` measures all of it and writes docs/measured/cost.csv; CI fails if a stage becomes \
      more\nthan 2 % dearer.\n\n";
 
 /// Mean and worst of `what` in `what,mean,worst` lines.
@@ -36,7 +36,7 @@ pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
     Ok([number(mean)?, number(worst)?])
 }
 
-/// The bytes of stack that the board of docs/deadlines.csv has used.
+/// The bytes of stack that the board of docs/measured/deadlines.csv has used.
 ///
 /// # Errors
 /// If they are not there.
@@ -44,7 +44,7 @@ fn painted(deadlines: &str) -> Result<f64, Fault> {
     let start = "bytes of stack by its paint,,";
     let bytes = deadlines.lines().find_map(|line| line.strip_prefix(start));
     let bytes = bytes.and_then(|bytes| bytes.parse().ok());
-    bytes.ok_or_else(|| "docs/deadlines.csv does not tell the stack".to_owned())
+    bytes.ok_or_else(|| "docs/measured/deadlines.csv does not tell the stack".to_owned())
 }
 
 /// The goals for the mean and for the worst, as far as there are any.
@@ -150,7 +150,7 @@ pub(super) fn page(rows: &[Row], deadlines: &str, sizes: &str) -> Result<String,
     );
     let mut lines = sizes.lines();
     if lines.next() != Some("scene,board,flash_bytes,ram_bytes,stack_bytes") {
-        return Err("docs/sizes.csv has another header".to_owned());
+        return Err("docs/measured/sizes.csv has another header".to_owned());
     }
     let used = painted(deadlines)?;
     for line in lines {

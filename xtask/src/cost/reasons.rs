@@ -1,4 +1,4 @@
-//! Why a goal is missed, for docs/cost.md.
+//! Why a goal is missed, for docs/measured/cost.md.
 
 /// Stages that miss their goal for one reason, and the reason.
 pub(super) struct Reason {
@@ -30,7 +30,7 @@ pub(super) const REASONS: &[Reason] = &[
     Reason {
         stages: &["muscle with its exponential"],
         why: "The goal is below the floor, which is of third order; this is of fifth, for the \
-              sake of 2 ms ticks at 25 Hz (docs/accuracy.md), and sums the slow lag with \
+              sake of 2 ms ticks at 25 Hz (docs/measured/accuracy.md), and sums the slow lag with \
               compensation.",
     },
     Reason {
