@@ -15,7 +15,7 @@ const TABLE: &str = "docs/measured/instructions.csv";
 const HEADER: &str = "kernel,format,target,mean,worst";
 
 /// By how much a kernel may become dearer before a check fails.
-const SLACK: f64 = 0.02;
+const SLACK: f64 = 0.05;
 
 /// An emulated processor.
 struct Processor {
@@ -289,12 +289,12 @@ mod tests {
     }
 
     #[test]
-    fn two_per_cent_are_borne_and_no_more() {
+    fn five_per_cent_are_borne_and_no_more() {
         let known = [row("a", 100.0, 200)];
-        assert_eq!(compare(&known, &[row("a", 102.0, 204)]), Ok(()));
+        assert_eq!(compare(&known, &[row("a", 105.0, 210)]), Ok(()));
         assert_eq!(compare(&known, &[row("a", 50.0, 100)]), Ok(()));
-        assert!(compare(&known, &[row("a", 102.1, 200)]).is_err());
-        assert!(compare(&known, &[row("a", 100.0, 205)]).is_err());
+        assert!(compare(&known, &[row("a", 105.1, 200)]).is_err());
+        assert!(compare(&known, &[row("a", 100.0, 211)]).is_err());
     }
 
     #[test]

@@ -7,7 +7,6 @@ mod count;
 mod docs;
 mod emulate;
 mod firmware;
-mod mutants;
 mod run;
 mod size;
 
@@ -78,9 +77,6 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
-    /// Leaves out one term of an equation or turns round one bit of a table at
-    /// a time, and writes which tests notice to docs/mutations.md (takes hours)
-    Mutants(mutants::Choice),
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -166,7 +162,6 @@ fn main() -> ExitCode {
         Command::Cost { csv, check, .. } => cost::all(csv.as_deref(), check),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
-        Command::Mutants(choice) => mutants::all(&choice),
         Command::Docs { check } => docs::all(check),
     };
     match done {

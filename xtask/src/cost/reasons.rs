@@ -33,18 +33,4 @@ pub(super) const REASONS: &[Reason] = &[
               sake of 2 ms ticks at 25 Hz (docs/measured/accuracy.md), and sums the slow lag with \
               compensation.",
     },
-    Reason {
-        stages: &["active tick computed", "head of 24 whiskers computed"],
-        why: "The goals are below the sums of the floors. What is beyond them: the stages \
-              above; the position control, which is limited in setpoint, duty and slew where \
-              the floor is a bare PD; the frame's faults, the sensor's patience and the \
-              encoder. In fixed point every product is rounded and every reading saturates, \
-              and a Cortex-M0+ puts each product of 32 bits together from four of 16.",
-    },
-    Reason {
-        stages: &["active tick with interrupts and DMA"],
-        why: "The computed tick above, and what moves the data: two interrupts, their entry \
-              and exit by RTIC, DMA and timers checked for faults in every tick, the watchdog \
-              and the deadline counter. The worst tick is within its goal.",
-    },
 ];
