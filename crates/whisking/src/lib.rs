@@ -34,6 +34,7 @@ mod bake;
 mod error;
 pub mod filter;
 pub mod gate;
+mod integrator;
 mod linalg;
 mod math;
 pub mod motor;
@@ -46,16 +47,18 @@ pub mod ranges;
 mod real;
 mod settings;
 mod start;
+mod state;
 mod step;
 
 #[cfg(feature = "bake")]
 pub use bake::Source;
 pub use error::{Error, Parameter};
+pub use integrator::Integrator;
 pub use optional::{Absent, Optional, Present};
 pub use real::{Constant, Factor, Factors, FineFactor, Fix, Real};
-pub use settings::{GateSettings, Integrator, Settings};
-pub use start::Start;
-pub use step::{Config, PatternGenerator, State, Whisker};
+pub use settings::{GateSettings, Settings};
+pub use state::{Start, State, Whisker};
+pub use step::{Config, PatternGenerator};
 
 /// Degrees of the motor a unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
 pub const DEGREES_PER_UNIT: f64 = 100.0;

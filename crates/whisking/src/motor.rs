@@ -37,7 +37,7 @@ mod stall;
 
 use core::fmt;
 
-pub use commutation::{COMMUTATION, Pair, Phase, Role, Sector, Step};
+pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
 pub use hall::HallTracker;
 pub use hbridge::HBridge;

@@ -9,11 +9,13 @@
 //! Two integrators: [`Euler`] is the papers', step for step; [`Exact`]
 //! propagates the linear part exactly.
 
+mod config;
 mod euler;
 mod exact;
 #[cfg(test)]
 mod tests;
 
+pub use config::Config;
 pub use euler::Euler;
 pub use exact::{Exact, Lag};
 
@@ -35,16 +37,6 @@ pub trait MuscleIntegrator<R: Real> {
     /// forces: where the drives are those of an oscillator from the start on, |θ|
     /// stays below 2.5 and what is kept below 5, at any f_W T and for any gains.
     fn step(&self, state: &mut State<R>, gain: R, before: R, after: R);
-}
-
-/// An integrator chosen at run time, with its constants.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
-pub enum Config<R: Real> {
-    /// Forward Euler.
-    Euler(Euler<R>),
-    /// Exact linear part, fifth-order exponential multistep.
-    Exact(Exact<R>),
 }
 
 /// f at the last tick and its backward differences; unused by Euler.
@@ -89,15 +81,5 @@ impl<R: Real> State<R> {
     /// lags of [`Exact`]. For reports of what stays in its bounds.
     pub const fn kept(&self) -> [R; 2] {
         self.kept
-    }
-}
-
-impl<R: Real> MuscleIntegrator<R> for Config<R> {
-    #[inline]
-    fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
-        match self {
-            Self::Euler(euler) => euler.step(state, gain, before, after),
-            Self::Exact(exact) => exact.step(state, gain, before, after),
-        }
     }
 }

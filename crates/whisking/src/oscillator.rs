@@ -8,12 +8,15 @@
 //! Two integrators: [`Euler`] is the papers', step for step; [`Exact`] composes
 //! parts that are each solved exactly.
 
+mod config;
 mod euler;
 mod exact;
 #[cfg(test)]
 mod tests;
 
+pub use config::Config;
 pub use euler::Euler;
+pub(crate) use euler::field;
 pub(crate) use exact::keep;
 pub use exact::{Exact, Linear, Turn};
 
@@ -58,41 +61,6 @@ pub trait OscillatorIntegrator<R: Real> {
     fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S];
 }
 
-/// An integrator chosen at run time, with its constants.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
-pub enum Config<R: Real> {
-    /// Forward Euler.
-    Euler(Euler<R>),
-    /// Exact parts, symmetrically composed.
-    Exact(Exact<R>),
-}
-
-impl<R: Real> OscillatorIntegrator<R> for Config<R> {
-    #[inline]
-    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        match self {
-            Self::Euler(euler) => euler.step(state, noise),
-            Self::Exact(exact) => exact.step(state, noise),
-        }
-    }
-
-    #[inline]
-    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
-        match self {
-            Self::Euler(euler) => euler.drives(state),
-            Self::Exact(exact) => exact.drives(state),
-        }
-    }
-
-    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
-        match self {
-            Self::Euler(euler) => euler.psi(state),
-            Self::Exact(exact) => exact.psi(state),
-        }
-    }
-}
-
 /// The nearest ψ within ±1.5.
 #[inline]
 fn limited<R: Real>(psi: Psi<R>) -> Psi<R> {
@@ -106,13 +74,4 @@ fn pull<R: Real>([a, b]: Psi<R>, share: R::Fine) -> Psi<R> {
         Some([x, y]) => [(x - a).times_fine(share), (y - b).times_fine(share)],
         None => [R::ONE.times_fine(share), R::ZERO],
     }
-}
-
-/// The continuous field dψ/dt in ticks, f64; `cycles` is f_W T.
-pub(crate) fn field<const S: usize>(
-    psi: &[Psi<f64>; S],
-    cycles: f64,
-    coupling: bool,
-) -> [Psi<f64>; S] {
-    Euler::new(cycles, coupling).increments(psi)
 }

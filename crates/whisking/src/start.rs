@@ -7,23 +7,9 @@
 //! fine steps, is continued backwards. This happens in f64 once, outside the
 //! tick.
 
-use crate::muscle::{self, History, PEAK_GAIN, acceleration, pace};
+use crate::muscle::{History, PEAK_GAIN, acceleration, pace};
 use crate::oscillator::{self, Psi, field};
-use crate::{Error, Integrator, Parameter, Real, Settings, ranges};
-
-/// Constants of the start of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
-pub struct Start<R, const S: usize, const N: usize> {
-    /// What the integrator keeps of ψ of each side.
-    pub oscillators: [Psi<R>; S],
-    /// Drive W of each side.
-    pub drive: [R; S],
-    /// Nominal gain of each whisker, g_nominal, 0 to 2.
-    pub gain: [[R; N]; S],
-    /// Forces before the start, for each whisker.
-    pub history: [[History<R>; N]; S],
-}
+use crate::{Error, Integrator, Parameter, Real, Settings, Start, ranges};
 
 /// Substeps a tick of the fourth-order Runge-Kutta method.
 const SUBSTEPS: usize = 32;
@@ -168,13 +154,6 @@ impl Settings {
         History {
             force: differences.map(R::from_f64),
         }
-    }
-}
-
-impl<R: Real, const S: usize, const N: usize> Start<R, S, N> {
-    /// Whisker states at the start.
-    pub(crate) fn whiskers(&self) -> [[muscle::State<R>; N]; S] {
-        self.history.map(|side| side.map(muscle::State::new))
     }
 }
 

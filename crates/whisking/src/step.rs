@@ -1,10 +1,9 @@
 //! One tick of a whole module: RCP and oscillators by sides, then CIA and
 //! muscles by whiskers.
 
-use crate::gate::{self, Gate};
 use crate::muscle::{self, MuscleIntegrator};
 use crate::oscillator::{self, OscillatorIntegrator};
-use crate::{Optional, Real, Start, noise};
+use crate::{Optional, Real, State, gate, noise};
 
 /// Constants of the tick in number format `R`.
 ///
@@ -44,64 +43,6 @@ pub trait PatternGenerator<R: Real> {
     /// Whatever comes in, NaN included, the state stays finite and in its
     /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
     fn step<const S: usize, const N: usize>(&self, state: &mut State<R, S, N>, contact: [R; S]);
-}
-
-/// One whisker: its muscle and its gain g.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Whisker<R: Real> {
-    /// θ, v and the integrator's past.
-    pub muscle: muscle::State<R>,
-    /// By how much contact lifts g above its nominal value (eqs. 12 and 13).
-    pub lift: Gate<R>,
-    /// Nominal value of g.
-    pub nominal: R,
-}
-
-/// State of a module of `S` sides (1 or 2) with `N` whiskers each.
-#[derive(Debug, Clone)]
-pub struct State<R: Real, const S: usize, const N: usize> {
-    /// The oscillator of each side.
-    pub oscillators: oscillator::State<R, S>,
-    /// z of each side (eq. 10), 0 to 1.
-    pub z: [Gate<R>; S],
-    /// The whiskers of each side.
-    pub whiskers: [[Whisker<R>; N]; S],
-    drive: [R; S],
-    noise: noise::State<R, S>,
-}
-
-impl<R: Real> Whisker<R> {
-    /// g of eqs. 12 and 13, 0 to 2.
-    pub fn gain(&self) -> f64 {
-        self.nominal.to_f64() + self.lift.value.to_f64()
-    }
-}
-
-impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
-    /// A module at its start; `seed` is that of the noise.
-    pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
-        let muscles = start.whiskers();
-        Self {
-            oscillators: oscillator::State::new(start.oscillators),
-            z: [Gate::default(); S],
-            whiskers: core::array::from_fn(|side| {
-                core::array::from_fn(|w| Whisker {
-                    muscle: muscles[side][w],
-                    lift: Gate::default(),
-                    nominal: start.gain[side][w],
-                })
-            }),
-            drive: start.drive,
-            noise: noise::State::new(seed),
-        }
-    }
-
-    /// Protraction θ of every whisker; θ' = 100 θ + 50 degrees.
-    pub fn theta(&self) -> [[R; N]; S] {
-        self.whiskers
-            .each_ref()
-            .map(|side| side.each_ref().map(|whisker| whisker.muscle.theta))
-    }
 }
 
 impl<R, Oscillators, Muscle, Rcp, Cia, Noise> PatternGenerator<R>

@@ -13,7 +13,8 @@ use proptest::prelude::*;
 use std::cell::Cell;
 use std::rc::Rc;
 use whisking::motor::{
-    COMMUTATION, Duty, Fault, MotorDriver, Pair, Phase, SixStep, SixStepConfig, StallConfig, Step,
+    COMMUTATION, CommutationStep, Duty, Fault, MotorDriver, Pair, Phase, SixStep, SixStepConfig,
+    StallConfig,
 };
 
 const MAX: u16 = 1000;
@@ -163,7 +164,7 @@ fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
 }
 
 /// Whether a table drives rightly from everywhere.
-fn table_works(table: &[Step; 6]) -> bool {
+fn table_works(table: &[CommutationStep; 6]) -> bool {
     (0..360).all(|degree| {
         let angle = (f64::from(degree) + 0.5).to_radians();
         let code = (0..3).fold(0, |code, k| {

@@ -76,20 +76,20 @@ impl Pair {
 
 /// A row of the commutation table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Step {
+pub struct CommutationStep {
     /// The Hall code of the sector, bit 0 being sensor 1.
     pub hall: u8,
     /// The pair to drive for forward torque.
     pub forward: Pair,
 }
 
-const fn step(hall: u8, high: Phase, low: Phase) -> Step {
+const fn step(hall: u8, high: Phase, low: Phase) -> CommutationStep {
     let forward = Pair { high, low };
-    Step { hall, forward }
+    CommutationStep { hall, forward }
 }
 
 /// The commutation table, by sector, in the order a forward rotor passes them.
-pub const COMMUTATION: [Step; 6] = [
+pub const COMMUTATION: [CommutationStep; 6] = [
     step(0b001, Phase::Two, Phase::Three), // rotor 0°, field 90°
     step(0b011, Phase::Two, Phase::One),   // rotor 60°, field 150°
     step(0b010, Phase::Three, Phase::One), // rotor 120°, field 210°

@@ -69,3 +69,12 @@ impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
         state.kept
     }
 }
+
+/// The continuous field dψ/dt in ticks, f64; `cycles` is f_W T.
+pub(crate) fn field<const S: usize>(
+    psi: &[Psi<f64>; S],
+    cycles: f64,
+    coupling: bool,
+) -> [Psi<f64>; S] {
+    Euler::new(cycles, coupling).increments(psi)
+}

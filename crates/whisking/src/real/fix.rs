@@ -11,16 +11,12 @@ mod tests;
 
 use core::ops::{Add, Mul, Neg, Sub};
 
+use factor::{FRACTION, SATURATED};
 pub use factor::{Factor, Factors, FineFactor};
 
 use super::Real;
 use crate::math::fixed;
 use crate::math::product::{by_top, high_rounded};
-
-/// Bits behind the point.
-const FRACTION: u32 = 28;
-/// Where products and readings saturate: 4.
-const SATURATED: i32 = 4 << FRACTION;
 
 /// The product of two numbers.
 #[inline]

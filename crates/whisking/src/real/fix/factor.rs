@@ -1,7 +1,11 @@
-//! Constants of the tick in fixed point.
+//! The format of fixed point, and constants of the tick in it.
 
-use super::SATURATED;
 use crate::math::product::{by_constant, by_half, high};
+
+/// Bits behind the point.
+pub(super) const FRACTION: u32 = 28;
+/// Where products and readings saturate: 4.
+pub(super) const SATURATED: i32 = 4 << FRACTION;
 
 /// A constant with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
 /// 3.1e-5 of its value.

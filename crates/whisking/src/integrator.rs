@@ -1,0 +1,10 @@
+//! The two integrators by name.
+
+/// How oscillators, muscles and gates are stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// The papers' forward Euler, step for step.
+    Euler,
+    /// Structure preserving: exact linear parts, exact decays, fourth-order muscle.
+    Exact,
+}
