@@ -11,16 +11,12 @@
 //! on the board as on the PC. In the first tick there is no frame yet, and the
 //! module takes the sensor to be at rest, which in host-sim's first tick it is.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
 use firmware::{AngleInput, Event};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
-use host_sim::motor::{PWM_MAX, SimPwm};
-use host_sim::world::Pins;
+use host_sim::motor::{PWM_MAX, Pins, SimPwm};
 
 use crate::chip::{Fault, Ps, ResetCause, Sensor};
 use crate::machine::{Machine, Observer, Stop};
@@ -73,12 +69,12 @@ impl Board {
     /// # Errors
     /// [`Fault::Program`] if the program is not what the emulator needs; what
     /// the machine cannot go along with.
-    pub fn new(program: &Program, slave: Slave, pins: Option<Pins>) -> Result<Self, Fault> {
+    pub fn new(program: &Program, pins: Option<Pins>) -> Result<Self, Fault> {
         let mut board = Self {
             machine: Machine::new(program)?,
             watch: Watch::new(program)?,
             sensor: Wired {
-                slave,
+                slave: Slave::new(),
                 exchange: None,
             },
             pins,
@@ -193,11 +189,8 @@ impl Board {
 
 /// The board as host-sim's runs see it. What goes wrong is kept for
 /// [`Emulated::check`]; after that the board stands still.
-#[derive(Debug, Clone)]
-pub struct Emulated(Rc<RefCell<Inner>>);
-
 #[derive(Debug)]
-struct Inner {
+pub struct Emulated {
     board: Board,
     meter: Meter,
     bears_resets: bool,
@@ -207,12 +200,12 @@ struct Inner {
 impl Emulated {
     /// A board before its first tick.
     pub fn new(board: Board) -> Self {
-        Self(Rc::new(RefCell::new(Inner {
+        Self {
             board,
             meter: Meter::default(),
             bears_resets: false,
             fault: None,
-        })))
+        }
     }
 
     /// The fault that has stopped the board.
@@ -220,31 +213,34 @@ impl Emulated {
     /// # Errors
     /// That fault; a reset is one too.
     pub fn check(&self) -> Result<(), Fault> {
-        self.0.borrow().fault.clone().map_or(Ok(()), Err)
+        self.fault.clone().map_or(Ok(()), Err)
     }
 
     /// What has been logged since the last call.
-    pub fn take_log(&self) -> Vec<u8> {
-        self.0.borrow_mut().board.take_log()
+    pub fn take_log(&mut self) -> Vec<u8> {
+        self.board.take_log()
     }
 
     /// From now on a reset is no fault.
-    pub fn bear_resets(&self) {
-        self.0.borrow_mut().bears_resets = true;
+    pub const fn bear_resets(&mut self) {
+        self.bears_resets = true;
     }
 
-    /// Works on the board between two ticks.
-    pub fn with_board<T>(&self, work: impl FnOnce(&mut Board) -> T) -> T {
-        work(&mut self.0.borrow_mut().board)
+    /// The board, between two ticks.
+    pub const fn board(&self) -> &Board {
+        &self.board
+    }
+
+    /// The board, to be worked on between two ticks.
+    pub const fn board_mut(&mut self) -> &mut Board {
+        &mut self.board
     }
 
     /// How the ticks have kept their time.
-    pub fn figures(&self) -> Figures {
-        self.0.borrow().meter.figures().clone()
+    pub const fn figures(&self) -> &Figures {
+        self.meter.figures()
     }
-}
 
-impl Inner {
     fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {
         if self.fault.is_some() {
             return T::default();
@@ -255,7 +251,7 @@ impl Inner {
         })
     }
 
-    fn tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
+    fn run_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         self.board.tick(&mut self.meter)?;
         let board = &mut self.board;
         if let Some(cause) = board.reset
@@ -272,20 +268,24 @@ impl Inner {
 
 impl Bench for Emulated {
     fn tick(&mut self, events: &mut Vec<Event>) {
-        self.0.borrow_mut().attempt(|inner| inner.tick(events));
+        self.attempt(|emulated| emulated.run_tick(events));
     }
 
-    fn look(&self, snapshot: &mut Snapshot) {
-        self.0.borrow_mut().attempt(|inner| {
-            let board = &inner.board;
+    fn look(&mut self, snapshot: &mut Snapshot) {
+        self.attempt(|emulated| {
+            let board = &emulated.board;
             board.watch.look(board.machine.memories(), snapshot)
         });
     }
 
     fn forget(&mut self) {
-        self.0.borrow_mut().attempt(|inner| {
-            let board = &inner.board;
+        self.attempt(|emulated| {
+            let board = &emulated.board;
             board.watch.forget(board.machine.memories())
         });
+    }
+
+    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+        (n == 0).then_some(&mut self.board.sensor.slave)
     }
 }

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
-use host_sim::decisions::Decided;
-use host_sim::run::{Happened, Run};
+use host_sim::run::Run;
 use host_sim::trace::Row;
 use scene::Numbers;
 
@@ -46,17 +45,15 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     }
     let scene = &loaded.scene;
     let feels = matches!(plan::contact::<f32>(scene), Ok(Some(_)));
-    let (listener, classes) = loaded.listener()?;
-    let mut host = Run::new(scene, listener)?;
+    let mut host = Run::new(scene, loaded.classifier()?)?;
     let program = Program::load(program)?;
-    let (mut target, board) = start(scene, &program)?;
+    let mut target = start(scene, host.classes().to_vec(), &program)?;
 
     let mut agreement = Agreement::default();
-    let (mut on_host, mut on_target) = (Happened::default(), Happened::default());
     for n in 1..=host.ticks() {
-        let mut expected = *host.tick(&mut on_host);
-        let mut found = *target.tick(&mut on_target);
-        board.check()?;
+        let mut expected = host.tick();
+        let mut found = target.tick();
+        target.module_mut().check()?;
         if !feels {
             expected.contact = [0.0; 2];
             found.contact = [0.0; 2];
@@ -67,9 +64,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
                 path.display()
             )));
         }
-        let decided =
-            |run: &Run<'_>, happened| -> Option<Decided> { run.decided(happened, &classes) };
-        let (expected, found) = (decided(&host, &on_host), decided(&target, &on_target));
+        let (expected, found) = (host.decision(), target.decision());
         if expected != found {
             return Err(Error::Work(format!(
                 "{}: tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}",
@@ -79,6 +74,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
         agreement.ticks = n;
         agreement.decisions += u64::from(found.is_some());
     }
+    let board = target.module_mut();
     let period = board.figures().period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
         return Err(Error::Work(format!(
@@ -86,7 +82,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
             path.display()
         )));
     }
-    agreement.stack = board.with_board(|board| board.machine_mut().stack_used())?;
+    agreement.stack = board.board_mut().machine_mut().stack_used()?;
     Ok(agreement)
 }
 

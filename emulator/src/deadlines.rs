@@ -6,7 +6,6 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use host_sim::progress::{Progress, Verbosity};
-use host_sim::run::Happened;
 
 use crate::chip::Ps;
 use crate::emulate::start;
@@ -43,11 +42,11 @@ pub fn measure(
     let mut loaded = Loaded::new(path)?;
     loaded.scene.duration_s = 60.0 * minutes;
     let program = Program::load(program)?;
-    let (mut run, board) = start(&loaded.scene, &program)?;
-    let mut happened = Happened::default();
+    let mut run = start(&loaded.scene, Vec::new(), &program)?;
     let mut progress = Progress::new(verbosity, "measuring", run.ticks());
     for n in 0..run.ticks() {
-        run.tick(&mut happened);
+        run.tick();
+        let board = run.module_mut();
         board.check()?;
         // The probe keeps up.
         drop(board.take_log());
@@ -55,12 +54,14 @@ pub fn measure(
             progress.set(n);
         }
     }
+    let ticks = run.ticks();
+    let emulated = run.module_mut();
     Ok(Deadlines {
-        ticks: run.ticks(),
-        missed: board.with_board(|board| board.missed())?,
-        stack: board.with_board(|board| board.machine_mut().stack_used())?,
-        cycle: board.with_board(|board| board.machine_mut().cycle()),
-        figures: board.figures(),
+        ticks,
+        missed: emulated.board().missed()?,
+        stack: emulated.board_mut().machine_mut().stack_used()?,
+        cycle: emulated.board_mut().machine_mut().cycle(),
+        figures: emulated.figures().clone(),
     })
 }
 

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::bus::Slave;
 use host_sim::commands::run::{Loaded, play};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -23,20 +22,27 @@ impl From<Fault> for Error {
     }
 }
 
-/// A scene on the emulated board before its first tick, and a handle on the board.
+/// A scene on the emulated board before its first tick; `classes` are those of
+/// the program's classifier.
 ///
 /// # Errors
 /// [`Error::Work`] if the world or the board cannot be put together.
-pub fn start<'m>(scene: &Scene, program: &Program) -> Result<(Run<'m>, Emulated), Error> {
+pub fn start(
+    scene: &Scene,
+    classes: Vec<String>,
+    program: &Program,
+) -> Result<Run<Emulated>, Error> {
     let (world, pins) = World::wired(scene)?;
-    let slaves: Vec<Slave> = (0..scene.whiskers()).map(|_| Slave::new()).collect();
-    let [slave] = slaves.as_slice() else {
+    if scene.whiskers() != 1 {
         return Err(Error::Work("the board carries one whisker".to_owned()));
-    };
-    let board = Board::new(program, slave.clone(), pins.into_iter().next())?;
-    let board = Emulated::new(board);
-    let run = Run::of(scene, Box::new(board.clone()), slaves, world);
-    Ok((run, board))
+    }
+    let board = Board::new(program, pins.into_iter().next())?;
+    Ok(Run::of(
+        scene,
+        Box::new(Emulated::new(board)),
+        classes,
+        world,
+    ))
 }
 
 /// Runs the scene in `path` on the board that `program` was built for; writes
@@ -53,12 +59,13 @@ pub fn emulate(
     verbosity: Verbosity,
 ) -> Result<Option<String>, Error> {
     let loaded = Loaded::new(path)?;
-    let (_, classes) = loaded.listener()?;
+    let classes = loaded.classes()?;
     let program = Program::load(program)?;
     let mut decoder = LogDecoder::new(&program)?;
-    let (run, board) = start(&loaded.scene, &program)?;
+    let run = start(&loaded.scene, classes, &program)?;
     let mut log = String::new();
-    let done = play(run, &loaded.scene, &classes, out, verbosity, || {
+    let done = play(run, &loaded.scene, out, verbosity, |run| {
+        let board = run.module_mut();
         for line in decoder.lines(&board.take_log()) {
             // Writing to a string does not fail.
             let _ = writeln!(log, "{line}");

@@ -8,7 +8,6 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 
-use crate::board::Board;
 use crate::chip::{Ps, ResetCause};
 use crate::trouble::Trouble;
 
@@ -27,19 +26,19 @@ const HANG: Ps = 60_000_000_000;
 pub fn overload(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let loaded = Loaded::new(path)?;
     let mut trouble = Trouble::new(&loaded.scene, program)?;
-    trouble.board.bear_resets();
+    trouble.run.module_mut().bear_resets();
     let second = loaded.scene.tick_hz;
     let period = 1_000_000_000_000 / Ps::from(second);
-    let missed = |trouble: &Trouble<'_>| trouble.board.with_board(|board| board.missed());
+    let missed = |trouble: &mut Trouble| trouble.board_mut().missed();
     let mut heard = Vec::new();
 
     trouble.pass(second / 10)?;
-    if missed(&trouble)? != 0 {
+    if missed(&mut trouble)? != 0 {
         return Err(Error::Work("ticks are missed without a cause".to_owned()));
     }
     trouble.hold(period * 9 / 4);
     trouble.pass(second)?;
-    let found = missed(&trouble)?;
+    let found = missed(&mut trouble)?;
     if found != LOST {
         let fault = format!("{LOST} ticks were lost, the module counted {found}");
         return Err(Error::Work(fault));
@@ -53,7 +52,7 @@ pub fn overload(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
 
     trouble.hold(HANG);
     trouble.pass(second + second / 10)?;
-    let reset = trouble.board.with_board(Board::take_reset);
+    let reset = trouble.board_mut().take_reset();
     if reset != Some(ResetCause::Watchdog) {
         return Err(Error::Work(format!("the watchdog did not bite: {reset:?}")));
     }

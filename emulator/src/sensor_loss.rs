@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::bus::WireFault;
+use host_sim::bus::{Slave, WireFault};
 use host_sim::commands::run::Loaded;
 use mlx90333::Faults;
 
@@ -19,13 +19,15 @@ const TROUBLES: [(WireFault, &str); 3] = [
 ];
 
 /// Whether the motor is driven.
-fn is_driven(trouble: &Trouble<'_>) -> bool {
-    let duties = trouble.board.with_board(|board| {
-        board
-            .machine_mut()
-            .with_chip(|chip: &mut Chip| chip.motor_duties())
-    });
+fn is_driven(trouble: &mut Trouble) -> bool {
+    let machine = trouble.board_mut().machine_mut();
+    let duties = machine.with_chip(|chip: &mut Chip| chip.motor_duties());
     duties.iter().any(|(on, _)| *on > 0)
+}
+
+fn sensor(trouble: &mut Trouble) -> Result<&mut Slave, Error> {
+    let slave = trouble.run.slave_mut(0);
+    slave.ok_or_else(|| Error::Work("the scene has no sensor".to_owned()))
 }
 
 /// Breaks the sensor of the scene in `path` in every way and mends it again;
@@ -38,28 +40,25 @@ pub fn lose(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let loaded = Loaded::new(path)?;
     let mut trouble = Trouble::new(&loaded.scene, program)?;
     let tenth = loaded.scene.tick_hz / 10;
-    let slave = trouble.run.slaves().first().cloned();
-    let slave = slave.ok_or_else(|| Error::Work("the scene has no sensor".to_owned()))?;
     let mut heard = Vec::new();
     trouble.pass(tenth)?;
     for (fault, text) in TROUBLES {
-        slave.set_fault(Some(fault));
-        heard.extend(pass_through(&mut trouble, tenth, text, || {
-            slave.set_fault(None);
-        })?);
+        sensor(&mut trouble)?.set_fault(Some(fault));
+        let mend = |slave: &mut Slave| slave.set_fault(None);
+        heard.extend(pass_through(&mut trouble, tenth, text, mend)?);
     }
-    slave.set_error_word(Faults::FIELD_TOO_LOW);
-    let mend = || slave.set_error_word(Faults::NONE);
+    sensor(&mut trouble)?.set_error_word(Faults::FIELD_TOO_LOW);
+    let mend = |slave: &mut Slave| slave.set_error_word(Faults::NONE);
     heard.extend(pass_through(&mut trouble, tenth, "field too low", mend)?);
     Ok(heard)
 }
 
 /// A tenth of a second broken, a tenth mended.
 fn pass_through(
-    trouble: &mut Trouble<'_>,
+    trouble: &mut Trouble,
     tenth: u32,
     text: &str,
-    mend: impl Fn(),
+    mend: impl Fn(&mut Slave),
 ) -> Result<[String; 2], Error> {
     trouble.log.clear();
     trouble.pass(tenth)?;
@@ -68,7 +67,7 @@ fn pass_through(
         return Err(Error::Work(fault));
     }
     let said = trouble.hear(text)?;
-    mend();
+    mend(sensor(trouble)?);
     trouble.pass(tenth)?;
     let mut driven = is_driven(trouble);
     // A motor that turns round rests for a tick.

@@ -3,34 +3,31 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::run::{Happened, Run};
+use host_sim::run::Run;
 use scene::Scene;
 
-use crate::board::Emulated;
+use crate::board::{Board, Emulated};
 use crate::chip::Ps;
 use crate::emulate::start;
 use crate::program::Program;
 use crate::rtt::LogDecoder;
 
 /// A board in trouble.
-pub(crate) struct Trouble<'m> {
-    pub(crate) run: Run<'m>,
-    pub(crate) board: Emulated,
+pub(crate) struct Trouble {
+    pub(crate) run: Run<Emulated>,
     decoder: LogDecoder,
     pub(crate) log: Vec<String>,
 }
 
-impl Trouble<'_> {
+impl Trouble {
     /// A board that runs `scene`, for which `program` was built.
     ///
     /// # Errors
     /// [`Error::Work`] if it cannot be put together.
     pub(crate) fn new(scene: &Scene, program: &Path) -> Result<Self, Error> {
         let program = Program::load(program)?;
-        let (run, board) = start(scene, &program)?;
         Ok(Self {
-            run,
-            board,
+            run: start(scene, Vec::new(), &program)?,
             decoder: LogDecoder::new(&program)?,
             log: Vec::new(),
         })
@@ -41,20 +38,24 @@ impl Trouble<'_> {
     /// # Errors
     /// [`Error::Work`] for what the board cannot go along with.
     pub(crate) fn pass(&mut self, ticks: u32) -> Result<(), Error> {
-        let mut happened = Happened::default();
         for _ in 0..ticks {
-            self.run.tick(&mut happened);
-            self.board.check()?;
-            let bytes = self.board.take_log();
+            self.run.tick();
+            let board = self.run.module_mut();
+            board.check()?;
+            let bytes = board.take_log();
             self.log.extend(self.decoder.lines(&bytes));
         }
         Ok(())
     }
 
     /// Holds the core for `time` in the middle of the next tick.
-    pub(crate) fn hold(&self, time: Ps) {
-        self.board
-            .with_board(|board| board.machine_mut().hold_next_tick(time));
+    pub(crate) fn hold(&mut self, time: Ps) {
+        self.board_mut().machine_mut().hold_next_tick(time);
+    }
+
+    /// The board.
+    pub(crate) fn board_mut(&mut self) -> &mut Board {
+        self.run.module_mut().board_mut()
     }
 
     /// The line of the log that says `text`.

@@ -45,6 +45,11 @@ impl<SPI: SpiDevice> Polled<SPI> {
         Self { sensor }
     }
 
+    /// The sensor, for a simulation that looks at its bus.
+    pub const fn sensor_mut(&mut self) -> &mut Mlx90333<SPI> {
+        &mut self.sensor
+    }
+
     /// Gives the sensor back.
     pub fn release(self) -> Mlx90333<SPI> {
         self.sensor

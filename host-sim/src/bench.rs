@@ -1,100 +1,21 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use std::cell::Cell;
-use std::rc::Rc;
-
 use firmware::design_parameters::{RETRY_S, hold_limits, stall, ticks};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Classifying, ClassifyingConfig, Clock, Config, Event, Module,
-    Polled, SampleClassifier, Servo,
+    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Config, Event, Module, Polled,
+    SampleClassifier, Servo,
 };
 use mlx90333::{Decoder, Mlx90333};
 use scene::{Numbers, Scene};
-use tactile::Decision;
-use whisking::motor::{Duty, Fault, MotorDriver};
-use whisking::{Fix, Real, filter};
+use whisking::motor::StallConfig;
+use whisking::{Fix, Real, Start, filter};
 
 use crate::Error;
-use crate::bus::{SimSpi, Slave};
-
-/// Any motor driver.
-pub struct AnyMotor(pub Box<dyn MotorDriver>);
-
-impl MotorDriver for AnyMotor {
-    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
-        self.0.drive(duty)
-    }
-
-    fn off(&mut self) {
-        self.0.off();
-    }
-
-    fn clear(&mut self) {
-        self.0.clear();
-    }
-}
-
-/// Any angle input.
-pub struct AnyAngle(pub Box<dyn AngleInput>);
-
-impl AngleInput for AnyAngle {
-    fn counts(&mut self) -> i32 {
-        self.0.counts()
-    }
-}
-
-/// Any classifier of one whisker.
-pub struct AnyListener<'m>(pub Box<dyn SampleClassifier + 'm>);
-
-impl SampleClassifier for AnyListener<'_> {
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
-        self.0.push(codes)
-    }
-
-    fn reset(&mut self) {
-        self.0.reset();
-    }
-}
-
-/// A motor that is wherever it should be: the plant says where. For the plant
-/// `ideal`, in which the angle is θ' exactly.
-#[derive(Debug, Clone, Default)]
-pub struct IdealMotor {
-    angle_deg: Rc<Cell<f64>>,
-    counts_per_deg: f64,
-}
-
-impl IdealMotor {
-    /// A motor at rest whose angle input has `counts_per_deg` counts a degree.
-    pub fn new(counts_per_deg: f64) -> Self {
-        Self {
-            angle_deg: Rc::new(Cell::new(whisking::REST_DEG)),
-            counts_per_deg,
-        }
-    }
-
-    /// Moves it.
-    pub fn set_deg(&self, angle_deg: f64) {
-        self.angle_deg.set(angle_deg);
-    }
-}
-
-impl MotorDriver for IdealMotor {
-    fn drive(&mut self, _duty: Duty) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn off(&mut self) {}
-
-    fn clear(&mut self) {}
-}
-
-impl AngleInput for IdealMotor {
-    fn counts(&mut self) -> i32 {
-        ((self.angle_deg.get() - whisking::REST_DEG) * self.counts_per_deg).round() as i32
-    }
-}
+use crate::bus::Slave;
+use crate::classifier::{Classifier, Tap};
+use crate::drive::{self, AnyAngle, AnyMotor};
+use crate::motor::Pins;
 
 /// Time does not pass within a tick of the simulation.
 #[derive(Debug, Clone, Copy)]
@@ -108,7 +29,7 @@ impl Clock for NoClock {
 
 /// What a module shows of itself after a tick. Values of a side that is not
 /// there are not a number.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// θ' of every whisker, left side first, degrees.
     pub theta_deg: Vec<f64>,
@@ -126,34 +47,46 @@ pub trait Bench {
     fn tick(&mut self, events: &mut Vec<Event>);
 
     /// Fills in `snapshot`; `theta_deg` has a place for every whisker.
-    fn look(&self, snapshot: &mut Snapshot);
+    fn look(&mut self, snapshot: &mut Snapshot);
 
     /// Makes the classifier forget its evidence.
     fn forget(&mut self);
+
+    /// The sensor of whisker `n`, counted from 0, left side first.
+    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave>;
 }
 
-type HostModule<'m, R, const S: usize, const N: usize> = Module<
-    R,
-    Polled<SimSpi>,
-    Option<Active<R, AnyMotor, AnyAngle, S, N>>,
-    Option<Classifying<AnyListener<'m>>>,
-    NoClock,
-    S,
-    N,
->;
+/// The firmware's module on this machine.
+pub trait HostModule: Bench + Send {
+    /// Starts anew with another seed, on these ends of the motors' wires.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if there are not as many as whiskers.
+    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error>;
 
-struct Shaped<'m, R: Real, const S: usize, const N: usize> {
-    module: HostModule<'m, R, S, N>,
+    /// What the classifier of the first whisker gets.
+    fn tap(&mut self) -> Option<&mut Tap>;
+}
+
+type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
+type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
+
+struct Shaped<R: Real, const S: usize, const N: usize> {
+    module: Module<R, Polled<Slave>, Motors<R, S, N>, Option<Classifying<Tap>>, NoClock, S, N>,
     config: Config<R, Option<ActiveConfig<R>>, Option<ClassifyingConfig<R>>>,
+    start: Option<Start<R, S, N>>,
 }
 
-impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
+impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     fn tick(&mut self, events: &mut Vec<Event>) {
+        if let Some(perception) = self.module.perception_mut() {
+            perception.classifier_mut().sample = None;
+        }
         self.module
             .tick(&self.config, &mut |event| events.push(event));
     }
 
-    fn look(&self, snapshot: &mut Snapshot) {
+    fn look(&mut self, snapshot: &mut Snapshot) {
         for (place, pi) in snapshot.contact.iter_mut().zip(self.module.contact()) {
             *place = pi.to_f64();
         }
@@ -174,42 +107,81 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<'_, R, S, N> {
     }
 
     fn forget(&mut self) {
-        if let Some(touch) = self.module.perception_mut() {
-            touch.classifier_mut().reset();
+        if let Some(perception) = self.module.perception_mut() {
+            perception.classifier_mut().reset();
         }
     }
-}
 
-/// What a module is made of besides its scene.
-pub struct Parts<'m> {
-    /// The sensor of every whisker, left side first.
-    pub slaves: Vec<Slave>,
-    /// The motor and angle input of every whisker, left side first; none where
-    /// the whiskers are passive.
-    pub drives: Vec<(AnyMotor, AnyAngle)>,
-    /// What listens to the first whisker.
-    pub listener: Option<AnyListener<'m>>,
-}
-
-/// Makes the module of `scene`.
-///
-/// # Errors
-/// [`Error::Work`] if the parts do not fit the scene.
-pub fn build<'m>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench + 'm>, Error> {
-    match scene.whisking.as_ref().map(|whisking| whisking.numbers) {
-        Some(Numbers::Double) => sized::<f64>(scene, parts),
-        Some(Numbers::Fixed) => sized::<Fix>(scene, parts),
-        _ => sized::<f32>(scene, parts),
+    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+        let sensor = self.module.sensor_mut(n / N, n % N)?;
+        Some(sensor.source_mut().sensor_mut().spi_mut())
     }
 }
 
-fn sized<'m, R: Real>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench + 'm>, Error> {
+impl<R: Real, const S: usize, const N: usize> HostModule for Shaped<R, S, N>
+where
+    Self: Send,
+{
+    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
+        let stall = self.config.motion.as_ref().map(|motion| motion.stall);
+        let motors = match (&self.start, stall) {
+            (Some(start), Some(stall)) => Some(motors(start, stall, seed, pins)?),
+            _ => None,
+        };
+        let mut perception = self.module.perception_mut().take();
+        if let Some(perception) = &mut perception {
+            perception.classifier_mut().restart();
+        }
+        self.module = Module::new(sensors()?, motors, perception, NoClock);
+        Ok(())
+    }
+
+    fn tap(&mut self) -> Option<&mut Tap> {
+        Some(self.module.perception_mut().as_mut()?.classifier_mut())
+    }
+}
+
+fn misfit(what: &str) -> Error {
+    Error::Work(format!("the module's {what} do not fit the scene"))
+}
+
+fn sensors<const S: usize, const N: usize>() -> Result<Sensors<S, N>, Error> {
+    let sensor = || Polled::new(Mlx90333::new(Slave::new(), Decoder::new()));
+    array(|| Some(sensor())).ok_or_else(|| misfit("sensors"))
+}
+
+fn motors<R: Real, const S: usize, const N: usize>(
+    start: &Start<R, S, N>,
+    stall: StallConfig,
+    seed: u64,
+    pins: Vec<Pins>,
+) -> Result<Active<R, AnyMotor, AnyAngle, S, N>, Error> {
+    let mut pins = pins.into_iter();
+    let servos = array(|| {
+        let (motor, angle) = drive::on(pins.next()?, stall);
+        Some(Servo::new(motor, angle, stall))
+    });
+    let state = whisking::State::new(start, seed);
+    Ok(Active::new(state, servos.ok_or_else(|| misfit("motors"))?))
+}
+
+/// Makes the module of `scene`: its motors on `pins`, left side first (none
+/// where the whiskers are passive), its first whisker's samples going to `classifier`.
+///
+/// # Errors
+/// [`Error::Work`] if the parts do not fit the scene, [`Error::Input`] if the
+/// scene's position control is unstable.
+pub fn build(
+    scene: &Scene,
+    pins: Vec<Pins>,
+    classifier: Option<Classifier>,
+) -> Result<Box<dyn HostModule>, Error> {
     macro_rules! shapes {
-        ($($n:literal)*) => {
+        ($number:ty: $($n:literal)*) => {
             match (scene.head.sides.count(), scene.head.whiskers_per_side) {
                 $(
-                    (1, $n) => shaped::<R, 1, $n>(scene, parts),
-                    (2, $n) => shaped::<R, 2, $n>(scene, parts),
+                    (1, $n) => shaped::<$number, 1, $n>(scene, pins, classifier),
+                    (2, $n) => shaped::<$number, 2, $n>(scene, pins, classifier),
                 )*
                 (sides, whiskers) => {
                     Err(Error::Work(format!("no module of {sides} sides with {whiskers} whiskers")))
@@ -217,46 +189,27 @@ fn sized<'m, R: Real>(scene: &Scene, parts: Parts<'m>) -> Result<Box<dyn Bench +
             }
         };
     }
-    shapes!(1 2 3 4 5 6 7 8 9 10 11 12)
+    match scene.whisking.as_ref().map(|whisking| whisking.numbers) {
+        Some(Numbers::Double) => shapes!(f64: 1 2 3 4 5 6 7 8 9 10 11 12),
+        Some(Numbers::Fixed) => shapes!(Fix: 1 2 3 4 5 6 7 8 9 10 11 12),
+        _ => shapes!(f32: 1 2 3 4 5 6 7 8 9 10 11 12),
+    }
 }
 
-fn shaped<'m, R: Real, const S: usize, const N: usize>(
+fn shaped<R: Real, const S: usize, const N: usize>(
     scene: &Scene,
-    parts: Parts<'m>,
-) -> Result<Box<dyn Bench + 'm>, Error> {
-    let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
+    pins: Vec<Pins>,
+    classifier: Option<Classifier>,
+) -> Result<Box<dyn HostModule>, Error>
+where
+    Shaped<R, S, N>: Send + 'static,
+{
     let broken = |mismatch: plan::Mismatch| match mismatch {
         plan::Mismatch::Unstable(unstable) => Error::Input(unstable.to_string()),
         mismatch => Error::Work(mismatch.to_string()),
     };
     let tick_hz = f64::from(scene.tick_hz);
-
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
-    let mut drives = parts.drives.into_iter();
-    let motion = match &plan {
-        None => None,
-        Some(plan) => {
-            let stall = stall(scene.tick_hz, plan.stall_q15);
-            let servos = array(|| {
-                let (motor, angle) = drives.next()?;
-                Some(Servo::new(motor, angle, stall))
-            })
-            .ok_or_else(|| misfit("motors"))?;
-            Some(Active::new(
-                whisking::State::new(&plan.start, scene.seed),
-                servos,
-            ))
-        }
-    };
-
-    let mut slaves = parts.slaves.iter();
-    let sensors = array(|| {
-        Some(Polled::new(Mlx90333::new(
-            slaves.next()?.spi(),
-            Decoder::new(),
-        )))
-    })
-    .ok_or_else(|| misfit("sensors"))?;
 
     // The trace shows contact wherever there is something to touch.
     let contact = match plan::contact(scene).map_err(broken)? {
@@ -267,6 +220,7 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
         contact => contact,
     };
     let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
+    let start = plan.as_ref().map(|plan| plan.start);
     let config = Config {
         decoder: Decoder::new(),
         hold_limits: hold_limits(scene.tick_hz),
@@ -277,18 +231,22 @@ fn shaped<'m, R: Real, const S: usize, const N: usize>(
             retry: ticks(RETRY_S, scene.tick_hz),
             stall: stall(scene.tick_hz, plan.stall_q15),
         }),
-        perception: parts.listener.is_some().then(|| ClassifyingConfig {
+        perception: Some(ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),
         }),
         period: 0,
     };
-    let module = Module::new(
-        sensors,
-        motion,
-        parts.listener.map(Classifying::new),
-        NoClock,
-    );
-    Ok(Box::new(Shaped { module, config }))
+    let motors = match (&start, &config.motion) {
+        (Some(start), Some(motion)) => Some(motors(start, motion.stall, scene.seed, pins)?),
+        _ => None,
+    };
+    let perception = Some(Classifying::new(Tap::new(classifier)));
+    let module = Module::new(sensors()?, motors, perception, NoClock);
+    Ok(Box::new(Shaped {
+        module,
+        config,
+        start,
+    }))
 }
 
 /// S × N things, or `None` if `make` runs out of them.

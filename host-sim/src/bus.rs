@@ -2,20 +2,17 @@
 //!
 //! Glossary:
 //!
-//! - *slave*: the sensor's end of the wire, in the hands of the simulation
-//!   ([`Slave`]); the module has the other end ([`SimSpi`]);
+//! - *slave*: the sensor on the bus ([`Slave`]). The module owns it as its SPI
+//!   device; the simulation reaches it through the module between ticks;
 //! - *latch*: at the falling edge of /SS the slave takes the deflections of
 //!   that moment; a frame never mixes two of them;
 //! - *wired-AND*: MOSI and MISO are one open-drain line. Whoever sends a zero
 //!   pulls it low, so the master reads `sent & answered` and a master that
 //!   sends zeros reads zeros;
-//! - *error word*: what the sensor reports about itself, in a sound frame;
-//! - *wire fault*: what befalls the frame on its way ([`WireFault`]).
+//! - *error word*: what the sensor reports about itself, in a valid frame;
+//! - *wire fault*: what happens to the frame on its way ([`WireFault`]).
 //!
 //! No time passes on this bus: delays are accepted and added up.
-
-use std::cell::RefCell;
-use std::rc::Rc;
 
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use mlx90333::{FRAME_LEN, Faults, Mode, SumRule, Word, encode};
@@ -30,7 +27,7 @@ const RELEASED: u8 = 0xFF;
 /// a driver for this sensor must not rely on.
 const FILLER: u8 = 0x00;
 
-/// What befalls frames on the wire.
+/// What happens to frames on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum WireFault {
     /// The slave does not answer: all bytes 0xFF. A lost frame, a cut wire and
@@ -81,8 +78,11 @@ impl Disturbance {
     }
 }
 
-#[derive(Debug)]
-struct Inner {
+/// A sensor, and the wire to it: the module's [`SpiDevice`].
+///
+/// A new one is at rest (mid-scale) and without fault.
+#[derive(Debug, Clone)]
+pub struct Slave {
     mode: Mode,
     sum_rule: SumRule,
     words: [Word; 3],
@@ -93,9 +93,82 @@ struct Inner {
     traffic: Traffic,
 }
 
-impl Inner {
-    /// The falling edge of /SS: the frame to answer with, and what befalls it.
-    fn select(&mut self) -> ([u8; FRAME_LEN], Option<WireFault>) {
+impl Slave {
+    /// A sensor in alpha-beta mode that sends the default sum.
+    pub fn new() -> Self {
+        Self::with(Mode::AlphaBeta, SumRule::SumB1B6)
+    }
+
+    /// A sensor programmed to `mode` that sums by `sum_rule`. In XYZ mode Z
+    /// stays at mid-scale and there is no error word.
+    pub fn with(mode: Mode, sum_rule: SumRule) -> Self {
+        Self {
+            mode,
+            sum_rule,
+            words: [Word::MID; 3],
+            error_word: Faults::NONE,
+            standing: None,
+            passing: None,
+            disturbance: None,
+            traffic: Traffic::default(),
+        }
+    }
+
+    /// Deflections along x and y, limited to ±1 and rounded to the sensor's 14
+    /// bits; NaN reads as rest.
+    pub fn set(&mut self, [x, y]: [f64; 2]) {
+        let [_, _, z] = self.words;
+        let word = |value: f64| Word::from_normalised(value as f32);
+        self.words = [word(x), word(y), z];
+    }
+
+    /// What the sensor reports about itself from now on.
+    pub const fn set_error_word(&mut self, faults: Faults) {
+        self.error_word = faults;
+    }
+
+    /// A wire fault in every frame from now on; `None` mends it. It takes
+    /// precedence over [`Slave::inject`], and that over [`Slave::disturb`].
+    pub const fn set_fault(&mut self, fault: Option<WireFault>) {
+        self.standing = fault;
+    }
+
+    /// A wire fault in the next `frames` frames; replaces what is left of the last.
+    pub fn inject(&mut self, fault: WireFault, frames: u32) {
+        self.passing = (frames > 0).then_some((fault, frames));
+    }
+
+    /// From now on each frame is lost with probability `lost`, else has one bit
+    /// inverted with probability `flipped`. NaN and negative count as 0, a sum
+    /// above 1 as 1; both 0 ends it. The same seed gives the same faults.
+    pub fn disturb(&mut self, lost: f64, flipped: f64, seed: u64) {
+        let (lost, flipped) = (lost.max(0.0), flipped.max(0.0));
+        self.disturbance = (lost + flipped > 0.0).then(|| Disturbance {
+            lost,
+            flipped,
+            random: Xoshiro256PlusPlus::seed_from_u64(seed),
+        });
+    }
+
+    /// Latches a frame, for a master that clocks it byte by byte itself. On
+    /// those wires there is no controller to fail: [`WireFault::Bus`] reads as
+    /// [`WireFault::Silent`].
+    pub fn select(&mut self) -> Exchange {
+        let (frame, fault) = self.latch();
+        let frame = match fault {
+            Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
+            _ => frame,
+        };
+        Exchange::new(frame, fault)
+    }
+
+    /// What has gone over the bus so far.
+    pub const fn traffic(&self) -> Traffic {
+        self.traffic
+    }
+
+    /// The falling edge of /SS: the frame to answer with, and what happens to it.
+    fn latch(&mut self) -> ([u8; FRAME_LEN], Option<WireFault>) {
         self.traffic.transactions = self.traffic.transactions.saturating_add(1);
         let [x, y, z] = self.words;
         let mut frame = match self.mode {
@@ -120,95 +193,6 @@ impl Inner {
     }
 }
 
-/// The sensor: a shared handle; clones are the same sensor.
-///
-/// A new one is at rest (mid-scale) and sound.
-#[derive(Debug, Clone)]
-pub struct Slave(Rc<RefCell<Inner>>);
-
-impl Slave {
-    /// A sensor in alpha-beta mode that sends the default sum.
-    pub fn new() -> Self {
-        Self::with(Mode::AlphaBeta, SumRule::SumB1B6)
-    }
-
-    /// A sensor programmed to `mode` that sums by `sum_rule`. In XYZ mode Z
-    /// stays at mid-scale and there is no error word.
-    pub fn with(mode: Mode, sum_rule: SumRule) -> Self {
-        Self(Rc::new(RefCell::new(Inner {
-            mode,
-            sum_rule,
-            words: [Word::MID; 3],
-            error_word: Faults::NONE,
-            standing: None,
-            passing: None,
-            disturbance: None,
-            traffic: Traffic::default(),
-        })))
-    }
-
-    /// The bus that this sensor hangs on.
-    pub fn spi(&self) -> SimSpi {
-        SimSpi {
-            slave: self.clone(),
-        }
-    }
-
-    /// Deflections along x and y, limited to ±1 and rounded to the sensor's 14
-    /// bits; NaN reads as rest.
-    pub fn set(&self, [x, y]: [f64; 2]) {
-        let mut inner = self.0.borrow_mut();
-        let [_, _, z] = inner.words;
-        let word = |value: f64| Word::from_normalised(value as f32);
-        inner.words = [word(x), word(y), z];
-    }
-
-    /// What the sensor reports about itself from now on.
-    pub fn set_error_word(&self, faults: Faults) {
-        self.0.borrow_mut().error_word = faults;
-    }
-
-    /// A wire fault in every frame from now on; `None` mends it. It goes
-    /// before [`Slave::inject`], and that before [`Slave::disturb`].
-    pub fn set_fault(&self, fault: Option<WireFault>) {
-        self.0.borrow_mut().standing = fault;
-    }
-
-    /// A wire fault in the next `frames` frames; replaces what is left of the last.
-    pub fn inject(&self, fault: WireFault, frames: u32) {
-        self.0.borrow_mut().passing = (frames > 0).then_some((fault, frames));
-    }
-
-    /// From now on each frame is lost with probability `lost`, else has one bit
-    /// inverted with probability `flipped`. NaN and negative count as 0, a sum
-    /// above 1 as 1; both 0 ends it. The same seed gives the same faults.
-    pub fn disturb(&self, lost: f64, flipped: f64, seed: u64) {
-        let (lost, flipped) = (lost.max(0.0), flipped.max(0.0));
-        self.0.borrow_mut().disturbance = (lost + flipped > 0.0).then(|| Disturbance {
-            lost,
-            flipped,
-            random: Xoshiro256PlusPlus::seed_from_u64(seed),
-        });
-    }
-
-    /// Latches a frame, for a master that clocks it byte by byte itself. On
-    /// those wires there is no controller to fail: [`WireFault::Bus`] reads as
-    /// [`WireFault::Silent`].
-    pub fn select(&self) -> Exchange {
-        let (frame, fault) = self.0.borrow_mut().select();
-        let frame = match fault {
-            Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
-            _ => frame,
-        };
-        Exchange::new(frame, fault)
-    }
-
-    /// What has gone over the bus so far.
-    pub fn traffic(&self) -> Traffic {
-        self.0.borrow().traffic
-    }
-}
-
 impl Default for Slave {
     fn default() -> Self {
         Self::new()
@@ -224,12 +208,6 @@ impl embedded_hal::spi::Error for SimSpiError {
     fn kind(&self) -> ErrorKind {
         ErrorKind::Other
     }
-}
-
-/// The master's end of the wire: an SPI device with the sensor behind it.
-#[derive(Debug)]
-pub struct SimSpi {
-    slave: Slave,
 }
 
 /// One transaction: the frame latched at its start, byte by byte.
@@ -274,14 +252,13 @@ impl Exchange {
     }
 }
 
-impl ErrorType for SimSpi {
+impl ErrorType for Slave {
     type Error = SimSpiError;
 }
 
-impl SpiDevice for SimSpi {
+impl SpiDevice for Slave {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), SimSpiError> {
-        let mut inner = self.slave.0.borrow_mut();
-        let (frame, fault) = inner.select();
+        let (frame, fault) = self.latch();
         if fault == Some(WireFault::Bus) {
             return Err(SimSpiError);
         }
@@ -300,7 +277,7 @@ impl SpiDevice for SimSpi {
                 Operation::DelayNs(ns) => delay_ns = delay_ns.saturating_add(u64::from(*ns)),
             }
         }
-        let traffic = &mut inner.traffic;
+        let traffic = &mut self.traffic;
         traffic.bytes = traffic.bytes.saturating_add(exchange.bytes);
         traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
         Ok(())

@@ -3,10 +3,11 @@
 
 pub mod bench;
 pub mod bus;
+pub mod classifier;
 pub mod commands;
 pub mod decisions;
+pub mod drive;
 mod error;
-pub mod listening;
 pub mod motor;
 pub mod output;
 pub mod plant;

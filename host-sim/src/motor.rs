@@ -24,6 +24,7 @@
 //! exactly ([`rotor`]), so any tick is stable. In the brushless stage the
 //! torque also depends on the rotor angle, which is held over substeps.
 
+mod ideal;
 mod pins;
 #[cfg(test)]
 pub(crate) mod rig;
@@ -31,8 +32,9 @@ mod rotor;
 mod settings;
 mod stage;
 
-use std::rc::Rc;
+use std::sync::Arc;
 
+pub use ideal::IdealMotor;
 use pins::Wires;
 pub use pins::{PWM_MAX, SimDir, SimEncoder, SimHall, SimPin, SimPwm};
 use rotor::Rotor;
@@ -63,6 +65,17 @@ pub struct Brushless {
     pub encoder: SimEncoder,
 }
 
+/// The ends of a motor's wires that a board has.
+#[derive(Debug)]
+pub enum Pins {
+    /// No wires: the motor is where it should be, and only counts.
+    Ideal(IdealMotor),
+    /// An H-bridge and an encoder.
+    Brushed(Brushed),
+    /// Three half-bridges, three Hall sensors and an encoder.
+    Brushless(Brushless),
+}
+
 /// A wire that can be cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wire {
@@ -82,7 +95,7 @@ pub struct SimMotor {
     settings: MotorSettings,
     stage: Stage,
     rotor: Rotor,
-    wires: Rc<Wires>,
+    wires: Arc<Wires>,
     blocked: bool,
     load_nm: f64,
 }
@@ -94,12 +107,7 @@ impl SimMotor {
     /// The first setting out of its range.
     pub fn brushed(settings: MotorSettings) -> Result<(Self, Brushed), BadMotorSetting> {
         let motor = Self::new(settings, Stage::Brushed)?;
-        let wires = &motor.wires;
-        let pins = Brushed {
-            pwm: SimPwm::new(wires, 0),
-            dir: SimPin::new(wires, 0),
-            encoder: SimEncoder::new(wires),
-        };
+        let pins = motor.brushed_pins();
         Ok((motor, pins))
     }
 
@@ -110,16 +118,7 @@ impl SimMotor {
     /// The first setting out of its range.
     pub fn brushless(settings: MotorSettings) -> Result<(Self, Brushless), BadMotorSetting> {
         let motor = Self::new(settings, Stage::Brushless)?;
-        let wires = &motor.wires;
-        let pwm = |i| SimPwm::new(wires, i);
-        let pin = |i| SimPin::new(wires, i);
-        let hall = |i| SimHall::new(wires, i);
-        let pins = Brushless {
-            pwms: (pwm(0), pwm(1), pwm(2)),
-            enables: (pin(0), pin(1), pin(2)),
-            halls: (hall(0), hall(1), hall(2)),
-            encoder: SimEncoder::new(wires),
-        };
+        let pins = motor.brushless_pins();
         Ok((motor, pins))
     }
 
@@ -130,10 +129,48 @@ impl SimMotor {
             settings,
             stage,
             rotor: Rotor::default(),
-            wires: Rc::new(Wires::new(counts_per_rad)),
+            wires: Arc::new(Wires::new(counts_per_rad)),
             blocked: false,
             load_nm: 0.0,
         })
+    }
+
+    /// As newly made, without load and with every wire whole. Returns the pins
+    /// anew; those handed out before are connected to nothing.
+    pub fn restart(&mut self) -> Pins {
+        self.rotor = Rotor::default();
+        self.wires = Arc::new(self.wires.renewed());
+        self.blocked = false;
+        self.load_nm = 0.0;
+        self.pins()
+    }
+
+    /// The ends of its wires that a board has.
+    pub fn pins(&self) -> Pins {
+        match self.stage {
+            Stage::Brushed => Pins::Brushed(self.brushed_pins()),
+            Stage::Brushless => Pins::Brushless(self.brushless_pins()),
+        }
+    }
+
+    fn brushed_pins(&self) -> Brushed {
+        Brushed {
+            pwm: SimPwm::new(&self.wires, 0),
+            dir: SimPin::new(&self.wires, 0),
+            encoder: SimEncoder::new(&self.wires),
+        }
+    }
+
+    fn brushless_pins(&self) -> Brushless {
+        let pwm = |i| SimPwm::new(&self.wires, i);
+        let pin = |i| SimPin::new(&self.wires, i);
+        let hall = |i| SimHall::new(&self.wires, i);
+        Brushless {
+            pwms: (pwm(0), pwm(1), pwm(2)),
+            enables: (pin(0), pin(1), pin(2)),
+            halls: (hall(0), hall(1), hall(2)),
+            encoder: SimEncoder::new(&self.wires),
+        }
     }
 
     /// Lets `dt_s` seconds pass with the pins as they are; nothing happens

@@ -79,6 +79,9 @@ pub trait Plant {
     /// side first. A whisker whose angle is missing or not finite keeps its
     /// last one. Nothing happens unless `dt_s` is positive and finite.
     fn advance(&mut self, angles_deg: &[f64], dt_s: f64);
+
+    /// Starts anew, as newly made with this seed.
+    fn restart(&mut self, seed: u64);
 }
 
 #[cfg(test)]

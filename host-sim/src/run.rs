@@ -5,37 +5,36 @@ use mlx90333::Word;
 use scene::{PlantKind, Scene, Texture};
 
 use crate::Error;
-use crate::bench::{self, AnyListener, Bench, Parts, Snapshot};
+use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
+use crate::classifier::Classifier;
 use crate::decisions::Decided;
 use crate::trace::Row;
 use crate::world::World;
 
-/// What a tick brought besides its row.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Happened {
-    /// Events in order.
-    pub events: Vec<Event>,
-}
-
-/// A running scene.
-pub struct Run<'m> {
+/// A running scene, with everything that it needs: module, classifier, motors
+/// and plant. `B` is the module: the firmware's on this machine, unless said
+/// otherwise.
+pub struct Run<B: ?Sized = dyn HostModule> {
     tick_hz: f64,
     ticks: u64,
     done: u64,
     sides: usize,
     whiskers: usize,
-    bench: Box<dyn Bench + 'm>,
-    slaves: Vec<Slave>,
+    classes: Vec<String>,
     world: World,
     presented: Presented,
     snapshot: Snapshot,
     row: Row,
+    events: Vec<Event>,
+    bench: Box<B>,
 }
 
-/// What is being touched: which texture, for the how-manieth time.
+/// What is being touched: which texture, and how often it has been before.
 #[derive(Debug, Clone, PartialEq)]
 struct Presented {
+    /// What is touched before the first texture.
+    first: &'static str,
     textures: Vec<Texture>,
     /// Ticks a presentation.
     length: u64,
@@ -57,11 +56,17 @@ impl Presented {
             None => (Vec::new(), u64::MAX),
         };
         Self {
+            first: label,
             textures,
             length,
             label,
             trial: 0,
         }
+    }
+
+    fn restart(&mut self) {
+        self.label = self.first;
+        self.trial = 0;
     }
 
     /// The texture to put in place before tick `done + 1`, if it changes there.
@@ -78,58 +83,91 @@ impl Presented {
     }
 }
 
-impl<'m> Run<'m> {
-    /// A scene before its first tick, its first whisker listened to by `listener`.
+impl Run {
+    /// A scene before its first tick, the samples of its first whisker going to
+    /// `classifier`.
     ///
     /// # Errors
-    /// [`Error::Work`] if the module cannot be put together.
-    pub fn new(scene: &Scene, listener: Option<AnyListener<'m>>) -> Result<Self, Error> {
-        let slaves: Vec<Slave> = (0..scene.whiskers()).map(|_| Slave::new()).collect();
-        let (world, drives) = World::new(scene)?;
-        let parts = Parts {
-            slaves: slaves.clone(),
-            drives,
-            listener,
-        };
-        let bench = bench::build(scene, parts)?;
-        Ok(Self::of(scene, bench, slaves, world))
+    /// [`Error::Work`] if the module cannot be put together, [`Error::Input`] if
+    /// the scene's position control is unstable.
+    pub fn new(scene: &Scene, classifier: Option<Classifier>) -> Result<Self, Error> {
+        let (world, pins) = World::wired(scene)?;
+        let classes = classifier.as_ref().map(Classifier::classes);
+        let classes = classes.unwrap_or_default().to_vec();
+        let bench = bench::build(scene, pins, classifier)?;
+        Ok(Self::of(scene, bench, classes, world))
     }
 
-    /// A scene before its first tick, its module being `bench`: with a sensor
-    /// in `slaves` for every whisker, left side first, in `world`.
-    pub fn of(scene: &Scene, bench: Box<dyn Bench + 'm>, slaves: Vec<Slave>, world: World) -> Self {
+    /// Starts anew with another seed, or the same: from here on as a new run of
+    /// the scene with that seed, without parsing, checking or solving anything
+    /// again. What was done to sensors and motors is undone.
+    ///
+    /// # Errors
+    /// None that a run which could be made once has; see [`Run::new`].
+    pub fn reset(&mut self, seed: u64) -> Result<(), Error> {
+        let pins = self.world.restart(seed);
+        self.bench.restart(seed, pins)?;
+        self.done = 0;
+        self.presented.restart();
+        self.rest();
+        Ok(())
+    }
+
+    /// The codes x and y that the classifier got in the last tick, or would have
+    /// got: none without contact, where the scene asks for it, and none while
+    /// the sensor has a fault.
+    pub fn sample(&mut self) -> Option<[u16; 2]> {
+        self.bench.tap()?.sample
+    }
+}
+
+impl<B: Bench + ?Sized> Run<B> {
+    /// A scene before its first tick, its module being `bench`, which decides
+    /// among `classes`, in `world`.
+    pub fn of(scene: &Scene, bench: Box<B>, classes: Vec<String>, world: World) -> Self {
         let sides = scene.head.sides.count();
         let whiskers = scene.head.whiskers_per_side;
-        let absent = |side: usize, value: f64| if side < sides { value } else { f64::NAN };
-        let pair = |value: f64| [absent(0, value), absent(1, value)];
-        let rest = pair(whisking::REST_DEG);
-        Self {
+        let mut run = Self {
             tick_hz: f64::from(scene.tick_hz),
             ticks: scene.ticks(),
             done: 0,
             sides,
             whiskers,
-            bench,
-            slaves,
+            classes,
             world,
             presented: Presented::new(scene),
-            snapshot: Snapshot {
-                theta_deg: vec![whisking::REST_DEG; sides * whiskers],
-                z: pair(0.0),
-                g: pair(0.0),
-                contact: pair(0.0),
-            },
-            row: Row {
-                t_s: 0.0,
-                theta_deg: rest,
-                z: pair(0.0),
-                g: pair(0.0),
-                contact: pair(0.0),
-                angle_deg: rest,
-                x: pair(0.0),
-                y: pair(0.0),
-            },
-        }
+            snapshot: Snapshot::default(),
+            row: Row::default(),
+            events: Vec::new(),
+            bench,
+        };
+        run.rest();
+        run
+    }
+
+    /// Row and snapshot as before the first tick.
+    fn rest(&mut self) {
+        let sides = self.sides;
+        let absent = |side: usize, value: f64| if side < sides { value } else { f64::NAN };
+        let pair = |value: f64| [absent(0, value), absent(1, value)];
+        let rest = pair(whisking::REST_DEG);
+        self.snapshot = Snapshot {
+            theta_deg: vec![whisking::REST_DEG; sides * self.whiskers],
+            z: pair(0.0),
+            g: pair(0.0),
+            contact: pair(0.0),
+        };
+        self.row = Row {
+            t_s: 0.0,
+            theta_deg: rest,
+            z: pair(0.0),
+            g: pair(0.0),
+            contact: pair(0.0),
+            angle_deg: rest,
+            x: pair(0.0),
+            y: pair(0.0),
+        };
+        self.events.clear();
     }
 
     /// How many ticks the scene lasts.
@@ -142,30 +180,43 @@ impl<'m> Run<'m> {
         (self.presented.label, self.presented.trial)
     }
 
-    /// The sensors, left side first, to disturb them.
-    pub fn slaves(&self) -> &[Slave] {
-        &self.slaves
+    /// The names of the classes that its decisions are among.
+    pub fn classes(&self) -> &[String] {
+        &self.classes
+    }
+
+    /// The sensor of whisker `n`, counted from 0, left side first: to disturb it.
+    pub fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+        self.bench.slave_mut(n)
+    }
+
+    /// The module.
+    pub fn module_mut(&mut self) -> &mut B {
+        &mut self.bench
     }
 
     /// One tick: the surface is presented, the sensors read, the module ticks,
     /// motors and plant move on. Returns the row of the trace.
-    pub fn tick(&mut self, happened: &mut Happened) -> &Row {
-        happened.events.clear();
+    pub fn tick(&mut self) -> Row {
+        self.events.clear();
         if let Some(texture) = self.presented.change(self.done) {
             self.world.present(texture);
             self.bench.forget();
         }
-        for (n, slave) in self.slaves.iter().enumerate() {
-            let (side, whisker) = (n / self.whiskers, n % self.whiskers);
-            let deflection = self.world.deflection(side, whisker);
-            slave.set(deflection);
-            if whisker == 0 {
-                let code = |x| f64::from(Word::from_normalised(x as f32).code14());
-                [self.row.x[side], self.row.y[side]] = deflection.map(code);
+        for side in 0..self.sides {
+            for whisker in 0..self.whiskers {
+                let deflection = self.world.deflection(side, whisker);
+                if let Some(slave) = self.bench.slave_mut(side * self.whiskers + whisker) {
+                    slave.set(deflection);
+                }
+                if whisker == 0 {
+                    let code = |x| f64::from(Word::from_normalised(x as f32).code14());
+                    [self.row.x[side], self.row.y[side]] = deflection.map(code);
+                }
             }
         }
 
-        self.bench.tick(&mut happened.events);
+        self.bench.tick(&mut self.events);
         self.bench.look(&mut self.snapshot);
         self.world
             .advance(&self.snapshot.theta_deg, 1.0 / self.tick_hz);
@@ -180,19 +231,25 @@ impl<'m> Run<'m> {
             self.row.theta_deg[side] = self.snapshot.theta_deg[first];
             self.row.angle_deg[side] = self.world.angles_deg()[first];
         }
-        &self.row
+        self.row
     }
 
-    /// The decision among what happened, with what was presented.
-    pub fn decided(&self, happened: &Happened, classes: &[String]) -> Option<Decided> {
-        happened.events.iter().find_map(|event| {
+    /// The events of the last tick, in order.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// The decision of the last tick, with what was presented.
+    pub fn decision(&self) -> Option<Decided> {
+        self.events.iter().find_map(|event| {
             let Event::Decision(decision) = event else {
                 return None;
             };
+            let name = self.classes.get(decision.class()).cloned();
             Some(Decided {
                 label: self.presented.label.to_owned(),
                 trial: self.presented.trial.to_string(),
-                decision: classes.get(decision.class()).cloned().unwrap_or_default(),
+                decision: name.unwrap_or_default(),
                 samples: decision.samples(),
                 posterior: decision.posterior().to_f64(),
             })

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::{Error, output::Output};
 
 /// One tick of a module. Values of a side that is not there are not a number.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Row {
     /// End of the tick, s; the first row is at 1/tick_hz.
     pub t_s: f64,

@@ -1,28 +1,28 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
-use firmware::design_parameters::stall;
 use scene::{Driver, PlantKind, Scene, ShaftName, Texture};
-use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 
 use crate::Error;
-use crate::bench::{AnyAngle, AnyMotor, IdealMotor};
-use crate::motor::{Brushed, Brushless, MotorSettings, SimMotor};
+use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
 use physics::{Biotact, Follicle, Shaft};
 
 /// The motors of all whiskers and the surface they meet.
+#[derive(Debug)]
 pub struct World {
     surface: Surface,
     motors: Motors,
     angles_deg: Vec<f64>,
 }
 
+#[derive(Debug)]
 enum Surface {
     Ideal(Ideal),
     Textured(Box<Textured>),
     Elastic(Box<Elastic>),
 }
 
+#[derive(Debug)]
 enum Motors {
     /// No motors: the angles stay.
     None,
@@ -31,55 +31,7 @@ enum Motors {
     Real(Vec<SimMotor>),
 }
 
-type Drives = Vec<(AnyMotor, AnyAngle)>;
-
-/// The ends of a motor's wires that a board has.
-#[derive(Debug)]
-pub enum Pins {
-    /// None: the motor is wherever it should be, and only counts.
-    Ideal(IdealMotor),
-    /// An H-bridge and an encoder.
-    Brushed(Brushed),
-    /// Three half-bridges, three Hall sensors and an encoder.
-    Brushless(Brushless),
-}
-
-impl Pins {
-    /// The firmware's driver and angle input on these pins, set up as on a board.
-    fn driven(self, stall: StallConfig) -> (AnyMotor, AnyAngle) {
-        match self {
-            Self::Ideal(motor) => (AnyMotor(Box::new(motor.clone())), AnyAngle(Box::new(motor))),
-            Self::Brushed(pins) => {
-                let driver = HBridge::new(pins.pwm, pins.dir).with_buffered_pwm();
-                (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))
-            }
-            Self::Brushless(pins) => {
-                let config = SixStepConfig {
-                    stall,
-                    ..SixStepConfig::DEFAULT
-                };
-                let driver = SixStep::new(pins.pwms, pins.enables, pins.halls, config);
-                let driver = driver.with_buffered_pwm();
-                (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))
-            }
-        }
-    }
-}
-
 impl World {
-    /// The world of `scene`, and the module's side of its motors, left side first.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the simulation refuses a setting.
-    pub fn new(scene: &Scene) -> Result<(Self, Drives), Error> {
-        let (world, pins) = Self::wired(scene)?;
-        let threshold = scene.motor.as_ref().map_or(0, plan::stall_q15);
-        let drives = pins
-            .into_iter()
-            .map(|pins| pins.driven(stall(scene.tick_hz, threshold)));
-        Ok((world, drives.collect()))
-    }
-
     /// The world of `scene`, and the wires of its motors, left side first; none
     /// where the whiskers are passive.
     ///
@@ -123,6 +75,24 @@ impl World {
             },
             pins,
         ))
+    }
+
+    /// Starts anew with another seed, as [`World::wired`] does. Returns the
+    /// wires of its motors anew; those of before are connected to nothing.
+    pub fn restart(&mut self, seed: u64) -> Vec<Pins> {
+        self.plant().restart(seed);
+        self.angles_deg.fill(whisking::REST_DEG);
+        match &mut self.motors {
+            Motors::None => Vec::new(),
+            Motors::Ideal(motors) => motors
+                .iter()
+                .map(|motor| {
+                    motor.set_deg(whisking::REST_DEG);
+                    Pins::Ideal(motor.clone())
+                })
+                .collect(),
+            Motors::Real(motors) => motors.iter_mut().map(SimMotor::restart).collect(),
+        }
     }
 
     /// Puts another texture in place.

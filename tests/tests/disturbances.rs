@@ -41,8 +41,8 @@ fn a_disturbed_line_is_borne() {
     let disturbed = |lost, flipped| {
         play(&scene, length, |tick, run| {
             if tick == 0 {
-                for (slave, seed) in run.slaves().iter().zip(1..) {
-                    slave.disturb(lost, flipped, seed);
+                for (n, seed) in (0..2).zip(1..) {
+                    run.slave_mut(n).unwrap().disturb(lost, flipped, seed);
                 }
             }
         })
@@ -78,9 +78,7 @@ fn a_disturbed_line_is_borne() {
 fn a_line_that_is_mostly_noise_is_given_up_once() {
     let played = play(&free(1), 10 * TICK_HZ, |tick, run| {
         if tick == 0 {
-            run.slaves()
-                .iter()
-                .for_each(|slave| slave.disturb(0.3, 0.3, 5));
+            (0..2).for_each(|n| run.slave_mut(n).unwrap().disturb(0.3, 0.3, 5));
         }
     });
     let lost = |(_, event): &(u64, Event)| matches!(event, Event::SensorLost(..));

@@ -5,7 +5,8 @@ mod played;
 
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, Place, SensorFault};
-use host_sim::bus::WireFault;
+use host_sim::bus::{Slave, WireFault};
+use host_sim::run::Run;
 use host_sim::trace::Row;
 use mlx90333::{Faults, FrameError};
 use played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
@@ -40,6 +41,10 @@ fn touching() -> Scene {
     scene(1, plant, "")
 }
 
+fn slave(run: &mut Run, n: usize) -> &mut Slave {
+    run.slave_mut(n).unwrap()
+}
+
 fn right(row: &Row) -> [f64; 5] {
     [row.theta_deg, row.z, row.g, row.contact, row.angle_deg].map(|pair| pair[1])
 }
@@ -61,7 +66,7 @@ fn short_faults_are_bridged() {
         for frames in [1, HOLD] {
             let played = play(&scene, length, |tick, run| {
                 if tick == AMID {
-                    run.slaves()[0].inject(fault, frames as u32);
+                    slave(run, 0).inject(fault, frames as u32);
                 }
             });
             assert_eq!(played.events, [], "{fault:?}");
@@ -73,8 +78,8 @@ fn short_faults_are_bridged() {
         }
     }
     let played = play(&scene, length, |tick, run| match tick {
-        AMID => run.slaves()[0].set_error_word(Faults::FIELD_TOO_LOW),
-        _ if tick == AMID + HOLD => run.slaves()[0].set_error_word(Faults::NONE),
+        AMID => slave(run, 0).set_error_word(Faults::FIELD_TOO_LOW),
+        _ if tick == AMID + HOLD => slave(run, 0).set_error_word(Faults::NONE),
         _ => {}
     });
     assert_eq!(played.events, []);
@@ -88,8 +93,8 @@ fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
     let sound = undisturbed(&scene, length);
     for (fault, code) in WIRE {
         let played = play(&scene, length, |tick, run| match tick {
-            AMID => run.slaves()[0].set_fault(Some(fault)),
-            _ if tick == mended => run.slaves()[0].set_fault(None),
+            AMID => slave(run, 0).set_fault(Some(fault)),
+            _ if tick == mended => slave(run, 0).set_fault(None),
             _ => {}
         });
         let (lost, back) = (AMID + HOLD, mended + RECOVER - 1);
@@ -134,8 +139,8 @@ fn the_sensor_s_own_report_is_told_bit_by_bit() {
     for bit in 0..16 {
         let faults = Faults::new(1 << bit);
         let played = play(&scene, 400, |tick, run| match tick {
-            200 => run.slaves()[1].set_error_word(faults),
-            300 => run.slaves()[1].set_error_word(Faults::NONE),
+            200 => slave(run, 1).set_error_word(faults),
+            300 => slave(run, 1).set_error_word(Faults::NONE),
             _ => {}
         });
         let place = Place {
@@ -164,8 +169,8 @@ fn a_faulty_sensor_feels_nothing() {
         .unwrap() as u64;
     for (fault, code) in WIRE {
         let played = play(&scene, 2000, |tick, run| match tick {
-            _ if tick == start => run.slaves()[0].set_fault(Some(fault)),
-            _ if tick == start + 300 => run.slaves()[0].set_fault(None),
+            _ if tick == start => slave(run, 0).set_fault(Some(fault)),
+            _ if tick == start + 300 => slave(run, 0).set_fault(None),
             _ => {}
         });
         let codes: Vec<u8> = played
@@ -202,7 +207,7 @@ fn one_of_twenty_four_leaves_the_others_alone() {
     let sound = undisturbed(&scene, 2000);
     let played = play(&scene, 2000, |tick, run| {
         if tick == AMID {
-            run.slaves()[7].set_fault(Some(WireFault::Silent));
+            slave(run, 7).set_fault(Some(WireFault::Silent));
         }
     });
     let place = Place {
@@ -219,9 +224,9 @@ fn one_of_twenty_four_leaves_the_others_alone() {
 #[test]
 fn all_of_twenty_four_fail_and_come_back() {
     let set = |fault: Option<WireFault>| {
-        move |run: &host_sim::run::Run<'_>| {
-            assert_eq!(run.slaves().len(), 24);
-            run.slaves().iter().for_each(|slave| slave.set_fault(fault));
+        move |run: &mut Run| {
+            (0..24).for_each(|n| slave(run, n).set_fault(fault));
+            assert!(run.slave_mut(24).is_none());
         }
     };
     let played = play(&free(12), 1500, |tick, run| match tick {

@@ -57,6 +57,11 @@ impl<SPI> Mlx90333<SPI> {
         self.decoder
     }
 
+    /// The bus, for a simulation that has the sensor behind it.
+    pub const fn spi_mut(&mut self) -> &mut SPI {
+        &mut self.spi
+    }
+
     /// Gives the bus back.
     pub fn release(self) -> SPI {
         self.spi

@@ -65,6 +65,11 @@ impl Sensor {
         }
     }
 
+    /// The settings it was made with.
+    pub(super) const fn settings(&self) -> SensorSettings {
+        self.settings
+    }
+
     /// Whether the next call of [`Sensor::advance`] with this time measures.
     #[inline]
     pub(super) fn due(&self, dt_s: f64) -> bool {

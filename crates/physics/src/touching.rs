@@ -104,9 +104,13 @@ impl TouchingWhisker {
     }
 
     fn of(shaft: &Shaft, modes: &Modes, sensor: &SensorSettings, seed: u64) -> Self {
+        Self::at_rest(Shape::new(shaft, modes), *sensor, seed)
+    }
+
+    fn at_rest(shape: Shape, sensor: SensorSettings, seed: u64) -> Self {
         let flat = Surface::of(super::Material::Flat);
         Self {
-            shape: Shape::new(shaft, modes),
+            shape,
             state: State::default(),
             reach: (0.0, [Reach::default(); POWERS]),
             pose: None,
@@ -114,10 +118,15 @@ impl TouchingWhisker {
             relief: (flat, Relief::new(&flat, 0.0)),
             last: None,
             touch: Touch::default(),
-            sensor: Sensor::new(*sensor, seed),
+            sensor: Sensor::new(sensor, seed),
             finer: 0,
             parts: 0,
         }
+    }
+
+    /// Starts anew, as newly made with this seed for the sensor's noise.
+    pub fn restart(&mut self, seed: u64) {
+        *self = Self::at_rest(self.shape.clone(), self.sensor.settings(), seed).finer(self.finer);
     }
 
     /// Cuts steps in contact 2ⁿ times finer, up to 32 parts in all: to see what

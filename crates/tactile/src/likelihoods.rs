@@ -28,7 +28,7 @@ pub struct Classes<const K: usize>;
 /// Implemented for [`Classes`] of 2 to 32.
 pub trait Supported: sealed::Sealed {
     /// A row of the table: two classes a word, a zero after an odd count.
-    type Row: core::fmt::Debug + FromBytes + KnownLayout + Immutable + AsRef<[u32]> + 'static;
+    type Row: core::fmt::Debug + FromBytes + KnownLayout + Immutable + AsRef<[u32]> + Sync + 'static;
 }
 
 mod sealed {

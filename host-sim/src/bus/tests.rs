@@ -9,57 +9,56 @@ use super::{SimSpiError, Slave, WireFault};
 
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
-fn read(slave: &Slave) -> [u8; 8] {
+fn read(slave: &mut Slave) -> [u8; 8] {
     let mut bytes = [0xFF; 8];
-    slave.spi().transfer_in_place(&mut bytes).unwrap();
+    slave.transfer_in_place(&mut bytes).unwrap();
     bytes
 }
 
-fn driver(slave: &Slave) -> Mlx90333<super::SimSpi> {
-    Mlx90333::new(slave.spi(), Decoder::new())
+fn driver() -> Mlx90333<Slave> {
+    Mlx90333::new(Slave::new(), Decoder::new())
 }
 
 #[test]
 fn deflections_become_these_bytes() {
-    let slave = Slave::new();
-    assert_eq!(read(&slave), REST);
+    let mut slave = Slave::new();
+    assert_eq!(read(&mut slave), REST);
     // x = 1: code 16383, word 0xFFFC. y = −1: code 1, word 0x0004.
     slave.set([1.0, -1.0]);
-    assert_eq!(read(&slave), [0xFF, 0xFC, 0xFF, 0x04, 0, 0, 0, 0xFF]);
+    assert_eq!(read(&mut slave), [0xFF, 0xFC, 0xFF, 0x04, 0, 0, 0, 0xFF]);
     // x = 0.25: 2047.75 rounds to 2048, code 10240, word 0xA000; y = 0.
     slave.set([0.25, 0.0]);
-    assert_eq!(read(&slave), [0xFF, 0x00, 0xA0, 0x00, 0x80, 0, 0, 0x20]);
+    assert_eq!(read(&mut slave), [0xFF, 0x00, 0xA0, 0x00, 0x80, 0, 0, 0x20]);
     slave.set([f64::INFINITY, f64::NAN]);
-    assert_eq!(read(&slave), [0xFF, 0xFC, 0xFF, 0x00, 0x80, 0, 0, 0x7B]);
+    assert_eq!(read(&mut slave), [0xFF, 0xFC, 0xFF, 0x00, 0x80, 0, 0, 0x7B]);
 }
 
 #[test]
 fn mode_and_sum_rule_are_the_sensor_s() {
-    let slave = Slave::with(Mode::Xyz, SumRule::ComplementB1B6);
+    let mut slave = Slave::with(Mode::Xyz, SumRule::ComplementB1B6);
     slave.set([0.25, 0.0]);
     let frame = [0xFF, 0x00, 0xA0, 0x00, 0x80, 0x00, 0x80, !0xA0];
-    assert_eq!(read(&slave), frame);
+    assert_eq!(read(&mut slave), frame);
 }
 
 #[test]
 fn the_line_is_a_wired_and() {
-    let slave = Slave::new();
+    let mut slave = Slave::new();
     slave.set([1.0, -1.0]);
     let mut bytes = [0xFF, 0x0F, 0xFF, 0x00, 0xFF, 0xFF, 0xFF, 0x3C];
-    slave.spi().transfer_in_place(&mut bytes).unwrap();
+    slave.transfer_in_place(&mut bytes).unwrap();
     assert_eq!(bytes, [0xFF, 0x0C, 0xFF, 0x00, 0, 0, 0, 0x3C]);
     // A read in which the master sends zeros says nothing of the sensor.
-    slave.spi().read(&mut bytes).unwrap();
+    slave.read(&mut bytes).unwrap();
     assert_eq!(bytes, [0; 8]);
 }
 
 #[test]
 fn operations_of_one_transaction_walk_through_one_frame() {
-    let slave = Slave::new();
+    let mut slave = Slave::new();
     slave.set([0.25, 0.0]);
     let (mut first, mut rest, mut after) = ([0; 2], [0xFF; 4], [0xFF; 2]);
     slave
-        .spi()
         .transaction(&mut [
             Operation::Write(&[0xFF]),
             Operation::DelayNs(50_000),
@@ -79,26 +78,28 @@ fn operations_of_one_transaction_walk_through_one_frame() {
         (traffic.transactions, traffic.bytes, traffic.delay_ns),
         (1, 10, 62_500)
     );
-    assert_eq!(read(&slave)[2], 0xA0, "the next transaction starts anew");
+    assert_eq!(
+        read(&mut slave)[2],
+        0xA0,
+        "the next transaction starts anew"
+    );
     assert_eq!(slave.traffic().transactions, 2);
 }
 
 #[test]
 fn the_real_driver_reads_what_was_set() {
-    let slave = Slave::new();
-    let mut sensor = driver(&slave);
-    slave.set([0.5, -0.125]);
+    let mut sensor = driver();
+    sensor.spi_mut().set([0.5, -0.125]);
     let frame = sensor.read_paced(50_000).unwrap();
     assert!((frame.first().normalised() - 0.5).abs() < 6.2e-5);
     assert!((frame.second().normalised() + 0.125).abs() < 6.2e-5);
-    assert_eq!(slave.traffic().delay_ns, 350_000);
+    assert_eq!(sensor.spi_mut().traffic().delay_ns, 350_000);
 }
 
 #[test]
 fn each_fault_is_seen_as_what_it_is() {
-    let slave = Slave::new();
-    slave.set([0.25, 0.0]);
-    let mut sensor = driver(&slave);
+    let mut sensor = driver();
+    sensor.spi_mut().set([0.25, 0.0]);
     let sums = FrameError::BadSum {
         expected: 0x20,
         found: 0x21,
@@ -116,31 +117,30 @@ fn each_fault_is_seen_as_what_it_is() {
         (WireFault::Flip(3), Error::Frame(FrameError::BadStart(0xEF))),
         (WireFault::Flip(9), Error::Frame(flipped)),
     ] {
-        slave.inject(fault, 2);
+        sensor.spi_mut().inject(fault, 2);
         assert_eq!(sensor.read(), Err(error));
         assert_eq!(sensor.read(), Err(error));
         assert!(sensor.read().is_ok(), "{fault:?} passes after two frames");
-        slave.set_fault(Some(fault));
+        sensor.spi_mut().set_fault(Some(fault));
         assert!((0..5).all(|_| sensor.read() == Err(error)));
-        slave.set_fault(None);
+        sensor.spi_mut().set_fault(None);
         assert!(sensor.read().is_ok());
     }
-    slave.inject(WireFault::Flip(64), 1);
-    slave.inject(WireFault::Bus, 0);
+    sensor.spi_mut().inject(WireFault::Flip(64), 1);
+    sensor.spi_mut().inject(WireFault::Bus, 0);
     assert!(sensor.read().is_ok());
 
     let faults = Faults::FIELD_TOO_LOW | Faults::DEAD_ZONE_BETA;
-    slave.set_error_word(faults);
+    sensor.spi_mut().set_error_word(faults);
     let reported = Error::Frame(FrameError::Sensor(faults));
     assert_eq!(sensor.read(), Err(reported));
 }
 
 #[test]
 fn the_module_s_polled_source_sees_frames_and_bus_errors() {
-    let slave = Slave::new();
-    let mut source = Polled::new(driver(&slave));
+    let mut source = Polled::new(driver());
     assert_eq!(source.take(), Ok(Some(REST)));
-    slave.inject(WireFault::Bus, 1);
+    source.sensor_mut().spi_mut().inject(WireFault::Bus, 1);
     assert_eq!(source.take(), Err(BusError));
     assert_eq!(source.take(), Ok(Some(REST)));
 }
@@ -148,9 +148,8 @@ fn the_module_s_polled_source_sees_frames_and_bus_errors() {
 #[test]
 fn disturbances_come_as_often_as_asked_and_again_by_seed() {
     let run = |seed| {
-        let slave = Slave::new();
-        let mut sensor = driver(&slave);
-        slave.disturb(0.1, 0.2, seed);
+        let mut sensor = driver();
+        sensor.spi_mut().disturb(0.1, 0.2, seed);
         let errors: Vec<_> = (0..10_000).map(|_| sensor.read().err()).collect();
         errors
     };
@@ -169,9 +168,9 @@ proptest! {
     /// Any deflection within range comes through to half a code.
     #[test]
     fn readings_are_within_half_a_code(x in -1.0_f64..=1.0, y in -1.0_f64..=1.0) {
-        let slave = Slave::new();
-        slave.set([x, y]);
-        let frame = driver(&slave).read().unwrap();
+        let mut sensor = driver();
+        sensor.spi_mut().set([x, y]);
+        let frame = sensor.read().unwrap();
         let near = |word: Word, value: f64| (f64::from(word.normalised()) - value).abs() < 6.2e-5;
         prop_assert!(near(frame.first(), x) && near(frame.second(), y));
     }

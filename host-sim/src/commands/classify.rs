@@ -6,8 +6,8 @@ use scene::Rule;
 use tactile::{Model, Quantiser, Threshold, dynamic};
 
 use crate::Error;
+use crate::classifier::{self, Fault};
 use crate::decisions::{self, Confusion, Decided};
-use crate::listening::{self, Fault};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{self, Stream};
 
@@ -23,7 +23,7 @@ pub fn classify(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let (path, buffer) = listening::load(model)?;
+    let (path, buffer) = classifier::load(model)?;
     let model = buffer.model().map_err(|error| Error::file(&path, error))?;
     let mut classifier = Streamed::new(&model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
@@ -39,7 +39,7 @@ pub fn classify(
     }
     drop(progress);
     decisions::write(out, &decided)?;
-    let confusion = Confusion::new(&listening::names(&model), &decided);
+    let confusion = Confusion::new(&classifier::names(&model), &decided);
     Ok(match (confusion.hit_rate(), confusion.mean_samples()) {
         (Some(hits), Some(samples)) => format!(
             "{confusion}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
@@ -76,7 +76,7 @@ impl<'m> Streamed<'m> {
         Ok(Self {
             classifier,
             quantisers: [x, y],
-            names: listening::names(model),
+            names: classifier::names(model),
         })
     }
 

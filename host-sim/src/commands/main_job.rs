@@ -6,14 +6,15 @@ use scene::Scene;
 use tactile::ModelBuf;
 use tactile::train::{Options, Trainer};
 
+use crate::classifier::Classifier;
 use crate::decisions::{self, Confusion};
 use crate::output::write_whole;
 use crate::plot::{self, Mark, Picture, Presented};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{self, Stream};
-use crate::run::{Happened, Run};
+use crate::run::Run;
 use crate::trace::{Row, TraceFile};
-use crate::{Error, listening, report};
+use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.
 const SCENE: &str = include_str!("../../../scenes/textures.toml");
@@ -43,7 +44,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         "deciding: {} s of other whisks, as decisions fall",
         scene.duration_s
     ));
-    let deciding = decide(&scene, &model, out, verbosity)?;
+    let deciding = decide(&scene, model, out, verbosity)?;
     let marks = &deciding.marks;
     let decided: Vec<_> = marks.iter().map(|mark| mark.decided.clone()).collect();
     decisions::write(&out.join("decisions.csv"), &decided)?;
@@ -100,33 +101,27 @@ struct Deciding {
 
 fn decide(
     scene: &Scene,
-    model: &ModelBuf,
+    model: ModelBuf,
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<Deciding, Error> {
     let Some(classifier) = &scene.classifier else {
         return Err(Error::Work("the scene has no classifier".to_owned()));
     };
-    let model = model
-        .model()
-        .map_err(|error| Error::Work(error.to_string()))?;
-    let listener = listening::classifier(&model, classifier.rule)
-        .map_err(|fault| Error::Work(fault.to_string()))?;
-    let classes = listening::names(&model);
-
-    let mut run = Run::new(scene, Some(listener))?;
+    let classifier =
+        Classifier::new(model, classifier.rule).map_err(|fault| Error::Work(fault.to_string()))?;
+    let mut run = Run::new(scene, Some(classifier))?;
     let mut trace = TraceFile::create(&out.join("trace.csv"))?;
     let (mut marks, mut rows) = (Vec::new(), Vec::new());
     let mut presented: Vec<Presented> = Vec::new();
-    let mut happened = Happened::default();
     let mut progress = Progress::new(verbosity, "deciding", run.ticks());
     for n in 0..run.ticks() {
-        let row = *run.tick(&mut happened);
+        let row = run.tick();
         trace.row(&row)?;
         if row.t_s <= PLOTTED_S {
             rows.push(row);
         }
-        for event in &happened.events {
+        for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
         let (label, _) = run.presented();
@@ -137,7 +132,7 @@ fn decide(
                 label: label.to_owned(),
             }),
         }
-        if let Some(decided) = run.decided(&happened, &classes) {
+        if let Some(decided) = run.decision() {
             progress.pause(|| report::decision(row.t_s, &decided));
             marks.push(Mark {
                 t_s: row.t_s,
@@ -150,7 +145,7 @@ fn decide(
     }
     trace.finish()?;
     Ok(Deciding {
-        classes,
+        classes: run.classes().to_vec(),
         marks,
         presented,
         rows,

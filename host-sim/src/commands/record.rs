@@ -1,18 +1,13 @@
 //! `host-sim record`: what a classifier would hear, to learn from.
 
-use std::cell::RefCell;
 use std::path::Path;
-use std::rc::Rc;
 
-use firmware::SampleClassifier;
 use scene::Scene;
-use tactile::Decision;
 
 use crate::Error;
-use crate::bench::AnyListener;
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{self, Stream};
-use crate::run::{Happened, Run};
+use crate::run::Run;
 
 /// Runs the scene in `path` and writes what its first whisker feels to `out`:
 /// a recording for `host-sim train`. Its classifier, if any, is not used but
@@ -39,34 +34,19 @@ pub fn record(
     ))
 }
 
-/// Listens without deciding: keeps the codes.
-struct Recorder(Rc<RefCell<Vec<[f64; 2]>>>);
-
-impl SampleClassifier for Recorder {
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
-        self.0.borrow_mut().push(codes.map(f64::from));
-        None
-    }
-
-    fn reset(&mut self) {}
-}
-
 /// What the classifier of `scene` would hear, a stream a presentation.
 ///
 /// # Errors
 /// [`Error::Work`] if the module cannot be put together.
 pub fn streams(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error> {
-    let heard = Rc::new(RefCell::new(Vec::new()));
-    let recorder = AnyListener(Box::new(Recorder(Rc::clone(&heard))));
-    let mut run = Run::new(scene, Some(recorder))?;
-    let mut happened = Happened::default();
+    let mut run = Run::new(scene, None)?;
     let mut streams: Vec<Stream> = Vec::new();
     let mut progress = Progress::new(verbosity, "recording", run.ticks());
     for n in 0..run.ticks() {
-        run.tick(&mut happened);
+        run.tick();
         let (label, trial) = run.presented();
         let trial = trial.to_string();
-        let samples = std::mem::take(&mut *heard.borrow_mut());
+        let samples = run.sample().map(|codes| codes.map(f64::from));
         match streams
             .last_mut()
             .filter(|last| last.label == label && last.trial == trial)
@@ -75,7 +55,7 @@ pub fn streams(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error
             None => streams.push(Stream {
                 label: label.to_owned(),
                 trial,
-                samples,
+                samples: samples.into_iter().collect(),
             }),
         }
         if n.is_multiple_of(1024) {

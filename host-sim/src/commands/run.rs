@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use scene::{Rule, Scene, Texture};
 use tactile::ModelBuf;
 
-use crate::bench::AnyListener;
+use crate::bench::Bench;
+use crate::classifier::{self, Classifier, Fault};
 use crate::decisions::{self, Confusion, Decided};
-use crate::listening::{self, Fault};
 use crate::progress::{Progress, Verbosity};
-use crate::run::{Happened, Run};
+use crate::run::Run;
 use crate::trace::TraceFile;
 use crate::{Error, report};
 
@@ -21,9 +21,8 @@ use crate::{Error, report};
 /// [`Error::Input`] for a scene or model that is wrong, otherwise what writing brings.
 pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<String>, Error> {
     let loaded = Loaded::new(path)?;
-    let (listener, classes) = loaded.listener()?;
-    let run = Run::new(&loaded.scene, listener)?;
-    play(run, &loaded.scene, &classes, out, verbosity, || Ok(()))
+    let run = Run::new(&loaded.scene, loaded.classifier()?)?;
+    play(run, &loaded.scene, out, verbosity, |_| Ok(()))
 }
 
 /// A scene that has been checked, and the model that it names.
@@ -49,7 +48,7 @@ impl Loaded {
         let folder = path.parent().unwrap_or(Path::new("."));
         let model = scene
             .model_path(folder)
-            .map(|path| listening::load(&path))
+            .map(|path| classifier::load(&path))
             .transpose()?;
         Ok(Self {
             scene,
@@ -58,31 +57,38 @@ impl Loaded {
         })
     }
 
-    /// The classifier and the names of its classes; none without one.
+    /// The scene's classifier; none without one.
     ///
     /// # Errors
     /// [`Error::Input`] if scene and model do not fit each other.
-    pub fn listener(&self) -> Result<(Option<AnyListener<'_>>, Vec<String>), Error> {
+    pub fn classifier(&self) -> Result<Option<Classifier>, Error> {
         let path = &self.path;
         let (Some(classifier), Some((model_path, model))) = (&self.scene.classifier, &self.model)
         else {
-            return Ok((None, Vec::new()));
+            return Ok(None);
         };
-        let model = model
-            .model()
-            .map_err(|error| Error::file(model_path, error))?;
         let key = match classifier.rule {
             Rule::Sequential { .. } => "threshold",
             Rule::Window { .. } => "window",
         };
-        let listener = listening::classifier(&model, classifier.rule);
-        let listener = listener.map_err(|fault| match fault {
+        let classifier = Classifier::new(model.clone(), classifier.rule);
+        let classifier = classifier.map_err(|fault| match fault {
             Fault::Model(fault) => Error::file(model_path, fault),
             Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
         })?;
-        let classes = listening::names(&model);
-        knows_a_texture(&self.scene, &classes).map_err(|fault| Error::file(path, fault))?;
-        Ok((Some(listener), classes))
+        knows_a_texture(&self.scene, classifier.classes())
+            .map_err(|fault| Error::file(path, fault))?;
+        Ok(Some(classifier))
+    }
+
+    /// The names of the classes that the scene decides among.
+    ///
+    /// # Errors
+    /// As [`Loaded::classifier`].
+    pub fn classes(&self) -> Result<Vec<String>, Error> {
+        let classifier = self.classifier()?;
+        let classes = classifier.as_ref().map(Classifier::classes);
+        Ok(classes.unwrap_or_default().to_vec())
     }
 }
 
@@ -91,26 +97,24 @@ impl Loaded {
 ///
 /// # Errors
 /// What writing brings, and what `after` says.
-pub fn play(
-    mut run: Run<'_>,
+pub fn play<B: Bench + ?Sized>(
+    mut run: Run<B>,
     scene: &Scene,
-    classes: &[String],
     out: &Path,
     verbosity: Verbosity,
-    mut after: impl FnMut() -> Result<(), Error>,
+    mut after: impl FnMut(&mut Run<B>) -> Result<(), Error>,
 ) -> Result<Option<String>, Error> {
     let mut trace = TraceFile::create(&out.join("trace.csv"))?;
     let mut decided: Vec<Decided> = Vec::new();
-    let mut happened = Happened::default();
     let mut progress = Progress::new(verbosity, "simulating", run.ticks());
     for n in 0..run.ticks() {
-        let row = *run.tick(&mut happened);
-        after()?;
+        let row = run.tick();
+        after(&mut run)?;
         trace.row(&row)?;
-        for event in &happened.events {
+        for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
-        decided.extend(run.decided(&happened, classes));
+        decided.extend(run.decision());
         if n.is_multiple_of(1024) {
             progress.set(n);
         }
@@ -122,7 +126,7 @@ pub fn play(
     }
     trace.finish()?;
     Ok(scene.classifier.as_ref().map(|_| {
-        let confusion = Confusion::new(classes, &decided);
+        let confusion = Confusion::new(run.classes(), &decided);
         report::Summary(&confusion, scene.tick_hz).to_string()
     }))
 }

@@ -1,11 +1,13 @@
 //! The motor's pins: shared wires behind embedded-hal traits.
 //!
-//! The module has one end, the simulated motor the other.
+//! The module has one end, the simulated motor the other. Both ends are on the
+//! thread of their run, one after the other: relaxed atomics are enough, and
+//! let a run move to another thread as a whole.
 
-use core::cell::Cell;
 use core::convert::Infallible;
 use core::f64::consts::TAU;
-use std::rc::Rc;
+use core::sync::atomic::{AtomicBool, AtomicU16, AtomicU64, Ordering::Relaxed};
+use std::sync::Arc;
 
 use embedded_hal::digital::{self, InputPin, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
@@ -17,18 +19,32 @@ use super::Wire;
 /// at 20 kHz, so that its steps are the board's.
 pub const PWM_MAX: u16 = 8000;
 
+/// A number that both ends of a wire can reach.
+#[derive(Debug, Default)]
+pub(super) struct Level(AtomicU64);
+
+impl Level {
+    pub(super) fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Relaxed))
+    }
+
+    pub(super) fn set(&self, value: f64) {
+        self.0.store(value.to_bits(), Relaxed);
+    }
+}
+
 /// What the pins carry.
 #[derive(Debug)]
 pub(super) struct Wires {
-    duty: [Cell<u16>; 3],
-    high: [Cell<bool>; 3],
-    cut: [Cell<bool>; 3],
-    halls_cut: Cell<bool>,
-    encoder_cut: Cell<bool>,
+    duty: [AtomicU16; 3],
+    high: [AtomicBool; 3],
+    cut: [AtomicBool; 3],
+    halls_cut: AtomicBool,
+    encoder_cut: AtomicBool,
     /// Rotor angle, rad.
-    angle: Cell<f64>,
+    angle: Level,
     /// Angle that the encoder has not seen, rad.
-    missed: Cell<f64>,
+    missed: Level,
     counts_per_rad: f64,
 }
 
@@ -38,16 +54,21 @@ impl Wires {
             duty: Default::default(),
             high: Default::default(),
             cut: Default::default(),
-            halls_cut: Cell::new(false),
-            encoder_cut: Cell::new(false),
-            angle: Cell::new(0.0),
-            missed: Cell::new(0.0),
+            halls_cut: AtomicBool::new(false),
+            encoder_cut: AtomicBool::new(false),
+            angle: Level::default(),
+            missed: Level::default(),
             counts_per_rad,
         }
     }
 
+    /// Wires of the same motor, whole and at rest.
+    pub(super) fn renewed(&self) -> Self {
+        Self::new(self.counts_per_rad)
+    }
+
     pub(super) fn set_angle(&self, angle: f64) {
-        if self.encoder_cut.get() {
+        if self.encoder_cut.load(Relaxed) {
             self.missed
                 .set(self.missed.get() + angle - self.angle.get());
         }
@@ -57,41 +78,41 @@ impl Wires {
     pub(super) fn set_cut(&self, wire: Wire, cut: bool) {
         match wire {
             Wire::Winding(i) => {
-                if let Some(cell) = self.cut.get(i) {
-                    cell.set(cut);
+                if let Some(place) = self.cut.get(i) {
+                    place.store(cut, Relaxed);
                 }
             }
-            Wire::Halls => self.halls_cut.set(cut),
-            Wire::Encoder => self.encoder_cut.set(cut),
+            Wire::Halls => self.halls_cut.store(cut, Relaxed),
+            Wire::Encoder => self.encoder_cut.store(cut, Relaxed),
         }
     }
 
     /// Duty of a PWM, 0 to 1.
     pub(super) fn duty(&self, i: usize) -> f64 {
-        let duty = self.duty.get(i).map_or(0, Cell::get);
+        let duty = self.duty.get(i).map_or(0, |duty| duty.load(Relaxed));
         f64::from(duty) / f64::from(PWM_MAX)
     }
 
     pub(super) fn is_high(&self, i: usize) -> bool {
-        self.high.get(i).is_some_and(Cell::get)
+        self.high.get(i).is_some_and(|high| high.load(Relaxed))
     }
 
     pub(super) fn is_cut(&self, i: usize) -> bool {
-        self.cut.get(i).is_some_and(Cell::get)
+        self.cut.get(i).is_some_and(|cut| cut.load(Relaxed))
     }
 }
 
 /// A PWM output of the module.
 #[derive(Debug)]
 pub struct SimPwm {
-    wires: Rc<Wires>,
+    wires: Arc<Wires>,
     i: usize,
 }
 
 /// A digital output of the module: a direction or an enable.
 #[derive(Debug)]
 pub struct SimPin {
-    wires: Rc<Wires>,
+    wires: Arc<Wires>,
     i: usize,
 }
 
@@ -102,7 +123,7 @@ pub type SimDir = SimPin;
 /// is within 90° of axis k.
 #[derive(Debug)]
 pub struct SimHall {
-    wires: Rc<Wires>,
+    wires: Arc<Wires>,
     i: usize,
 }
 
@@ -110,39 +131,39 @@ pub struct SimHall {
 /// wraps around.
 #[derive(Debug)]
 pub struct SimEncoder {
-    wires: Rc<Wires>,
+    wires: Arc<Wires>,
 }
 
 impl SimPwm {
-    pub(super) fn new(wires: &Rc<Wires>, i: usize) -> Self {
-        let wires = Rc::clone(wires);
+    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
+        let wires = Arc::clone(wires);
         Self { wires, i }
     }
 }
 
 impl SimPin {
-    pub(super) fn new(wires: &Rc<Wires>, i: usize) -> Self {
-        let wires = Rc::clone(wires);
+    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
+        let wires = Arc::clone(wires);
         Self { wires, i }
     }
 
     fn set(&self, high: bool) {
-        if let Some(cell) = self.wires.high.get(self.i) {
-            cell.set(high);
+        if let Some(place) = self.wires.high.get(self.i) {
+            place.store(high, Relaxed);
         }
     }
 }
 
 impl SimHall {
-    pub(super) fn new(wires: &Rc<Wires>, i: usize) -> Self {
-        let wires = Rc::clone(wires);
+    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
+        let wires = Arc::clone(wires);
         Self { wires, i }
     }
 }
 
 impl SimEncoder {
-    pub(super) fn new(wires: &Rc<Wires>) -> Self {
-        let wires = Rc::clone(wires);
+    pub(super) fn new(wires: &Arc<Wires>) -> Self {
+        let wires = Arc::clone(wires);
         Self { wires }
     }
 }
@@ -157,8 +178,8 @@ impl SetDutyCycle for SimPwm {
     }
 
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        if let Some(cell) = self.wires.duty.get(self.i) {
-            cell.set(duty.min(PWM_MAX));
+        if let Some(place) = self.wires.duty.get(self.i) {
+            place.store(duty.min(PWM_MAX), Relaxed);
         }
         Ok(())
     }
@@ -187,7 +208,7 @@ impl digital::ErrorType for SimHall {
 impl InputPin for SimHall {
     fn is_high(&mut self) -> Result<bool, Infallible> {
         let axis = TAU / 3.0 * self.i as f64;
-        Ok(self.wires.halls_cut.get() || libm::cos(self.wires.angle.get() - axis) > 0.0)
+        Ok(self.wires.halls_cut.load(Relaxed) || libm::cos(self.wires.angle.get() - axis) > 0.0)
     }
 
     fn is_low(&mut self) -> Result<bool, Infallible> {

@@ -38,4 +38,8 @@ impl Plant for Ideal {
             }
         }
     }
+
+    fn restart(&mut self, _seed: u64) {
+        self.x.fill(0.0);
+    }
 }

@@ -84,16 +84,7 @@ impl Textured {
     pub fn new(head: Head, settings: TexturedSettings, seed: u64) -> Result<Self, BadSetting> {
         head.check()?;
         settings.check()?;
-        let each = head.whiskers_per_side.max(1);
-        let whiskers = (0_u64..).zip(head.limits().enumerate());
-        let whiskers = whiskers
-            .map(|(stream, (i, limit_deg))| {
-                let shaft = settings.whisker(i % each);
-                // Not the constant by which generators step from seed to state.
-                let seed = seed.wrapping_add(stream.wrapping_mul(0xD134_2543_DE82_EF95));
-                Whisker::new(shaft, limit_deg, seed)
-            })
-            .collect();
+        let whiskers = whiskers(&head, &settings, seed);
         Ok(Self {
             head,
             settings,
@@ -124,6 +115,19 @@ impl Textured {
             whisker.touching = false;
         }
     }
+}
+
+fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker> {
+    let each = head.whiskers_per_side.max(1);
+    let whiskers = (0_u64..).zip(head.limits().enumerate());
+    whiskers
+        .map(|(stream, (i, limit_deg))| {
+            let shaft = settings.whisker(i % each);
+            // Not the constant by which generators step from seed to state.
+            let seed = seed.wrapping_add(stream.wrapping_mul(0xD134_2543_DE82_EF95));
+            Whisker::new(shaft, limit_deg, seed)
+        })
+        .collect()
 }
 
 /// What a step happens in.
@@ -239,6 +243,11 @@ impl Plant for Textured {
         for (whisker, angle) in self.whiskers.iter_mut().zip(angles) {
             whisker.advance(&world, angle);
         }
+    }
+
+    fn restart(&mut self, seed: u64) {
+        self.surface = Surface::of(Texture::Smooth);
+        self.whiskers = whiskers(&self.head, &self.settings, seed);
     }
 }
 

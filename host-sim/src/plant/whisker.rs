@@ -193,6 +193,16 @@ impl Plant for Elastic {
             swung.advance(&self.settings, surface, angle, dt_s);
         }
     }
+
+    fn restart(&mut self, seed: u64) {
+        self.seed = seed;
+        self.pieces = 0;
+        self.surface = Surface::of(Material::SmoothPlastic);
+        for (stream, swung) in (0..).zip(&mut self.whiskers) {
+            swung.whisker.restart(apart(seed, stream));
+            swung.angle_deg = None;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 mod common;
 mod does;
+mod library;
 mod main_job;
 mod meaning;
 mod mutations;

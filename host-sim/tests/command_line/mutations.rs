@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use host_sim::classifier::Classifier;
 use host_sim::commands::{classify, train};
-use host_sim::listening;
 use host_sim::progress::Verbosity;
-use host_sim::run::{Happened, Run};
+use host_sim::run::Run;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use scene::{Rule, Scene};
@@ -101,16 +101,14 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
     }
     let model = model(2, 20, true);
     let model = ModelBuf::from_bytes(&model).unwrap();
-    let model = model.model().unwrap();
     let rule = scene.classifier.as_ref().map(|classifier| classifier.rule);
-    let listener = rule.and_then(|rule| listening::classifier(&model, rule).ok());
-    let mut run = match Run::new(&scene, listener) {
+    let classifier = rule.and_then(|rule| Classifier::new(model, rule).ok());
+    let mut run = match Run::new(&scene, classifier) {
         Ok(run) => run,
         Err(error) => return Err(TestCaseError::fail(format!("{error}: {text}"))),
     };
-    let mut happened = Happened::default();
     for _ in 0..run.ticks().min(ticks) {
-        let row = *run.tick(&mut happened);
+        let row = run.tick();
         let sides = scene.head.sides.count();
         let values = [
             row.theta_deg,

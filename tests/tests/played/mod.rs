@@ -1,12 +1,8 @@
 //! A scene played tick by tick, with a hand on its sensors.
 #![allow(dead_code, reason = "each test program uses its own part")]
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
-use firmware::{Event, SampleClassifier};
-use host_sim::bench::AnyListener;
-use host_sim::run::{Happened, Run};
+use firmware::Event;
+use host_sim::run::Run;
 use host_sim::trace::Row;
 use scene::Scene;
 
@@ -44,37 +40,20 @@ pub(crate) fn textured(at_deg: f64) -> String {
     )
 }
 
-struct Ear(Rc<RefCell<Vec<[u16; 2]>>>);
-
-impl SampleClassifier for Ear {
-    fn push(&mut self, codes: [u16; 2]) -> Option<tactile::Decision> {
-        self.0.borrow_mut().push(codes);
-        None
-    }
-
-    fn reset(&mut self) {}
-}
-
 /// Plays `ticks` of a scene; `act` is called before each.
-pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &Run<'_>)) -> Played {
-    let ear = Rc::new(RefCell::new(Vec::new()));
-    let listener = AnyListener(Box::new(Ear(Rc::clone(&ear))));
-    let mut run = Run::new(scene, Some(listener)).unwrap();
-    let mut happened = Happened::default();
+pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)) -> Played {
+    let mut run = Run::new(scene, None).unwrap();
     let mut played = Played {
         rows: Vec::new(),
         events: Vec::new(),
         heard: Vec::new(),
     };
     for tick in 0..ticks {
-        act(tick, &run);
-        played.rows.push(*run.tick(&mut happened));
-        let events = happened.events.iter().map(|event| (tick, *event));
+        act(tick, &mut run);
+        played.rows.push(run.tick());
+        let events = run.events().iter().map(|event| (tick, *event));
         played.events.extend(events);
-        let heard = std::mem::take(&mut *ear.borrow_mut());
-        played
-            .heard
-            .extend(heard.into_iter().map(|codes| (tick, codes)));
+        played.heard.extend(run.sample().map(|codes| (tick, codes)));
     }
     played
 }

@@ -5,10 +5,73 @@ use std::path::{Path, PathBuf};
 
 use firmware::{CodeClassifier, SampleClassifier};
 use scene::Rule;
-use tactile::{Model, ModelBuf, Sequential, Threshold, Window};
+use tactile::{Decision, Model, ModelBuf, Sequential, Threshold, Window};
 
 use crate::Error;
-use crate::bench::AnyListener;
+
+/// The very classifier that a board runs, with its model.
+pub struct Classifier {
+    listener: Box<dyn SampleClassifier + Send>,
+    classes: Vec<String>,
+}
+
+impl Classifier {
+    /// A classifier by a rule.
+    ///
+    /// # Errors
+    /// [`Fault::Model`] for other than two channels or a model that was not
+    /// trained on sensor codes, [`Fault::Rule`] for a window that is no multiple
+    /// of the model's block or a threshold too near to 1.
+    pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
+        let model: &'static ModelBuf = Box::leak(Box::new(model));
+        let model = model.model().map_err(of_model)?;
+        Ok(Self {
+            listener: classifier(&model, rule)?,
+            classes: names(&model),
+        })
+    }
+
+    /// The names of its classes.
+    pub fn classes(&self) -> &[String] {
+        &self.classes
+    }
+}
+
+/// What stands between the first whisker and its classifier, if there is one:
+/// it keeps the last sample, for recordings.
+pub struct Tap {
+    /// The codes x and y of the last tick, if the classifier was given any.
+    pub(crate) sample: Option<[u16; 2]>,
+    classifier: Option<Classifier>,
+}
+
+impl Tap {
+    pub(crate) const fn new(classifier: Option<Classifier>) -> Self {
+        Self {
+            sample: None,
+            classifier,
+        }
+    }
+
+    /// As before the first tick.
+    pub(crate) fn restart(&mut self) {
+        self.sample = None;
+        self.reset();
+    }
+}
+
+impl SampleClassifier for Tap {
+    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
+        self.sample = Some(codes);
+        self.classifier.as_mut()?.listener.push(codes)
+    }
+
+    fn reset(&mut self) {
+        if let Some(classifier) = &mut self.classifier {
+            classifier.listener.reset();
+        }
+    }
+}
 
 /// Reads and checks a model file.
 ///
@@ -36,13 +99,9 @@ pub enum Fault {
     Rule(String),
 }
 
-/// The very type that a board runs with this model and rule.
-///
-/// # Errors
-/// [`Fault::Model`] for other than two channels or a model that was not learnt
-/// from sensor codes, [`Fault::Rule`] for a window that is no multiple of the
-/// model's block or a threshold too near to 1.
-pub fn classifier<'m>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, Fault> {
+type AnyListener = Box<dyn SampleClassifier + Send>;
+
+fn classifier(model: &Model<'static>, rule: Rule) -> Result<AnyListener, Fault> {
     if model.channels() != 2 {
         let fault = format!("the model has {} channels, not x and y", model.channels());
         return Err(Fault::Model(fault));
@@ -58,24 +117,23 @@ pub fn classifier<'m>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, 
     classes!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32)
 }
 
-fn streaming<'m, const K: usize>(model: &Model<'m>, rule: Rule) -> Result<AnyListener<'m>, Fault>
+fn streaming<const K: usize>(model: &Model<'static>, rule: Rule) -> Result<AnyListener, Fault>
 where
     tactile::Classes<K>: tactile::Supported,
 {
-    let boxed = |listener: Box<dyn SampleClassifier + 'm>| AnyListener(listener);
     match rule {
         Rule::Sequential { threshold } => {
             let threshold = Threshold::new(threshold).map_err(of_rule)?;
             let classifier = Sequential::<2, K>::new(model, threshold).map_err(of_rule)?;
-            Ok(boxed(Box::new(
+            Ok(Box::new(
                 CodeClassifier::new(model, classifier).map_err(of_model)?,
-            )))
+            ))
         }
         Rule::Window { samples } => {
             let classifier = Window::<2, K>::new(model, samples).map_err(of_rule)?;
-            Ok(boxed(Box::new(
+            Ok(Box::new(
                 CodeClassifier::new(model, classifier).map_err(of_model)?,
-            )))
+            ))
         }
     }
 }

@@ -1,0 +1,138 @@
+//! The core as a program of one's own uses it: a run owns all that it needs,
+//! moves to another thread, and starts anew.
+
+use std::thread;
+
+use host_sim::bus::WireFault;
+use host_sim::classifier::Classifier;
+use host_sim::decisions::Decided;
+use host_sim::run::Run;
+use scene::Scene;
+use tactile::ModelBuf;
+
+use crate::common::{IDEAL, SEQUENTIAL, TEXTURED, model};
+
+const fn is_send<T: Send>() {}
+const _: () = is_send::<Run>();
+
+fn elastic() -> String {
+    TEXTURED.replace("\"textured\"\nobstacle", "\"whisker\"\nobstacle")
+}
+
+fn scene(text: &str, seed: u64) -> Scene {
+    let mut scene = Scene::from_str("s.toml", text).unwrap();
+    scene.seed = seed;
+    scene
+}
+
+fn run(scene: &Scene) -> Run {
+    let rule = scene.classifier.as_ref().map(|classifier| classifier.rule);
+    let classifier = rule.map(|rule| {
+        let model = ModelBuf::from_bytes(&model(2, 20, true)).unwrap();
+        Classifier::new(model, rule).unwrap()
+    });
+    Run::new(scene, classifier).unwrap()
+}
+
+/// Everything that a run shows, to the last bit.
+#[derive(Debug, PartialEq)]
+struct Seen {
+    rows: Vec<[u64; 15]>,
+    samples: Vec<Option<[u16; 2]>>,
+    decisions: Vec<Decided>,
+    events: String,
+}
+
+fn see(run: &mut Run) -> Seen {
+    let mut seen = Seen {
+        rows: Vec::new(),
+        samples: Vec::new(),
+        decisions: Vec::new(),
+        events: String::new(),
+    };
+    for _ in 0..run.ticks() {
+        let row = run.tick();
+        let pairs = [
+            row.theta_deg,
+            row.z,
+            row.g,
+            row.contact,
+            row.angle_deg,
+            row.x,
+            row.y,
+        ];
+        let mut bits = [row.t_s.to_bits(); 15];
+        for (bits, value) in bits[1..].iter_mut().zip(pairs.as_flattened()) {
+            *bits = value.to_bits();
+        }
+        seen.rows.push(bits);
+        seen.samples.push(run.sample());
+        seen.decisions.extend(run.decision());
+        seen.events += &format!("{:?}", run.events());
+    }
+    seen
+}
+
+/// Scenes of every plant, of both motors, and in every number format.
+fn scenes() -> Vec<String> {
+    let six_step = "[motor]\ndriver = \"six-step\"\n";
+    vec![
+        format!("{TEXTURED}{SEQUENTIAL}"),
+        format!("{TEXTURED}{six_step}"),
+        TEXTURED.replace("noise =", "numbers = \"fixed\"\nnoise ="),
+        elastic(),
+        IDEAL.to_owned(),
+        IDEAL.replace("noise =", "numbers = \"f64\"\nnoise ="),
+    ]
+}
+
+#[test]
+fn a_run_that_is_reset_equals_a_new_one() {
+    for text in scenes() {
+        let first = see(&mut run(&scene(&text, 1)));
+        let second = see(&mut run(&scene(&text, 2)));
+        let mut again = run(&scene(&text, 1));
+        for _ in 0..again.ticks() / 3 {
+            again.tick();
+        }
+        // What was done to it is undone as well.
+        again.slave_mut(0).unwrap().set_fault(Some(WireFault::Bus));
+        again.reset(2).unwrap();
+        assert!(see(&mut again) == second, "{text}");
+        again.reset(1).unwrap();
+        assert!(see(&mut again) == first, "{text}");
+    }
+}
+
+#[test]
+fn runs_on_other_threads_agree() {
+    let text = format!("{TEXTURED}{SEQUENTIAL}");
+    let here = see(&mut run(&scene(&text, 5)));
+    // Made here, half of it run there, the rest of it here.
+    let mut moved = run(&scene(&text, 5));
+    let text = &text;
+    let there = thread::scope(|threads| {
+        let both = [0, 1].map(|_| threads.spawn(move || see(&mut run(&scene(text, 5)))));
+        let half = threads.spawn(|| {
+            for _ in 0..moved.ticks() / 2 {
+                moved.tick();
+            }
+        });
+        half.join().unwrap();
+        both.map(|thread| thread.join().unwrap())
+    });
+    assert!(!here.decisions.is_empty());
+    assert!(there.iter().all(|seen| *seen == here));
+    let rest = moved.ticks() - moved.ticks() / 2;
+    let last = (0..rest).map(|_| moved.tick().t_s).last();
+    assert_eq!(last.map(f64::to_bits), here.rows.last().map(|row| row[0]));
+}
+
+#[test]
+fn a_recording_is_what_a_classifier_gets() {
+    let listening = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
+    let recording = run(&scene(TEXTURED, 1));
+    let [decided, recorded] = [listening, recording].map(|mut run| see(&mut run));
+    assert_eq!(decided.samples, recorded.samples);
+    assert!(recorded.samples.iter().all(Option::is_some));
+}
