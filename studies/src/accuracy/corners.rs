@@ -1,6 +1,6 @@
 //! Stability: every format driven to its corners, in bounds throughout and
 //! back to normal afterwards. The same is a test with more levels
-//! (`tests/tests/stability`); here stand its figures.
+//! (`tests/tests/suite/stability`); here stand its figures.
 
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};

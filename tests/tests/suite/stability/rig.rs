@@ -7,7 +7,7 @@ use whisking::muscle::History;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Config, Fix, PatternGenerator, Real, Settings, Start, State, Whisker, filter};
 
-use crate::axes::{Case, INPUTS, Input, NOMINAL, Random};
+use super::axes::{Case, INPUTS, Input, NOMINAL, Random};
 
 /// The numbers of a format that come nearest to no number at all.
 pub(crate) trait Extreme: Real + Send + Sync {

@@ -1,15 +1,13 @@
 //! Sensors that fail while the module runs: short faults are bridged, long ones
 //! switch the motor of that whisker off, and nothing else suffers.
 
-mod played;
-
+use crate::played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, Place, SensorFault};
 use host_sim::bus::{Slave, WireFault};
 use host_sim::run::Run;
 use host_sim::trace::Row;
 use mlx90333::{Faults, FrameError};
-use played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
 use scene::Scene;
 
 /// Bad frames that are bridged, and good ones before a whisker moves again.

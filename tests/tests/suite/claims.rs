@@ -2,8 +2,7 @@
 //! on the bus and all. And where a misprint fails a claim, the product with
 //! that one constant misprinted fails it too.
 
-mod common;
-
+use crate::common;
 use acceptance::claims::{Claim, Figure, Quantity, RUN_S, TABLE};
 use acceptance::reference::{Row, Settings};
 use whisking::gate::Gate;

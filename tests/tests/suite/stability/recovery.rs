@@ -11,8 +11,8 @@
 
 use whisking::{Fix, Integrator};
 
-use crate::axes::{Case, INPUTS, SIGMA_G, SIGMA_Z, STARTS, TAUS, Worst, dealt, on_all_cores};
-use crate::rig::{Abuse, Extreme, Module, start};
+use super::axes::{Case, INPUTS, SIGMA_G, SIGMA_Z, STARTS, TAUS, Worst, dealt, on_all_cores};
+use super::rig::{Abuse, Extreme, Module, start};
 
 const ABUSE: usize = 300;
 

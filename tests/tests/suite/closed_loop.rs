@@ -2,10 +2,8 @@
 //! gentle with RCP, motors follow θ' and keep to their range, and chance has
 //! one source.
 
-mod played;
-
+use crate::played::{TICK_HZ, scene, textured, undisturbed};
 use host_sim::trace::Row;
-use played::{TICK_HZ, scene, textured, undisturbed};
 use scene::{Driver, Scene};
 
 const DRIVERS: [Driver; 2] = [Driver::HBridge, Driver::SixStep];

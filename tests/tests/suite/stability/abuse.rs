@@ -4,8 +4,8 @@
 
 use whisking::{Fix, Integrator, Settings};
 
-use crate::axes::{Case, Worst, cases, on_all_cores};
-use crate::rig::{Abuse, Extreme, Module, start, widened};
+use super::axes::{Case, Worst, cases, on_all_cores};
+use super::rig::{Abuse, Extreme, Module, start, widened};
 
 const ABUSE: usize = 300;
 const REST: usize = 300;

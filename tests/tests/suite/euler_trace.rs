@@ -1,8 +1,7 @@
 //! The papers' integrator, step for step: every column of the product's trace
 //! against the independent program, with the sensor's 14-bit words in the loop.
 
-mod common;
-
+use crate::common;
 use acceptance::reference::{Gate, Obstacle, Row, Settings, euler};
 
 /// Largest difference of each column as a share of its full scale.

@@ -1,8 +1,6 @@
 //! The decoder against frames written by hand, and against the encoder.
 
-mod common;
-
-use common::{rule, word};
+use crate::common::{rule, word};
 use mlx90333::{Decoder, Faults, Frame, FrameError, Mode, SumRule, Word, encode};
 use proptest::prelude::*;
 

@@ -3,8 +3,8 @@
 
 use whisking::{Fix, Settings};
 
-use crate::axes::{Case, Worst, on_all_cores};
-use crate::rig::{Extreme, Module, start, widened};
+use super::axes::{Case, Worst, on_all_cores};
+use super::rig::{Extreme, Module, start, widened};
 
 /// The papers' σ_η. All formats take their noise from the same integers, so
 /// none is far from f64. (The strongest noise throws ψ through the origin,

@@ -2,8 +2,7 @@
 //! `classify`: the figures of the data's README, and decision for decision
 //! against the independent program in double precision.
 
-mod common;
-
+use crate::common;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,4 @@
 //! Runs the product on the settings of the reference program.
-#![allow(dead_code, reason = "each test program uses its own part")]
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,4 @@
 //! A scene played tick by tick, with a hand on its sensors.
-#![allow(dead_code, reason = "each test program uses its own part")]
 
 use firmware::Event;
 use host_sim::run::Run;

@@ -1,8 +1,7 @@
 //! One set of equations, three number formats: the same module, the same
 //! behaviour.
 
-mod common;
-
+use crate::common;
 use acceptance::claims::Figure;
 use acceptance::reference::Row;
 

@@ -1,11 +1,11 @@
 //! A noisy line: frames lost and bits inverted at random, for as long as the
 //! module runs.
 
-mod played;
-
+use crate::played::{
+    Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed,
+};
 use firmware::Event;
 use firmware::design_parameters::{HOLD_S, ticks};
-use played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed};
 
 /// Bad frames that are bridged.
 const HOLD: usize = ticks(HOLD_S, TICK_HZ as u32) as usize;

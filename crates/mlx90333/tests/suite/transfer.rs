@@ -1,8 +1,6 @@
 //! The byte-per-interrupt transfer against a plain list of bytes.
 
-mod common;
-
-use common::{rule, word};
+use crate::common::{rule, word};
 use mlx90333::{Decoder, Faults, Frame, Mode, Step, Transfer, encode};
 use proptest::prelude::*;
 

@@ -2,8 +2,7 @@
 //! it writes anything: exit status 2, the file, the key, what was found and
 //! what is allowed. (Where the limits stand is for the crate `plan` to test.)
 
-mod common;
-
+use crate::common;
 use std::path::Path;
 
 use acceptance::reference::Settings;

@@ -14,8 +14,8 @@
 
 use whisking::{Fix, Real, filter, pd};
 
-use crate::axes::{TICKS_HZ, Worst, on_all_cores};
-use crate::rig::Extreme;
+use super::axes::{TICKS_HZ, Worst, on_all_cores};
+use super::rig::Extreme;
 
 /// Some encoder: 100 counts a degree, 10,000 a unit of protraction.
 const DEGREES_PER_COUNT: f64 = 0.01;

@@ -1,0 +1,4 @@
+//! Tests of the module from outside: its loop, and contact.
+
+mod contact;
+mod control_loop;

@@ -1,0 +1,14 @@
+//! The papers' claims, closed loop, faults and real recordings, across the crates.
+
+mod claims;
+mod closed_loop;
+mod common;
+mod disturbances;
+mod euler_trace;
+mod faults;
+mod formats;
+mod played;
+mod reference_claims;
+mod stability;
+mod terrain;
+mod unstable_scenes;
