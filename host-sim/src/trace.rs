@@ -1,5 +1,7 @@
 //! `trace.csv`: what a module did, a row a tick.
 
+mod decimals;
+
 use std::io::Write;
 use std::path::Path;
 
@@ -34,6 +36,7 @@ contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,
 #[derive(Debug)]
 pub struct TraceFile {
     output: Output,
+    line: Vec<u8>,
 }
 
 impl TraceFile {
@@ -44,7 +47,10 @@ impl TraceFile {
     pub fn create(path: &Path) -> Result<Self, Error> {
         let mut output = Output::create(path)?;
         writeln!(output, "{HEADER}").map_err(|source| output.failed(source))?;
-        Ok(Self { output })
+        Ok(Self {
+            output,
+            line: Vec::new(),
+        })
     }
 
     /// One row. Nine decimals show the error of the integrators; the cells of
@@ -53,17 +59,19 @@ impl TraceFile {
     /// # Errors
     /// [`Error::Write`].
     pub fn row(&mut self, row: &Row) -> Result<(), Error> {
-        let mut line = format!("{:.9}", row.t_s);
+        let line = &mut self.line;
+        line.clear();
+        decimals::append(line, row.t_s, 9);
         let precise = [row.theta_deg, row.z, row.g, row.contact, row.angle_deg];
-        for value in precise.iter().flatten() {
-            cell(&mut line, *value, 9);
+        for value in precise.as_flattened() {
+            cell(line, *value, 9);
         }
-        for value in [row.x, row.y].iter().flatten() {
-            cell(&mut line, *value, 0);
+        for value in [row.x, row.y].as_flattened() {
+            cell(line, *value, 0);
         }
-        line.push('\n');
+        line.push(b'\n');
         self.output
-            .write_all(line.as_bytes())
+            .write_all(line)
             .map_err(|source| self.output.failed(source))
     }
 
@@ -76,12 +84,10 @@ impl TraceFile {
     }
 }
 
-fn cell(line: &mut String, value: f64, decimals: usize) {
-    use std::fmt::Write as _;
-    line.push(',');
+fn cell(line: &mut Vec<u8>, value: f64, decimals: u32) {
+    line.push(b',');
     if !value.is_nan() {
-        // Writing to a string does not fail.
-        let _ = write!(line, "{value:.decimals$}");
+        decimals::append(line, value, decimals);
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::thread;
 
+use firmware::Event;
 use host_sim::bus::WireFault;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
@@ -40,7 +41,7 @@ struct Seen {
     rows: Vec<[u64; 15]>,
     samples: Vec<Option<[u16; 2]>>,
     decisions: Vec<Decided>,
-    events: String,
+    events: Vec<Event>,
 }
 
 fn see(run: &mut Run) -> Seen {
@@ -48,7 +49,7 @@ fn see(run: &mut Run) -> Seen {
         rows: Vec::new(),
         samples: Vec::new(),
         decisions: Vec::new(),
-        events: String::new(),
+        events: Vec::new(),
     };
     for _ in 0..run.ticks() {
         let row = run.tick();
@@ -68,7 +69,7 @@ fn see(run: &mut Run) -> Seen {
         seen.rows.push(bits);
         seen.samples.push(run.sample());
         seen.decisions.extend(run.decision());
-        seen.events += &format!("{:?}", run.events());
+        seen.events.extend_from_slice(run.events());
     }
     seen
 }
