@@ -20,7 +20,7 @@
 
 use std::fmt;
 
-use whisking::{Error, GateSettings, Integrator, Real, Settings, muscle, oscillator};
+use whisking::{Error, GateSettings, Integrator, Settings, muscle, oscillator};
 
 /// What rounding may add to a value that stands on its limit.
 const ROUNDING: f64 = 1e-9;
@@ -102,7 +102,7 @@ impl fmt::Display for Instability {
         let or = format_args!("{rather}: integrator = \"exact\", or \"euler\" with");
         match *self {
             Self::Oscillators { radius, tick_hz } => {
-                let limit = <f64 as Real>::PSI_LIMIT;
+                let limit = oscillator::PSI_LIMIT;
                 match radius {
                     Some(r) => write!(f, "its oscillators circle at a radius of {r:.2}")?,
                     None => f.write_str("its oscillators have no circle to settle on")?,
@@ -169,7 +169,7 @@ pub(crate) fn check(settings: &Settings, fatal: bool) -> Result<Option<Unstable>
 }
 
 fn oscillators(euler: &oscillator::Euler<f64>, tick_hz: f64) -> Option<Instability> {
-    let limit = <f64 as Real>::PSI_LIMIT;
+    let limit = oscillator::PSI_LIMIT;
     let (k, turn) = (euler.relax, euler.turn);
     // NaN where a step turns by more than a radian; then no radius is left alone.
     let radius = k / ((1.0 - turn * turn).sqrt() - 1.0 + k);

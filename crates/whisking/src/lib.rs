@@ -31,6 +31,7 @@
 
 #[cfg(feature = "bake")]
 mod bake;
+mod elementary;
 mod error;
 pub mod filter;
 pub mod gate;
@@ -52,6 +53,7 @@ mod step;
 
 #[cfg(feature = "bake")]
 pub use bake::Source;
+pub use elementary::Elementary;
 pub use error::{Error, Parameter};
 pub use integrator::Integrator;
 pub use optional::{Absent, Optional, Present};

@@ -25,6 +25,9 @@ use crate::Real;
 /// ψ of one side: drive state and recovery state.
 pub type Psi<R> = [R; 2];
 
+/// Limit ψ_lim of each state of an oscillator (BIOTACT section III-B).
+pub const PSI_LIMIT: f64 = 1.5;
+
 /// Radial and coupling time constants in whisk periods, τ_r/T_W = τ_11/T_W = 2.
 const TAU_PERIODS: f64 = 2.0;
 
@@ -61,10 +64,16 @@ pub trait OscillatorIntegrator<R: Real> {
     fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S];
 }
 
+/// [`PSI_LIMIT`] in the number format of the tick.
+#[inline]
+fn psi_limit<R: Real>() -> R {
+    R::ONE + R::ONE.halved()
+}
+
 /// The nearest ψ within ±1.5.
 #[inline]
 fn limited<R: Real>(psi: Psi<R>) -> Psi<R> {
-    psi.map(|x| x.clamp(-R::PSI_LIMIT, R::PSI_LIMIT))
+    psi.map(|x| x.clamp(-psi_limit::<R>(), psi_limit()))
 }
 
 /// The pull of `share` of the way towards the unit circle; along +ψ_1 at the origin.

@@ -3,15 +3,16 @@
 
 use core::ops::RangeInclusive;
 
+use crate::oscillator::PSI_LIMIT;
+
 /// Control rate 1/T, Hz.
 pub const TICK_HZ: RangeInclusive<f64> = 200.0..=20_000.0;
 /// Whisk frequency f_W, Hz.
 pub const FREQUENCY_HZ: RangeInclusive<f64> = 0.05..=25.0;
 /// Standard deviation σ_η of the oscillators' noise (eq. 5).
 pub const NOISE: RangeInclusive<f64> = 0.0..=1.0;
-/// Each state of an oscillator, ψ_1 and ψ_2, at the start and in the tick:
-/// ψ_lim = 1.5 (BIOTACT section III-B).
-pub const PSI: RangeInclusive<f64> = -1.5..=1.5;
+/// Each state of an oscillator, ψ_1 and ψ_2, at the start and in the tick.
+pub const PSI: RangeInclusive<f64> = -PSI_LIMIT..=PSI_LIMIT;
 /// Gain g of a whisker, nominal and as CIA raises it (eq. 12).
 pub const GAIN: RangeInclusive<f64> = 0.0..=2.0;
 /// σ_z of RCP (eq. 10) and σ_g of CIA (eq. 12).

@@ -1,12 +1,14 @@
-//! The number formats the equations run in. Each equation is written once over
-//! [`Real`]: f64 is the reference, f32 runs on parts with an FPU, [`Fix`] on
-//! parts without.
+//! The number formats of the tick. Each equation is written once over [`Real`]:
+//! f64 is the reference, f32 is for processors with an FPU, [`Fix`] for those
+//! without.
 
 mod fix;
 mod float;
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
+
+use crate::Elementary;
 
 pub use fix::{Factor, Factors, FineFactor, Fix};
 
@@ -31,10 +33,10 @@ impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize
 ///
 /// States lie within ±4. Constants of the tick have types of their own,
 /// because in fixed point a small constant needs a scale of its own to keep
-/// its digits. Stated errors are the largest absolute ones in f32 and in
-/// [`Fix`], measured by the tests of this crate.
+/// its digits.
 pub trait Real:
     Constant
+    + Elementary
     + Default
     + PartialOrd
     + Add<Output = Self>
@@ -60,10 +62,6 @@ pub trait Real:
     const ONE: Self;
     /// 2.
     const TWO: Self;
-    /// How far r² may be from 1 for [`Self::excess`], 1/16.
-    const NEAR: Self;
-    /// Limit of an oscillator's states, ψ_lim = 1.5 (BIOTACT section III-B).
-    const PSI_LIMIT: Self;
 
     /// The nearest representable number. For configurations, not for the tick.
     fn from_f64(value: f64) -> Self;
@@ -121,20 +119,6 @@ pub trait Real:
     /// Loses the share `share` of itself, however small: what rounding takes is
     /// remembered.
     fn decay(&mut self, carry: &mut Self::Carry, share: Self::Fine);
-
-    /// Muscle drive W = (tanh 2x + 1)/2 (BIOTACT eq. 6) for |x| ≤ 1.5; error 2e-7.
-    fn drive(self) -> Self;
-
-    /// exp(−x²), the loss of force with contraction (BIOTACT eq. 8), for |x| ≤ 1.5;
-    /// beyond that the value at 1.5; error 4e-7.
-    fn exp_neg_square(self) -> Self;
-
-    /// (x, y)/r, or `None` where r is zero (in f32 and f64 below 1e-15); error 2e-7.
-    fn unit(x: Self, y: Self) -> Option<[Self; 2]>;
-
-    /// 1 − 1/√(1 + x) for |x| ≤ [`Self::NEAR`]: the share by which a radius
-    /// exceeds one, where x = r² − 1; error 5e-6.
-    fn excess(self) -> Self;
 
     /// |x|.
     #[inline]

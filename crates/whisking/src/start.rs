@@ -7,8 +7,8 @@
 //! fine steps, is continued backwards. This happens in f64 once, outside the
 //! tick.
 
-use crate::muscle::{History, PEAK_GAIN, acceleration, pace};
-use crate::oscillator::{self, Psi, field};
+use crate::muscle::{self, History, PEAK_GAIN, acceleration, pace};
+use crate::oscillator::{self, PSI_LIMIT, Psi, field};
 use crate::{Error, Integrator, Parameter, Real, Settings, Start, ranges};
 
 /// Substeps a tick of the fourth-order Runge-Kutta method.
@@ -57,7 +57,7 @@ impl<const S: usize> Joint<S> {
     fn moved(&self, h: f64, rate: &Self) -> Self {
         let mut out = *self;
         for (x, k) in out.psi.iter_mut().flatten().zip(rate.psi.iter().flatten()) {
-            *x = Real::clamp(*x + h * k, -1.5, 1.5);
+            *x = Real::clamp(*x + h * k, -PSI_LIMIT, PSI_LIMIT);
         }
         for (x, k) in out.whisker.iter_mut().zip(rate.whisker) {
             *x = Real::clamp(*x + h * k, -2.0, 2.0);
@@ -66,9 +66,9 @@ impl<const S: usize> Joint<S> {
     }
 }
 
-/// f = W exp(−θ²).
+/// Force of a whisker of side `side`.
 fn force<const S: usize>(joint: &Joint<S>, side: usize) -> f64 {
-    joint.psi[side][0].drive() * joint.whisker[0].exp_neg_square()
+    muscle::force(muscle::drive(joint.psi[side][0]), joint.whisker[0])
 }
 
 impl Settings {
@@ -103,7 +103,7 @@ impl Settings {
         };
         Ok(Start {
             oscillators: kept.map(|p| p.map(R::from_f64)),
-            drive: psi.map(|p| R::from_f64(p[0].drive())),
+            drive: psi.map(|p| R::from_f64(muscle::drive(p[0]))),
             gain: gain.map(|row| row.map(R::from_f64)),
             history,
         })

@@ -73,7 +73,7 @@ where
         let drives = self.oscillators.drives(&state.oscillators);
         for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
             let before = state.drive[side];
-            let after = drives[side].drive();
+            let after = muscle::drive(drives[side]);
             let open = self.peak_gain * (R::ONE - state.z[side].mean);
             for whisker in whiskers {
                 if let Some(cia) = self.cia.part() {

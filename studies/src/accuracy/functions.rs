@@ -127,7 +127,7 @@ impl Maker {
 fn ours<R: Real>(function: Function, x: f64, y: f64) -> (f64, [f64; 2]) {
     let [x, y] = [x, y].map(R::from_f64);
     let value = match function {
-        Function::Tanh => 2.0 * x.drive().to_f64() - 1.0,
+        Function::Tanh => 2.0 * whisking::muscle::drive(x).to_f64() - 1.0,
         Function::Exp => x.exp_neg_square().to_f64(),
         Function::Unit => R::unit(x, y).map_or(f64::NAN, |[x, _]| x.to_f64()),
     };

@@ -1,7 +1,7 @@
 //! The papers' integrator: forward Euler, with θ, v and the force at the state
 //! before the step.
 
-use super::{DAMPING, MuscleIntegrator, State, pace};
+use super::{DAMPING, MuscleIntegrator, State, force, pace};
 use crate::Real;
 
 /// Constants of forward Euler.
@@ -28,7 +28,7 @@ impl<R: Real> MuscleIntegrator<R> for Euler<R> {
     /// solution at full drive is 1.015), because large steps let them grow.
     #[inline]
     fn step(&self, state: &mut State<R>, gain: R, drive: R, _after: R) {
-        let push = gain * (drive * state.theta.exp_neg_square());
+        let push = gain * force(drive, state.theta);
         let [velocity, _] = state.kept;
         let limited = |x: R| x.clamp(-R::TWO, R::TWO);
         let pull = (push - state.theta).times(self.spring);

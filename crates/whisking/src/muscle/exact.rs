@@ -91,7 +91,7 @@ impl<R: Real> MuscleIntegrator<R> for Exact<R> {
         let way = [0, 1].map(|i| (push - state.kept[i]).times_fine(self.lags[i].decay));
         let bends = [0, 1].map(|i| R::dot([d1, d2, d3], &self.lags[i].predict));
         let predicted = self.theta([0, 1].map(|i| state.kept[i] + (way[i] + bends[i].rough(gain))));
-        let force = drive * predicted.exp_neg_square();
+        let force = super::force(drive, predicted);
         let n1 = force - f;
         // With less than ten ticks a whisk a jump of the gain can make these
         // as large as eight.

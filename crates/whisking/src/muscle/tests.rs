@@ -1,7 +1,7 @@
 //! What the muscles must do, whoever steps them.
 
 use super::exact::Lag;
-use super::{Config, Euler, Exact, History, MuscleIntegrator, State, pace};
+use super::{Config, Euler, Exact, History, MuscleIntegrator, State, drive, pace};
 use crate::{Fix, Real};
 
 #[test]
@@ -81,13 +81,13 @@ fn a_fast_lag_answers_a_quartic_as_the_closed_form_says() {
 fn no_rhythm_of_the_gain_leads_beyond_the_bounds() {
     fn run<R: Real>(cycles: f64, period: usize) {
         let config = Config::Exact(Exact::<R>::new(cycles));
-        let first = R::from_f64(1.5).drive();
+        let first = drive(R::from_f64(1.5));
         let mut state = State::new(History {
             force: [first, R::ZERO, R::ZERO, R::ZERO],
         });
         for n in 0..400 {
             let phase = core::f64::consts::TAU * cycles * n as f64;
-            let drive = R::from_f64(1.5 * phase.cos()).drive();
+            let drive = drive(R::from_f64(1.5 * phase.cos()));
             let open = (n / period).is_multiple_of(2);
             let gain = R::from_f64(if open { 2.9 } else { 0.0 });
             config.step(&mut state, gain, drive, drive);

@@ -85,6 +85,19 @@ fn dot<R: Real>(a: Psi<R>, b: Psi<R>) -> R {
     a[0] * b[0] + a[1] * b[1]
 }
 
+/// How far r² may be from 1 for [`excess`]: 1/16.
+#[inline]
+fn near_circle<R: Real>() -> R {
+    R::ONE.halved().halved().halved().halved()
+}
+
+/// The share (r − 1)/r by which a radius exceeds one, of `x` = r² − 1 within
+/// ±[`near_circle`].
+#[inline]
+fn excess<R: Real>(x: R) -> R {
+    x.one_minus_inv_sqrt()
+}
+
 /// a + b, mode by mode or side by side.
 #[inline]
 fn sums<R: Real, const S: usize>(a: &[Psi<R>; S], b: &[Psi<R>; S]) -> [Psi<R>; S] {
@@ -222,10 +235,10 @@ impl<R: Real> Exact<R> {
             let same = dot(*m, *m) + dot(*d, *d) - R::ONE;
             let cross = dot(*m, *d);
             let cross = cross + cross;
-            if same.abs() + cross.abs() > R::NEAR {
+            if same.abs() + cross.abs() > near_circle() {
                 return None;
             }
-            let (left, right) = ((same + cross).excess(), (same - cross).excess());
+            let (left, right) = (excess(same + cross), excess(same - cross));
             let (along, across) = (left + right, left - right);
             for k in 0..2 {
                 on_m[k] = on_m[k] - self.half_pull(along, m[k], across, d[k]);
@@ -234,10 +247,10 @@ impl<R: Real> Exact<R> {
         } else {
             for (psi, change) in modes.iter().zip(&mut change) {
                 let e = dot(*psi, *psi) - R::ONE;
-                if e.abs() > R::NEAR {
+                if e.abs() > near_circle() {
                     return None;
                 }
-                let along = e.excess();
+                let along = excess(e);
                 for k in 0..2 {
                     change[k] = change[k] - along.rough(psi[k]).times_fine(self.relax);
                 }

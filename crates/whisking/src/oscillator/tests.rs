@@ -1,6 +1,6 @@
 //! What the oscillators must do, whoever steps them.
 
-use super::{Config, Euler, Exact, OscillatorIntegrator, Psi, State, keep};
+use super::{Config, Euler, Exact, OscillatorIntegrator, PSI_LIMIT, Psi, State, keep, psi_limit};
 use crate::{Fix, Real};
 
 /// Oscillators at work: configuration and state.
@@ -26,6 +26,13 @@ impl<R: Real, const S: usize> Running<R, S> {
         }
         self.0.psi(&self.1).map(|p| p.map(R::to_f64))
     }
+}
+
+#[test]
+fn every_format_has_the_same_limit() {
+    assert_eq!(psi_limit::<f64>(), PSI_LIMIT);
+    assert_eq!(f64::from(psi_limit::<f32>()), PSI_LIMIT);
+    assert_eq!(psi_limit::<Fix>().to_f64(), PSI_LIMIT);
 }
 
 fn radius([a, b]: Psi<f64>) -> f64 {

@@ -15,6 +15,7 @@ use factor::{FRACTION, SATURATED};
 pub use factor::{Factor, Factors, FineFactor};
 
 use super::Real;
+use crate::Elementary;
 use crate::math::fixed;
 use crate::math::product::{by_top, high_rounded};
 
@@ -76,10 +77,8 @@ impl Real for Fix {
     /// Bits below the last of the sum.
     type Carry = i64;
     const ZERO: Self = Self(0);
-    const NEAR: Self = Self(1 << (FRACTION - 4));
     const ONE: Self = Self(1 << FRACTION);
     const TWO: Self = Self(2 << FRACTION);
-    const PSI_LIMIT: Self = Self(3 << (FRACTION - 1));
 
     fn from_f64(value: f64) -> Self {
         Self(libm::round(value * f64::from(1 << FRACTION)) as i32)
@@ -167,10 +166,12 @@ impl Real for Fix {
         *carry = left;
         self.0 -= step;
     }
+}
 
+impl Elementary for Fix {
     #[inline]
-    fn drive(self) -> Self {
-        Self(fixed::drive(self.0))
+    fn half_tanh(self) -> Self {
+        Self(fixed::half_tanh(self.0))
     }
 
     #[inline]
@@ -179,8 +180,8 @@ impl Real for Fix {
     }
 
     #[inline]
-    fn excess(self) -> Self {
-        Self(fixed::excess(self.0))
+    fn one_minus_inv_sqrt(self) -> Self {
+        Self(fixed::one_minus_inv_sqrt(self.0))
     }
 
     #[inline]

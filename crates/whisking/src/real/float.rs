@@ -1,9 +1,10 @@
 //! f32 and f64 as number formats of the tick.
 
 use super::Real;
+use crate::Elementary;
 use crate::math::single;
 
-/// Squared radius below which an oscillator counts as standing at its origin.
+/// Squared length below which a vector has no direction.
 const ORIGIN: f32 = 1e-30;
 
 macro_rules! float {
@@ -13,10 +14,8 @@ macro_rules! float {
         type Row<const K: usize> = [Self; K];
         type Carry = Self;
         const ZERO: Self = 0.0;
-        const NEAR: Self = 0.0625;
         const ONE: Self = 1.0;
         const TWO: Self = 2.0;
-        const PSI_LIMIT: Self = 1.5;
 
         #[inline]
         fn from_f64(value: f64) -> Self {
@@ -121,10 +120,20 @@ macro_rules! float {
 
 impl Real for f32 {
     float!(f32);
+}
 
+#[allow(
+    clippy::cast_lossless,
+    reason = "one macro serves both widths; integers are exact in the wider"
+)]
+impl Real for f64 {
+    float!(f64);
+}
+
+impl Elementary for f32 {
     #[inline]
-    fn drive(self) -> Self {
-        single::drive(self)
+    fn half_tanh(self) -> Self {
+        single::half_tanh(self)
     }
 
     #[inline]
@@ -133,8 +142,8 @@ impl Real for f32 {
     }
 
     #[inline]
-    fn excess(self) -> Self {
-        single::excess(self)
+    fn one_minus_inv_sqrt(self) -> Self {
+        single::one_minus_inv_sqrt(self)
     }
 
     #[inline]
@@ -147,16 +156,10 @@ impl Real for f32 {
     }
 }
 
-#[allow(
-    clippy::cast_lossless,
-    reason = "one macro serves both widths; integers are exact in the wider"
-)]
-impl Real for f64 {
-    float!(f64);
-
+impl Elementary for f64 {
     #[inline]
-    fn drive(self) -> Self {
-        0.5 * libm::tanh(2.0 * self) + 0.5
+    fn half_tanh(self) -> Self {
+        0.5 * libm::tanh(2.0 * self)
     }
 
     #[inline]
@@ -166,7 +169,7 @@ impl Real for f64 {
     }
 
     #[inline]
-    fn excess(self) -> Self {
+    fn one_minus_inv_sqrt(self) -> Self {
         let r = libm::sqrt(1.0 + self);
         self / (r * (1.0 + r))
     }

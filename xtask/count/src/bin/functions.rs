@@ -14,7 +14,7 @@ fn kernels() {
 
 #[inline(never)]
 fn functions<R: Format>() {
-    kernel!(R: "drive", (x: R, _: &mut ()) -> R { x.drive() },
+    kernel!(R: "drive", (x: R, _: &mut ()) -> R { whisking::muscle::drive(x) },
         number::<R>(-1.5, 1.5), ());
     kernel!(R: "exp_neg_square", (x: R, _: &mut ()) -> R { x.exp_neg_square() },
         number::<R>(-1.5, 1.5), ());
