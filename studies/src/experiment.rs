@@ -32,10 +32,11 @@ mod request;
 mod spectrogram;
 mod whole;
 
-pub use dataset::Dataset;
+pub use dataset::{Dataset, Job};
 pub use part::{bytes as part_bytes, first_line, join, write as write_part};
-pub use recording::{Job, Recording, Recordings};
-pub use request::{Name, Request, Scale, Shard};
+pub use record::{jobs, record, share};
+pub use recording::{Recording, Recordings};
+pub use request::{Extent, Name, Request, Shard};
 pub use whole::report;
 
 #[cfg(test)]

@@ -5,4 +5,5 @@
 pub mod accuracy;
 pub mod commands;
 pub mod experiment;
+mod refused;
 pub mod rigs;

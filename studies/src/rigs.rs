@@ -6,19 +6,19 @@ mod chance;
 mod corridor;
 mod floor;
 mod follow;
+mod frame;
 mod head;
 mod pad;
 mod read;
 mod table;
-pub(crate) mod vector;
 
 use std::path::Path;
 
 pub use chance::{Chance, Wander, seed_of};
 pub use corridor::{Corridor, Robot};
-pub use floor::{Drive, Floor, Motion};
+pub use floor::{Drive, Floor, RobotMotion};
 pub use follow::Loop;
-pub use head::{CHANNELS, Felt, Head, Visit};
+pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
 pub use read::{OutOfRange, Rig, load, parse, within};
 pub use table::{Carriage, Table, facing};
@@ -31,7 +31,7 @@ pub struct Rigs {
     /// LEP10 and LEP12.
     pub floor: Floor,
     /// BIOTACT.
-    pub head: Head,
+    pub head: WhiskingHead,
     /// POSE.
     pub table: Table,
     /// PSIK, fixed head.

@@ -9,7 +9,8 @@ use whisking::{Config, Fix, Integrator, Real, muscle, oscillator};
 
 use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
 use super::page::{Page, short};
-use super::schemes::{Format, Pace, refused};
+use super::schemes::{Format, Pace};
+use crate::refused::refused;
 use host_sim::Error;
 
 /// f_W T of the table of radii: 2 Hz at 20 kHz up to 25 Hz at 250 Hz.

@@ -6,7 +6,7 @@ use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};
 
 use super::page::{Page, short};
-use super::schemes::refused;
+use crate::refused::refused;
 use host_sim::Error;
 
 const FREQUENCIES_HZ: [f64; 3] = [0.05, 2.0, 25.0];

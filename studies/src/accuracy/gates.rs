@@ -7,7 +7,8 @@ use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, 
 use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
 use super::page::{Page, short};
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
-use super::schemes::{Format, INTEGRATORS, Pace, name, refused};
+use super::schemes::{Format, INTEGRATORS, Pace, name};
+use crate::refused::refused;
 use host_sim::Error;
 
 const FREQUENCY_HZ: f64 = 2.0;

@@ -19,6 +19,7 @@ use super::page::{Page, short, verdict};
 use super::schemes::{Format, Pace};
 use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
+use whisk::{Length, MINUTE_TICKS, Row};
 
 /// 2 Hz at 2 kHz.
 const PACE: Pace = Pace {
@@ -31,17 +32,9 @@ const ODD: Pace = Pace {
     frequency_hz: std::f64::consts::E,
     ..PACE
 };
-const MINUTE_TICKS: u64 = 120_000;
 /// Largest |r − 1| that is allowed.
 const ROUND: f64 = 1e-3;
 const HEADER: &str = "format,frequency_hz,minutes,phase_whisks,whisks,radius_low,radius_high,theta_low_deg,theta_high_deg";
-
-/// How long to run: stretches after each of which a row is written.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Length {
-    stretches: u64,
-    minutes: u64,
-}
 
 /// 24 hours, a row an hour.
 pub(super) const DAY: Length = Length {
@@ -53,20 +46,6 @@ pub(super) const QUICK: Length = Length {
     stretches: 10,
     minutes: 1,
 };
-
-/// The state of a run after a stretch; extremes are those of the stretch.
-#[derive(Debug, Clone, PartialEq)]
-struct Row {
-    format: String,
-    frequency_hz: f64,
-    /// Since the run settled.
-    minutes: u64,
-    /// Phase ahead of the exact frequency, and whisks since the first crossing.
-    phase_whisks: f64,
-    whisks: f64,
-    radius: [f64; 2],
-    theta_deg: [f64; 2],
-}
 
 /// Rows of all formats.
 #[derive(Debug, Clone, PartialEq)]

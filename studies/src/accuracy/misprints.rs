@@ -10,14 +10,13 @@ pub(crate) mod figures;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, State};
 
-use figures::{FIG6, FIG7, FIG8, FIG9, FREE, Figure, Printed, Row, run};
+use figures::{FIG6, FIG7, FIG8, FIG9, FREE, FREQUENCY_HZ, Figure, Printed, Row, TICK_HZ, run};
 
 use super::page::Page;
-use super::schemes::{Pace, refused};
+use super::schemes::Pace;
+use crate::refused::refused;
 use host_sim::Error;
 
-const TICK_HZ: f64 = 2_000.0;
-const FREQUENCY_HZ: f64 = 2.0;
 const WHISK_TICKS: usize = 1_000;
 /// Whisks that are measured.
 const WHISKS: usize = 5;

@@ -5,6 +5,7 @@ use whisking::{Fix, Integrator, PatternGenerator, Real, Settings};
 
 use super::reference::{Case, GRID, PEAK_GAIN, State, Truth, WHISKS};
 use super::split::Split;
+use crate::refused::refused;
 use host_sim::Error;
 
 /// A number format of the product.
@@ -120,11 +121,6 @@ impl Pace {
             Err(Error::Work(format!("{self:?} is not on the grid")))
         }
     }
-}
-
-/// Settings of the report that the product refuses: a slip of the report.
-pub(super) fn refused(error: whisking::Error) -> Error {
-    Error::Work(format!("settings of the report: {error}"))
 }
 
 fn product<R: Real>(

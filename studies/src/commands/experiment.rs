@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::experiment::{Name, Recordings, Request, Scale, Shard, report, write_part};
+use crate::experiment::{
+    Extent, Name, Recordings, Request, Shard, jobs, record, report, share, write_part,
+};
 use crate::rigs::Rigs;
 use host_sim::Error;
 use host_sim::output::write_whole;
@@ -33,12 +35,12 @@ pub struct Asked {
 pub fn experiment(asked: &Asked, verbosity: Verbosity) -> Result<String, Error> {
     let request = Request {
         names: asked.names.clone(),
-        scale: Scale { quick: asked.quick },
+        scale: Extent { quick: asked.quick },
         seed: asked.seed,
         rigs: Rigs::load(asked.rigs.as_deref())?,
     };
     if let Some(shard) = asked.shard {
-        let recordings = Recordings::make(&request, &request.share(shard), verbosity)?;
+        let recordings = record(&request, &share(&request, shard), verbosity)?;
         let names: Vec<&str> = request.names.iter().map(|name| name.text()).collect();
         let Shard { index, count } = shard;
         let name = match names.as_slice() {
@@ -53,7 +55,7 @@ pub fn experiment(asked: &Asked, verbosity: Verbosity) -> Result<String, Error> 
             recordings.len()
         ));
     }
-    let recordings = Recordings::make(&request, &request.jobs(), verbosity)?;
+    let recordings = record(&request, &jobs(&request), verbosity)?;
     written(&request, &recordings, &asked.out)
 }
 

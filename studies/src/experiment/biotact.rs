@@ -25,10 +25,6 @@ use whisks::{Method, Task, Visits};
 /// Random choices of training whisks that a hit rate is the mean of.
 const DRAWS: usize = 10;
 
-fn refused(error: impl std::fmt::Display) -> Error {
-    Error::Work(format!("BIOTACT: {error}"))
-}
-
 /// Hit rates, percent, of 1, 2, … training whisks.
 type Learning = Vec<f64>;
 

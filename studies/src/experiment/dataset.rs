@@ -1,11 +1,5 @@
 //! The data sets: what is simulated once and used by one experiment or more.
 
-use super::record;
-use super::recording::Recording;
-use super::request::{Request, Scale};
-use crate::rigs::seed_of;
-use host_sim::Error;
-
 /// A set of recordings on one rig.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Dataset {
@@ -56,30 +50,13 @@ impl Dataset {
     pub fn from_number(number: u32) -> Option<Self> {
         Self::ALL.into_iter().find(|set| set.number() == number)
     }
+}
 
-    /// How many recordings it has.
-    pub fn jobs(self, scale: Scale) -> usize {
-        match self {
-            Self::Floor => record::floor::jobs(scale),
-            Self::Head => record::head::jobs(),
-            Self::Table => record::table::jobs(scale),
-            Self::Pad => record::pad::jobs(scale),
-            Self::Corridor => record::corridor::jobs(scale),
-        }
-    }
-
-    /// Makes one recording. It depends on the seed, the set and the job alone.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the simulation refuses a setting.
-    pub fn record(self, request: &Request, job: usize) -> Result<Recording, Error> {
-        let seed = seed_of(request.seed, &[u64::from(self.number()), job as u64]);
-        match self {
-            Self::Floor => record::floor::record(request, job, seed),
-            Self::Head => record::head::record(request, job, seed),
-            Self::Table => record::table::record(request, job, seed),
-            Self::Pad => record::pad::record(request, job, seed),
-            Self::Corridor => record::corridor::record(request, job, seed),
-        }
-    }
+/// A job of a data set: what one recording comes of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Job {
+    /// Of which set.
+    pub dataset: Dataset,
+    /// Which of its jobs, from 0.
+    pub number: usize,
 }

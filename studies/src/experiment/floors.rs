@@ -10,8 +10,9 @@ use super::dataset::Dataset;
 use super::paper::lep10::FLOORS;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings};
-use super::request::{Request, Scale};
-use crate::rigs::Motion;
+use super::request::{Extent, Request};
+use crate::refused::refused;
+use crate::rigs::RobotMotion;
 use host_sim::Error;
 
 /// Sensor codes of 10 mV: 14 bits over 5 V.
@@ -41,7 +42,7 @@ pub(super) enum Half {
 #[derive(Debug)]
 pub(super) struct Floors<'a> {
     recordings: Vec<&'a Recording>,
-    scale: Scale,
+    scale: Extent,
     /// Trials of natural motion that are used.
     natural: usize,
     /// Samples a second.
@@ -69,12 +70,12 @@ impl<'a> Floors<'a> {
     }
 
     /// A half of every trial of the `motions`, floor by floor.
-    pub(super) fn half(&self, motions: &[Motion], half: Half) -> Vec<Stream> {
+    pub(super) fn half(&self, motions: &[RobotMotion], half: Half) -> Vec<Stream> {
         let mut streams = Vec::new();
         for floor in 0..FLOORS.len() {
             for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
                 let trials = match motion {
-                    Motion::Autonomous => self.natural,
+                    RobotMotion::Autonomous => self.natural,
                     _ => self.scale.trials(),
                 };
                 for trial in 0..trials {
@@ -106,7 +107,6 @@ impl<'a> Floors<'a> {
 /// The model's bins span each channel's own range, so every class is given the
 /// common range's two ends as samples: 2 among some 10⁵.
 pub(super) fn learn(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
-    let refused = |error: &dyn std::fmt::Display| Error::Work(format!("likelihoods: {error}"));
     let all = || streams.iter().flat_map(|stream| &stream.samples).copied();
     let low = all().fold(f64::INFINITY, f64::min);
     let high = all().fold(f64::NEG_INFINITY, f64::max);
@@ -116,22 +116,20 @@ pub(super) fn learn(streams: &[Stream], picked: &[usize], block: u32) -> Result<
         smooth: SMOOTH_BINS,
         block,
     };
-    let mut trainer = Trainer::new(picked.len(), options).map_err(|error| refused(&error))?;
+    let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
     for stream in streams {
         let name = FLOORS.get(stream.floor).copied().unwrap_or_default();
         for sample in pick(&stream.samples, CHANNELS, picked).chunks_exact(picked.len()) {
-            trainer.add(name, sample).map_err(|error| refused(&error))?;
+            trainer.add(name, sample).map_err(refused)?;
         }
     }
     for name in FLOORS {
         for end in [low, high] {
             let sample = vec![end; picked.len()];
-            trainer
-                .add(name, &sample)
-                .map_err(|error| refused(&error))?;
+            trainer.add(name, &sample).map_err(refused)?;
         }
     }
-    trainer.train().map_err(|error| refused(&error))
+    trainer.train().map_err(refused)
 }
 
 /// Outcomes of each true floor.

@@ -7,7 +7,8 @@ use super::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::rigs::Motion;
+use crate::refused::refused;
+use crate::rigs::RobotMotion;
 use classifiers::recogniser::{Bayes, Picked};
 use host_sim::Error;
 use tactile::ModelBuf;
@@ -17,9 +18,9 @@ const WINDOWS: [u32; 11] = [1, 2, 5, 10, 20, 50, 100, 200, 400, 1000, 2000];
 /// Channels of Tables I to III.
 const CHANNELS: [(&str, &[usize]); 3] = [("x", &[0]), ("y", &[1]), ("x and y", &[0, 1])];
 /// Artificial motion.
-const SPOT: [Motion; 2] = [Motion::Anticlockwise, Motion::Clockwise];
+const SPOT: [RobotMotion; 2] = [RobotMotion::Anticlockwise, RobotMotion::Clockwise];
 /// Natural motion.
-const NATURAL: [Motion; 1] = [Motion::Autonomous];
+const NATURAL: [RobotMotion; 1] = [RobotMotion::Autonomous];
 
 /// Hits over windows of so many samples.
 fn windows(
@@ -28,10 +29,9 @@ fn windows(
     validation: &[Stream],
     window: u32,
 ) -> Result<Tally, Error> {
-    let refused = |error: &dyn std::fmt::Display| Error::Work(format!("window: {error}"));
-    let model = buf.model().map_err(|error| refused(&error))?;
+    let model = buf.model().map_err(refused)?;
     Tally::of(validation, || {
-        let bayes = Bayes::window(&model, window).map_err(|error| refused(&error))?;
+        let bayes = Bayes::window(&model, window).map_err(refused)?;
         Ok(Picked::new(bayes, picked))
     })
 }

@@ -2,151 +2,19 @@
 //! template of the power spectrum and a neural network on it.
 
 mod figures;
+mod groups;
 mod spectral;
 mod why;
 
-use super::floors::{Floors, Half, Stream, Tally, learn};
+use super::floors::Floors;
 use super::page::{Section, beside};
 use super::paper::lep10::FLOORS;
 use super::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::rigs::Motion;
-use classifiers::recogniser::Bayes;
+use crate::refused::refused;
+use groups::{Curves, Group, interpolate};
 use host_sim::Error;
-use tactile::{Model, ModelBuf, Threshold};
-
-/// Samples of a block of evidence (m of eq. 6).
-const BLOCK: u32 = 20;
-/// Both channels.
-const BOTH: [usize; 2] = [0, 1];
-
-/// 1 − θ of the thresholds of Fig. 6, from θ = 0.5 to 0.99999999.
-const DOUBTS: [f64; 22] = [
-    0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 3e-4, 1e-4,
-    3e-5, 1e-5, 1e-6, 1e-7, 3e-8, 1e-8,
-];
-
-/// Windows of Fig. 5, samples: 10 ms to 1 s.
-const WINDOWS: [u32; 10] = [20, 40, 60, 100, 140, 200, 300, 400, 1000, 2000];
-
-/// A group of trials that is learnt and validated by itself.
-struct Group {
-    name: &'static str,
-    learning: Vec<Stream>,
-    validation: Vec<Stream>,
-    model: ModelBuf,
-}
-
-/// A point of a curve: what was varied, decision time in s, score.
-struct Point {
-    parameter: f64,
-    time_s: f64,
-    tally: Tally,
-}
-
-fn refused(error: impl std::fmt::Display) -> Error {
-    Error::Work(format!("LEP12: {error}"))
-}
-
-impl Group {
-    fn all(floors: &Floors<'_>) -> Result<Vec<Self>, Error> {
-        let motions: [&[Motion]; 4] = [
-            &[Motion::Anticlockwise],
-            &[Motion::Clockwise],
-            &[Motion::Anticlockwise, Motion::Clockwise],
-            &[Motion::Autonomous],
-        ];
-        let group = |(name, motions): (&&'static str, &[Motion])| {
-            let learning = floors.half(motions, Half::First);
-            Ok(Self {
-                name,
-                validation: floors.half(motions, Half::Second),
-                model: learn(&learning, &BOTH, BLOCK)?,
-                learning,
-            })
-        };
-        MOTIONS.iter().zip(motions).map(group).collect()
-    }
-
-    fn model(&self) -> Result<Model<'_>, Error> {
-        self.model.model().map_err(refused)
-    }
-
-    fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point, Error> {
-        let model = self.model()?;
-        let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
-        let tally = Tally::of(&self.validation, || {
-            Bayes::sequential(&model, threshold).map_err(refused)
-        })?;
-        Ok(Point {
-            parameter: 1.0 - doubt,
-            time_s: tally.mean_samples() / rate_hz,
-            tally,
-        })
-    }
-
-    fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
-        let model = self.model()?;
-        let tally = Tally::of(&self.validation, || {
-            Bayes::window(&model, window).map_err(refused)
-        })?;
-        Ok(Point {
-            parameter: f64::from(window),
-            time_s: f64::from(window) / rate_hz,
-            tally,
-        })
-    }
-}
-
-/// Both kinds of curve of one group.
-struct Curves {
-    window: Vec<Point>,
-    sequential: Vec<Point>,
-}
-
-impl Curves {
-    fn of(group: &Group, rate_hz: f64) -> Result<Self, Error> {
-        let window = WINDOWS.iter().map(|window| group.window(*window, rate_hz));
-        let sequential = DOUBTS.iter().map(|doubt| group.sequential(*doubt, rate_hz));
-        Ok(Self {
-            window: window.collect::<Result<_, _>>()?,
-            sequential: sequential.collect::<Result<_, _>>()?,
-        })
-    }
-
-    /// The sequential point whose mean time is nearest to Table 2's.
-    fn nearest(&self) -> Option<&Point> {
-        let off = |point: &&Point| (point.time_s / TIME_S).ln().abs();
-        self.sequential
-            .iter()
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
-    }
-
-    /// Mean hit rate of the window at a time, between the points of the curve.
-    fn window_at(&self, time_s: f64) -> f64 {
-        interpolate(&self.window, time_s)
-    }
-}
-
-/// Mean hit rate at a time, linear between points in order of time.
-fn interpolate(points: &[Point], time_s: f64) -> f64 {
-    let value = |point: &Point| point.tally.mean_hit();
-    for pair in points.windows(2) {
-        if let [a, b] = pair
-            && (a.time_s..=b.time_s).contains(&time_s)
-        {
-            let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(1e-12);
-            return value(a) + share * (value(b) - value(a));
-        }
-    }
-    let ends = (points.first(), points.last());
-    match ends {
-        (Some(first), _) if time_s < first.time_s => value(first),
-        (_, Some(last)) => value(last),
-        _ => 0.0,
-    }
-}
 
 /// Evaluates the recordings.
 pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {

@@ -7,8 +7,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::dataset::Dataset;
-use super::recording::{Job, Recording, Recordings};
+use super::dataset::{Dataset, Job};
+use super::record::jobs;
+use super::recording::{Recording, Recordings};
 use super::request::Request;
 use host_sim::Error;
 use host_sim::output::write_whole;
@@ -112,7 +113,7 @@ pub fn join(paths: &[PathBuf], request: &Request) -> Result<Recordings, Error> {
         let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
         read(&bytes, request, &mut recordings).map_err(|fault| Error::file(path, fault))?;
     }
-    let expected = request.jobs();
+    let expected = jobs(request);
     let missing: Vec<&Job> = expected.iter().filter(|job| !recordings.has(job)).collect();
     if let Some(Job { dataset, number }) = missing.first() {
         return Err(Error::Input(format!(

@@ -1,10 +1,26 @@
 //! The pictures of the experiments.
 
+use super::page::Section;
 use crate::accuracy::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
 use host_sim::Error;
 
 /// The folder of pictures beside the page.
 pub(super) const FOLDER: &str = "experiments";
+
+/// Draws panels as a picture of the section.
+///
+/// # Errors
+/// [`Error::Work`] if the drawing library fails.
+pub(super) fn place(
+    section: &mut Section,
+    name: &str,
+    what: &str,
+    panels: &[Panel],
+) -> Result<(), Error> {
+    let svg = draw(panels)?;
+    section.page.picture_in(FOLDER, name, what, svg);
+    Ok(())
+}
 
 /// A named curve.
 #[derive(Debug, Clone)]

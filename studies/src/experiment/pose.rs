@@ -3,138 +3,19 @@
 
 mod matrices;
 mod rules;
+mod scores;
+mod sets;
 mod tables;
 
-use tactile::score::{Confusion, Statistics};
-
-use super::dataset::Dataset;
 use super::page::Section;
-use super::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
-use super::record::table::{Contact, contacts, speeds};
+use super::paper::pose::{ROWS, TEXTURE_ALONE};
+use super::record::on_other_rigs;
 use super::recording::Recordings;
 use super::request::{Name, Request};
-use crate::rigs::{Chance, seed_of};
 use host_sim::Error;
-use host_sim::progress::Verbosity;
 use rules::{features, spectral, template};
-
-fn refused(error: impl std::fmt::Display) -> Error {
-    Error::Work(format!("POSE: {error}"))
-}
-
-/// A contact and x, sample by sample.
-type Signal = (Contact, Vec<f64>);
-
-/// Half of the contacts to learn from, the other half to test with: each set
-/// has every pose once.
-struct Sets {
-    learning: Vec<Signal>,
-    testing: Vec<Signal>,
-    rate_hz: f64,
-}
-
-impl Sets {
-    fn new(request: &Request, recordings: &Recordings) -> Self {
-        let all = recordings.of(Dataset::Table);
-        let contacts = contacts(request.scale);
-        let poses = contacts.len() / 2;
-        let mut chance = Chance::new(seed_of(request.seed, &[20]));
-        let mut sets = Self {
-            learning: Vec::new(),
-            testing: Vec::new(),
-            rate_hz: request.rigs.table.tick_hz,
-        };
-        for pose in 0..poses {
-            let first = chance.among(2);
-            for time in [first, 1 - first] {
-                let job = time * poses + pose;
-                let (Some(contact), Some(recording)) = (contacts.get(job), all.get(job)) else {
-                    continue;
-                };
-                let samples = recording.part(0, recording.len()).iter();
-                let x = samples.step_by(2).map(|x| f64::from(*x)).collect();
-                if time == first {
-                    sets.learning.push((*contact, x));
-                } else {
-                    sets.testing.push((*contact, x));
-                }
-            }
-        }
-        sets
-    }
-}
-
-impl Sets {
-    /// The share of the variance of all signals that lies between textures at
-    /// the same angle and speed.
-    fn share_of_texture(&self) -> f64 {
-        let mean_of = |signals: &[&Vec<f64>]| -> Vec<f64> {
-            let length = signals.first().map_or(0, |x| x.len());
-            let mut mean = vec![0.0; length];
-            for x in signals {
-                for (mean, x) in mean.iter_mut().zip(x.iter()) {
-                    *mean += x / signals.len() as f64;
-                }
-            }
-            mean
-        };
-        let square = |x: &[f64], mean: &[f64]| -> f64 {
-            x.iter().zip(mean).map(|(x, m)| (x - m) * (x - m)).sum()
-        };
-        let all: Vec<&Vec<f64>> = self.learning.iter().map(|(_, x)| x).collect();
-        let grand = mean_of(&all);
-        let total: f64 = all.iter().map(|x| square(x, &grand)).sum();
-        // Contacts of a pose stand together, its textures one after another.
-        let mut within = 0.0;
-        for pose in self.learning.chunks(TEXTURES.len()) {
-            let signals: Vec<&Vec<f64>> = pose.iter().map(|(_, x)| x).collect();
-            let mean = mean_of(&signals);
-            within += signals.iter().map(|x| square(x, &mean)).sum::<f64>();
-        }
-        within / total.max(f64::MIN_POSITIVE)
-    }
-}
-
-/// What a classifier makes of the test set: a matrix a property.
-#[derive(Debug, Clone)]
-struct Scores([Confusion; 3]);
-
-impl Scores {
-    fn new() -> Self {
-        Self([ANGLES_DEG.len(), SPEEDS_MM_S.2, TEXTURES.len()].map(Confusion::new))
-    }
-
-    /// Counts a contact: its classes of angle, speed and texture, and those named.
-    fn add(&mut self, truth: &Contact, named: [usize; 3]) -> Result<(), Error> {
-        let truth = [truth.angle, truth.speed, truth.texture];
-        for ((score, truth), named) in self.0.iter_mut().zip(truth).zip(named) {
-            score.add(truth, Some(named)).map_err(refused)?;
-        }
-        Ok(())
-    }
-
-    /// κ of each property.
-    fn kappa(&self) -> [f64; 3] {
-        self.0.each_ref().map(|score| score.kappa().unwrap_or(0.0))
-    }
-
-    /// Hit rate of each property, percent.
-    fn hit(&self) -> [f64; 3] {
-        self.0
-            .each_ref()
-            .map(|score| 100.0 * score.hit_rate().unwrap_or(0.0))
-    }
-
-    /// Errors of each property in its unit.
-    fn errors(&self) -> [Option<Statistics>; 3] {
-        let textures: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
-        [
-            self.0[0].errors(&ANGLES_DEG),
-            self.0[1].errors(&speeds()),
-            self.0[2].errors(&textures),
-        ]
-    }
-}
+use scores::Scores;
+use sets::Sets;
 
 /// Evaluates the recordings.
 pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
@@ -192,11 +73,10 @@ const IRREGULAR_S: f64 = 0.15;
 /// controller that is much less regular; and how much of the signal differs
 /// between textures.
 fn why(request: &Request, sets: &Sets) -> Result<String, Error> {
-    let mut other = request.clone();
-    other.names = vec![Name::Pose];
-    let table = &mut other.rigs.table;
-    table.latency_spread_s = IRREGULAR_S.min(table.latency_s);
-    let recordings = Recordings::make(&other, &other.jobs(), Verbosity::Quiet)?;
+    let (other, recordings) = on_other_rigs(request, Name::Pose, |other| {
+        let table = &mut other.rigs.table;
+        table.latency_spread_s = IRREGULAR_S.min(table.latency_s);
+    })?;
     let irregular = Sets::new(&other, &recordings);
     let kappas = [
         template(&irregular)?.kappa(),

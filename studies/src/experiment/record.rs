@@ -1,4 +1,5 @@
-//! One module a data set: which job is which condition, and how it is recorded.
+//! Recording: the jobs of a request, and what each of them records. A data set
+//! has a file of its own, which says which job is which condition.
 
 pub(crate) mod corridor;
 pub(crate) mod floor;
@@ -7,9 +8,122 @@ pub(crate) mod pad;
 pub(crate) mod table;
 mod whiskers;
 
-use host_sim::Error;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The physics refused a setting of a rig.
-fn refused(error: impl std::fmt::Display) -> Error {
-    Error::Work(format!("physics: {error}"))
+use rayon::prelude::*;
+
+use super::dataset::{Dataset, Job};
+use super::recording::{Recording, Recordings};
+use super::request::{Extent, Name, Request, Shard};
+use crate::refused::within;
+use crate::rigs::seed_of;
+use host_sim::Error;
+use host_sim::progress::{Progress, Verbosity};
+
+/// How many recordings a data set has.
+fn count(dataset: Dataset, scale: Extent) -> usize {
+    match dataset {
+        Dataset::Floor => floor::jobs(scale),
+        Dataset::Head => head::jobs(),
+        Dataset::Table => table::jobs(scale),
+        Dataset::Pad => pad::jobs(scale),
+        Dataset::Corridor => corridor::jobs(scale),
+    }
+}
+
+/// The jobs of all data sets that the experiments of a request need, each once.
+pub fn jobs(request: &Request) -> Vec<Job> {
+    let names = request.names.iter();
+    let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
+    datasets.sort_unstable();
+    datasets.dedup();
+    let of = |dataset: Dataset| {
+        (0..count(dataset, request.scale)).map(move |number| Job { dataset, number })
+    };
+    datasets.into_iter().flat_map(of).collect()
+}
+
+/// The jobs of a shard: every `count`-th.
+pub fn share(request: &Request, shard: Shard) -> Vec<Job> {
+    let mine = jobs(request)
+        .into_iter()
+        .skip(shard.index.saturating_sub(1));
+    mine.step_by(shard.count.max(1)).collect()
+}
+
+/// Makes one recording. It depends on the seed, the rig and the job alone.
+fn one(request: &Request, job: Job) -> Result<Recording, Error> {
+    let Job { dataset, number } = job;
+    let seed = seed_of(request.seed, &[u64::from(dataset.number()), number as u64]);
+    let recording = match dataset {
+        Dataset::Floor => floor::record(request, number, seed),
+        Dataset::Head => head::record(request, number, seed),
+        Dataset::Table => table::record(request, number, seed),
+        Dataset::Pad => pad::record(request, number, seed),
+        Dataset::Corridor => corridor::record(request, number, seed),
+    };
+    recording.map_err(|error| within(dataset.text(), error))
+}
+
+/// Records `jobs` on all cores. The result depends on neither their order nor
+/// the number of cores.
+///
+/// # Errors
+/// [`Error::Work`] if the simulation refuses a setting of a rig.
+pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings, Error> {
+    let bar = Progress::new(verbosity, "recording", jobs.len() as u64);
+    let (bar, done) = (std::sync::Mutex::new(bar), AtomicU64::new(0));
+    let make = |job: &Job| {
+        let recording = one(request, *job)?;
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if let Ok(mut bar) = bar.lock() {
+            bar.set(done);
+        }
+        Ok((*job, recording))
+    };
+    jobs.par_iter()
+        .map(make)
+        .collect::<Result<Vec<_>, Error>>()
+        .map(Recordings::from_iter)
+}
+
+/// Records one experiment anew, on rigs that `change` has changed.
+pub(crate) fn on_other_rigs(
+    request: &Request,
+    name: Name,
+    change: impl FnOnce(&mut Request),
+) -> Result<(Request, Recordings), Error> {
+    let mut other = Request {
+        names: vec![name],
+        ..request.clone()
+    };
+    change(&mut other);
+    let recordings = record(&other, &jobs(&other), Verbosity::Quiet)?;
+    Ok((other, recordings))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{jobs, share};
+    use crate::experiment::{Extent, Name, Request, Shard};
+    use crate::rigs::Rigs;
+
+    #[test]
+    fn shards_parse_and_cover_every_job_once() {
+        for bad in ["", "1", "0/2", "3/2", "1/0", "a/b", "1/100001", "-1/2"] {
+            assert!(bad.parse::<Shard>().is_err(), "{bad}");
+        }
+        let request = Request {
+            names: Name::ALL.to_vec(),
+            scale: Extent { quick: true },
+            seed: 1,
+            rigs: Rigs::load(None).unwrap(),
+        };
+        let all = jobs(&request);
+        let mut found: Vec<_> = (1..=3)
+            .flat_map(|i| share(&request, format!("{i}/3").parse().unwrap()))
+            .collect();
+        found.sort_unstable();
+        assert_eq!(found, all);
+    }
 }

@@ -2,12 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
-use super::dataset::Dataset;
-use super::request::Request;
-use host_sim::Error;
-use host_sim::progress::{Progress, Verbosity};
+use super::dataset::{Dataset, Job};
 
 /// What one job of a data set recorded: samples of some channels, one after
 /// another. Sensor codes of 14 bits are exact in single precision.
@@ -56,43 +51,17 @@ impl Recording {
     }
 }
 
-/// A job of a data set: what one recording comes of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Job {
-    /// Of which set.
-    pub dataset: Dataset,
-    /// Which of its jobs, from 0.
-    pub number: usize,
-}
-
 /// All recordings of a request.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recordings(BTreeMap<Job, Recording>);
 
-impl Recordings {
-    /// Records `jobs` on all cores. The result depends on neither their order
-    /// nor the number of cores.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if a rig cannot be simulated.
-    pub fn make(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Self, Error> {
-        let bar = Progress::new(verbosity, "recording", jobs.len() as u64);
-        let progress = std::sync::Mutex::new((bar, 0_u64));
-        let made: Result<Vec<(Job, Recording)>, Error> = jobs
-            .par_iter()
-            .map(|job| {
-                let recording = job.dataset.record(request, job.number)?;
-                if let Ok(mut progress) = progress.lock() {
-                    progress.1 += 1;
-                    let done = progress.1;
-                    progress.0.set(done);
-                }
-                Ok((*job, recording))
-            })
-            .collect();
-        Ok(Self(made?.into_iter().collect()))
+impl FromIterator<(Job, Recording)> for Recordings {
+    fn from_iter<I: IntoIterator<Item = (Job, Recording)>>(all: I) -> Self {
+        Self(all.into_iter().collect())
     }
+}
 
+impl Recordings {
     /// The recordings of a set in the order of its jobs.
     pub fn of(&self, dataset: Dataset) -> Vec<&Recording> {
         let jobs = self.0.iter().filter(|(job, _)| job.dataset == dataset);

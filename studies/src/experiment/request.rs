@@ -5,7 +5,6 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::dataset::Dataset;
-use super::recording::Job;
 use crate::rigs::Rigs;
 
 /// An experiment.
@@ -87,12 +86,12 @@ impl FromStr for Shard {
 
 /// How much of each experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Scale {
+pub struct Extent {
     /// Fewer trials, whisks, contacts, sweeps and runs; the physics is the same.
     pub quick: bool,
 }
 
-impl Scale {
+impl Extent {
     const fn pick(self, full: usize, quick: usize) -> usize {
         if self.quick { quick } else { full }
     }
@@ -137,7 +136,7 @@ pub struct Request {
     /// The experiments.
     pub names: Vec<Name>,
     /// How much of each.
-    pub scale: Scale,
+    pub scale: Extent,
     /// All chance comes from it.
     pub seed: u64,
     /// Where whiskers are and how they move.
@@ -145,28 +144,6 @@ pub struct Request {
 }
 
 impl Request {
-    /// The jobs of all data sets that the experiments need, each once.
-    pub fn jobs(&self) -> Vec<Job> {
-        let mut datasets: Vec<Dataset> = self
-            .names
-            .iter()
-            .flat_map(|name| name.datasets())
-            .copied()
-            .collect();
-        datasets.sort_unstable();
-        datasets.dedup();
-        let jobs = |dataset: Dataset| {
-            (0..dataset.jobs(self.scale)).map(move |number| Job { dataset, number })
-        };
-        datasets.into_iter().flat_map(jobs).collect()
-    }
-
-    /// The jobs of a shard: every `count`-th.
-    pub fn share(&self, shard: Shard) -> Vec<Job> {
-        let mine = self.jobs().into_iter().skip(shard.index.saturating_sub(1));
-        mine.step_by(shard.count.max(1)).collect()
-    }
-
     /// One line that tells requests apart: parts of different ones are not
     /// joined.
     pub fn line(&self) -> String {
@@ -195,7 +172,7 @@ impl Request {
         let seed = words.next()?.parse().ok()?;
         (next == "seed").then_some(Self {
             names,
-            scale: Scale { quick },
+            scale: Extent { quick },
             seed,
             rigs,
         })
@@ -204,34 +181,15 @@ impl Request {
 
 #[cfg(test)]
 mod tests {
-    use super::{Name, Request, Scale, Shard};
+    use super::{Extent, Name, Request};
     use crate::rigs::Rigs;
-
-    #[test]
-    fn shards_parse_and_cover_every_job_once() {
-        for bad in ["", "1", "0/2", "3/2", "1/0", "a/b", "1/100001", "-1/2"] {
-            assert!(bad.parse::<Shard>().is_err(), "{bad}");
-        }
-        let request = Request {
-            names: Name::ALL.to_vec(),
-            scale: Scale { quick: true },
-            seed: 1,
-            rigs: Rigs::load(None).unwrap(),
-        };
-        let all = request.jobs();
-        let mut found: Vec<_> = (1..=3)
-            .flat_map(|i| request.share(format!("{i}/3").parse().unwrap()))
-            .collect();
-        found.sort_unstable();
-        assert_eq!(found, all);
-    }
 
     #[test]
     fn a_request_is_read_back_from_its_line() {
         for (names, quick) in [(Name::ALL.to_vec(), true), (vec![Name::Pose], false)] {
             let request = Request {
                 names,
-                scale: Scale { quick },
+                scale: Extent { quick },
                 seed: 77,
                 rigs: Rigs::load(None).unwrap(),
             };

@@ -2,7 +2,7 @@
 //! the number of cores nor on how the jobs were shared out.
 
 use super::part::bytes;
-use super::{Job, Name, Recordings, Request, Scale, Shard, join, report, write_part};
+use super::{Extent, Job, Name, Request, Shard, jobs, join, record, report, share, write_part};
 use crate::rigs::Rigs;
 use host_sim::progress::Verbosity;
 use std::path::PathBuf;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 fn request(name: Name, seed: u64) -> Request {
     Request {
         names: vec![name],
-        scale: Scale { quick: true },
+        scale: Extent { quick: true },
         seed,
         rigs: Rigs::load(None).unwrap(),
     }
@@ -18,7 +18,7 @@ fn request(name: Name, seed: u64) -> Request {
 
 /// The first jobs of every data set.
 fn some(request: &Request, count: usize) -> Vec<Job> {
-    let mut jobs = request.jobs();
+    let mut jobs = jobs(&request);
     jobs.retain(|job| job.number < count);
     jobs
 }
@@ -31,7 +31,7 @@ fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
         let make = |cores| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(cores);
             let pool = pool.build().unwrap();
-            pool.install(|| Recordings::make(&request, &jobs, Verbosity::Quiet).unwrap())
+            pool.install(|| record(&request, &jobs, Verbosity::Quiet).unwrap())
         };
         let one = make(1);
         assert_eq!(one.len(), jobs.len());
@@ -39,7 +39,7 @@ fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
         assert_eq!(bytes(&request, &one), bytes(&request, &make(3)), "{name}");
         let mut other = request.clone();
         other.seed = 4;
-        let other = Recordings::make(&other, &jobs, Verbosity::Quiet).unwrap();
+        let other = record(&other, &jobs, Verbosity::Quiet).unwrap();
         assert!(
             one.iter().zip(other.iter()).all(|(a, b)| a.1 != b.1),
             "{name}"
@@ -53,13 +53,13 @@ fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
 #[test]
 fn shards_join_to_the_same_bytes_and_bad_ones_are_refused() {
     let request = request(Name::Pose, 5);
-    let whole = Recordings::make(&request, &request.jobs(), Verbosity::Quiet).unwrap();
+    let whole = record(&request, &jobs(&request), Verbosity::Quiet).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let mut paths: Vec<PathBuf> = Vec::new();
     for index in (1..=3).rev() {
         let shard = Shard { index, count: 3 };
-        let jobs = request.share(shard);
-        let part = Recordings::make(&request, &jobs, Verbosity::Quiet).unwrap();
+        let jobs = share(&request, shard);
+        let part = record(&request, &jobs, Verbosity::Quiet).unwrap();
         let path = folder.path().join(format!("{index}.part"));
         write_part(&path, &request, &part).unwrap();
         paths.push(path);

@@ -1,7 +1,6 @@
 //! Chance in a rig, from a seed: the same seed gives the same trial anywhere.
 
-use core::f64::consts::TAU;
-
+use physics::box_muller;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -48,8 +47,8 @@ impl Chance {
 
     /// Standard normal (Box and Muller).
     pub fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
-        radius * libm::cos(TAU * self.unit())
+        let [normal, _] = box_muller([1.0 - self.unit(), self.unit()]);
+        normal
     }
 
     /// The numbers from 0 to `count` − 1 in any order (Fisher and Yates).

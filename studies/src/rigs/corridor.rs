@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use super::pad::{Layout, Vibrissa};
 use super::read::{OutOfRange, Rig, within};
-use super::vector::turn;
+use crate::rigs::frame::turn;
 use physics::Pose;
 
 /// The robot and its corridor; see `studies/rigs/corridor.toml` for each key.
@@ -109,7 +109,7 @@ impl Corridor {
 mod tests {
     use super::{Corridor, Robot};
     use crate::rigs::read::{Rig, parse};
-    use crate::rigs::vector::{add, cross, dot};
+    use physics::vector::{add, cross, dot};
     use std::path::Path;
 
     fn rig() -> Corridor {

@@ -17,8 +17,9 @@ use serde::Deserialize;
 
 use super::chance::{Chance, Wander};
 use super::read::{OutOfRange, Rig, within};
-use super::vector::{add, cross, direction, turn};
+use crate::rigs::frame::{direction, turn};
 use physics::Pose;
+use physics::vector::{add, cross};
 
 /// Geometry and motion of the robot; see `studies/rigs/floor.toml` for each key.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -76,7 +77,7 @@ impl Rig for Floor {
 
 /// How the robot moves during a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Motion {
+pub enum RobotMotion {
     /// Turning on the spot, anticlockwise as seen from above.
     Anticlockwise,
     /// Turning on the spot, clockwise.
@@ -89,7 +90,7 @@ pub enum Motion {
 #[derive(Debug, Clone)]
 pub struct Drive<'r> {
     rig: &'r Floor,
-    motion: Motion,
+    motion: RobotMotion,
     chance: Chance,
     wobble: Wander,
     unevenness: Wander,
@@ -119,7 +120,7 @@ impl Floor {
     /// mean square of its heights.
     pub fn drive(
         &self,
-        motion: Motion,
+        motion: RobotMotion,
         length_m: f64,
         ground: (usize, f64),
         seed: u64,
@@ -159,9 +160,9 @@ impl Drive<'_> {
             ..
         } = *self.rig;
         self.wanted = match self.motion {
-            Motion::Anticlockwise => [turn_rad_s, 0.0],
-            Motion::Clockwise => [-turn_rad_s, 0.0],
-            Motion::Autonomous => match self.chance.among(3) {
+            RobotMotion::Anticlockwise => [turn_rad_s, 0.0],
+            RobotMotion::Clockwise => [-turn_rad_s, 0.0],
+            RobotMotion::Autonomous => match self.chance.among(3) {
                 0 => [turn_rad_s, 0.0],
                 1 => [-turn_rad_s, 0.0],
                 _ => [0.0, forward_m_s],
@@ -203,9 +204,9 @@ impl Drive<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Floor, Motion};
+    use super::{Floor, RobotMotion};
     use crate::rigs::read::{Rig, parse};
-    use crate::rigs::vector::{add, cross, dot};
+    use physics::vector::{add, cross, dot};
     use std::path::Path;
 
     fn calm() -> Floor {
@@ -220,7 +221,10 @@ mod tests {
     fn a_straight_tip_is_as_deep_as_the_press_and_circles_the_robot() {
         let rig = calm();
         let length = 0.2;
-        for (motion, sign) in [(Motion::Anticlockwise, 1.0), (Motion::Clockwise, -1.0)] {
+        for (motion, sign) in [
+            (RobotMotion::Anticlockwise, 1.0),
+            (RobotMotion::Clockwise, -1.0),
+        ] {
             let mut drive = rig.drive(motion, length, (0, 1e-3), 4);
             let centre = [drive.place[0], drive.place[1], 0.0];
             let mut tips = Vec::new();
@@ -252,7 +256,7 @@ mod tests {
     #[test]
     fn autonomous_motion_turns_both_ways_and_runs_forward() {
         let rig = calm();
-        let mut drive = rig.drive(Motion::Autonomous, 0.2, (2, 1e-3), 9);
+        let mut drive = rig.drive(RobotMotion::Autonomous, 0.2, (2, 1e-3), 9);
         let mut seen = [0_u32; 3];
         for _ in 0..rig.ticks() * 4 {
             drive.step();

@@ -28,7 +28,7 @@ pub const CHANNELS: usize = 2 * SIDES * EACH;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "each key is documented in rigs/head.toml")]
-pub struct Head {
+pub struct WhiskingHead {
     pub tick_hz: f64,
     pub whisk_hz: f64,
     pub noise: f64,
@@ -41,7 +41,7 @@ pub struct Head {
     pub motor: Loop,
 }
 
-impl Rig for Head {
+impl Rig for WhiskingHead {
     const FILE: &'static str = "head.toml";
     const DEFAULT: &'static str = include_str!("../../rigs/head.toml");
 
@@ -87,7 +87,7 @@ pub struct Felt {
     pub touching: Vec<[bool; SIDES]>,
 }
 
-impl Head {
+impl WhiskingHead {
     /// Ticks of a whisk.
     pub fn whisk_ticks(&self) -> usize {
         (self.tick_hz / self.whisk_hz).round() as usize
@@ -203,14 +203,14 @@ impl Head {
 
 #[cfg(test)]
 mod tests {
-    use super::Head;
+    use super::WhiskingHead;
     use crate::experiment::paper::biotact::{DISTANCES_MM, WHISKERS};
     use crate::rigs::read::{Rig, parse};
-    use crate::rigs::vector::{add, cross, dot};
+    use physics::vector::{add, cross, dot};
     use std::path::Path;
 
-    fn rig() -> Head {
-        parse(Path::new(Head::FILE), Head::DEFAULT).unwrap()
+    fn rig() -> WhiskingHead {
+        parse(Path::new(WhiskingHead::FILE), WhiskingHead::DEFAULT).unwrap()
     }
 
     #[test]

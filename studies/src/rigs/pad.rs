@@ -19,9 +19,10 @@ use serde::Deserialize;
 
 use super::chance::Chance;
 use super::read::{OutOfRange, Rig, within};
-use super::vector::{add, cross, direction, turn};
 use crate::experiment::paper::psik::{ARCS, RATE_HZ};
+use crate::rigs::frame::{direction, turn};
 use physics::Pose;
+use physics::vector::{add, cross};
 
 /// Rows of a full arc.
 const ROWS: usize = 5;
@@ -170,7 +171,7 @@ mod tests {
     use super::{Pad, panned};
     use crate::experiment::paper::psik::VIBRISSAE;
     use crate::rigs::read::{Rig, parse};
-    use crate::rigs::vector::{add, cross, dot};
+    use physics::vector::{add, cross, dot};
     use std::path::Path;
 
     fn rig() -> Pad {

@@ -88,7 +88,7 @@ pub fn facing(angle_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::{Carriage, facing};
-    use crate::rigs::vector::dot;
+    use physics::vector::dot;
 
     #[test]
     fn the_carriage_stops_in_its_braking_distance() {

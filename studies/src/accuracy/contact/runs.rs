@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use crate::refused::refused;
 use host_sim::Error;
 use physics::{
     Biotact, Facing, Grit, Material, Modes, Plate, Pose, SensorSettings, Shaft, Surface,
@@ -83,10 +84,6 @@ impl Subject {
     pub(super) fn length_m(&self) -> f64 {
         self.shaft.length_m
     }
-}
-
-fn refused(error: physics::BadSetting) -> Error {
-    Error::Work(error.to_string())
 }
 
 /// This many degrees beyond first touch.

@@ -5,10 +5,34 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, Real, State};
 
-use super::{Length, MINUTE_TICKS, Row};
 use crate::accuracy::integrators::NEAR;
-use crate::accuracy::schemes::{Format, Pace, refused};
+use crate::accuracy::schemes::{Format, Pace};
+use crate::refused::refused;
 use host_sim::Error;
+
+/// Ticks of a minute at 2 kHz.
+pub(super) const MINUTE_TICKS: u64 = 120_000;
+
+/// How long to run: stretches after each of which a row is written.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::accuracy) struct Length {
+    pub(super) stretches: u64,
+    pub(super) minutes: u64,
+}
+
+/// The state of a run after a stretch; extremes are those of the stretch.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    pub(super) format: String,
+    pub(super) frequency_hz: f64,
+    /// Since the run settled.
+    pub(super) minutes: u64,
+    /// Phase ahead of the exact frequency, and whisks since the first crossing.
+    pub(super) phase_whisks: f64,
+    pub(super) whisks: f64,
+    pub(super) radius: [f64; 2],
+    pub(super) theta_deg: [f64; 2],
+}
 
 /// Runs one format; `done` counts minutes.
 pub(super) fn run<R: Real>(

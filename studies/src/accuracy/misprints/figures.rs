@@ -5,10 +5,13 @@ use whisking::{
     GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter, muscle,
 };
 
-use super::{FREQUENCY_HZ, TICK_HZ};
-use crate::accuracy::schemes::refused;
+use crate::refused::refused;
 use host_sim::Error;
 
+/// Of all runs, Hz.
+pub(crate) const TICK_HZ: f64 = 2_000.0;
+/// Whisk frequency of all runs, Hz.
+pub(crate) const FREQUENCY_HZ: f64 = 2.0;
 const RUN_TICKS: usize = 20_000;
 /// Obstacles beside the head, degrees, and σ_x a degree (BIOTACT Fig. 7).
 pub(crate) const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];

@@ -4,7 +4,6 @@
 use classifiers::spectrum::{Bins, Measure, Spectrum};
 
 use super::movement::column;
-use super::refused;
 use crate::accuracy::chart::{Mark, draw};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
@@ -14,6 +13,7 @@ use crate::experiment::record::head::number;
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
+use crate::refused::refused;
 use host_sim::Error;
 
 /// The distance of the figure: the middle one.

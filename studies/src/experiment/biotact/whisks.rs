@@ -4,12 +4,12 @@ use classifiers::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
 use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
-use super::refused;
 use crate::experiment::dataset::Dataset;
 use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::Request;
+use crate::refused::refused;
 use crate::rigs::CHANNELS;
 use host_sim::Error;
 

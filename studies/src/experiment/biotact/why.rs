@@ -7,11 +7,11 @@ use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
 use crate::experiment::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::experiment::record::head::{early, number};
+use crate::experiment::record::on_other_rigs;
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::{Name, Request};
-use crate::rigs::Head;
+use crate::rigs::WhiskingHead;
 use host_sim::Error;
-use host_sim::progress::Verbosity;
 
 /// The paper's smoothing, and what it is if its "width 5 intervals" is the full
 /// width at half maximum of a Gaussian: 5/√(8 ln 2).
@@ -71,11 +71,10 @@ impl Found {
         })
     }
 
-    fn other(request: &Request, most: usize, change: fn(&mut Head)) -> Result<Self, Error> {
-        let mut other = request.clone();
-        other.names = vec![Name::Biotact];
-        change(&mut other.rigs.head);
-        let recordings = Recordings::make(&other, &other.jobs(), Verbosity::Quiet)?;
+    fn other(request: &Request, most: usize, change: fn(&mut WhiskingHead)) -> Result<Self, Error> {
+        let (other, recordings) = on_other_rigs(request, Name::Biotact, |other| {
+            change(&mut other.rigs.head);
+        })?;
         Self::of(&other, &recordings, most, SMOOTH)
     }
 

@@ -5,13 +5,14 @@ mod spectra;
 use classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use tactile::Threshold;
 
-use super::{Curves, Group, Point, refused};
-use crate::accuracy::chart::{Axis, Mark, Panel, draw};
+use super::groups::{BLOCK, Curves, Group, Point};
+use crate::accuracy::chart::{Axis, Mark, Panel};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::page::Section;
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::paper::lep12::{FIG7, FIG8_THRESHOLDS};
-use crate::experiment::picture::{Curve, FOLDER, linear, panel, percent, top};
+use crate::experiment::picture::{Curve, linear, panel, percent, place, top};
+use crate::refused::refused;
 use host_sim::Error;
 
 /// Volts a sensor code.
@@ -32,12 +33,6 @@ pub(super) fn all(
     if let Some(anticlockwise) = groups.first() {
         spectra::figure_9(section, anticlockwise, rate_hz)?;
     }
-    Ok(())
-}
-
-fn place(section: &mut Section, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
-    let svg = draw(panels)?;
-    section.page.picture_in(FOLDER, name, what, svg);
     Ok(())
 }
 
@@ -140,7 +135,7 @@ fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Err
     let mut bayes = Bayes::sequential(&model, never).map_err(refused)?;
     let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
     let mut passed = FIG7.map(|_| None);
-    let block = super::BLOCK as usize;
+    let block = BLOCK as usize;
     for (n, sample) in stream.samples.chunks_exact(CHANNELS).take(400).enumerate() {
         bayes.push(sample);
         if (n + 1) % block != 0 {

@@ -14,10 +14,11 @@ use classifiers::spectral_train::SpectralTrainer;
 use classifiers::spectrum::{Bins, Measure, Spectrum};
 use rayon::prelude::*;
 
-use super::{Group, refused};
+use super::groups::Group;
 use crate::experiment::floors::{CHANNELS, Stream, Tally};
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::paper::lep12::SEGMENT_S;
+use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
 

@@ -1,14 +1,14 @@
 //! Why hit rates on the simulated floors differ from the paper's, measured.
 
-use super::{Curves, Group, refused};
+use super::groups::{Curves, Group};
 use crate::experiment::floors::{CHANNELS, Floors, Stream};
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::paper::lep12::TIME_S;
-use crate::experiment::recording::Recordings;
+use crate::experiment::record::on_other_rigs;
 use crate::experiment::request::{Name, Request};
+use crate::refused::refused;
 use crate::rigs::Floor;
 use host_sim::Error;
-use host_sim::progress::Verbosity;
 
 /// How many times faster the robot turns and runs, to see what speed does.
 const FASTER: f64 = 4.0;
@@ -92,10 +92,9 @@ pub(super) fn distributions(group: &Group, rate_hz: f64) -> String {
 /// The same experiment on another robot: what a window of 200 ms and the
 /// sequential rule make of rotating motion, percent.
 fn variation(request: &Request, change: impl FnOnce(&mut Floor)) -> Result<[f64; 2], Error> {
-    let mut other = request.clone();
-    other.names = vec![Name::Lep12];
-    change(&mut other.rigs.floor);
-    let recordings = Recordings::make(&other, &other.jobs(), Verbosity::Quiet)?;
+    let (other, recordings) = on_other_rigs(request, Name::Lep12, |other| {
+        change(&mut other.rigs.floor);
+    })?;
     let floors = Floors::new(&other, &recordings);
     let groups = Group::all(&floors)?;
     let rotating = groups.get(2).ok_or_else(|| refused("no group"))?;

@@ -30,7 +30,7 @@ const fn figure(kappa: f64, mean: f64, spread: f64) -> Figure {
 
 /// A classifier's row: angle, speed, texture.
 #[derive(Debug, Clone, Copy)]
-pub struct Row {
+pub struct ClassifierRow {
     /// The classifier.
     pub what: &'static str,
     /// Angle, speed, texture.
@@ -39,8 +39,8 @@ pub struct Row {
 
 /// Sections III-A to III-C and Table I (features: f2 for angle, f1 for speed,
 /// f5 for texture, as in Figs. 7 and 8).
-pub const ROWS: [Row; 3] = [
-    Row {
+pub const ROWS: [ClassifierRow; 3] = [
+    ClassifierRow {
         what: "template",
         figures: [
             figure(0.27, 0.71, 15.6),
@@ -48,7 +48,7 @@ pub const ROWS: [Row; 3] = [
             figure(0.24, -0.02, 1.23),
         ],
     },
-    Row {
+    ClassifierRow {
         what: "spectral template",
         figures: [
             figure(0.44, -1.08, 13.8),
@@ -56,7 +56,7 @@ pub const ROWS: [Row; 3] = [
             figure(0.46, 0.14, 1.00),
         ],
     },
-    Row {
+    ClassifierRow {
         what: "features",
         figures: [
             figure(0.11, 0.17, 18.6),
@@ -71,7 +71,7 @@ pub const TEXTURE_ALONE: [f64; 2] = [0.24, 0.42];
 
 /// A feature of texture.
 #[derive(Debug, Clone, Copy)]
-pub struct Feature {
+pub struct TextureFeature {
     /// Its name.
     pub name: &'static str,
     /// κ, classified with angle and speed.
@@ -83,26 +83,26 @@ pub struct Feature {
 }
 
 /// Section III-C and Table I.
-pub const TEXTURE_FEATURES: [Feature; 4] = [
-    Feature {
+pub const TEXTURE_FEATURES: [TextureFeature; 4] = [
+    TextureFeature {
         name: "f3",
         together: 0.06,
         alone: Some(0.08),
         error: (0.43, 1.10),
     },
-    Feature {
+    TextureFeature {
         name: "f4",
         together: 0.03,
         alone: Some(0.21),
         error: (-0.07, 1.22),
     },
-    Feature {
+    TextureFeature {
         name: "f5",
         together: 0.15,
         alone: Some(0.27),
         error: (0.05, 1.09),
     },
-    Feature {
+    TextureFeature {
         name: "f3, f4 and f5",
         together: 0.12,
         alone: None,

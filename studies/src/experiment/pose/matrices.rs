@@ -1,7 +1,7 @@
 //! Confusion matrices of POSE: what each classifier makes of angle, speed and
 //! texture.
 
-use super::Scores;
+use super::scores::Scores;
 use crate::experiment::matrix::{Matrix, draw};
 use crate::experiment::page::Section;
 use crate::experiment::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};

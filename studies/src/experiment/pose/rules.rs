@@ -9,8 +9,10 @@ use classifiers::template_train::TemplateTrainer;
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
-use super::{Scores, Sets, Signal, refused};
+use super::scores::Scores;
+use super::sets::{Sets, Signal};
 use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
+use crate::refused::refused;
 use host_sim::Error;
 
 /// Contact counts from this deflection on, sensor codes: above the noise.

@@ -2,7 +2,7 @@
 
 use tactile::score::{Confusion, Statistics};
 
-use super::Scores;
+use super::scores::Scores;
 use crate::experiment::page::Section;
 use crate::experiment::paper::pose::{Figure, ROWS, TEXTURE_FEATURES, TEXTURES};
 

@@ -3,13 +3,14 @@
 
 use tactile::score::Confusion;
 
-use super::{PENALTIES, Row, learn, refused};
+use super::sweeps::{PENALTIES, Row, learn};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::{Section, confusion};
 use crate::experiment::paper::psik::{CORRIDORS, TABLE_3};
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
+use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
 

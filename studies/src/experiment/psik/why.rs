@@ -2,12 +2,13 @@
 //! papers are apart in what each arc feels, and what the choices that the paper
 //! leaves open do.
 
-use super::{PAPERS, Row, Sweeps, hit};
+use super::sweeps::{NAMES, Row, Sweeps, hit};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
 use crate::experiment::paper::psik::ARCS;
-use crate::experiment::recording::Recordings;
-use crate::experiment::request::{Name, Request, Scale};
+use crate::experiment::record::pad::PAPERS;
+use crate::experiment::record::{jobs, record};
+use crate::experiment::request::{Extent, Name, Request};
 use crate::rigs::{Pad, seed_of};
 use host_sim::Error;
 use host_sim::progress::Verbosity;
@@ -58,7 +59,7 @@ fn rates(sweeps: &Sweeps, borders: &[usize], seed: u64) -> Result<[f64; 2], Erro
 
 /// The first sweeps of each paper, as many as a quick run has.
 fn few(sweeps: &Sweeps) -> Sweeps {
-    let (learning, testing) = Scale { quick: true }.sweeps();
+    let (learning, testing) = Extent { quick: true }.sweeps();
     let first = |rows: &[Row], count: usize| -> Vec<Row> {
         let mut seen = [0; PAPERS];
         let fits = |(class, _): &&Row| {
@@ -79,11 +80,11 @@ fn few(sweeps: &Sweeps) -> Sweeps {
 fn swept(request: &Request, change: fn(&mut Pad)) -> Result<Sweeps, Error> {
     let mut other = request.clone();
     other.names = vec![Name::Psikharpax];
-    other.scale = Scale { quick: true };
+    other.scale = Extent { quick: true };
     change(&mut other.rigs.pad);
-    let mut jobs = other.jobs();
+    let mut jobs = jobs(&other);
     jobs.retain(|job| job.dataset == Dataset::Pad);
-    let recordings = Recordings::make(&other, &jobs, Verbosity::Quiet)?;
+    let recordings = record(&other, &jobs, Verbosity::Quiet)?;
     Ok(Sweeps::new(&other, &recordings.of(Dataset::Pad)))
 }
 
@@ -117,7 +118,7 @@ pub(super) fn section(
         "**How far neighbouring papers are apart**: the step of the IMP from one paper to the \
          next over its scatter from sweep to sweep, one vibrissa, mean over the arc.",
     );
-    let pairs = super::NAMES.windows(2).map(|pair| pair.join("–"));
+    let pairs = NAMES.windows(2).map(|pair| pair.join("–"));
     let pairs: Vec<String> = pairs.collect();
     section
         .page
@@ -143,7 +144,7 @@ pub(super) fn section(
         let found = rates(&swept(request, change)?, borders, request.seed)?;
         rows.push((what, found));
     }
-    let (learning, testing) = Scale { quick: true }.sweeps();
+    let (learning, testing) = Extent { quick: true }.sweeps();
     section.page.say(format_args!(
         "**What the paper leaves open** decides. Hit rates in percent with {learning} sweeps of \
          each paper to learn from and {testing} to test with (standard error 4 to 6 points), one \

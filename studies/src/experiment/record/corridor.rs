@@ -4,10 +4,11 @@
 use classifiers::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
 
 use super::pad;
-use super::{refused, whiskers};
+use super::whiskers;
 use crate::experiment::paper::psik::{CORRIDORS, RATE_HZ, VIBRISSAE};
 use crate::experiment::recording::Recording;
-use crate::experiment::request::{Request, Scale};
+use crate::experiment::request::{Extent, Request};
+use crate::refused::refused;
 use crate::rigs::{Chance, Robot, Vibrissa, seed_of};
 use host_sim::Error;
 use physics::{Plate, TouchingWhisker};
@@ -23,18 +24,18 @@ const BITS: u32 = 8;
 const WINDOW: u32 = 58;
 
 /// Runs of one corridor and direction.
-fn runs(scale: Scale) -> usize {
+fn runs(scale: Extent) -> usize {
     let (learning, _, deciding) = scale.runs();
     learning + deciding
 }
 
 /// How many runs there are.
-pub(crate) fn jobs(scale: Scale) -> usize {
+pub(crate) fn jobs(scale: Extent) -> usize {
     CORRIDORS.len() * runs(scale)
 }
 
 /// The corridor and direction of a job, and which of its runs.
-pub(crate) fn place(scale: Scale, job: usize) -> (usize, usize) {
+pub(crate) fn place(scale: Extent, job: usize) -> (usize, usize) {
     let each = runs(scale).max(1);
     (job / each, job % each)
 }

@@ -1,45 +1,48 @@
 //! Trials of the floor robot: four floors, three motions, each some times:
 //! natural motion twice as often as either rotation.
 
-use super::refused;
 use super::whiskers;
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::recording::Recording;
-use crate::experiment::request::{Request, Scale};
-use crate::rigs::{Motion, seed_of};
+use crate::experiment::request::{Extent, Request};
+use crate::refused::refused;
+use crate::rigs::{RobotMotion, seed_of};
 use host_sim::Error;
 use physics::{Plate, Shaft, TouchingWhisker};
 
 /// Motions in the order of the jobs.
-pub(crate) const MOTIONS: [Motion; 3] =
-    [Motion::Anticlockwise, Motion::Clockwise, Motion::Autonomous];
+pub(crate) const MOTIONS: [RobotMotion; 3] = [
+    RobotMotion::Anticlockwise,
+    RobotMotion::Clockwise,
+    RobotMotion::Autonomous,
+];
 
 /// How long the whisker is dragged before a trial begins, s.
 const LEAD_S: f64 = 0.5;
 
 /// Trials of one floor.
-fn each(scale: Scale) -> usize {
+fn each(scale: Extent) -> usize {
     (MOTIONS.len() - 1) * scale.trials() + scale.natural_trials()
 }
 
 /// How many trials there are.
-pub(crate) fn jobs(scale: Scale) -> usize {
+pub(crate) fn jobs(scale: Extent) -> usize {
     FLOORS.len() * each(scale)
 }
 
 /// The job of a trial: trials of a motion together, motions of a floor together.
-pub(crate) fn number(scale: Scale, floor: usize, motion: Motion, trial: usize) -> usize {
+pub(crate) fn number(scale: Extent, floor: usize, motion: RobotMotion, trial: usize) -> usize {
     let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
     floor * each(scale) + place * scale.trials() + trial
 }
 
 /// The floor and motion of a job.
-fn place(scale: Scale, job: usize) -> (usize, Motion) {
+fn place(scale: Extent, job: usize) -> (usize, RobotMotion) {
     let each = each(scale).max(1);
     let motion = job % each / scale.trials().max(1);
     let last = MOTIONS.len() - 1;
     let motion = MOTIONS.get(motion.min(last)).copied();
-    (job / each, motion.unwrap_or(Motion::Autonomous))
+    (job / each, motion.unwrap_or(RobotMotion::Autonomous))
 }
 
 /// Records a trial: codes of x and y.
@@ -76,16 +79,20 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
 #[cfg(test)]
 mod tests {
     use super::{MOTIONS, jobs, number, place};
-    use crate::experiment::Scale;
-    use crate::rigs::Motion;
+    use crate::experiment::Extent;
+    use crate::rigs::RobotMotion;
 
     #[test]
     fn every_trial_has_a_job_and_natural_motion_has_eight() {
-        let scale = Scale { quick: false };
+        let scale = Extent { quick: false };
         let mut next = 0;
         for floor in 0..4 {
             for motion in MOTIONS {
-                let trials = if motion == Motion::Autonomous { 8 } else { 4 };
+                let trials = if motion == RobotMotion::Autonomous {
+                    8
+                } else {
+                    4
+                };
                 for trial in 0..trials {
                     assert_eq!(number(scale, floor, motion, trial), next);
                     assert_eq!(place(scale, next), (floor, motion));

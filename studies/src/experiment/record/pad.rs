@@ -3,10 +3,11 @@
 
 use classifiers::imp::{Band, Imp, ImpSweep};
 
-use super::{refused, whiskers};
+use super::whiskers;
 use crate::experiment::paper::psik::{RATE_HZ, VIBRISSAE};
 use crate::experiment::recording::Recording;
-use crate::experiment::request::{Request, Scale};
+use crate::experiment::request::{Extent, Request};
+use crate::refused::refused;
 use crate::rigs::{Chance, panned, seed_of};
 use host_sim::Error;
 use physics::Plate;
@@ -17,18 +18,18 @@ pub(crate) const PAPERS: usize = 8;
 pub(crate) const WINDOW: u32 = 100;
 
 /// Sweeps of one paper.
-fn sweeps(scale: Scale) -> usize {
+fn sweeps(scale: Extent) -> usize {
     let (learning, testing) = scale.sweeps();
     learning + testing
 }
 
 /// How many sweeps there are.
-pub(crate) fn jobs(scale: Scale) -> usize {
+pub(crate) fn jobs(scale: Extent) -> usize {
     PAPERS * sweeps(scale)
 }
 
 /// The sandpaper of a job, and which of its sweeps.
-pub(crate) fn place(scale: Scale, job: usize) -> (usize, usize) {
+pub(crate) fn place(scale: Extent, job: usize) -> (usize, usize) {
     let each = sweeps(scale).max(1);
     (job / each, job % each)
 }

@@ -1,9 +1,10 @@
 //! Contacts on the XY table: angles × speeds × textures, twice.
 
-use super::{refused, whiskers};
+use super::whiskers;
 use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::experiment::recording::Recording;
-use crate::experiment::request::{Request, Scale};
+use crate::experiment::request::{Extent, Request};
+use crate::refused::refused;
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 use host_sim::Error;
 use physics::{Plate, Pose, Shaft, TouchingWhisker};
@@ -28,7 +29,7 @@ pub(crate) fn speeds() -> Vec<f64> {
 }
 
 /// All contacts in the order of the jobs.
-pub(crate) fn contacts(scale: Scale) -> Vec<Contact> {
+pub(crate) fn contacts(scale: Extent) -> Vec<Contact> {
     let mut contacts = Vec::new();
     for time in 0..TIMES {
         for angle in (0..ANGLES_DEG.len()).step_by(scale.stride()) {
@@ -48,7 +49,7 @@ pub(crate) fn contacts(scale: Scale) -> Vec<Contact> {
 }
 
 /// How many contacts there are.
-pub(crate) fn jobs(scale: Scale) -> usize {
+pub(crate) fn jobs(scale: Extent) -> usize {
     contacts(scale).len()
 }
 
@@ -150,15 +151,15 @@ fn approach(
 #[cfg(test)]
 mod tests {
     use super::{Contact, contacts, speeds};
-    use crate::experiment::Scale;
+    use crate::experiment::Extent;
 
     #[test]
     fn there_are_352_contacts_twice_and_eleven_speeds_from_6_to_106() {
-        assert_eq!(contacts(Scale { quick: false }).len(), 2 * 352);
-        assert_eq!(contacts(Scale { quick: true }).len(), 2 * 4 * 6 * 4);
+        assert_eq!(contacts(Extent { quick: false }).len(), 2 * 352);
+        assert_eq!(contacts(Extent { quick: true }).len(), 2 * 4 * 6 * 4);
         let speeds = speeds();
         assert_eq!((speeds.len(), speeds[0], speeds[10]), (11, 6.0, 106.0));
-        let last = contacts(Scale { quick: false }).pop();
+        let last = contacts(Extent { quick: false }).pop();
         let expected = Contact {
             time: 1,
             angle: 7,

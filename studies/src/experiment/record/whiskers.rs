@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::refused;
 use crate::experiment::paper::psik::ARCS;
+use crate::refused::refused;
 use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 

@@ -2,14 +2,14 @@
 
 use classifiers::spectrum::{Bins, Measure, Spectrum};
 
-use super::super::{Group, refused};
-use super::place;
 use crate::accuracy::chart::Mark;
 use crate::experiment::floors::CHANNELS;
+use crate::experiment::lep12::groups::Group;
 use crate::experiment::page::Section;
 use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
-use crate::experiment::picture::{Curve, linear, panel, top};
+use crate::experiment::picture::{Curve, linear, panel, place, top};
+use crate::refused::refused;
 use host_sim::Error;
 
 /// Fig. 9: mean power spectra of anticlockwise motion.

@@ -1,38 +1,23 @@
-//! Vectors of three numbers, as arrays.
-
-/// a + k b.
-pub(crate) fn add(a: [f64; 3], k: f64, b: [f64; 3]) -> [f64; 3] {
-    core::array::from_fn(|n| a[n] + k * b[n])
-}
-
-/// The scalar product.
-#[cfg(test)]
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The vector product.
-pub(crate) fn cross([a, b, c]: [f64; 3], [d, e, f]: [f64; 3]) -> [f64; 3] {
-    [b * f - c * e, c * d - a * f, a * e - b * d]
-}
+//! Directions in a horizontal frame: x forward, y left, z up.
 
 /// A direction in a horizontal frame (x forward, y left, z up): `azimuth_deg`
 /// anticlockwise from forward as seen from above, `elevation_deg` upwards.
-pub(crate) fn direction(azimuth_deg: f64, elevation_deg: f64) -> [f64; 3] {
+pub(super) fn direction(azimuth_deg: f64, elevation_deg: f64) -> [f64; 3] {
     let (sine, cosine) = libm::sincos(azimuth_deg.to_radians());
     let (up, level) = libm::sincos(elevation_deg.to_radians());
     [level * cosine, level * sine, up]
 }
 
 /// Turned anticlockwise about the vertical.
-pub(crate) fn turn([x, y, z]: [f64; 3], radians: f64) -> [f64; 3] {
+pub(super) fn turn([x, y, z]: [f64; 3], radians: f64) -> [f64; 3] {
     let (sine, cosine) = libm::sincos(radians);
     [cosine * x - sine * y, sine * x + cosine * y, z]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{cross, direction, dot, turn};
+    use super::{direction, turn};
+    use physics::vector::{cross, dot};
 
     #[test]
     fn a_quarter_turn_takes_forward_to_left_and_left_to_back() {

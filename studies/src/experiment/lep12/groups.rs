@@ -1,0 +1,139 @@
+//! Groups of trials that are trained on and validated by themselves, and their
+//! curves of hit rate against time.
+
+use classifiers::recogniser::Bayes;
+use tactile::{Model, ModelBuf, Threshold};
+
+use crate::experiment::floors::{Floors, Half, Stream, Tally, learn};
+use crate::experiment::paper::lep12::{MOTIONS, TIME_S};
+use crate::refused::refused;
+use crate::rigs::RobotMotion;
+use host_sim::Error;
+
+/// Samples of a block of evidence (m of eq. 6).
+pub(super) const BLOCK: u32 = 20;
+/// Both channels.
+const BOTH: [usize; 2] = [0, 1];
+
+/// 1 − θ of the thresholds of Fig. 6, from θ = 0.5 to 0.99999999.
+const DOUBTS: [f64; 22] = [
+    0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 3e-4, 1e-4,
+    3e-5, 1e-5, 1e-6, 1e-7, 3e-8, 1e-8,
+];
+
+/// Windows of Fig. 5, samples: 10 ms to 1 s.
+const WINDOWS: [u32; 10] = [20, 40, 60, 100, 140, 200, 300, 400, 1000, 2000];
+
+/// A group of trials that is learnt and validated by itself.
+pub(super) struct Group {
+    pub(super) name: &'static str,
+    pub(super) learning: Vec<Stream>,
+    pub(super) validation: Vec<Stream>,
+    pub(super) model: ModelBuf,
+}
+
+/// A point of a curve: what was varied, decision time in s, score.
+pub(super) struct Point {
+    pub(super) parameter: f64,
+    pub(super) time_s: f64,
+    pub(super) tally: Tally,
+}
+
+impl Group {
+    pub(super) fn all(floors: &Floors<'_>) -> Result<Vec<Self>, Error> {
+        let motions: [&[RobotMotion]; 4] = [
+            &[RobotMotion::Anticlockwise],
+            &[RobotMotion::Clockwise],
+            &[RobotMotion::Anticlockwise, RobotMotion::Clockwise],
+            &[RobotMotion::Autonomous],
+        ];
+        let group = |(name, motions): (&&'static str, &[RobotMotion])| {
+            let learning = floors.half(motions, Half::First);
+            Ok(Self {
+                name,
+                validation: floors.half(motions, Half::Second),
+                model: learn(&learning, &BOTH, BLOCK)?,
+                learning,
+            })
+        };
+        MOTIONS.iter().zip(motions).map(group).collect()
+    }
+
+    pub(super) fn model(&self) -> Result<Model<'_>, Error> {
+        self.model.model().map_err(refused)
+    }
+
+    pub(super) fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point, Error> {
+        let model = self.model()?;
+        let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
+        let tally = Tally::of(&self.validation, || {
+            Bayes::sequential(&model, threshold).map_err(refused)
+        })?;
+        Ok(Point {
+            parameter: 1.0 - doubt,
+            time_s: tally.mean_samples() / rate_hz,
+            tally,
+        })
+    }
+
+    pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
+        let model = self.model()?;
+        let tally = Tally::of(&self.validation, || {
+            Bayes::window(&model, window).map_err(refused)
+        })?;
+        Ok(Point {
+            parameter: f64::from(window),
+            time_s: f64::from(window) / rate_hz,
+            tally,
+        })
+    }
+}
+
+/// Both kinds of curve of one group.
+pub(super) struct Curves {
+    pub(super) window: Vec<Point>,
+    pub(super) sequential: Vec<Point>,
+}
+
+impl Curves {
+    pub(super) fn of(group: &Group, rate_hz: f64) -> Result<Self, Error> {
+        let window = WINDOWS.iter().map(|window| group.window(*window, rate_hz));
+        let sequential = DOUBTS.iter().map(|doubt| group.sequential(*doubt, rate_hz));
+        Ok(Self {
+            window: window.collect::<Result<_, _>>()?,
+            sequential: sequential.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The sequential point whose mean time is nearest to Table 2's.
+    pub(super) fn nearest(&self) -> Option<&Point> {
+        let off = |point: &&Point| (point.time_s / TIME_S).ln().abs();
+        self.sequential
+            .iter()
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+
+    /// Mean hit rate of the window at a time, between the points of the curve.
+    pub(super) fn window_at(&self, time_s: f64) -> f64 {
+        interpolate(&self.window, time_s)
+    }
+}
+
+/// Mean hit rate at a time, linear between points in order of time.
+pub(super) fn interpolate(points: &[Point], time_s: f64) -> f64 {
+    let value = |point: &Point| point.tally.mean_hit();
+    for pair in points.windows(2) {
+        if let [a, b] = pair
+            && (a.time_s..=b.time_s).contains(&time_s)
+        {
+            let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(1e-12);
+            return value(a) + share * (value(b) - value(a));
+        }
+    }
+    let ends = (points.first(), points.last());
+    match ends {
+        (Some(first), _) if time_s < first.time_s => value(first),
+        (_, Some(last)) => value(last),
+        _ => 0.0,
+    }
+}
