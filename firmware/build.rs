@@ -22,7 +22,8 @@ mod board {
 }
 
 use board::timing::{Clocks, TICK_MIN_HZ};
-use scene::{Numbers, Scene};
+use plan::NumberFormat;
+use scene::Scene;
 use whisking::Fix;
 
 /// What the build must know of a board.
@@ -109,35 +110,13 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     fits(&scene, board).map_err(wrong)?;
 
     let scene_dir = path.parent().unwrap_or(Path::new(""));
-    let text = match numbers(&scene, board).map_err(wrong)? {
-        Numbers::Fixed => written::written::<Fix>(&scene, scene_dir, "whisking::Fix")?,
+    let format = plan::on_board(&scene, board.name, board.has_fpu);
+    let text = match format.map_err(|error| wrong(error.to_string()))? {
+        NumberFormat::Fixed => written::written::<Fix>(&scene, scene_dir, "whisking::Fix")?,
         _ => written::written::<f32>(&scene, scene_dir, "f32")?,
     };
     fs::write(output("scene.rs")?, text)?;
     Ok(())
-}
-
-/// The number format of the tick on this board.
-fn numbers(scene: &Scene, board: &Board) -> Result<Numbers, String> {
-    let said = scene
-        .whisking
-        .as_ref()
-        .map(|whisking| whisking.numbers_said);
-    match said.unwrap_or(Numbers::Auto) {
-        Numbers::Auto | Numbers::Single if board.has_fpu => Ok(Numbers::Single),
-        Numbers::Auto | Numbers::Fixed => Ok(Numbers::Fixed),
-        Numbers::Single => Err(format!(
-            "whisking.numbers: found \"f32\"; allowed on the {}: \"auto\" or \"fixed\", because \
-             it has no FPU",
-            board.name
-        )),
-        Numbers::Double => Err(format!(
-            "whisking.numbers: found \"f64\"; allowed on the {}: \"auto\"{} or \"fixed\"; f64 is \
-             for simulations",
-            board.name,
-            if board.has_fpu { ", \"f32\"" } else { "" }
-        )),
-    }
 }
 
 /// What this board cannot do.

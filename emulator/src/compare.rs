@@ -6,6 +6,7 @@ use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
+use plan::NumberFormat;
 use scene::Numbers;
 
 use crate::emulate::start;
@@ -38,8 +39,9 @@ pub struct Agreement {
 /// [`Error::Work`] names the first tick and column that differ.
 pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     let mut loaded = Loaded::new(path)?;
+    let format = plan::in_simulation(&loaded.scene);
     if let Some(whisking) = &mut loaded.scene.whisking
-        && whisking.numbers == Numbers::Double
+        && format == NumberFormat::Double
     {
         whisking.numbers = Numbers::Single;
     }

@@ -7,7 +7,8 @@ use firmware::{
     SampleClassifier, Servo,
 };
 use mlx90333::{Decoder, Mlx90333};
-use scene::{Numbers, Scene};
+use plan::NumberFormat;
+use scene::Scene;
 use whisking::motor::StallConfig;
 use whisking::{Fix, Real, Start, filter};
 
@@ -189,10 +190,10 @@ pub fn build(
             }
         };
     }
-    match scene.whisking.as_ref().map(|whisking| whisking.numbers) {
-        Some(Numbers::Double) => shapes!(f64: 1 2 3 4 5 6 7 8 9 10 11 12),
-        Some(Numbers::Fixed) => shapes!(Fix: 1 2 3 4 5 6 7 8 9 10 11 12),
-        _ => shapes!(f32: 1 2 3 4 5 6 7 8 9 10 11 12),
+    match plan::in_simulation(scene) {
+        NumberFormat::Double => shapes!(f64: 1 2 3 4 5 6 7 8 9 10 11 12),
+        NumberFormat::Fixed => shapes!(Fix: 1 2 3 4 5 6 7 8 9 10 11 12),
+        NumberFormat::Single => shapes!(f32: 1 2 3 4 5 6 7 8 9 10 11 12),
     }
 }
 

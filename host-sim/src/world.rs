@@ -42,7 +42,7 @@ impl World {
         let sides = scene.head.sides.count();
         let mut head = plant::Head::free(sides, scene.head.whiskers_per_side);
         if let Some(obstacle) = &scene.plant.obstacle {
-            head.obstacle_deg.clone_from(&obstacle.deg);
+            head.obstacle_deg.clone_from(&obstacle.obstacle_deg);
             head.stiffness = obstacle.stiffness;
         }
         let (surface, motors, pins) = match scene.plant.kind {
@@ -150,12 +150,12 @@ impl World {
 }
 
 /// The physics' shaft for a scene's; its default where it has none.
-fn shaft(of: Option<scene::Shaft>) -> Shaft {
+fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {
     let middle = Shaft::biotact(Biotact::Middle);
-    let Some(scene::Shaft { name, own }) = of else {
+    let Some(scene::ShaftChoice { shaft, own }) = of else {
         return middle;
     };
-    match (name, own) {
+    match (shaft, own) {
         (ShaftName::BiotactFront, _) => Shaft::biotact(Biotact::Front),
         (ShaftName::BiotactMiddle, _) | (ShaftName::Own, None) => middle,
         (ShaftName::BiotactRear, _) => Shaft::biotact(Biotact::Rear),

@@ -4,8 +4,10 @@
 //! them when it builds and writes them into the firmware (they print as Rust
 //! expressions): by this same code, so that both run the same numbers.
 
+mod numbers;
 mod stability;
 
+pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
 use scene::Scene;
@@ -58,21 +60,14 @@ impl From<Error> for Mismatch {
 /// The pattern generator's settings; `None` for a passive scene.
 pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
     let whisking = scene.whisking.as_ref()?;
-    let gate = |gate: scene::Gate| whisking::GateSettings {
-        gain: gate.gain,
-        tau_s: gate.tau_s,
-    };
     Some(whisking::Settings {
         tick_hz: f64::from(scene.tick_hz),
         frequency_hz: whisking.frequency_hz,
-        integrator: match whisking.integrator {
-            scene::Integrator::Exact => whisking::Integrator::Exact,
-            scene::Integrator::Euler => whisking::Integrator::Euler,
-        },
+        integrator: whisking.integrator,
         coupling: whisking.coupling,
         noise: whisking.noise,
-        rcp: scene.rcp.map(gate),
-        cia: scene.cia.map(gate),
+        rcp: scene.rcp,
+        cia: scene.cia,
     })
 }
 
@@ -145,7 +140,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
 
 /// Duty above which a motor that does not move counts as stalled, Q15: half of
 /// what it may be driven with.
-pub fn stall_q15(motor: &scene::Motor) -> i16 {
+pub fn stall_q15(motor: &scene::MotorSection) -> i16 {
     Duty::from_f32(motor.duty_limit as f32 / 2.0).q15()
 }
 

@@ -1,38 +1,48 @@
 //! Settings that are one of a few words, such as `integrator = "exact"`.
 //!
 //! One macro writes the enum together with its words, so that the words in the
-//! catalogue, in the messages and in the reader are the same list.
+//! declarations, in the messages and in the reader are the same list.
 
-/// Writes a public enum whose variants each have a word in the scene file.
+/// An enum whose variants each have a word in the scene file.
+pub(crate) trait Choice: Sized {
+    /// The words, in the order in which messages list them.
+    const WORDS: &'static [&'static str];
+
+    /// The variant for a word; `None` for a word that is not among them.
+    fn of_word(word: &str) -> Option<Self>;
+}
+
+/// Gives an enum its words: a new one, or, after `for`, one of another crate.
 macro_rules! choice {
+    (for $name:ty { $($variant:ident = $word:literal),+ $(,)? }) => {
+        impl crate::choice::Choice for $name {
+            const WORDS: &'static [&'static str] = &[$($word),+];
+
+            fn of_word(word: &str) -> Option<Self> {
+                match word {
+                    $($word => Some(Self::$variant),)+
+                    _ => None,
+                }
+            }
+        }
+    };
     (
         $(#[$meta:meta])*
-        $name:ident {
+        $vis:vis enum $name:ident {
             $($(#[$variant_meta:meta])* $variant:ident = $word:literal),+ $(,)?
         }
     ) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-        pub enum $name {
+        $vis enum $name {
             $($(#[$variant_meta])* $variant),+
         }
 
         impl $name {
-            /// The words that a scene file may use, in the order of the variants.
-            pub const NAMES: &'static [&'static str] = &[$($word),+];
-
             /// The word for this variant in a scene file.
-            pub const fn name(self) -> &'static str {
+            $vis const fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word),+
-                }
-            }
-
-            /// The variant for a word of [`Self::NAMES`]; `None` for any other.
-            pub fn from_name(word: &str) -> Option<Self> {
-                match word {
-                    $($word => Some(Self::$variant),)+
-                    _ => None,
                 }
             }
         }
@@ -42,6 +52,8 @@ macro_rules! choice {
                 f.write_str(self.name())
             }
         }
+
+        crate::choice::choice!(for $name { $($variant = $word),+ });
     };
 }
 

@@ -7,8 +7,8 @@
 //! - **section**: a TOML table of the file, such as `[whisking]`; the keys
 //!   above the first table form the top section.
 //! - **catalogue**: the one list of all sections and keys, with type, range,
-//!   unit, default and meaning. Reading a file and writing the reference page
-//!   ([`reference()`]) both go by it.
+//!   unit, default and meaning (`src/sections`). The structs of a [`Scene`], the
+//!   reader and the reference page ([`reference()`]) are all written from it.
 //! - **problem**: one thing wrong with a file, with its line, its key, what was
 //!   found and what is allowed. A file is read to its end, so that
 //!   [`Problems`] holds all of them.
@@ -33,23 +33,29 @@
 //! );
 //! ```
 
-mod assemble;
-mod catalogue;
 mod choice;
+mod key;
+mod keys;
+mod kind;
 mod load;
+mod presence;
 mod problem;
 mod read;
 mod reference;
 mod rules;
-mod spec;
+mod section;
+mod sections;
 mod suggest;
+mod table;
 mod text;
-mod types;
 mod value;
+mod values;
 
 pub use problem::{Problem, Problems};
 pub use reference::reference;
-pub use types::{
-    Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
-    Scene, Shaft, ShaftName, ShaftNumbers, Sides, Texture, Textured, Whisking,
+pub use sections::{
+    ClassifierSection, Driver, HeadSection, MotorSection, Numbers, Obstacles, PlantKind,
+    PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture,
+    WhiskingSection,
 };
+pub use whisking::{GateSettings, Integrator};

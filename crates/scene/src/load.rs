@@ -5,9 +5,10 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use crate::problem::{Problem, Problems};
+use crate::sections::{Scene, TOP};
+use crate::table::Keys;
 use crate::text::Text;
-use crate::types::Scene;
-use crate::{assemble, read, rules};
+use crate::{presence, read, rules};
 
 /// How the TOML parser words a key or table that is given twice: the one fault
 /// of syntax that leaves the rest of the document as it was meant.
@@ -48,15 +49,18 @@ impl Scene {
         if is_broken {
             return Err(text.into_problems());
         }
-        let values = read::read(document.get_ref(), &mut text);
+        let mut values = read::read(document.get_ref(), &mut text);
+        presence::check(&values, &mut text);
         rules::apply(&values, &mut text);
         if !text.is_clean() {
             return Err(text.into_problems());
         }
-        let scene = assemble::scene(&values);
+        presence::settle(&mut values);
+        let scene = <Self as Keys>::read(values.part(TOP.name));
         scene.ok_or_else(|| {
-            // Only a catalogue that lacks a key of the scene leads here.
-            let found = "the catalogue of keys is incomplete".to_owned();
+            // Only a field whose key may be left out leads here: that key must
+            // be optional, or the field one of an `Option` of some keys.
+            let found = "the catalogue lets a key be left out that a field needs".to_owned();
             text.report(0, "scene".to_owned(), found, String::new());
             text.into_problems()
         })

@@ -4,57 +4,16 @@
 //! A misspelt section or key is reported and then read as what it was taken
 //! for, so that one slip does not bring a train of others.
 
-use std::collections::BTreeMap;
-
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use crate::catalogue::{SECTIONS, section};
-use crate::spec::{Key, Need, Section};
+use crate::key::{Need, Row};
+use crate::section::Section;
+use crate::sections::{TOP, section, sections};
 use crate::suggest;
 use crate::text::Text;
-use crate::value::{Value, check};
-
-/// The checked values of a file.
-#[derive(Default)]
-pub(crate) struct Values {
-    sections: BTreeMap<&'static str, Given>,
-    keys: BTreeMap<(&'static str, &'static str), Entry>,
-}
-
-/// A section that is in the file.
-#[derive(Clone, Copy)]
-pub(crate) struct Given {
-    /// Where it begins, as a byte offset.
-    pub(crate) offset: usize,
-    /// Whether it is a table, so that its keys could be read.
-    pub(crate) readable: bool,
-}
-
-/// A key that is in the file or has a default.
-struct Entry {
-    /// Where it stands; `None` for a default.
-    offset: Option<usize>,
-    /// Its value; `None` when that was refused.
-    value: Option<Value>,
-}
-
-impl Values {
-    /// The section, if it is in the file.
-    pub(crate) fn section(&self, section: &str) -> Option<Given> {
-        self.sections.get(section).copied()
-    }
-
-    /// The key's value, given or by default; `None` also when it was refused.
-    pub(crate) fn get(&self, section: &'static str, key: &'static str) -> Option<&Value> {
-        self.keys.get(&(section, key))?.value.as_ref()
-    }
-
-    /// Where the key stands in the file, whatever its value.
-    pub(crate) fn offset(&self, section: &'static str, key: &'static str) -> Option<usize> {
-        self.keys.get(&(section, key))?.offset
-    }
-}
+use crate::value::check;
+use crate::values::{Entry, Given, Values};
 
 type Item<'t, 'i> = (&'t Spanned<DeString<'i>>, &'t Spanned<DeValue<'i>>);
 
@@ -65,20 +24,17 @@ pub(crate) fn read(document: &DeTable<'_>, text: &mut Text<'_>) -> Values {
         offset: 0,
         readable: true,
     };
-    values.sections.insert("", top);
-    let names = || SECTIONS.iter().map(|s| s.name).filter(|n| !n.is_empty());
-    if let Some(top) = section("") {
-        for (name, value) in in_file_order(document) {
-            let keys = top.keys.iter().map(|key| key.name);
-            let candidates: Vec<&'static str> = keys.chain(names()).collect();
-            let Some(meant) = resolve(top, &candidates, document, (name, value), text) else {
-                continue;
-            };
-            match (section(meant), top.keys.iter().find(|k| k.name == meant)) {
-                (Some(section), _) => read_section(section, (name, value), text, &mut values),
-                (None, Some(key)) => read_key(top, key, (name, value), text, &mut values),
-                (None, None) => {}
-            }
+    values.add_section(TOP.name, top);
+    let tables = sections().map(|s| s.name).filter(|name| !name.is_empty());
+    let candidates: Vec<&'static str> = TOP.keys().map(|key| key.name).chain(tables).collect();
+    for item in in_file_order(document) {
+        let Some(meant) = resolve(&TOP, &candidates, document, item, text) else {
+            continue;
+        };
+        match (section(meant), TOP.key(meant)) {
+            (Some(section), _) => read_section(section, item, text, &mut values),
+            (None, Some(key)) => read_key(&TOP, key, item, text, &mut values),
+            (None, None) => {}
         }
     }
     add_defaults(&mut values);
@@ -97,7 +53,7 @@ fn read_section(
         offset,
         readable: table.is_some(),
     };
-    values.sections.entry(section.name).or_insert(given);
+    values.add_section(section.name, given);
     let Some(table) = table else {
         let found = format!("found {}", text.excerpt(value.span()));
         let allowed = format!(
@@ -107,12 +63,12 @@ fn read_section(
         text.report(offset, section.title(), found, allowed);
         return;
     };
-    let candidates: Vec<&'static str> = section.keys.iter().map(|key| key.name).collect();
+    let candidates: Vec<&'static str> = section.keys().map(|key| key.name).collect();
     for item in in_file_order(table) {
         let Some(meant) = resolve(section, &candidates, table, item, text) else {
             continue;
         };
-        if let Some(key) = section.keys.iter().find(|key| key.name == meant) {
+        if let Some(key) = section.key(meant) {
             read_key(section, key, item, text, values);
         }
     }
@@ -120,7 +76,7 @@ fn read_section(
 
 fn read_key(
     section: &Section,
-    key: &Key,
+    key: &'static Row,
     (name, value): Item<'_, '_>,
     text: &mut Text<'_>,
     values: &mut Values,
@@ -141,7 +97,7 @@ fn read_key(
         offset: Some(name.span().start),
         value: checked.ok(),
     };
-    values.keys.entry((section.name, key.name)).or_insert(entry);
+    values.add(section.name, key.name, entry);
 }
 
 /// Which candidate an item's name means: itself, or after a report the one it
@@ -159,13 +115,12 @@ fn resolve(
     }
     // A key that another section has stands in the wrong place; so does a table
     // inside a table.
-    let homes: Vec<String> = SECTIONS
-        .iter()
+    let homes: Vec<String> = sections()
         .filter(|home| {
-            let is_table = home.name.is_empty() && crate::catalogue::section(written).is_some();
-            is_table || home.keys.iter().any(|key| key.name == written)
+            let is_table = home.name.is_empty() && self::section(written).is_some();
+            is_table || home.key(written).is_some()
         })
-        .map(|home| home.title())
+        .map(Section::title)
         .collect();
     let nearest = suggest::nearest(written, candidates.iter().copied());
     let list = candidates.join(", ");
@@ -188,8 +143,8 @@ fn resolve(
 
 /// Fills in the defaults of keys that are not in the file.
 fn add_defaults(values: &mut Values) {
-    for section in SECTIONS {
-        for key in section.keys {
+    for section in sections() {
+        for key in section.keys() {
             if let Need::Default(toml) = key.need {
                 let value = DeValue::parse(toml).ok();
                 let value = value.and_then(|value| check(&key.kind, &value).ok());
@@ -197,10 +152,7 @@ fn add_defaults(values: &mut Values) {
                     offset: None,
                     value,
                 };
-                values
-                    .keys
-                    .entry((section.name, key.name))
-                    .or_insert(default);
+                values.add(section.name, key.name, default);
             }
         }
     }

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::catalogue::SECTIONS;
-use crate::spec::{Condition, Key, Need, Presence, Section};
+use crate::key::{Condition, Need, Row};
+use crate::section::{Presence, Section};
+use crate::sections::sections;
 
 /// A scene that shows most keys; the tests read it.
 const EXAMPLE: &str = include_str!("example.toml");
@@ -26,7 +27,7 @@ pub fn reference() -> String {
     );
     page.push_str(EXAMPLE);
     page.push_str("```\n");
-    for section in SECTIONS {
+    for section in sections() {
         add_section(&mut page, section);
     }
     page
@@ -55,7 +56,7 @@ fn add_section(page: &mut String, section: &Section) {
          | key | value | unit | if left out | meaning |\n|---|---|---|---|---|\n",
         section.meaning
     );
-    for key in section.keys {
+    for key in section.keys() {
         let _ = writeln!(
             page,
             "| `{}` | {} | {} | {} | {} |",
@@ -68,7 +69,7 @@ fn add_section(page: &mut String, section: &Section) {
     }
 }
 
-fn left_out(key: &Key) -> String {
+fn left_out(key: &Row) -> String {
     match &key.need {
         Need::Always => "an error".to_owned(),
         Need::Default(toml) => format!("`{toml}`"),
@@ -80,7 +81,7 @@ fn left_out(key: &Key) -> String {
     }
 }
 
-fn meaning(key: &Key) -> String {
+fn meaning(key: &Row) -> String {
     if key.only.is_empty() {
         return key.meaning.to_owned();
     }

@@ -27,7 +27,8 @@ fn fold(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::nearest;
-    use crate::catalogue::SECTIONS;
+    use crate::section::Section;
+    use crate::sections::sections;
 
     #[test]
     fn slips_find_their_key_among_all() {
@@ -47,7 +48,7 @@ mod tests {
             ("duty_limt", "duty_limit"),
             ("count_per_rev", "counts_per_rev"),
         ] {
-            let all = SECTIONS.iter().flat_map(|s| s.keys).map(|key| key.name);
+            let all = sections().flat_map(Section::keys).map(|key| key.name);
             assert_eq!(nearest(written, all), Some(meant), "{written}");
         }
     }
@@ -55,7 +56,7 @@ mod tests {
     #[test]
     fn unrelated_words_find_nothing() {
         for written in ["", "x", "colour", "voltage", "sampling", "pid"] {
-            let all = SECTIONS.iter().flat_map(|s| s.keys).map(|key| key.name);
+            let all = sections().flat_map(Section::keys).map(|key| key.name);
             assert_eq!(nearest(written, all), None, "{written}");
         }
     }

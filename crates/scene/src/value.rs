@@ -5,7 +5,7 @@ use std::ops::Range as Span;
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
-use crate::spec::{Kind, Range};
+use crate::kind::{Kind, Range};
 use crate::suggest;
 
 /// A value that is in range.

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use scene::{Driver, Integrator, Numbers, Rule, Scene};
+use plan::NumberFormat;
+use scene::{Driver, Integrator, Rule, Scene};
 
 /// A part that a scene names or leaves out.
 pub(super) struct Part {
@@ -139,11 +140,7 @@ fn computes(scene: &Scene) -> bool {
 }
 
 fn is_fixed(scene: &Scene, has_fpu: bool) -> bool {
-    let said = scene.whisking.as_ref().map(|w| w.numbers_said);
-    match said.unwrap_or(Numbers::Auto) {
-        Numbers::Auto => !has_fpu,
-        said => said == Numbers::Fixed,
-    }
+    plan::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed)
 }
 
 impl Part {

@@ -2,8 +2,9 @@
 
 use crate::common::{FULL, with};
 use scene::{
-    Classifier, Driver, Gate, Head, Integrator, Motor, Numbers, Obstacle, Plant, PlantKind, Rule,
-    Scene, Shaft, ShaftName, ShaftNumbers, Sides, Texture, Textured, Whisking,
+    ClassifierSection, Driver, GateSettings, HeadSection, Integrator, MotorSection, Numbers,
+    Obstacles, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
+    ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -27,29 +28,28 @@ fn every_key_reaches_its_field() {
         tick_hz: 2000,
         duration_s: 6.0,
         seed: i64::MAX as u64,
-        head: Head {
+        head: HeadSection {
             whiskers_per_side: 1,
             sides: Sides::Both,
         },
-        whisking: Some(Whisking {
+        whisking: Some(WhiskingSection {
             frequency_hz: 2.0,
             integrator: Integrator::Exact,
             coupling: true,
             noise: 0.0,
             gain: vec![0.5, 2.0],
             start: vec![[1.0, -1.5], [0.25, 0.5]],
-            numbers: Numbers::Single,
-            numbers_said: Numbers::Auto,
+            numbers: Numbers::Auto,
         }),
-        rcp: Some(Gate {
+        rcp: Some(GateSettings {
             gain: 0.7,
             tau_s: 0.125,
         }),
-        cia: Some(Gate {
+        cia: Some(GateSettings {
             gain: 0.5,
             tau_s: 0.125,
         }),
-        motor: Some(Motor {
+        motor: Some(MotorSection {
             driver: Driver::HBridge,
             kp: 0.05,
             kd: 0.0004,
@@ -60,16 +60,16 @@ fn every_key_reaches_its_field() {
             gear: 11.0,
             counts_per_rev: 512,
         }),
-        plant: Plant {
+        plant: PlantSection {
             kind: PlantKind::Ideal,
-            obstacle: Some(Obstacle {
-                deg: vec![100.0, 125.0],
+            obstacle: Some(Obstacles {
+                obstacle_deg: vec![100.0, 125.0],
                 stiffness: 0.1,
             }),
             textured: None,
             shaft: None,
         },
-        classifier: Some(Classifier {
+        classifier: Some(ClassifierSection {
             rule: Rule::Sequential { threshold: 0.99 },
             model: "models/example.model".to_owned(),
             contact_min: None,
@@ -85,7 +85,7 @@ fn the_motor_is_read_key_by_key() {
     let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
                  counts_per_rev = 1024\n\n[plant]\n";
-    let expected = Motor {
+    let expected = MotorSection {
         driver: Driver::SixStep,
         kp: 1.0,
         kd: 0.5,
@@ -141,7 +141,7 @@ fn a_left_half_has_one_entry_a_side() {
 fn textured_surfaces_keep_their_order() {
     let kind = "kind = 'textured'\ntextures = ['carpet', 'smooth', 'p600']\npresent_s = 1";
     let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
-    let expected = Textured {
+    let expected = Presentation {
         textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
         present_s: 1.0,
     };
@@ -156,8 +156,8 @@ fn an_elastic_whisker_is_a_paper_s_or_has_its_own_numbers() {
     let kind = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
     let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
     assert!(plant.textured.is_some() && plant.kind == PlantKind::Whisker);
-    let middle = Shaft {
-        name: ShaftName::BiotactMiddle,
+    let middle = ShaftChoice {
+        shaft: ShaftName::BiotactMiddle,
         own: None,
     };
     assert_eq!(plant.shaft, Some(middle));
@@ -231,4 +231,14 @@ fn negative_zero_becomes_zero() {
     let text = with(FULL, "noise        = 0.0", "noise = -0.0");
     let whisking = read(&text).whisking.expect("whisking is in the text");
     assert!(whisking.noise.is_sign_positive());
+}
+
+#[test]
+fn a_scene_goes_to_another_thread() {
+    fn is_free<T: Send + Sync + Clone + 'static>(value: T) -> T {
+        value
+    }
+    let scene = is_free(read(FULL));
+    let there = std::thread::spawn(move || scene.whiskers());
+    assert_eq!(there.join().expect("it counts"), 2);
 }

@@ -1,73 +1,10 @@
-//! The vocabulary in which the catalogue describes sections and keys.
+//! Types and ranges of values, as the reader checks them and messages word them.
 
 use std::fmt;
-
-/// A TOML table of the scene file, or the top of the file (empty name).
-pub(crate) struct Section {
-    pub(crate) name: &'static str,
-    pub(crate) presence: Presence,
-    pub(crate) meaning: &'static str,
-    pub(crate) keys: &'static [Key],
-}
-
-/// Whether a section must be there.
-pub(crate) enum Presence {
-    /// It must.
-    Required,
-    /// It may be left out.
-    Optional {
-        /// What leaving it out means.
-        without: &'static str,
-        /// The section without which this one makes no sense.
-        needs: Option<&'static str>,
-    },
-}
-
-/// One key of a section.
-pub(crate) struct Key {
-    pub(crate) name: &'static str,
-    pub(crate) kind: Kind,
-    /// Unit of the numbers; empty where there is none.
-    pub(crate) unit: &'static str,
-    pub(crate) need: Need,
-    /// The key is an error unless one of these holds; empty: it never is.
-    pub(crate) only: &'static [Condition],
-    pub(crate) meaning: &'static str,
-}
-
-/// Whether a key must be there, once its section is.
-pub(crate) enum Need {
-    /// Always.
-    Always,
-    /// No: this TOML value stands in for it.
-    Default(&'static str),
-    /// When any of the conditions holds.
-    When {
-        any: &'static [Condition],
-        /// What leaving it out means where none holds.
-        without: &'static str,
-    },
-}
-
-/// Something about another key of the same section.
-#[derive(Clone, Copy)]
-pub(crate) enum Condition {
-    /// The key has this word as its value.
-    Is(&'static str, &'static str),
-    /// The key is given.
-    Given(&'static str),
-}
-
-impl fmt::Display for Condition {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Is(key, word) => write!(f, "{key} = {word:?}"),
-            Self::Given(key) => write!(f, "{key} is given"),
-        }
-    }
-}
+use std::ops::RangeInclusive;
 
 /// Type and range of a value.
+#[derive(Clone, Copy)]
 pub(crate) enum Kind {
     /// `true` or `false`.
     Bool,
@@ -102,11 +39,11 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// From `low` to `high`, both included.
-    pub(crate) const fn closed(low: f64, high: f64) -> Self {
+    /// Both ends included.
+    pub(crate) const fn closed(ends: &RangeInclusive<f64>) -> Self {
         Self {
-            low,
-            high,
+            low: *ends.start(),
+            high: *ends.end(),
             with_low: true,
             with_high: true,
         }
@@ -179,37 +116,6 @@ impl fmt::Display for Kind {
                 "a list of at least one of {}, each at most once",
                 quoted(words)
             ),
-        }
-    }
-}
-
-impl Key {
-    /// Type, range and unit in words.
-    pub(crate) fn allowed(&self) -> String {
-        if self.unit.is_empty() {
-            self.kind.to_string()
-        } else {
-            format!("{}, in {}", self.kind, self.unit)
-        }
-    }
-}
-
-impl Section {
-    /// The key as messages name it: with its section, if that has a name.
-    pub(crate) fn path(&self, key: &str) -> String {
-        if self.name.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{}.{key}", self.name)
-        }
-    }
-
-    /// The section as messages name it.
-    pub(crate) fn title(&self) -> String {
-        if self.name.is_empty() {
-            "the top of the file".to_owned()
-        } else {
-            format!("[{}]", self.name)
         }
     }
 }

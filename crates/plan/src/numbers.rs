@@ -1,0 +1,146 @@
+//! Number format of the tick: what `whisking.numbers` comes to where the scene runs.
+
+use std::fmt;
+
+use scene::{Integrator, Numbers, Scene};
+
+/// Number format in which a tick is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NumberFormat {
+    /// `f32`.
+    Single,
+    /// `f64`; only in simulations.
+    Double,
+    /// [`whisking::Fix`].
+    Fixed,
+}
+
+/// A number format that a board does not have.
+///
+/// It prints as `whisking.numbers: what was found; what is allowed`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NoSuchFormat {
+    found: Numbers,
+    board: String,
+    has_fpu: bool,
+}
+
+impl fmt::Display for NoSuchFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (allowed, reason) = match (self.found, self.has_fpu) {
+            (Numbers::Double, true) => {
+                ("\"auto\", \"f32\" or \"fixed\"; ", "f64 is for simulations")
+            }
+            (Numbers::Double, false) => ("\"auto\" or \"fixed\"; ", "f64 is for simulations"),
+            _ => ("\"auto\" or \"fixed\", ", "because it has no FPU"),
+        };
+        write!(
+            f,
+            "whisking.numbers: found \"{}\"; allowed on the {}: {allowed}{reason}",
+            self.found, self.board
+        )
+    }
+}
+
+impl std::error::Error for NoSuchFormat {}
+
+/// The format of a simulation. `auto` is `f64` for `euler`, whose point is to be
+/// the papers', otherwise `f32`.
+pub fn in_simulation(scene: &Scene) -> NumberFormat {
+    let integrator = scene.whisking.as_ref().map(|whisking| whisking.integrator);
+    match (given(scene), integrator) {
+        (Numbers::Auto, Some(Integrator::Euler)) | (Numbers::Double, _) => NumberFormat::Double,
+        (Numbers::Auto | Numbers::Single, _) => NumberFormat::Single,
+        (Numbers::Fixed, _) => NumberFormat::Fixed,
+    }
+}
+
+/// The format of a board with an FPU or without. `auto` is `f32` with an FPU,
+/// otherwise fixed point. `board` is what a message calls it.
+///
+/// # Errors
+/// A format that the board does not have.
+pub fn on_board(scene: &Scene, board: &str, has_fpu: bool) -> Result<NumberFormat, NoSuchFormat> {
+    match given(scene) {
+        Numbers::Auto | Numbers::Single if has_fpu => Ok(NumberFormat::Single),
+        Numbers::Auto | Numbers::Fixed => Ok(NumberFormat::Fixed),
+        found @ (Numbers::Single | Numbers::Double) => Err(NoSuchFormat {
+            found,
+            board: board.to_owned(),
+            has_fpu,
+        }),
+    }
+}
+
+/// What the file says; a passive scene says nothing.
+fn given(scene: &Scene) -> Numbers {
+    let whisking = scene.whisking.as_ref();
+    whisking.map_or(Numbers::Auto, |whisking| whisking.numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::NumberFormat::{Double, Fixed, Single};
+    use super::{NumberFormat, in_simulation, on_board};
+    use scene::Scene;
+
+    const PASSIVE: &str = "name='a'\ntick_hz=2000\nduration_s=1\nseed=1\n\
+                           head.whiskers_per_side=1\nplant.kind='ideal'\n";
+
+    fn scene(integrator: &str, numbers: &str) -> Scene {
+        let text = format!(
+            "{PASSIVE}[whisking]\nfrequency_hz=2\nintegrator='{integrator}'\ncoupling=true\n\
+             noise=0\ngain=1\nstart=[[1, 0], [1, 0]]\nnumbers='{numbers}'\n"
+        );
+        Scene::from_str("s.toml", &text).unwrap()
+    }
+
+    #[test]
+    fn a_simulation_has_every_format() {
+        for (integrator, numbers, format) in [
+            ("exact", "auto", Single),
+            ("euler", "auto", Double),
+            ("exact", "f64", Double),
+            ("euler", "f32", Single),
+            ("euler", "fixed", Fixed),
+        ] {
+            assert_eq!(in_simulation(&scene(integrator, numbers)), format);
+        }
+        let passive = Scene::from_str("s.toml", PASSIVE).unwrap();
+        assert_eq!(in_simulation(&passive), Single);
+    }
+
+    #[test]
+    fn a_board_has_what_its_core_computes() {
+        let on = |numbers, has_fpu| -> Result<NumberFormat, String> {
+            on_board(&scene("euler", numbers), "toy", has_fpu).map_err(|error| error.to_string())
+        };
+        assert_eq!(
+            (on("auto", true), on("auto", false)),
+            (Ok(Single), Ok(Fixed))
+        );
+        assert_eq!(
+            (on("fixed", true), on("f32", true)),
+            (Ok(Fixed), Ok(Single))
+        );
+        for (numbers, has_fpu, allowed) in [
+            ("f32", false, "\"auto\" or \"fixed\", because it has no FPU"),
+            (
+                "f64",
+                true,
+                "\"auto\", \"f32\" or \"fixed\"; f64 is for simulations",
+            ),
+            (
+                "f64",
+                false,
+                "\"auto\" or \"fixed\"; f64 is for simulations",
+            ),
+        ] {
+            let expected =
+                format!("whisking.numbers: found \"{numbers}\"; allowed on the toy: {allowed}");
+            assert_eq!(on(numbers, has_fpu), Err(expected));
+        }
+        let passive = Scene::from_str("s.toml", PASSIVE).unwrap();
+        assert_eq!(on_board(&passive, "toy", false), Ok(Fixed));
+    }
+}

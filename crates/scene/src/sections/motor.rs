@@ -1,0 +1,51 @@
+//! `[motor]`: motor, gear, encoder and position control.
+
+use whisking::ranges;
+
+use crate::choice::choice;
+use crate::key::{integer, number, positive, word};
+use crate::keys::keys;
+
+choice! {
+    /// The stage that turns a duty into winding currents.
+    pub enum Driver {
+        /// One H-bridge: a brushed motor.
+        HBridge = "h-bridge",
+        /// Three half-bridges commutated in six steps: a brushless motor.
+        SixStep = "six-step",
+    }
+}
+
+keys! {
+    /// Motor, gear, encoder and the proportional-derivative position control.
+    pub struct MotorSection {
+        /// Power stage: one H-bridge (brushed motor) or six-step commutation (brushless motor).
+        driver: Driver = word().default("\"h-bridge\""),
+
+        /// Proportional gain of the position control.
+        kp: f64 = number(0.0..=10.0).unit("duty per degree").default("0.05"),
+
+        /// Derivative gain of the position control.
+        kd: f64 = number(0.0..=1.0).unit("duty per degree/s").default("0.0004"),
+
+        /// Largest magnitude of the duty.
+        duty_limit: f64 = number(ranges::pd::LIMIT).default("1.0"),
+
+        /// Fastest change of the duty.
+        slew_per_s: f64 = positive(1e5).unit("duty per second").default("400.0"),
+
+        /// Lower limit of the setpoint; below `max_deg`.
+        min_deg: f64 = number(-360.0..=360.0).unit("degrees").default("30.0"),
+
+        /// Upper limit of the setpoint; above `min_deg`.
+        max_deg: f64 = number(-360.0..=360.0).unit("degrees").default("160.0"),
+
+        /// Gear ratio.
+        gear: f64 = number(1.0..=1000.0)
+            .unit("motor revolutions per whisker revolution")
+            .default("11.0"),
+
+        /// Encoder counts per motor revolution.
+        counts_per_rev: u32 = integer(4..=65_536).unit("counts").default("512"),
+    }
+}

@@ -1,0 +1,108 @@
+//! `[plant]`: what the whiskers meet.
+
+use super::shaft::{ShaftName, ShaftNumbers};
+use crate::choice::choice;
+use crate::key::Condition::{self, Given, Is};
+use crate::key::{number, per_side, positive, word, words};
+use crate::keys::keys;
+
+choice! {
+    /// What stands between the motor command and the sensor.
+    pub enum PlantKind {
+        /// The angle is θ′ exactly; contact follows BIOTACT eq. 11.
+        Ideal = "ideal",
+        /// Simulated motor, whisker and textured surfaces.
+        Textured = "textured",
+        /// The same with an elastic shaft that sticks, slips and bounces.
+        Whisker = "whisker",
+    }
+}
+
+impl PlantKind {
+    /// Whether surfaces with textures are presented.
+    pub const fn has_textures(self) -> bool {
+        matches!(self, Self::Textured | Self::Whisker)
+    }
+}
+
+choice! {
+    /// A surface that a whisker is swept over, named after its material or grit.
+    pub enum Texture {
+        /// A smooth surface.
+        Smooth = "smooth",
+        /// P600 sandpaper, fine.
+        P600 = "p600",
+        /// P240 sandpaper, coarser.
+        P240 = "p240",
+        /// Carpet.
+        Carpet = "carpet",
+    }
+}
+
+const TEXTURED: Condition = Is("kind", PlantKind::Textured.name());
+const ELASTIC: Condition = Is("kind", PlantKind::Whisker.name());
+
+/// The plants with textures.
+const TEXTURES: &[Condition] = &[TEXTURED, ELASTIC];
+/// The plant with an elastic shaft.
+const WHISKER: &[Condition] = &[ELASTIC];
+/// Where there is something to press on.
+const STIFF: &[Condition] = &[Given("obstacle_deg"), TEXTURED, ELASTIC];
+
+keys! {
+    /// What the whiskers meet.
+    pub struct PlantSection {
+        /// `ideal`: the angle is θ′ exactly, contact by BIOTACT eq. 11.
+        /// `textured`: simulated motor, whisker and surfaces; needs `[whisking]`.
+        /// `whisker`: the same with an elastic shaft that sticks, slips and bounces.
+        kind: PlantKind = word(),
+
+        /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
+        ..obstacle: Option<Obstacles>,
+
+        /// Surfaces; there exactly when [`PlantKind::has_textures`].
+        ..textured: Option<Presentation>,
+
+        /// The shaft; there exactly when `kind` is [`PlantKind::Whisker`].
+        ..shaft: Option<ShaftChoice>,
+    }
+}
+
+keys! {
+    /// An obstacle on each side.
+    pub struct Obstacles {
+        /// Angle of the obstacle on each side.
+        obstacle_deg: Vec<f64> = per_side(-360.0..=360.0)
+            .unit("degrees")
+            .required_if(TEXTURES, "free whisking"),
+
+        /// Stiffness σ_x: contact signal per degree of overlap (BIOTACT eq. 11).
+        stiffness: f64 = number(0.0..=100.0).unit("1/degree").required_if(STIFF, "not used"),
+    }
+}
+
+keys! {
+    /// Textured surfaces, presented one after another.
+    pub struct Presentation {
+        /// Surfaces, in the order in which they are presented.
+        textures: Vec<Texture> = words().required_if(TEXTURES, "no texture").only_if(TEXTURES),
+
+        /// How long each texture is presented; at least one tick.
+        present_s: f64 = positive(1e5)
+            .unit("s")
+            .required_if(TEXTURES, "no texture")
+            .only_if(TEXTURES),
+    }
+}
+
+keys! {
+    /// A shaft; all whiskers of a head have the same.
+    #[derive(Copy)]
+    pub struct ShaftChoice {
+        /// The whiskers' shaft: a paper's, or `own`: the numbers that follow.
+        shaft: ShaftName = word().default("\"biotact-middle\"").only_if(WHISKER),
+
+        /// Its numbers; there exactly when `shaft` is [`ShaftName::Own`].
+        ..own: Option<ShaftNumbers>,
+    }
+}

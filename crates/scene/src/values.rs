@@ -1,0 +1,169 @@
+//! The checked values of a file, and how they become values of Rust types.
+
+use std::collections::BTreeMap;
+
+use crate::choice::Choice;
+use crate::key::Condition;
+use crate::value::Value;
+
+/// The checked values of a file.
+#[derive(Default)]
+pub(crate) struct Values {
+    sections: BTreeMap<&'static str, Given>,
+    keys: BTreeMap<(&'static str, &'static str), Entry>,
+}
+
+/// A section that is in the file.
+#[derive(Clone, Copy)]
+pub(crate) struct Given {
+    /// Where it begins, as a byte offset.
+    pub(crate) offset: usize,
+    /// Whether it is a table, so that its keys could be read.
+    pub(crate) readable: bool,
+}
+
+/// A key that is in the file or has a default.
+pub(crate) struct Entry {
+    /// Where it stands; `None` for a default.
+    pub(crate) offset: Option<usize>,
+    /// Its value; `None` when that was refused.
+    pub(crate) value: Option<Value>,
+}
+
+impl Values {
+    /// Adds a section; the first of the same name stays.
+    pub(crate) fn add_section(&mut self, section: &'static str, given: Given) {
+        self.sections.entry(section).or_insert(given);
+    }
+
+    /// Adds a key; the first of the same name stays.
+    pub(crate) fn add(&mut self, section: &'static str, key: &'static str, entry: Entry) {
+        self.keys.entry((section, key)).or_insert(entry);
+    }
+
+    /// Puts another value in the key's place, or none.
+    pub(crate) fn replace(
+        &mut self,
+        section: &'static str,
+        key: &'static str,
+        value: Option<Value>,
+    ) {
+        if let Some(entry) = self.keys.get_mut(&(section, key)) {
+            entry.value = value;
+        }
+    }
+
+    /// The section, if it is in the file.
+    pub(crate) fn section(&self, section: &str) -> Option<Given> {
+        self.sections.get(section).copied()
+    }
+
+    /// The key's value, given or by default; `None` also when it was refused.
+    pub(crate) fn value(&self, section: &'static str, key: &'static str) -> Option<&Value> {
+        self.keys.get(&(section, key))?.value.as_ref()
+    }
+
+    /// The key's value as a `T`.
+    pub(crate) fn get<T: Read>(&self, section: &'static str, key: &'static str) -> Option<T> {
+        self.part(section).get(key)
+    }
+
+    /// Where the key stands in the file, whatever its value.
+    pub(crate) fn offset(&self, section: &'static str, key: &'static str) -> Option<usize> {
+        self.keys.get(&(section, key))?.offset
+    }
+
+    /// Whether a condition holds in a section; `None` where a refused value
+    /// leaves it open.
+    pub(crate) fn holds(&self, section: &'static str, condition: Condition) -> Option<bool> {
+        match condition {
+            Condition::Given(key) => Some(self.offset(section, key).is_some()),
+            Condition::Is(key, word) => match self.value(section, key)? {
+                Value::Text(text) => Some(text == word),
+                _ => None,
+            },
+        }
+    }
+
+    /// The values of one section.
+    pub(crate) fn part(&self, section: &'static str) -> Part<'_> {
+        Part {
+            values: self,
+            section,
+        }
+    }
+}
+
+/// The values of one section.
+#[derive(Clone, Copy)]
+pub(crate) struct Part<'v> {
+    pub(crate) values: &'v Values,
+    section: &'static str,
+}
+
+impl<'v> Part<'v> {
+    /// The key's value as a `T`; `None` where it has none.
+    pub(crate) fn get<T: Read>(self, key: &'static str) -> Option<T> {
+        T::read(self, key)
+    }
+
+    fn value(self, key: &'static str) -> Option<&'v Value> {
+        self.values.value(self.section, key)
+    }
+}
+
+/// A type that a key can have.
+pub(crate) trait Read: Sized {
+    /// The key's value; `None` where it has none.
+    fn read(from: Part<'_>, key: &'static str) -> Option<Self>;
+}
+
+/// Reads a type from one variant of [`Value`].
+macro_rules! read {
+    ($($type:ty: $variant:ident($value:ident) => $read:expr;)+) => {$(
+        impl Read for $type {
+            fn read(from: Part<'_>, key: &'static str) -> Option<Self> {
+                match from.value(key)? {
+                    Value::$variant($value) => $read,
+                    _ => None,
+                }
+            }
+        }
+    )+};
+}
+
+read! {
+    bool: Bool(bool) => Some(*bool);
+    u32: Integer(n) => Self::try_from(*n).ok();
+    u64: Integer(n) => Some(*n);
+    usize: Integer(n) => Self::try_from(*n).ok();
+    f64: Number(x) => Some(*x);
+    String: Text(text) => Some(text.clone());
+    Vec<f64>: Numbers(list) => Some(list.clone());
+    Vec<[f64; 2]>: Pairs(list) => Some(list.clone());
+}
+
+impl<T: Choice> Read for T {
+    fn read(from: Part<'_>, key: &'static str) -> Option<Self> {
+        match from.value(key)? {
+            Value::Text(word) => T::of_word(word),
+            _ => None,
+        }
+    }
+}
+
+impl<T: Choice> Read for Vec<T> {
+    fn read(from: Part<'_>, key: &'static str) -> Option<Self> {
+        match from.value(key)? {
+            Value::Texts(words) => words.iter().map(|word| T::of_word(word)).collect(),
+            _ => None,
+        }
+    }
+}
+
+/// A key that may be left out.
+impl<T: Read> Read for Option<T> {
+    fn read(from: Part<'_>, key: &'static str) -> Option<Self> {
+        Some(T::read(from, key))
+    }
+}
