@@ -1,13 +1,10 @@
 //! The classifiers of the firmware with the number of classes known only now.
 
 use std::fmt::Display;
-use std::path::{Path, PathBuf};
 
 use firmware::{CodeClassifier, SampleClassifier};
 use scene::Rule;
 use tactile::{Decision, Model, ModelBuf, Sequential, Threshold, Window};
-
-use crate::Error;
 
 /// The very classifier that a board runs, with its model.
 pub struct Classifier {
@@ -71,16 +68,6 @@ impl SampleClassifier for Tap {
             classifier.listener.reset();
         }
     }
-}
-
-/// Reads and checks a model file.
-///
-/// # Errors
-/// [`Error::Input`] names the file and why it is refused.
-pub fn load(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    let model = ModelBuf::from_bytes(&bytes).map_err(|error| Error::file(path, error))?;
-    Ok((path.to_owned(), model))
 }
 
 /// The class names of a model.

@@ -1,10 +1,7 @@
 //! `decisions.csv`, and the score of decisions against labels.
 
 use std::fmt;
-use std::io::Write;
-use std::path::Path;
-
-use crate::{Error, output::Output};
+use std::io::{self, Write};
 
 /// One decision and what it should have been.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,20 +18,12 @@ pub struct Decided {
     pub posterior: f64,
 }
 
-/// Writes `decisions.csv`, whole or not at all.
+/// Writes `decisions.csv`.
 ///
 /// # Errors
-/// [`Error::Write`].
-pub fn write(path: &Path, decisions: &[Decided]) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
-    let mut table = csv::Writer::from_writer(&mut output);
-    let filled = fill(&mut table, decisions);
-    drop(table);
-    filled.map_err(|error| output.failed(error.into()))?;
-    output.finish()
-}
-
-fn fill(table: &mut csv::Writer<impl Write>, decisions: &[Decided]) -> Result<(), csv::Error> {
+/// What writing brings.
+pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(table);
     table.write_record(["label", "trial", "decision", "samples", "posterior"])?;
     for d in decisions {
         table.write_record([
@@ -45,8 +34,7 @@ fn fill(table: &mut csv::Writer<impl Write>, decisions: &[Decided]) -> Result<()
             &format!("{:.9}", d.posterior),
         ])?;
     }
-    table.flush()?;
-    Ok(())
+    table.flush()
 }
 
 /// How often each class was taken for each other.
@@ -176,10 +164,9 @@ mod tests {
 
     #[test]
     fn names_with_commas_survive_the_file() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("decisions.csv");
-        write(&path, &[decided("sand, wet", "ice", 20)]).unwrap();
-        let text = std::fs::read_to_string(path).unwrap();
+        let mut table = Vec::new();
+        write(&mut table, &[decided("sand, wet", "ice", 20)]).unwrap();
+        let text = String::from_utf8(table).unwrap();
         assert_eq!(
             text,
             "label,trial,decision,samples,posterior\n\"sand, wet\",1,ice,20,0.995000000\n"

@@ -1,10 +1,10 @@
 //! A recording: `label,trial,x,y` rows; rows of one label and trial that
 //! follow each other are one stream in time order.
 
-use std::io::Write;
-use std::path::Path;
+use std::io::{self, Read, Write};
 
-use crate::{Error, output::Output};
+use crate::Error;
+use crate::run::Run;
 
 /// Two channels under one label and trial, in time order.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,37 +17,60 @@ pub struct Stream {
     pub samples: Vec<[f64; 2]>,
 }
 
+/// Collects what the classifier of a run gets, tick by tick: a stream a
+/// presentation. It needs no classifier.
+#[derive(Debug, Default)]
+pub struct Recorder {
+    streams: Vec<Stream>,
+}
+
+impl Recorder {
+    /// Takes the sample of the run's last tick, if there was one.
+    pub fn take(&mut self, run: &mut Run) {
+        let sample = run.sample().map(|codes| codes.map(f64::from));
+        let (label, trial) = run.presented();
+        let trial = trial.to_string();
+        match self
+            .streams
+            .last_mut()
+            .filter(|last| last.label == label && last.trial == trial)
+        {
+            Some(stream) => stream.samples.extend(sample),
+            None => self.streams.push(Stream {
+                label: label.to_owned(),
+                trial,
+                samples: sample.into_iter().collect(),
+            }),
+        }
+    }
+
+    /// What was recorded.
+    pub fn into_streams(self) -> Vec<Stream> {
+        self.streams
+    }
+}
+
 /// Reads a recording. More columns than the four are ignored, their order is free.
 ///
 /// # Errors
-/// [`Error::Input`] names the file, the line and what is wrong with it.
-pub fn read(path: &Path) -> Result<Vec<Stream>, Error> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    parse(&bytes).map_err(|fault| Error::file(path, fault))
+/// [`Error::Input`] names the line and what is wrong with it.
+pub fn read(table: impl Read) -> Result<Vec<Stream>, Error> {
+    parse(table).map_err(Error::Input)
 }
 
-/// Writes a recording, whole or not at all.
+/// Writes a recording.
 ///
 /// # Errors
-/// [`Error::Write`].
-pub fn write(path: &Path, streams: &[Stream]) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
-    let mut table = csv::Writer::from_writer(&mut output);
-    let filled = fill(&mut table, streams);
-    drop(table);
-    filled.map_err(|error| output.failed(error.into()))?;
-    output.finish()
-}
-
-fn fill(table: &mut csv::Writer<impl Write>, streams: &[Stream]) -> Result<(), csv::Error> {
+/// What writing brings.
+pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(table);
     table.write_record(["label", "trial", "x", "y"])?;
     for stream in streams {
         for [x, y] in &stream.samples {
             table.write_record([&stream.label, &stream.trial, &x.to_string(), &y.to_string()])?;
         }
     }
-    table.flush()?;
-    Ok(())
+    table.flush()
 }
 
 /// What is wrong with a table as a table.
@@ -66,10 +89,10 @@ fn broken(error: &csv::Error) -> String {
     }
 }
 
-fn parse(bytes: &[u8]) -> Result<Vec<Stream>, String> {
+fn parse(table: impl Read) -> Result<Vec<Stream>, String> {
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
-        .from_reader(bytes);
+        .from_reader(table);
     let header = table.headers().map_err(|e| broken(&e))?.clone();
     let column = |name: &str| {
         let mut found = header.iter().enumerate().filter(|(_, cell)| *cell == name);

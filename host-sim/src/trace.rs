@@ -2,10 +2,7 @@
 
 mod decimals;
 
-use std::io::Write;
-use std::path::Path;
-
-use crate::{Error, output::Output};
+use std::io::{self, Write};
 
 /// One tick of a module. Values of a side that is not there are not a number.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -32,23 +29,22 @@ pub struct Row {
 pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
 contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right";
 
-/// Writes rows; nothing is left of a trace that is not finished.
+/// Writes rows to `W`, which had better have a buffer.
 #[derive(Debug)]
-pub struct TraceFile {
-    output: Output,
+pub struct TraceWriter<W> {
+    table: W,
     line: Vec<u8>,
 }
 
-impl TraceFile {
-    /// Begins a trace.
+impl<W: Write> TraceWriter<W> {
+    /// Writes the header.
     ///
     /// # Errors
-    /// [`Error::Write`].
-    pub fn create(path: &Path) -> Result<Self, Error> {
-        let mut output = Output::create(path)?;
-        writeln!(output, "{HEADER}").map_err(|source| output.failed(source))?;
+    /// What writing brings.
+    pub fn new(mut table: W) -> io::Result<Self> {
+        writeln!(table, "{HEADER}")?;
         Ok(Self {
-            output,
+            table,
             line: Vec::new(),
         })
     }
@@ -57,8 +53,8 @@ impl TraceFile {
     /// a side that is not there are empty.
     ///
     /// # Errors
-    /// [`Error::Write`].
-    pub fn row(&mut self, row: &Row) -> Result<(), Error> {
+    /// What writing brings.
+    pub fn row(&mut self, row: &Row) -> io::Result<()> {
         let line = &mut self.line;
         line.clear();
         decimals::append(line, row.t_s, 9);
@@ -70,17 +66,12 @@ impl TraceFile {
             cell(line, *value, 0);
         }
         line.push(b'\n');
-        self.output
-            .write_all(line)
-            .map_err(|source| self.output.failed(source))
+        self.table.write_all(line)
     }
 
-    /// Puts the trace in its place.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.output.finish()
+    /// Gives back what it has written to.
+    pub fn into_inner(self) -> W {
+        self.table
     }
 }
 
@@ -93,26 +84,24 @@ fn cell(line: &mut Vec<u8>, value: f64, decimals: u32) {
 
 #[cfg(test)]
 mod tests {
-    use super::{HEADER, Row, TraceFile};
+    use super::{HEADER, Row, TraceWriter};
 
     #[test]
     fn rows_have_as_many_cells_as_the_header_and_the_fixed_ones_first() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("trace.csv");
-        let mut file = TraceFile::create(&path).unwrap();
-        file.row(&Row {
-            t_s: 0.0005,
-            theta_deg: [50.0, f64::NAN],
-            z: [0.25, f64::NAN],
-            g: [1.0, f64::NAN],
-            contact: [0.0, f64::NAN],
-            angle_deg: [50.5, f64::NAN],
-            x: [8192.0, f64::NAN],
-            y: [8191.0, f64::NAN],
-        })
-        .unwrap();
-        file.finish().unwrap();
-        let text = std::fs::read_to_string(&path).unwrap();
+        let mut table = TraceWriter::new(Vec::new()).unwrap();
+        table
+            .row(&Row {
+                t_s: 0.0005,
+                theta_deg: [50.0, f64::NAN],
+                z: [0.25, f64::NAN],
+                g: [1.0, f64::NAN],
+                contact: [0.0, f64::NAN],
+                angle_deg: [50.5, f64::NAN],
+                x: [8192.0, f64::NAN],
+                y: [8191.0, f64::NAN],
+            })
+            .unwrap();
+        let text = String::from_utf8(table.into_inner()).unwrap();
         let lines: Vec<_> = text.lines().collect();
         assert!(HEADER.starts_with(
             "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\

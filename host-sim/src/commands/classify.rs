@@ -7,9 +7,10 @@ use tactile::{Model, Quantiser, Threshold, dynamic};
 
 use crate::Error;
 use crate::classifier::{self, Fault};
-use crate::decisions::{self, Confusion, Decided};
+use crate::decisions::{Confusion, Decided};
+use crate::files;
 use crate::progress::{Progress, Verbosity};
-use crate::recording::{self, Stream};
+use crate::recording::Stream;
 
 /// Streams the recording `data` through the classifier of `model` and writes
 /// its decisions to `out`. Returns their score.
@@ -23,13 +24,13 @@ pub fn classify(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let (path, buffer) = classifier::load(model)?;
+    let (path, buffer) = files::load_model(model)?;
     let model = buffer.model().map_err(|error| Error::file(&path, error))?;
     let mut classifier = Streamed::new(&model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(fault),
     })?;
-    let streams = recording::read(data)?;
+    let streams = files::read_recording(data)?;
     let mut progress = Progress::new(verbosity, "classifying", streams.len() as u64);
     let mut decided = Vec::new();
     for (n, stream) in streams.iter().enumerate() {
@@ -38,7 +39,7 @@ pub fn classify(
         progress.set(n as u64);
     }
     drop(progress);
-    decisions::write(out, &decided)?;
+    files::write_decisions(out, &decided)?;
     let confusion = Confusion::new(&classifier::names(&model), &decided);
     Ok(match (confusion.hit_rate(), confusion.mean_samples()) {
         (Some(hits), Some(samples)) => format!(

@@ -7,13 +7,14 @@ use tactile::ModelBuf;
 use tactile::train::{Options, Trainer};
 
 use crate::classifier::Classifier;
-use crate::decisions::{self, Confusion};
+use crate::decisions::Confusion;
+use crate::files::{self, TraceFile};
 use crate::output::write_whole;
 use crate::plot::{self, Mark, Picture, Presented};
 use crate::progress::{Progress, Verbosity};
-use crate::recording::{self, Stream};
+use crate::recording::Stream;
 use crate::run::Run;
-use crate::trace::{Row, TraceFile};
+use crate::trace::Row;
 use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.
@@ -36,7 +37,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         scene.duration_s
     ));
     let streams = record(&scene, verbosity)?;
-    recording::write(&out.join("training.csv"), &streams)?;
+    files::write_recording(&out.join("training.csv"), &streams)?;
     let model = learn(&streams)?;
     write_whole(&out.join("textures.model"), model.as_bytes())?;
 
@@ -47,7 +48,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     let deciding = decide(&scene, model, out, verbosity)?;
     let marks = &deciding.marks;
     let decided: Vec<_> = marks.iter().map(|mark| mark.decided.clone()).collect();
-    decisions::write(&out.join("decisions.csv"), &decided)?;
+    files::write_decisions(&out.join("decisions.csv"), &decided)?;
     let picture = Picture {
         title: "left whisker: four textures, RCP",
         rows: &deciding.rows,

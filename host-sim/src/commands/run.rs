@@ -6,11 +6,11 @@ use scene::{Rule, Scene, Texture};
 use tactile::ModelBuf;
 
 use crate::bench::Bench;
-use crate::classifier::{self, Classifier, Fault};
-use crate::decisions::{self, Confusion, Decided};
+use crate::classifier::{Classifier, Fault};
+use crate::decisions::{Confusion, Decided};
+use crate::files::{self, TraceFile};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
-use crate::trace::TraceFile;
 use crate::{Error, report};
 
 /// Runs the scene in `path`; writes `out/trace.csv`, and `out/decisions.csv`
@@ -48,7 +48,7 @@ impl Loaded {
         let folder = path.parent().unwrap_or(Path::new("."));
         let model = scene
             .model_path(folder)
-            .map(|path| classifier::load(&path))
+            .map(|path| files::load_model(&path))
             .transpose()?;
         Ok(Self {
             scene,
@@ -122,7 +122,7 @@ pub fn play<B: Bench + ?Sized>(
     drop(progress);
 
     if scene.classifier.is_some() {
-        decisions::write(&out.join("decisions.csv"), &decided)?;
+        files::write_decisions(&out.join("decisions.csv"), &decided)?;
     }
     trace.finish()?;
     Ok(scene.classifier.as_ref().map(|_| {

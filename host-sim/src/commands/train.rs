@@ -6,8 +6,9 @@ use tactile::train::{Options, TrainError, Trainer};
 use tactile::{ModelBuf, ModelError};
 
 use crate::Error;
+use crate::files;
 use crate::output::write_whole;
-use crate::recording::{self, Stream};
+use crate::recording::Stream;
 
 /// Learns a model from the recording `data` and writes it to `out`.
 /// Returns what it was made of.
@@ -30,7 +31,7 @@ pub fn train(
         },
     )
     .map_err(|error| Error::Input(format!("{}{error}", option(&error))))?;
-    let streams = recording::read(data)?;
+    let streams = files::read_recording(data)?;
     let model = learn(trainer, &streams).map_err(|error| Error::file(data, error))?;
     write_whole(out, model.as_bytes())?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();

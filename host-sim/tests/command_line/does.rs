@@ -1,8 +1,8 @@
 //! What each command writes and prints when nothing is wrong.
 
 use host_sim::commands::main_job;
+use host_sim::files;
 use host_sim::progress::Verbosity;
-use host_sim::recording;
 use scene::Scene;
 
 use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions};
@@ -13,7 +13,7 @@ fn classifying() -> Place {
     let streams = main_job::record(&scene, Verbosity::Quiet).unwrap();
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
-    recording::write(&place.path("heard.csv"), &streams).unwrap();
+    files::write_recording(&place.path("heard.csv"), &streams).unwrap();
     place.done(&["train", "--data", "heard.csv", "--out", "scenes/the.model"]);
     place
 }

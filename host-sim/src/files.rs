@@ -1,0 +1,91 @@
+//! The project's files by their paths.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tactile::ModelBuf;
+
+use crate::Error;
+use crate::decisions::{self, Decided};
+use crate::output::Output;
+use crate::recording::{self, Stream};
+use crate::trace::{Row, TraceWriter};
+
+/// Reads a recording.
+///
+/// # Errors
+/// [`Error::Input`] names the file, the line and what is wrong with it.
+pub fn read_recording(path: &Path) -> Result<Vec<Stream>, Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    recording::read(bytes.as_slice()).map_err(|fault| Error::file(path, fault))
+}
+
+/// Writes a recording, whole or not at all.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn write_recording(path: &Path, streams: &[Stream]) -> Result<(), Error> {
+    write(path, |output| recording::write(output, streams))
+}
+
+/// Writes `decisions.csv`, whole or not at all.
+///
+/// # Errors
+/// [`Error::Write`].
+pub fn write_decisions(path: &Path, decisions: &[Decided]) -> Result<(), Error> {
+    write(path, |output| decisions::write(output, decisions))
+}
+
+fn write(path: &Path, fill: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<(), Error> {
+    let mut output = Output::create(path)?;
+    fill(&mut output).map_err(|source| output.failed(source))?;
+    output.finish()
+}
+
+/// Reads and checks a model file.
+///
+/// # Errors
+/// [`Error::Input`] names the file and why it is refused.
+pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    let model = ModelBuf::from_bytes(&bytes).map_err(|error| Error::file(path, error))?;
+    Ok((path.to_owned(), model))
+}
+
+/// A trace on its way to a file; nothing is left of one that is not finished.
+#[derive(Debug)]
+pub struct TraceFile {
+    path: PathBuf,
+    trace: TraceWriter<Output>,
+}
+
+impl TraceFile {
+    /// Begins a trace.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        let trace = TraceWriter::new(Output::create(path)?);
+        Ok(Self {
+            trace: trace.map_err(|source| Error::write(path, source))?,
+            path: path.to_owned(),
+        })
+    }
+
+    /// One row.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn row(&mut self, row: &Row) -> Result<(), Error> {
+        let written = self.trace.row(row);
+        written.map_err(|source| Error::write(&self.path, source))
+    }
+
+    /// Puts the trace in its place.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish(self) -> Result<(), Error> {
+        self.trace.into_inner().finish()
+    }
+}
