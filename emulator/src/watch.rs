@@ -34,7 +34,7 @@ mod name {
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
     /// What the classifier has heard.
-    pub(super) const EVIDENCE: [&str; 3] = ["perception", "classifier", "state"];
+    pub(super) const EVIDENCE: [&str; 4] = ["perception", "classifier", "bayes", "state"];
     /// In the queue.
     pub(super) const TAIL: &str = "tail";
     pub(super) const BUFFER: &str = "buffer";

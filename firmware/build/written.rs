@@ -165,8 +165,7 @@ fn perception<R: Real>(scene: &Scene, scene_dir: &Path) -> Result<String, Box<dy
     let bytes = fs::read(&path)
         .map_err(|error| wrong(&format!("{error}; learn it first with `host-sim train`")))?;
     fs::write(output("touch.model")?, &bytes)?;
-    let buffer = ModelBuf::from_bytes(&bytes).map_err(|error| wrong(&error))?;
-    let model = buffer.model().map_err(|error| wrong(&error))?;
+    let model = ModelBuf::from_bytes(&bytes).map_err(|error| wrong(&error))?;
     let takes_codes = |channel| {
         model
             .quantiser(channel)
@@ -207,13 +206,12 @@ fn perception<R: Real>(scene: &Scene, scene_dir: &Path) -> Result<String, Box<dy
     let contact_min = classifier.contact_min.map(R::from_f64);
     Ok(format!(
         "/// What it decides.\n\
-         pub(crate) type Deciding = super::touch::{decides}<Scene, {}>;\n\
+         pub(crate) type Deciding = super::touch::{decides}<Scene>;\n\
          {}{rule}\
          impl super::touch::Classifies for Scene {{\n    \
          const CONTACT_MIN: Option<Number> = CONTACT_MIN;\n    \
          fn model() -> &'static [u8] {{\n        \
          tactile::include_model!(concat!(env!(\"OUT_DIR\"), \"/touch.model\"))\n    }}\n}}\n",
-        model.classes(),
         constant(
             "contact_min",
             "whisking::Config",

@@ -1,6 +1,6 @@
 //! What a module decides about what it touches.
 
-use tactile::{Classes, Decision, Model, Rule, State, Streaming, Supported};
+use tactile::{Decision, DecisionRule, Model, NaiveBayes};
 use whisking::Real;
 
 use crate::sensing::Reading;
@@ -114,21 +114,17 @@ impl<R: Real, L: SampleClassifier, const S: usize, const N: usize> Perception<R,
     }
 }
 
-/// A classifier of `K` classes that reads its model in place.
-#[derive(Debug)]
-pub struct CodeClassifier<'m, R: Rule<K>, const K: usize>
-where
-    Classes<K>: Supported,
-{
-    classifier: Streaming<'m, R, 2, K>,
-    state: State<R::Evidence, K>,
-    /// The model's codes a code of the sensor: powers of two, for which a
-    /// product is shorter than a shift of any length.
+/// Naive Bayes on a sensor's codes. `W` holds the model's words: flash on a
+/// board, memory of its own on a PC.
+#[derive(Debug, Clone)]
+pub struct CodeClassifier<R: DecisionRule, W = &'static [u32]> {
+    bayes: NaiveBayes<R, W>,
+    /// The model's codes a code of the sensor: powers of two.
     factors: [i32; 2],
 }
 
-/// The model was not learnt from a sensor's integer codes (or has fewer than
-/// two channels), so that it cannot be fed with them.
+/// The model was not trained on the integer codes of a sensor's two channels,
+/// so that it cannot classify them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NotCodes;
 
@@ -148,43 +144,37 @@ impl core::error::Error for NotCodes {}
 ///
 /// # Errors
 /// [`NotCodes`] if the model was learnt from something else.
-pub fn shifts(model: &Model<'_>) -> Result<[u32; 2], NotCodes> {
+pub fn shifts<W: AsRef<[u32]>>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
     let shift = |channel| -> Option<u32> {
         let quantiser = model.quantiser(channel)?;
         // 14 bits and 17 of shift stay below 2^31.
         let fits = quantiser.takes_raw() && quantiser.exponent <= 17;
         fits.then_some(quantiser.exponent.unsigned_abs())
     };
-    match (shift(0), shift(1)) {
-        (Some(x), Some(y)) => Ok([x, y]),
+    match (shift(0), shift(1), model.channels()) {
+        (Some(x), Some(y), 2) => Ok([x, y]),
         _ => Err(NotCodes),
     }
 }
 
-impl<'m, R: Rule<K>, const K: usize> CodeClassifier<'m, R, K>
-where
-    Classes<K>: Supported,
-{
-    /// Joins a classifier to the model it was made for.
+impl<R: DecisionRule, W: AsRef<[u32]>> CodeClassifier<R, W> {
+    /// With this classifier.
     ///
     /// # Errors
-    /// [`NotCodes`] if the model was not learnt from a sensor's codes.
-    pub fn new(model: &Model<'m>, classifier: Streaming<'m, R, 2, K>) -> Result<Self, NotCodes> {
+    /// [`NotCodes`] if its model was not trained on a sensor's codes.
+    pub fn new(bayes: NaiveBayes<R, W>) -> Result<Self, NotCodes> {
         // At most 17 bits.
-        let factors = shifts(model)?.map(|shift| 1 << shift);
-        let state = classifier.state();
-        Ok(Self {
-            classifier,
-            state,
-            factors,
-        })
+        let factors = shifts(bayes.model())?.map(|shift| 1 << shift);
+        Ok(Self { bayes, factors })
+    }
+
+    /// The classifier: its model, and posteriors.
+    pub const fn bayes(&self) -> &NaiveBayes<R, W> {
+        &self.bayes
     }
 }
 
-impl<R: Rule<K>, const K: usize> SampleClassifier for CodeClassifier<'_, R, K>
-where
-    Classes<K>: Supported,
-{
+impl<R: DecisionRule, W: AsRef<[u32]>> SampleClassifier for CodeClassifier<R, W> {
     #[inline]
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
         let [x, y] = codes;
@@ -192,10 +182,11 @@ where
             i32::from(x).wrapping_mul(self.factors[0]),
             i32::from(y).wrapping_mul(self.factors[1]),
         ];
-        self.classifier.push(&mut self.state, &codes)
+        // Two channels, as `new` has made sure.
+        self.bayes.push(&codes).ok().flatten()
     }
 
     fn reset(&mut self) {
-        self.classifier.reset(&mut self.state);
+        self.bayes.reset();
     }
 }

@@ -1,14 +1,17 @@
-//! The classifiers of the firmware with the number of classes known only now.
+//! The classifier of the firmware with its rule known only now.
 
 use std::fmt::Display;
 
 use firmware::{CodeClassifier, SampleClassifier};
 use scene::Rule;
-use tactile::{Decision, Model, ModelBuf, Sequential, Threshold, Window};
+use tactile::{
+    AnyRule, AnyRuleSettings, Decision, Model, ModelBuf, NaiveBayes, Posteriors, Threshold,
+};
 
-/// The very classifier that a board runs, with its model.
+/// The classifier that a board runs, with its model.
+#[derive(Debug, Clone)]
 pub struct Classifier {
-    listener: Box<dyn SampleClassifier + Send>,
+    codes: CodeClassifier<AnyRule, Box<[u32]>>,
     classes: Vec<String>,
 }
 
@@ -20,17 +23,32 @@ impl Classifier {
     /// trained on sensor codes, [`Fault::Rule`] for a window that is no multiple
     /// of the model's block or a threshold too near to 1.
     pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
-        let model: &'static ModelBuf = Box::leak(Box::new(model));
-        let model = model.model().map_err(of_model)?;
+        if model.channels() != 2 {
+            let fault = format!("the model has {} channels, not x and y", model.channels());
+            return Err(Fault::Model(fault));
+        }
+        let settings = match rule {
+            Rule::Sequential { threshold } => {
+                AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
+            }
+            Rule::Window { samples } => AnyRuleSettings::Window(samples),
+        };
+        let classes = names(&model);
+        let bayes = NaiveBayes::new(model, settings).map_err(of_rule)?;
         Ok(Self {
-            listener: classifier(&model, rule)?,
-            classes: names(&model),
+            codes: CodeClassifier::new(bayes).map_err(of_model)?,
+            classes,
         })
     }
 
     /// The names of its classes.
     pub fn classes(&self) -> &[String] {
         &self.classes
+    }
+
+    /// Posterior of each class after the last full block.
+    pub fn posteriors(&self) -> Posteriors {
+        self.codes.bayes().posteriors()
     }
 }
 
@@ -60,18 +78,18 @@ impl Tap {
 impl SampleClassifier for Tap {
     fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
         self.sample = Some(codes);
-        self.classifier.as_mut()?.listener.push(codes)
+        self.classifier.as_mut()?.codes.push(codes)
     }
 
     fn reset(&mut self) {
         if let Some(classifier) = &mut self.classifier {
-            classifier.listener.reset();
+            classifier.codes.reset();
         }
     }
 }
 
 /// The class names of a model.
-pub fn names(model: &Model<'_>) -> Vec<String> {
+pub fn names<W: AsRef<[u32]>>(model: &Model<W>) -> Vec<String> {
     model.names().map(str::to_owned).collect()
 }
 
@@ -84,45 +102,6 @@ pub enum Fault {
     /// The rule asks for what no model, or not this one, can do.
     #[error("{0}")]
     Rule(String),
-}
-
-type AnyListener = Box<dyn SampleClassifier + Send>;
-
-fn classifier(model: &Model<'static>, rule: Rule) -> Result<AnyListener, Fault> {
-    if model.channels() != 2 {
-        let fault = format!("the model has {} channels, not x and y", model.channels());
-        return Err(Fault::Model(fault));
-    }
-    macro_rules! classes {
-        ($($k:literal)*) => {
-            match model.classes() {
-                $($k => streaming::<$k>(model, rule),)*
-                count => Err(Fault::Model(format!("no classifier of {count} classes"))),
-            }
-        };
-    }
-    classes!(2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31 32)
-}
-
-fn streaming<const K: usize>(model: &Model<'static>, rule: Rule) -> Result<AnyListener, Fault>
-where
-    tactile::Classes<K>: tactile::Supported,
-{
-    match rule {
-        Rule::Sequential { threshold } => {
-            let threshold = Threshold::new(threshold).map_err(of_rule)?;
-            let classifier = Sequential::<2, K>::new(model, threshold).map_err(of_rule)?;
-            Ok(Box::new(
-                CodeClassifier::new(model, classifier).map_err(of_model)?,
-            ))
-        }
-        Rule::Window { samples } => {
-            let classifier = Window::<2, K>::new(model, samples).map_err(of_rule)?;
-            Ok(Box::new(
-                CodeClassifier::new(model, classifier).map_err(of_model)?,
-            ))
-        }
-    }
 }
 
 fn of_rule(error: impl Display) -> Fault {

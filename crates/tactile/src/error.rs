@@ -4,6 +4,8 @@
 
 use core::fmt;
 
+use crate::format::VERSION;
+
 /// Why a model file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -74,20 +76,6 @@ pub enum QuantiserError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// The model has another number of channels than the classifier.
-    Channels {
-        /// In the model.
-        model: usize,
-        /// In the classifier.
-        classifier: usize,
-    },
-    /// The model has another number of classes than the classifier.
-    Classes {
-        /// In the model.
-        model: usize,
-        /// In the classifier.
-        classifier: usize,
-    },
     /// The threshold is not above 0 and at most 1 − 1e-12.
     Threshold,
     /// The window is zero, or not a multiple of the model's block.
@@ -97,8 +85,6 @@ pub enum SetupError {
         /// The model's block, samples.
         block: u32,
     },
-    /// The table cannot be viewed as rows of this shape.
-    Table,
 }
 
 impl fmt::Display for ModelError {
@@ -110,7 +96,7 @@ impl fmt::Display for ModelError {
                 write!(
                     f,
                     "model format version {found}; version {} is understood",
-                    crate::VERSION
+                    VERSION
                 )
             }
             Self::TrailingBytes => f.write_str("bytes follow the end of the model"),
@@ -157,18 +143,6 @@ impl fmt::Display for QuantiserError {
 impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Channels { model, classifier } => {
-                write!(
-                    f,
-                    "the model has {model} channels, the classifier {classifier}"
-                )
-            }
-            Self::Classes { model, classifier } => {
-                write!(
-                    f,
-                    "the model has {model} classes, the classifier {classifier}"
-                )
-            }
             Self::Threshold => {
                 f.write_str("the threshold must lie above 0 and be at most 1 - 1e-12")
             }
@@ -176,7 +150,6 @@ impl fmt::Display for SetupError {
                 f,
                 "a window of {window} samples; a multiple of the block of {block} is needed"
             ),
-            Self::Table => f.write_str("the model's table does not have this shape"),
         }
     }
 }

@@ -6,7 +6,6 @@
 //! classes behind the leader, its posterior is
 //! p = 1 / Σ_j 2^(−d_j / (1024 · block)).
 
-use crate::decision::Posterior;
 use crate::exp2::{INDEX_BITS, ONE, TERM_BITS, exp2_neg};
 use crate::format::ENTRIES_PER_BIT;
 
@@ -24,12 +23,12 @@ const RATE_OF_ONE: u32 = 1 << (32 + INDEX_BITS - ENTRIES_PER_BIT.ilog2());
 
 /// The number of samples whose mean is one step of evidence, as a multiplier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Scale {
+pub struct EvidenceScale {
     /// 2³⁹ / (1024 · samples), rounded: within samples / 2³⁰ relative.
     rate: u32,
 }
 
-impl Scale {
+impl EvidenceScale {
     /// For the mean over this many samples (at least one; zero counts as one).
     pub const fn per_samples(samples: u32) -> Self {
         let samples = if samples == 0 { 1 } else { samples };
@@ -66,10 +65,6 @@ impl Scale {
 
     /// Odds against the leader, Σ over the others of 2^−d, times 2^gain, Q26:
     /// but None where they reach `bound`, which is at most 2³¹.
-    ///
-    /// Apart and for a slice: as a loop it keeps its constants in registers
-    /// and is shared by all numbers of classes.
-    #[inline(never)]
     pub(crate) fn odds_below(self, deficits: &[u32], gain: u8, bound: u32) -> Option<u32> {
         let gain = i32::from(gain);
         // The leader's own term is exactly one, and in the sum: at most
@@ -81,65 +76,27 @@ impl Scale {
         (odds < bound).then_some(odds)
     }
 
-    /// Posterior of each class, in units of 2⁻³², at most 2³² − 1. For display:
-    /// one 64-bit division.
-    pub fn posteriors<const K: usize>(self, deficits: &[u32; K]) -> [u32; K] {
-        let terms = deficits.map(|d| self.term(d, 0));
-        let sum: u64 = terms.iter().map(|&t| u64::from(t)).sum();
+    /// Turns deficits into posteriors, in units of 2⁻³², at most 2³² − 1. For
+    /// display: one 64-bit division.
+    pub fn posteriors(self, deficits: &mut [u32]) {
+        let mut sum = 0;
+        for value in deficits.iter_mut() {
+            *value = self.term(*value, 0);
+            sum += u64::from(*value);
+        }
         // The sum is at least one: a deficit is always zero somewhere.
         let inverse = (1_u64 << (32 + TERM_BITS)).checked_div(sum).unwrap_or(0);
-        terms.map(|t| u32::try_from((u64::from(t) * inverse) >> TERM_BITS).unwrap_or(u32::MAX))
+        for value in deficits {
+            let posterior = (u64::from(*value) * inverse) >> TERM_BITS;
+            *value = u32::try_from(posterior).unwrap_or(u32::MAX);
+        }
     }
 }
 
 /// Index of the first class without a deficit: the leader, and on a perfect
 /// tie the one that comes first in the training file.
-#[inline]
-pub(crate) fn leader<const K: usize>(deficits: &[u32; K]) -> usize {
+pub(crate) fn leader(deficits: &[u32]) -> usize {
     deficits.iter().position(|&d| d == 0).unwrap_or(0)
-}
-
-/// Sums over many blocks, exact: u64 a class. Never wraps, and saturates only
-/// after 2⁶⁴ / (20480 · C) samples, about a million years at 2 kHz.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Totals<const K: usize> {
-    sums: [u64; K],
-    /// Samples in them, saturated.
-    pub(crate) samples: u32,
-}
-
-impl<const K: usize> Default for Totals<K> {
-    fn default() -> Self {
-        Self {
-            sums: [0; K],
-            samples: 0,
-        }
-    }
-}
-
-impl<const K: usize> Totals<K> {
-    #[inline]
-    pub(crate) fn add(&mut self, sums: &[u32; K], samples: u32) {
-        for (total, &sum) in self.sums.iter_mut().zip(sums) {
-            *total = total.saturating_add(u64::from(sum));
-        }
-        self.samples = self.samples.saturating_add(samples);
-    }
-
-    /// By how much each class lies behind the leader.
-    pub(crate) fn deficits(&self) -> [u32; K] {
-        let most = self.sums.iter().copied().max().unwrap_or(0);
-        self.sums
-            .map(|sum| u32::try_from(most - sum).map_or(MAX_DEFICIT, |d| d.min(MAX_DEFICIT)))
-    }
-
-    /// The leader and its posterior.
-    pub(crate) fn decide(&self, scale: Scale) -> (usize, Posterior) {
-        let deficits = self.deficits();
-        // 32 classes cannot reach the bound.
-        let against = scale.odds_below(&deficits, 0, MAX_ODDS).unwrap_or(MAX_ODDS);
-        (leader(&deficits), Posterior::from_odds_against(against, 0))
-    }
 }
 
 #[cfg(test)]
@@ -150,9 +107,10 @@ mod tests {
     fn posteriors_match_closed_form() {
         // Deficits of 0, 1 and 3 bit in blocks of 20.
         let unit = 20 * ENTRIES_PER_BIT;
-        let scale = Scale::per_samples(20);
+        let scale = EvidenceScale::per_samples(20);
         let deficits = [unit, 0, 3 * unit];
-        let found = scale.posteriors(&deficits);
+        let mut found = deficits;
+        scale.posteriors(&mut found);
         for (found, exact) in found
             .into_iter()
             .zip([0.5 / 1.625, 1.0 / 1.625, 0.125 / 1.625])
@@ -165,10 +123,12 @@ mod tests {
 
     #[test]
     fn all_of_thirty_two_tied() {
-        let scale = Scale::per_samples(1);
+        let scale = EvidenceScale::per_samples(1);
         assert_eq!(scale.odds_below(&[0; 32], 0, MAX_ODDS), Some(31 * ONE));
         assert_eq!(scale.odds_below(&[0; 32], 0, 31 * ONE), None);
-        assert_eq!(scale.posteriors(&[0; 32]), [1 << 27; 32]);
+        let mut posteriors = [0; 32];
+        scale.posteriors(&mut posteriors);
+        assert_eq!(posteriors, [1 << 27; 32]);
         assert_eq!(leader(&[0; 32]), 0);
     }
 
@@ -181,7 +141,7 @@ mod tests {
             (20, 40, 1 << 25),
             (10_000, 7, (1 << 24) + 1),
         ] {
-            let scale = Scale::per_samples(block);
+            let scale = EvidenceScale::per_samples(block);
             let far = scale.first_below(gain, bound);
             assert!(far > 0);
             assert_eq!(scale.odds_below(&[far - 1, 0], gain, bound), None);
@@ -197,9 +157,9 @@ mod tests {
                 "{units} {exact}"
             );
         }
-        let scale = Scale::per_samples(20);
+        let scale = EvidenceScale::per_samples(20);
         assert_eq!(scale.first_below(0, MAX_ODDS), 0, "even a tie decides");
-        let scale = Scale::per_samples(10_000);
+        let scale = EvidenceScale::per_samples(10_000);
         assert_eq!(scale.first_below(60, 1 << 25), MAX_DEFICIT + 1);
     }
 
@@ -207,22 +167,8 @@ mod tests {
     fn scale_is_within_its_bound() {
         for block in 1..=10_000_u32 {
             let exact = 2.0_f64.powi(29) / f64::from(block);
-            let error = f64::from(Scale::per_samples(block).rate) / exact - 1.0;
+            let error = f64::from(EvidenceScale::per_samples(block).rate) / exact - 1.0;
             assert!(error.abs() <= f64::from(block) / 2.0_f64.powi(30));
         }
-    }
-
-    #[test]
-    fn totals_neither_wrap_nor_lose_the_leader() {
-        let mut totals = Totals::<2> {
-            sums: [u64::MAX - 5, u64::MAX - 1_u64.rotate_right(20)],
-            samples: u32::MAX,
-        };
-        totals.add(&[10, 10], 10);
-        assert_eq!(totals.samples, u32::MAX);
-        assert_eq!(totals.deficits(), [0, MAX_DEFICIT]);
-        let (class, posterior) = totals.decide(Scale::per_samples(1));
-        assert_eq!(class, 0);
-        assert_eq!(posterior.q32(), u32::MAX);
     }
 }

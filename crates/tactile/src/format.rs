@@ -12,11 +12,9 @@
 //! | B × C × ⌈K/2⌉ × 4 | table of u16: `[bin][channel][class]`, a zero after an odd K |
 //! | u32 | CRC-32 (ISO-HDLC) of all before |
 //!
-//! A table entry is round((log2 p + 20) · 1024), from 0 to 20480. Entries are
-//! positive and below 2¹⁶/3 so that two classes share a word and up to three
-//! channels add without a carry between them; the offset of 20 bit is common
-//! to all classes and cancels in the posterior. Rows are whole words, so that
-//! a core without unaligned loads reads them as fast.
+//! A table entry is round((log2 p + 20) · 1024), from 0 to 20480; the offset of
+//! 20 bit is common to all classes and cancels in the posterior. Rows are whole
+//! words, so that a core without unaligned loads reads them as fast.
 
 use zerocopy::byteorder::little_endian::{F64, I16, I32, U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};

@@ -17,19 +17,22 @@
 //! - **posterior**: the probability of a class given the samples so far.
 //! - **decision time**: the samples a decision used.
 //!
-//! # Three rules over one lookup
+//! # Two rules over one lookup
 //!
 //! | rule | decides | source |
 //! |---|---|---|
 //! | [`Sequential`] | after the block in which a posterior exceeds a threshold | LEP12 eq. 3–8 |
 //! | [`Window`] | by the largest evidence over each run of N samples | LEP10 |
-//! | [`Stationary`] | by the largest evidence over a whole whisk and all whiskers | BIOTACT eq. 15–16 |
 //!
-//! A rule is an immutable configuration that reads its [`Model`] in place from
-//! flash, and a small [`State`]: K + 1 words for the open block, and for the
-//! evidence K + 1 words (sequential) or 2K + 2 (the others). Channels C and
-//! classes K are compile-time constants, so the step is straight-line code.
-//! After training everything is an integer; there is no logarithm at run time.
+//! A classifier is a [`NaiveBayes`]: a [`Model`], a rule (any [`DecisionRule`])
+//! and the evidence so far, in fixed arrays of a few hundred bytes. How many
+//! channels and classes there are it reads from the model, which lies in flash
+//! on a board and in memory of its own on a PC. A board names its rule as a
+//! type; [`AnyRule`] is chosen at run time. After training everything is an
+//! integer; there is no logarithm at run time.
+//!
+//! The classifiers that the papers compare these with are in
+//! `studies/classifiers`.
 //!
 //! # Error bounds
 //!
@@ -43,9 +46,8 @@
 //! # Features
 //!
 //! - `std`: `train` (a histogram model from a recording, f64), `reference` (an
-//!   independent f64 classifier to compare with), `dynamic` (channels and
-//!   classes known only at run time), `score` (how good a classifier is) and
-//!   the owned `ModelBuf`.
+//!   independent f64 classifier to compare with), `score` (how good a classifier
+//!   is) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]
@@ -54,44 +56,45 @@ extern crate std;
 #[cfg(target_endian = "big")]
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
+mod any_rule;
 mod decision;
-#[cfg(feature = "std")]
-pub mod dynamic;
 mod error;
 mod evidence;
 mod exp2;
 mod format;
-mod likelihoods;
+mod layout;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;
+mod naive_bayes;
 mod quantiser;
 #[cfg(feature = "std")]
 pub mod reference;
+mod rule;
 #[cfg(feature = "std")]
 pub mod score;
 mod sequential;
-mod stationary;
-mod streaming;
+mod totals;
 #[cfg(feature = "std")]
 pub mod train;
 #[cfg(feature = "std")]
 mod train_error;
 mod window;
 
+pub use any_rule::{AnyEvidence, AnyRule, AnyRuleSettings};
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
-pub use evidence::{Scale, Totals};
+pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
     MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION, checksum,
 };
-pub use likelihoods::{Classes, Likelihoods, Sums, Supported};
 pub use model::{Aligned, Model};
 #[cfg(feature = "std")]
 pub use model_buf::{ModelBuf, ModelParts};
+pub use naive_bayes::{NaiveBayes, Posteriors, WrongChannels};
 pub use quantiser::{Binner, Quantiser};
+pub use rule::DecisionRule;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
-pub use stationary::{Stationary, StationaryRule};
-pub use streaming::{Rule, State, Streaming};
+pub use totals::Totals;
 pub use window::{Window, WindowRule};

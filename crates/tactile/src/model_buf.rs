@@ -1,5 +1,6 @@
 //! A model that owns its bytes: made by training, or read from a file on a PC.
 
+use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
@@ -9,7 +10,8 @@ use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_NAME_BYTES, VERSION, checksum, row_words,
 };
-use crate::model::{Model, check_counts};
+use crate::layout::{Layout, check_counts};
+use crate::model::Model;
 use crate::quantiser::Quantiser;
 
 /// What a model is made of.
@@ -28,12 +30,8 @@ pub struct ModelParts<'p> {
     pub entries: &'p [u16],
 }
 
-/// The bytes of a model file, aligned and checked.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ModelBuf {
-    // Words, for the alignment; a model's length is a multiple of four.
-    words: Vec<u32>,
-}
+/// A model that owns its words.
+pub type ModelBuf = Model<Box<[u32]>>;
 
 impl ModelBuf {
     /// Puts a model together.
@@ -100,33 +98,11 @@ impl ModelBuf {
     /// As [`Model::parse`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ModelError> {
         let (chunks, rest) = bytes.as_chunks();
-        let mut words: Vec<u32> = chunks.iter().map(|c| u32::from_ne_bytes(*c)).collect();
         if !rest.is_empty() {
-            // No model has such a length: a cut or a tail. Pad for the check
-            // of the magic and version, which say more than the length would.
-            let mut last = [0; 4];
-            last[..rest.len()].copy_from_slice(rest);
-            words.push(u32::from_ne_bytes(last));
-            let padded = words.as_bytes().get(..bytes.len()).unwrap_or(bytes);
-            Model::parse(padded)?;
+            // No model has such a length: the check says what is wrong.
+            Layout::check(bytes)?;
             return Err(ModelError::Length);
         }
-        let buf = Self { words };
-        buf.model()?;
-        Ok(buf)
-    }
-
-    /// The bytes as they go into a file.
-    pub fn as_bytes(&self) -> &[u8] {
-        self.words.as_bytes()
-    }
-
-    /// The model in it. Checks again (the cost of one pass over the bytes).
-    ///
-    /// # Errors
-    ///
-    /// None after construction has passed; as [`Model::parse`].
-    pub fn model(&self) -> Result<Model<'_>, ModelError> {
-        Model::parse(self.words.as_bytes())
+        Self::from_words(chunks.iter().map(|c| u32::from_ne_bytes(*c)).collect())
     }
 }

@@ -10,11 +10,12 @@
 
 use crate::decision::{Decision, Posterior};
 use crate::error::SetupError;
-use crate::evidence::{MAX_DEFICIT, MAX_ODDS, Scale, leader};
+use crate::evidence::{EvidenceScale, MAX_DEFICIT, MAX_ODDS, leader};
 use crate::exp2::ONE;
-use crate::likelihoods::{Classes, Sums, Supported};
+use crate::format::MAX_CLASSES;
 use crate::model::Model;
-use crate::streaming::{Rule, Streaming};
+use crate::naive_bayes::NaiveBayes;
+use crate::rule::DecisionRule;
 
 /// Largest threshold: beyond it the largest deficit could not reach it.
 const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
@@ -59,93 +60,60 @@ impl Threshold {
     }
 }
 
-/// A sequential classifier of C channels and K classes.
-pub type Sequential<'m, const C: usize, const K: usize> = Streaming<'m, SequentialRule, C, K>;
+/// A sequential classifier, made from a model and a threshold.
+pub type Sequential<W = &'static [u32]> = NaiveBayes<SequentialRule, W>;
 
 /// The sequential rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SequentialRule {
     block: u32,
-    scale: Scale,
+    scale: EvidenceScale,
     threshold: Threshold,
     /// The least deficit of a rival that does not keep a decision off alone.
     far: u32,
 }
 
 /// By how much each class lies behind the leader, and since how many blocks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SequentialEvidence<const K: usize> {
-    deficits: [u32; K],
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SequentialEvidence {
+    deficits: [u32; MAX_CLASSES],
     blocks: u32,
 }
 
-impl<const C: usize, const K: usize> Sequential<'_, C, K>
-where
-    Classes<K>: Supported,
-{
-    /// Decides where a posterior exceeds `threshold`.
-    ///
-    /// # Errors
-    ///
-    /// The model has other channels or classes than C and K.
-    pub fn new<'m>(
-        model: &Model<'m>,
-        threshold: Threshold,
-    ) -> Result<Sequential<'m, C, K>, SetupError> {
-        Sequential::with_rule(model, SequentialRule::new(model, threshold))
+impl SequentialRule {
+    /// Decides, if the posterior exceeds the threshold.
+    fn decide(&self, classes: usize, evidence: &SequentialEvidence) -> Option<Decision> {
+        let deficits = evidence.deficits.get(..classes).unwrap_or_default();
+        let Threshold { bound, gain } = self.threshold;
+        let against = self.scale.odds_below(deficits, gain, bound)?;
+        let posterior = Posterior::from_odds_against(against, gain);
+        let samples = evidence.blocks.saturating_mul(self.block);
+        Some(Decision::new(leader(deficits), samples, posterior))
     }
 }
 
-impl SequentialRule {
-    pub(crate) fn new(model: &Model<'_>, threshold: Threshold) -> Self {
-        let scale = Scale::per_samples(model.block());
-        Self {
+impl DecisionRule for SequentialRule {
+    /// Decides where a posterior exceeds it.
+    type Settings = Threshold;
+    type Evidence = SequentialEvidence;
+
+    fn new<W: AsRef<[u32]>>(model: &Model<W>, threshold: Threshold) -> Result<Self, SetupError> {
+        let scale = EvidenceScale::per_samples(model.block());
+        Ok(Self {
             block: model.block(),
             scale,
             threshold,
             far: scale.first_below(threshold.gain, threshold.bound),
-        }
+        })
     }
 
-    /// Decides, if the posterior exceeds the threshold. Apart from the end of a
-    /// block, which is shorter for it and rarely comes here.
-    #[cold]
-    #[inline(never)]
-    fn weigh<const K: usize>(&self, evidence: &mut SequentialEvidence<K>) -> Option<Decision> {
-        let Threshold { bound, gain } = self.threshold;
-        let against = self.scale.odds_below(&evidence.deficits, gain, bound)?;
-        let posterior = Posterior::from_odds_against(against, gain);
-        let samples = evidence.blocks.saturating_mul(self.block);
-        let class = leader(&evidence.deficits);
-        *evidence = SequentialEvidence {
-            // In line, as in `Sums::take`.
-            deficits: [core::hint::black_box(0); K],
-            blocks: 0,
-        };
-        Some(Decision::new(class, samples, posterior))
-    }
-}
-
-/// Holds back what has fallen too far behind.
-#[cold]
-#[inline(never)]
-fn hold(deficits: &mut [u32]) {
-    for deficit in deficits {
-        *deficit = MAX_DEFICIT.min(*deficit);
-    }
-}
-
-impl<const K: usize> Rule<K> for SequentialRule {
-    type Evidence = SequentialEvidence<K>;
-
-    #[inline]
     fn interval(&self) -> u32 {
         self.block
     }
 
-    fn start(&self) -> SequentialEvidence<K> {
+    fn start(&self) -> SequentialEvidence {
         SequentialEvidence {
-            deficits: [0; K],
+            deficits: [0; MAX_CLASSES],
             blocks: 0,
         }
     }
@@ -153,42 +121,33 @@ impl<const K: usize> Rule<K> for SequentialRule {
     /// No overflow, however many blocks pass without a decision: sums are
     /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
     /// here fits an i32.
-    #[inline(never)]
-    fn end_of_block(
-        &self,
-        sums: &mut Sums<K>,
-        evidence: &mut SequentialEvidence<K>,
-    ) -> Option<Decision> {
-        let mut levels = sums.take().map(|sum| sum as i32);
-        let mut lead = i32::MIN;
-        for (level, &deficit) in levels.iter_mut().zip(&evidence.deficits) {
-            *level -= deficit as i32;
-            lead = lead.max(*level);
-        }
-        let (mut near, mut bits) = (0, 0);
-        for (deficit, level) in evidence.deficits.iter_mut().zip(levels) {
-            *deficit = (lead - level) as u32;
-            // The sign of the difference is `deficit < far` in one instruction
-            // less: deficits are below 2³¹ here, and `far` is at most 2²⁹.
-            near += deficit.wrapping_sub(self.far) >> 31;
-            bits |= *deficit;
-        }
-        if bits > MAX_DEFICIT {
-            hold(&mut evidence.deficits);
+    fn end_of_block(&self, sums: &[u32], evidence: &mut SequentialEvidence) -> Option<Decision> {
+        let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
+        let levels = sums.iter().zip(evidence.deficits);
+        let lead = levels.map(|(&sum, deficit)| level(sum, deficit)).max()?;
+        let mut near = 0;
+        for (deficit, &sum) in evidence.deficits.iter_mut().zip(sums) {
+            let behind = (lead - level(sum, *deficit)) as u32;
+            near += usize::from(behind < self.far);
+            *deficit = behind.min(MAX_DEFICIT);
         }
         evidence.blocks = evidence.blocks.saturating_add(1);
         // The leader is near itself.
         if near > 1 {
             return None;
         }
-        self.weigh(evidence)
+        let decision = self.decide(sums.len(), evidence)?;
+        *evidence = self.start();
+        Some(decision)
     }
 
-    fn deficits(&self, evidence: &SequentialEvidence<K>) -> [u32; K] {
-        evidence.deficits
+    fn deficits(&self, evidence: &SequentialEvidence, deficits: &mut [u32]) {
+        for (to, from) in deficits.iter_mut().zip(evidence.deficits) {
+            *to = from;
+        }
     }
 
-    fn scale(&self) -> Scale {
+    fn scale(&self) -> EvidenceScale {
         self.scale
     }
 }

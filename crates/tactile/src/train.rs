@@ -18,7 +18,7 @@ use crate::error::ModelError;
 use crate::format::{
     ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_CLASSES, MAX_NAME_BYTES,
 };
-use crate::model::check_counts;
+use crate::layout::check_counts;
 use crate::model_buf::{ModelBuf, ModelParts};
 use crate::quantiser::{Binner, Quantiser};
 pub use crate::train_error::TrainError;

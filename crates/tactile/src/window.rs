@@ -3,13 +3,14 @@
 
 use crate::decision::Decision;
 use crate::error::SetupError;
-use crate::evidence::{Scale, Totals};
-use crate::likelihoods::{Classes, Sums, Supported};
+use crate::evidence::EvidenceScale;
 use crate::model::Model;
-use crate::streaming::{Rule, Streaming};
+use crate::naive_bayes::NaiveBayes;
+use crate::rule::DecisionRule;
+use crate::totals::Totals;
 
-/// A classifier by fixed windows, of C channels and K classes.
-pub type Window<'m, const C: usize, const K: usize> = Streaming<'m, WindowRule, C, K>;
+/// A classifier by fixed windows, made from a model and N.
+pub type Window<W = &'static [u32]> = NaiveBayes<WindowRule, W>;
 
 /// The window rule. Evidence is the sum of block means, as in the sequential
 /// rule; so is the scale of the posterior it states.
@@ -17,26 +18,15 @@ pub type Window<'m, const C: usize, const K: usize> = Streaming<'m, WindowRule, 
 pub struct WindowRule {
     block: u32,
     window: u32,
-    scale: Scale,
+    scale: EvidenceScale,
 }
 
-impl<const C: usize, const K: usize> Window<'_, C, K>
-where
-    Classes<K>: Supported,
-{
-    /// Decides after every `window` samples.
-    ///
-    /// # Errors
-    ///
-    /// The window is zero or not a multiple of the model's block; or the model
-    /// has other channels or classes than C and K.
-    pub fn new<'m>(model: &Model<'m>, window: u32) -> Result<Window<'m, C, K>, SetupError> {
-        Window::with_rule(model, WindowRule::new(model, window)?)
-    }
-}
+impl DecisionRule for WindowRule {
+    /// N: decides after every so many samples, a multiple of the model's block.
+    type Settings = u32;
+    type Evidence = Totals;
 
-impl WindowRule {
-    pub(crate) fn new(model: &Model<'_>, window: u32) -> Result<Self, SetupError> {
+    fn new<W: AsRef<[u32]>>(model: &Model<W>, window: u32) -> Result<Self, SetupError> {
         let block = model.block();
         if window == 0 || !window.is_multiple_of(block) {
             return Err(SetupError::Window { window, block });
@@ -44,39 +34,33 @@ impl WindowRule {
         Ok(Self {
             block,
             window,
-            scale: Scale::per_samples(block),
+            scale: EvidenceScale::per_samples(block),
         })
     }
-}
 
-impl<const K: usize> Rule<K> for WindowRule {
-    type Evidence = Totals<K>;
-
-    #[inline]
     fn interval(&self) -> u32 {
         self.block
     }
 
-    fn start(&self) -> Totals<K> {
+    fn start(&self) -> Totals {
         Totals::default()
     }
 
-    #[inline(never)]
-    fn end_of_block(&self, sums: &mut Sums<K>, totals: &mut Totals<K>) -> Option<Decision> {
-        totals.add(&sums.take(), self.block);
-        if totals.samples < self.window {
+    fn end_of_block(&self, sums: &[u32], totals: &mut Totals) -> Option<Decision> {
+        totals.add(sums, self.block);
+        if totals.samples() < self.window {
             return None;
         }
-        let (class, posterior) = totals.decide(self.scale);
+        let decision = totals.decide(sums.len(), self.scale);
         *totals = Totals::default();
-        Some(Decision::new(class, self.window, posterior))
+        Some(decision)
     }
 
-    fn deficits(&self, totals: &Totals<K>) -> [u32; K] {
-        totals.deficits()
+    fn deficits(&self, totals: &Totals, deficits: &mut [u32]) {
+        totals.deficits(deficits);
     }
 
-    fn scale(&self) -> Scale {
+    fn scale(&self) -> EvidenceScale {
         self.scale
     }
 }

@@ -1,16 +1,18 @@
-//! Every way of looking channels up gives the same bits: the code of a board
-//! for one and two channels, its groups of three for more, and the loop for
-//! any number.
+//! Any number of channels and classes gives the same bits.
 
 mod common;
 
 use common::model;
 use proptest::prelude::*;
-use tactile::dynamic::{self, Classifier};
-use tactile::{Decision, Stationary, Threshold};
+use tactile::{
+    Decision, DecisionRule, NaiveBayes, Posteriors, SequentialRule, Threshold, WindowRule,
+};
 
 /// All decisions of a stream and the posteriors at its end.
-fn run(mut c: Box<dyn Classifier + '_>, codes: &[Vec<i32>]) -> (Vec<Decision>, Vec<f64>) {
+fn run<R: DecisionRule>(
+    mut c: NaiveBayes<R, &[u32]>,
+    codes: &[Vec<i32>],
+) -> (Vec<Decision>, Posteriors) {
     let mut decisions: Vec<_> = codes.iter().filter_map(|s| c.push(s).unwrap()).collect();
     let posteriors = c.posteriors();
     decisions.extend(c.finish());
@@ -20,9 +22,8 @@ fn run(mut c: Box<dyn Classifier + '_>, codes: &[Vec<i32>]) -> (Vec<Decision>, V
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// A channel that says nothing changes nothing: two channels by the code
-    /// of a board, and the same with a third one by the loop over channels.
-    /// Odd and even numbers of classes.
+    /// A channel that says nothing changes nothing. Odd and even numbers of
+    /// classes.
     #[test]
     fn any_number_of_channels_gives_the_same_bits(
         classes in 2_usize..=32,
@@ -34,49 +35,16 @@ proptest! {
         let three = model(classes, 3, 8, 10, |bin, channel, class| {
             if channel < 2 { entry(bin, channel, class) } else { -7.0 }
         });
-        let (two, three) = (two.model().unwrap(), three.model().unwrap());
+        let (two, three) = (two.view(), three.view());
         let pairs: Vec<Vec<i32>> = codes.iter().map(|&(x, y)| vec![x, y]).collect();
         let triples: Vec<Vec<i32>> = codes.iter().map(|&(x, y)| vec![x, y, x ^ y]).collect();
         let threshold = Threshold::new(0.9).unwrap();
-        let a = run(dynamic::sequential(&two, threshold).unwrap(), &pairs);
-        let b = run(dynamic::sequential(&three, threshold).unwrap(), &triples);
+        let sequential = |model, codes| run(NaiveBayes::<SequentialRule, _>::new(model, threshold).unwrap(), codes);
+        let a = sequential(two, &pairs);
         // Rarely no decision falls in twenty blocks; such a case compares nothing.
         prop_assume!(!a.0.is_empty());
-        prop_assert_eq!(a, b);
-        prop_assert_eq!(
-            run(dynamic::window(&two, 30).unwrap(), &pairs),
-            run(dynamic::window(&three, 30).unwrap(), &triples)
-        );
-        prop_assert_eq!(
-            run(dynamic::stationary(&two).unwrap(), &pairs),
-            run(dynamic::stationary(&three).unwrap(), &triples)
-        );
-    }
-
-    /// Twelve and seven channels of a board (groups of three, and a rest)
-    /// against the loop.
-    #[test]
-    fn grouped_channels_give_the_same_bits(
-        table in prop::collection::vec(0.0_f64..19.9, 8 * 12 * 9),
-        codes in prop::collection::vec(prop::array::uniform12(-100_i32..1100), 60),
-    ) {
-        fn check<const C: usize>(table: &[f64], codes: &[[i32; 12]]) -> Result<(), TestCaseError> {
-            let buf = model(9, C, 8, 5, |bin, channel, class| -table[(bin * 12 + channel) * 9 + class]);
-            let model = buf.model().unwrap();
-            let rule = Stationary::<C, 9>::new(&model).unwrap();
-            let mut state = rule.state();
-            let mut any = dynamic::stationary(&model).unwrap();
-            for sample in codes {
-                let sample: [i32; C] = std::array::from_fn(|c| sample[c]);
-                rule.push(&mut state, &sample);
-                any.push(&sample).unwrap();
-                prop_assert!(any.push(&sample[1..]).is_err());
-            }
-            prop_assert_eq!(rule.finish(&mut state), any.finish());
-            Ok(())
-        }
-        check::<12>(&table, &codes)?;
-        check::<7>(&table, &codes)?;
-        check::<2>(&table, &codes)?;
+        prop_assert_eq!(a, sequential(three, &triples));
+        let window = |model, codes| run(NaiveBayes::<WindowRule, _>::new(model, 30).unwrap(), codes);
+        prop_assert_eq!(window(two, &pairs), window(three, &triples));
     }
 }

@@ -25,7 +25,7 @@ fn resealed(change: impl Fn(&mut Vec<u8>)) -> Result<ModelBuf, ModelError> {
 #[test]
 fn content_survives() {
     let buf = example();
-    let model = buf.model().unwrap();
+    let model = buf.view();
     assert_eq!((model.classes(), model.channels()), (3, 2));
     assert_eq!((model.bins(), model.block()), (5, 20));
     let names: Vec<_> = model.names().collect();
@@ -216,11 +216,11 @@ proptest! {
             b[at] = value;
         });
         if let Ok(buf) = result {
-            let model = buf.model().unwrap();
-            prop_assert!(model.names().all(|n| !n.is_empty()));
+            prop_assert!(buf.names().all(|n| !n.is_empty()));
+            let channels = buf.channels();
             let threshold = tactile::Threshold::new(0.9).unwrap();
-            let mut c = tactile::dynamic::sequential(&model, threshold).unwrap();
-            for sample in codes.chunks_exact(model.channels()) {
+            let mut c = tactile::Sequential::new(buf, threshold).unwrap();
+            for sample in codes.chunks_exact(channels) {
                 c.push(sample).unwrap();
             }
         }

@@ -1,12 +1,11 @@
-//! The three rules against closed forms, at their limits and on ties.
+//! The rules against closed forms, at their limits and on ties.
 
 mod common;
 
 use common::{code, model};
-use tactile::dynamic::{self, Classifier};
 use tactile::{
-    Decision, ModelBuf, Sequential, SequentialEvidence, SetupError, State, Stationary, Threshold,
-    Totals, Window,
+    AnyRule, AnyRuleSettings, Decision, DecisionRule, Model, ModelBuf, NaiveBayes, Sequential,
+    SequentialRule, SetupError, Threshold, Window, WindowRule, WrongChannels,
 };
 
 /// Two classes of normal codes, means 400 and 600, sd 150, in 100 bins. The
@@ -30,15 +29,14 @@ fn ln_ratio(code: i32) -> f64 {
 #[test]
 fn sequential_follows_the_closed_form() {
     let buf = two_normals(4);
-    let model = buf.model().unwrap();
+    let model = buf.view();
     for theta in [0.75, 0.95, 0.999, 1.0 - 1e-8] {
-        let rule = Sequential::<1, 2>::new(&model, Threshold::new(theta).unwrap()).unwrap();
-        let mut state = rule.state();
+        let mut c = Sequential::new(model, Threshold::new(theta).unwrap()).unwrap();
         let (mut evidence, mut block, mut samples, mut decisions) = (0.0, 0.0, 0, 0);
         for i in 0..20_000 {
             // Wanders between the classes.
             let x = 500 + ((f64::from(i) * 0.002).sin() * 90.0) as i32 + (i * 37) % 101 - 50;
-            let decision = rule.push(&mut state, &[x]);
+            let decision = c.push(&[x]).unwrap();
             samples += 1;
             block += ln_ratio(x);
             if samples % 4 != 0 {
@@ -69,32 +67,35 @@ fn sequential_follows_the_closed_form() {
 #[test]
 fn posterior_can_be_watched() {
     let buf = two_normals(1);
-    let model = buf.model().unwrap();
-    let rule = Sequential::<1, 2>::new(&model, Threshold::new(0.9999).unwrap()).unwrap();
-    let mut state = rule.state();
-    assert_eq!(rule.posteriors(&state), [1 << 31; 2]);
-    rule.push(&mut state, &[600]);
+    let model = buf.view();
+    let mut c = Sequential::new(model, Threshold::new(0.9999).unwrap()).unwrap();
+    assert_eq!(c.posteriors().as_q32(), [1 << 31; 2]);
+    c.push(&[600]).unwrap();
     let p = 1.0 / (1.0 + (-ln_ratio(600)).exp());
-    let found = rule
-        .posteriors(&state)
-        .map(|q| f64::from(q) / 2.0_f64.powi(32));
+    let found: Vec<f64> = c.posteriors().to_f64().collect();
+    assert_eq!(found.len(), 2);
     assert!((found[1] - p).abs() < 2e-4 && (found[0] + found[1] - 1.0).abs() < 1e-7);
-    rule.reset(&mut state);
-    assert_eq!(rule.posteriors(&state), [1 << 31; 2]);
+    c.reset();
+    assert_eq!(c.posteriors().as_q32(), [1 << 31; 2]);
 }
 
 #[test]
 fn a_perfect_tie_goes_to_the_first_class() {
     // Classes 1 and 3 are equal, 0 and 2 worse.
     let buf = model(4, 2, 2, 2, |_, _, class| [-4.0, -1.0, -3.0, -1.0][class]);
-    let model = buf.model().unwrap();
-    let decide = |mut c: Box<dyn Classifier + '_>| (0..8).find_map(|_| c.push(&[1, 2]).unwrap());
-    let window = decide(dynamic::window(&model, 8).unwrap()).unwrap();
+    let model = buf.view();
+    let decide = |settings| {
+        let mut c = NaiveBayes::<AnyRule, _>::new(model, settings).unwrap();
+        (0..8).find_map(|_| c.push(&[1, 2]).unwrap())
+    };
+    let window = decide(AnyRuleSettings::Window(8)).unwrap();
     assert_eq!((window.class(), window.samples()), (1, 8));
     // Two equal leaders: no posterior exceeds one half, and 0.49 is exceeded
     // once the others are far enough behind.
-    let sequential =
-        |theta| decide(dynamic::sequential(&model, Threshold::new(theta).unwrap()).unwrap());
+    let sequential = |theta| {
+        let threshold = Threshold::new(theta).unwrap();
+        decide(AnyRuleSettings::Sequential(threshold))
+    };
     assert_eq!(sequential(0.5), None);
     let decision = sequential(0.49).unwrap();
     assert_eq!(decision.class(), 1);
@@ -104,11 +105,10 @@ fn a_perfect_tie_goes_to_the_first_class() {
 fn the_threshold_must_be_exceeded_not_met() {
     // One block gives exactly p = 2 / (2 + 1 + 1) = 1/2.
     let buf = model(3, 1, 2, 1, |_, _, class| [-1.0, -2.0, -2.0][class]);
-    let model = buf.model().unwrap();
+    let model = buf.view();
     let first = |theta| {
-        let rule = Sequential::<1, 3>::new(&model, Threshold::new(theta).unwrap()).unwrap();
-        let mut state = rule.state();
-        rule.push(&mut state, &[0])
+        let mut c = Sequential::new(model, Threshold::new(theta).unwrap()).unwrap();
+        c.push(&[0]).unwrap()
     };
     assert_eq!(first(0.5), None);
     let decision = first(0.499_999).unwrap();
@@ -127,13 +127,12 @@ fn ten_million_blocks_without_a_decision_change_nothing() {
         1,
         |bin, _, class| if class == 2 || bin == 1 { -19.9 } else { 0.0 },
     );
-    let model = buf.model().unwrap();
-    let rule = Sequential::<2, 3>::new(&model, Threshold::new(0.6).unwrap()).unwrap();
-    let mut state = rule.state();
+    let model = buf.view();
+    let mut c = Sequential::new(model, Threshold::new(0.6).unwrap()).unwrap();
     for _ in 0..10_000_000 {
-        assert!(rule.push(&mut state, &[0, 0]).is_none());
+        assert!(c.push(&[0, 0]).unwrap().is_none());
     }
-    assert_eq!(rule.posteriors(&state), [1 << 31, 1 << 31, 0]);
+    assert_eq!(c.posteriors().as_q32(), [1 << 31, 1 << 31, 0]);
 }
 
 #[test]
@@ -147,12 +146,11 @@ fn evidence_holds_at_the_largest_sums() {
         10_000,
         |bin, _, class| if bin == class { 0.0 } else { -20.0 },
     );
-    let model = buf.model().unwrap();
-    let rule = Sequential::<6, 2>::new(&model, Threshold::new(1.0 - 1e-12).unwrap()).unwrap();
-    let mut state = rule.state();
+    let model = buf.view();
+    let mut c = Sequential::new(model, Threshold::new(1.0 - 1e-12).unwrap()).unwrap();
     for block in 0..6 {
         let bin = block % 2;
-        let decision = (0..10_000).find_map(|_| rule.push(&mut state, &[code(bin, 2); 6]));
+        let decision = (0..10_000).find_map(|_| c.push(&[code(bin, 2); 6]).unwrap());
         let decision = decision.unwrap();
         assert_eq!((decision.class(), decision.samples()), (bin, 10_000));
         assert!(decision.posterior().odds_against() < 1e-12);
@@ -162,16 +160,15 @@ fn evidence_holds_at_the_largest_sums() {
 #[test]
 fn window_lengths_are_checked() {
     let buf = two_normals(20);
-    let model = buf.model().unwrap();
+    let model = buf.view();
     for window in [0, 1, 19, 21, 30] {
         assert_eq!(
-            Window::<1, 2>::new(&model, window).unwrap_err(),
+            Window::new(model, window).unwrap_err(),
             SetupError::Window { window, block: 20 }
         );
     }
-    let rule = Window::<1, 2>::new(&model, 40).unwrap();
-    let mut state = rule.state();
-    let found: Vec<Option<Decision>> = (0..80).map(|_| rule.push(&mut state, &[700])).collect();
+    let mut c = Window::new(model, 40).unwrap();
+    let found: Vec<Option<Decision>> = (0..80).map(|_| c.push(&[700]).unwrap()).collect();
     let at: Vec<usize> = (0..80).filter(|&i| found[i].is_some()).collect();
     assert_eq!(at, [39, 79]);
     let decision = found[39].unwrap();
@@ -182,86 +179,65 @@ fn window_lengths_are_checked() {
 }
 
 #[test]
-fn other_shapes_are_refused() {
-    let buf = two_normals(20);
-    let model = buf.model().unwrap();
-    assert_eq!(
-        Window::<2, 2>::new(&model, 20).unwrap_err(),
-        SetupError::Channels {
-            model: 1,
-            classifier: 2
+fn samples_of_other_channels_are_refused_and_not_taken() {
+    let buf = two_normals(2);
+    let mut c = Window::new(buf.view(), 2).unwrap();
+    let wrong = |found| Err(WrongChannels { expected: 1, found });
+    assert_eq!(c.push(&[]), wrong(0));
+    assert_eq!(c.push(&[700, 700]), wrong(2));
+    assert_eq!(c.push(&[700]), Ok(None));
+    assert_eq!(c.push(&[700, 700]), wrong(2));
+    assert!(c.push(&[700]).unwrap().is_some());
+}
+
+/// A rule chosen at run time does what its own type does.
+#[test]
+fn any_rule_is_the_rule_itself() {
+    fn same<R: DecisionRule>(buf: &ModelBuf, settings: R::Settings, any: AnyRuleSettings) {
+        let mut typed = NaiveBayes::<R, _>::new(buf.view(), settings).unwrap();
+        let mut any = NaiveBayes::<AnyRule, _>::new(buf.view(), any).unwrap();
+        let mut decisions = 0;
+        for i in 0..2000 {
+            let codes = [400 + (i * 37) % 211];
+            let decision = typed.push(&codes);
+            assert_eq!(any.push(&codes), decision);
+            assert_eq!(any.posteriors(), typed.posteriors());
+            decisions += usize::from(decision.unwrap().is_some());
         }
-    );
-    assert_eq!(
-        Stationary::<1, 3>::new(&model).unwrap_err(),
-        SetupError::Classes {
-            model: 2,
-            classifier: 3
-        }
-    );
+        assert!(decisions > 10, "{decisions}");
+        assert_eq!(any.finish(), typed.finish());
+    }
+    let buf = two_normals(4);
+    let threshold = Threshold::new(0.75).unwrap();
+    same::<SequentialRule>(&buf, threshold, AnyRuleSettings::Sequential(threshold));
+    same::<WindowRule>(&buf, 40, AnyRuleSettings::Window(40));
+    let wrong = NaiveBayes::<AnyRule, _>::new(buf, AnyRuleSettings::Window(41));
+    let (window, block) = (41, 4);
+    assert_eq!(wrong.unwrap_err(), SetupError::Window { window, block });
 }
 
+/// One value owns model and evidence; it can go to another thread and start again.
 #[test]
-fn stationary_sums_whole_whisks() {
-    let buf = two_normals(20);
-    let model = buf.model().unwrap();
-    let rule = Stationary::<1, 2>::new(&model).unwrap();
-    let mut state = rule.state();
-    assert_eq!(rule.finish(&mut state), None);
-    // Every sample in full, whatever the block.
-    let codes = [430, 560, 610, 480, 390, 520, 515];
-    let ratio: f64 = codes.map(ln_ratio).iter().sum();
-    for code in codes {
-        assert_eq!(rule.push(&mut state, &[code]), None);
-    }
-    let decision = rule.finish(&mut state).unwrap();
-    assert_eq!(decision.class(), usize::from(ratio > 0.0));
-    assert_eq!(decision.samples(), 7);
-    let p = 1.0 / (1.0 + (-ratio.abs()).exp());
-    assert!((decision.posterior().to_f64() - p).abs() < 2e-3);
-    // And it starts again from nothing.
-    assert_eq!(rule.finish(&mut state), None);
-    rule.push(&mut state, &[700]);
-    let decision = rule.finish(&mut state).unwrap();
-    assert_eq!((decision.class(), decision.samples()), (1, 1));
+fn an_owned_classifier_is_sent_and_reset() {
+    let buf = two_normals(1);
+    let mut fresh = Window::new(buf.clone(), 5).unwrap();
+    let codes = [430, 560, 610, 480, 390];
+    let run = |c: &mut Window<_>| codes.map(|code| c.push(&[code]).unwrap());
+    let expected = run(&mut fresh.clone());
+    fresh.push(&[700]).unwrap();
+    let sent = std::thread::spawn(move || {
+        fresh.reset();
+        fresh
+    });
+    assert_eq!(run(&mut sent.join().unwrap()), expected);
+    assert!(expected[4].is_some());
 }
 
+/// A board's classifier lies in its RAM: counted in words, of which a pointer
+/// and a count are one each.
 #[test]
-fn stationary_outlasts_a_word() {
-    // Class 1 leads by one table unit a sample and channel; past 2³² in sum.
-    let unit = 1.0 / 1024.0;
-    let buf = model(
-        2,
-        12,
-        2,
-        20,
-        |_, _, class| if class == 1 { 0.0 } else { -unit },
-    );
-    let model = buf.model().unwrap();
-    let rule = Stationary::<12, 2>::new(&model).unwrap();
-    let mut state = rule.state();
-    let samples = 20_000;
-    for _ in 0..samples {
-        rule.push(&mut state, &[3; 12]);
-    }
-    let decision = rule.finish(&mut state).unwrap();
-    assert_eq!((decision.class(), decision.samples()), (1, samples));
-    assert!(decision.posterior().odds_against() < 1e-15);
-    for _ in 0..10 {
-        rule.push(&mut state, &[3; 12]);
-    }
-    let odds = rule.finish(&mut state).unwrap().posterior().odds_against();
-    assert!((odds / (-120.0 * unit).exp2() - 1.0).abs() < 1e-5);
-}
-
-#[test]
-fn state_is_a_few_words_a_class() {
-    const fn words<T>() -> usize {
-        size_of::<T>() / 4
-    }
-    assert_eq!(words::<State<SequentialEvidence<4>, 4>>(), 2 * 4 + 2);
-    assert_eq!(words::<State<SequentialEvidence<9>, 9>>(), 2 * 9 + 2);
-    // Double words, so padded to an even number.
-    assert_eq!(words::<State<Totals<4>, 4>>(), 3 * 4 + 4);
-    assert_eq!(words::<State<Totals<9>, 9>>(), 3 * 9 + 3);
+fn a_classifier_takes_a_few_hundred_bytes() {
+    const PC: usize = size_of::<Model>() + 2 * size_of::<u64>();
+    assert!(size_of::<Sequential>() - PC <= 480);
+    assert!(size_of::<Window>() - PC <= 624);
 }

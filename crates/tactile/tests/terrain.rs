@@ -2,10 +2,11 @@
 //! figures of an independent program, and agrees with double precision stream
 //! by stream.
 
-use tactile::dynamic::{self, Classifier};
 use tactile::reference::{Reference, ReferenceDecision, ReferenceRule};
 use tactile::train::{Options, Trainer};
-use tactile::{Decision, Model, ModelBuf, Threshold};
+use tactile::{
+    Decision, DecisionRule, ModelBuf, NaiveBayes, SequentialRule, Threshold, WindowRule,
+};
 
 type Row = (String, String, [f64; 2]);
 
@@ -46,13 +47,13 @@ fn terrain() -> Terrain {
 /// the same sample, each where there is one, with the true class.
 type Pair = (usize, Option<Decision>, Option<ReferenceDecision>);
 
-fn classify(
+fn classify<R: DecisionRule>(
     terrain: &Terrain,
-    make: impl for<'m> Fn(&Model<'m>) -> Box<dyn Classifier + 'm>,
+    settings: R::Settings,
     rule: ReferenceRule,
 ) -> Vec<Pair> {
-    let model = terrain.model.model().unwrap();
-    let mut fixed = make(&model);
+    let model = terrain.model.view();
+    let mut fixed = NaiveBayes::<R, _>::new(model, settings).unwrap();
     let reference = Reference::learn(&terrain.trainer).unwrap();
     let mut exact = reference.stream(rule);
     let quantisers = [0, 1].map(|c| model.quantiser(c).unwrap());
@@ -122,11 +123,8 @@ fn sequential_rule_gives_the_known_figures() {
     ];
     for (theta, rate, samples, decisions) in known {
         let threshold = Threshold::new(theta).unwrap();
-        let pairs = classify(
-            &terrain,
-            |model| dynamic::sequential(model, threshold).unwrap(),
-            ReferenceRule::Sequential(theta),
-        );
+        let exact = ReferenceRule::Sequential(theta);
+        let pairs = classify::<SequentialRule>(&terrain, threshold, exact);
         let found = score(&pairs);
         let (same, worst) = agreement(&pairs);
         println!("{theta}: {found:?}, same {same}, posterior within {worst:e}");
@@ -153,11 +151,8 @@ fn sequential_rule_gives_the_known_figures() {
 fn window_rule_gives_the_known_figures() {
     let terrain = terrain();
     for (window, rate) in [(120, 59.3), (200, 59.6), (260, 60.6)] {
-        let pairs = classify(
-            &terrain,
-            |model| dynamic::window(model, window).unwrap(),
-            ReferenceRule::Window(u64::from(window)),
-        );
+        let exact = ReferenceRule::Window(u64::from(window));
+        let pairs = classify::<WindowRule>(&terrain, window, exact);
         let found = score(&pairs);
         let (same, worst) = agreement(&pairs);
         println!("{window}: {found:?}, same {same}, posterior within {worst:e}");

@@ -4,7 +4,7 @@
 use core::marker::PhantomData;
 
 use firmware::{Classifying, ClassifyingConfig, CodeClassifier, Perception};
-use tactile::{Classes, Decision, Model, SequentialRule, Supported, Threshold, WindowRule};
+use tactile::{Decision, Model, NaiveBayes, SequentialRule, Threshold, WindowRule};
 
 use super::log;
 use super::scene::Number;
@@ -53,7 +53,7 @@ impl Names for () {
 }
 
 /// The model in flash knows.
-impl Names for Model<'static> {
+impl Names for Model {
     fn tell(&self, decided: Decision) {
         log::decision(self.name(decided.class()).unwrap_or("?"), decided);
     }
@@ -80,15 +80,12 @@ pub(crate) trait ByWindow: Classifies {
     const SAMPLES: u32;
 }
 
-/// One whisker, and a sequential classifier of `K` classes.
-pub(crate) struct Sequential<S, const K: usize>(PhantomData<S>);
+/// One whisker, and a sequential classifier.
+pub(crate) struct Sequential<S>(PhantomData<S>);
 
-impl<S: AtThreshold, const K: usize> Decides for Sequential<S, K>
-where
-    Classes<K>: Supported,
-{
-    type Perception = Classifying<CodeClassifier<'static, SequentialRule, K>>;
-    type Names = Model<'static>;
+impl<S: AtThreshold> Decides for Sequential<S> {
+    type Perception = Classifying<CodeClassifier<SequentialRule>>;
+    type Names = Model;
 
     const CONFIG: ClassifyingConfig<Number> = ClassifyingConfig {
         contact_min: S::CONTACT_MIN,
@@ -96,21 +93,18 @@ where
 
     fn start() -> Option<(Self::Perception, Self::Names)> {
         let model = Model::parse(S::model()).ok()?;
-        let classifier = tactile::Sequential::new(&model, S::THRESHOLD).ok()?;
-        let stream = CodeClassifier::new(&model, classifier).ok()?;
+        let classifier = NaiveBayes::new(model, S::THRESHOLD).ok()?;
+        let stream = CodeClassifier::new(classifier).ok()?;
         Some((Classifying::new(stream), model))
     }
 }
 
-/// One whisker, and a classifier of `K` classes by windows.
-pub(crate) struct Window<S, const K: usize>(PhantomData<S>);
+/// One whisker, and a classifier by windows.
+pub(crate) struct Window<S>(PhantomData<S>);
 
-impl<S: ByWindow, const K: usize> Decides for Window<S, K>
-where
-    Classes<K>: Supported,
-{
-    type Perception = Classifying<CodeClassifier<'static, WindowRule, K>>;
-    type Names = Model<'static>;
+impl<S: ByWindow> Decides for Window<S> {
+    type Perception = Classifying<CodeClassifier<WindowRule>>;
+    type Names = Model;
 
     const CONFIG: ClassifyingConfig<Number> = ClassifyingConfig {
         contact_min: S::CONTACT_MIN,
@@ -118,8 +112,8 @@ where
 
     fn start() -> Option<(Self::Perception, Self::Names)> {
         let model = Model::parse(S::model()).ok()?;
-        let classifier = tactile::Window::new(&model, S::SAMPLES).ok()?;
-        let stream = CodeClassifier::new(&model, classifier).ok()?;
+        let classifier = NaiveBayes::new(model, S::SAMPLES).ok()?;
+        let stream = CodeClassifier::new(classifier).ok()?;
         Some((Classifying::new(stream), model))
     }
 }

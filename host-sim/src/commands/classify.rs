@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use scene::Rule;
-use tactile::{Model, Quantiser, Threshold, dynamic};
+use tactile::{AnyRule, AnyRuleSettings, Model, NaiveBayes, Quantiser, Threshold};
 
 use crate::Error;
 use crate::classifier::{self, Fault};
@@ -24,9 +24,8 @@ pub fn classify(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let (path, buffer) = files::load_model(model)?;
-    let model = buffer.model().map_err(|error| Error::file(&path, error))?;
-    let mut classifier = Streamed::new(&model, rule).map_err(|fault| match fault {
+    let (path, model) = files::load_model(model)?;
+    let mut classifier = Streamed::new(model.view(), rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(fault),
     })?;
@@ -53,31 +52,33 @@ pub fn classify(
 
 /// A classifier with the names and quantisers of its model.
 struct Streamed<'m> {
-    classifier: Box<dyn dynamic::Classifier + 'm>,
+    classifier: NaiveBayes<AnyRule, &'m [u32]>,
     quantisers: [Quantiser; 2],
     names: Vec<String>,
 }
 
 impl<'m> Streamed<'m> {
-    fn new(model: &Model<'m>, rule: Rule) -> Result<Self, Fault> {
+    fn new(model: Model<&'m [u32]>, rule: Rule) -> Result<Self, Fault> {
         let (Some(x), Some(y), 2) = (model.quantiser(0), model.quantiser(1), model.channels())
         else {
             let fault = format!("the model has {} channels, not x and y", model.channels());
             return Err(Fault::Model(fault));
         };
-        let classifier = match rule {
-            Rule::Sequential { threshold } => {
-                let fault = |error| Fault::Rule(format!("--threshold {threshold}: {error}"));
-                let threshold = Threshold::new(threshold).map_err(fault)?;
-                dynamic::sequential(model, threshold).map_err(fault)?
-            }
-            Rule::Window { samples } => dynamic::window(model, samples)
-                .map_err(|error| Fault::Rule(format!("--window {samples}: {error}")))?,
+        let settings = match rule {
+            Rule::Sequential { threshold } => AnyRuleSettings::Sequential(
+                Threshold::new(threshold)
+                    .map_err(|error| Fault::Rule(format!("--threshold {threshold}: {error}")))?,
+            ),
+            Rule::Window { samples } => AnyRuleSettings::Window(samples),
         };
+        let classifier = NaiveBayes::new(model, settings).map_err(|error| match rule {
+            Rule::Sequential { .. } => Fault::Rule(error.to_string()),
+            Rule::Window { samples } => Fault::Rule(format!("--window {samples}: {error}")),
+        })?;
         Ok(Self {
             classifier,
             quantisers: [x, y],
-            names: classifier::names(model),
+            names: classifier::names(&model),
         })
     }
 

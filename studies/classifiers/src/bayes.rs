@@ -9,7 +9,7 @@
 //!   distances, whatever the texture.
 //!
 //! The rules are [`tactile::Sequential`], [`crate::Window`] and
-//! [`tactile::Stationary`] for all of these: what differs is the training data,
+//! [`crate::Stationary`] for all of these: what differs is the training data,
 //! which [`learn`] arranges. For the stream see [`crate::recogniser`]: a
 //! [`crate::recogniser::Picked`] with the same channels.
 
@@ -168,9 +168,8 @@ mod tests {
             .collect();
         let segments = training.iter().map(|(class, s)| (*class, s.as_slice()));
         let buf = learn(&NAMES, 2, &picked, segments, OPTIONS).unwrap();
-        let model = buf.model().unwrap();
-        assert!(model.names().eq(NAMES));
-        let mut recogniser = Picked::new(Bayes::stationary(&model).unwrap(), &picked);
+        assert!(buf.names().eq(NAMES));
+        let mut recogniser = Picked::new(Bayes::stationary(buf.view()).unwrap(), &picked);
         let mut confusion = Confusion::new(4);
         for n in 0..80 {
             let heard = segment(n % 4, 1000 + n as u32);

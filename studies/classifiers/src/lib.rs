@@ -4,6 +4,7 @@
 //!
 //! | module | decides | source |
 //! |---|---|---|
+//! | [`Stationary`] | by the largest evidence of naive Bayes over a whole whisk and all whiskers | BIOTACT eq. 15–16 |
 //! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
 //! | [`spectral_template`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
 //! | [`features`] | by a [`polynomial`] of peak, slope and spectrum | POSE eq. 3–7 |
@@ -46,9 +47,11 @@ pub mod spectral_template;
 #[cfg(feature = "train")]
 pub mod spectral_train;
 pub mod spectrum;
+mod stationary;
 pub mod template;
 #[cfg(feature = "train")]
 pub mod template_train;
 
 pub use choice::Choice;
 pub use fit_error::FitError;
+pub use stationary::{Stationary, StationaryRule};

@@ -7,14 +7,17 @@
 //! - **segment**: the samples of one trial, whisk or window.
 //! - **outcome**: the class that a recogniser names, and after how many samples.
 //!
-//! [`Bayes`] wraps the three rules of [`tactile::dynamic`]; [`Picked`] lets a
-//! recogniser hear only some channels (x alone, y alone, one whisker).
+//! [`Bayes`] wraps naive Bayes under three rules; [`Picked`] lets a recogniser
+//! take only some channels (x alone, y alone, one whisker).
 
 use std::boxed::Box;
 use std::vec::Vec;
 
-use tactile::dynamic::{self, Classifier};
-use tactile::{Decision, Model, Quantiser, SetupError, Threshold};
+use tactile::{
+    Decision, Model, NaiveBayes, Posteriors, Quantiser, Sequential, SetupError, Threshold, Window,
+};
+
+use crate::stationary::Stationary;
 
 /// What a recogniser found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,10 +120,29 @@ pub fn outcomes(
 
 /// Naive Bayes by the code of a board: samples become codes by the quantisers
 /// of the model.
+#[derive(Debug, Clone)]
 pub struct Bayes<'m> {
-    classifier: Box<dyn Classifier + 'm>,
+    classifier: Rules<'m>,
     quantisers: Vec<Quantiser>,
     codes: Vec<i32>,
+}
+
+#[derive(Debug, Clone)]
+enum Rules<'m> {
+    Sequential(Sequential<&'m [u32]>),
+    Window(Window<&'m [u32]>),
+    Stationary(Stationary<&'m [u32]>),
+}
+
+/// The same expression of the classifier, whatever its rule.
+macro_rules! each_rule {
+    ($rules:expr, $classifier:ident => $do:expr) => {
+        match $rules {
+            Rules::Sequential($classifier) => $do,
+            Rules::Window($classifier) => $do,
+            Rules::Stationary($classifier) => $do,
+        }
+    };
 }
 
 impl<'m> Bayes<'m> {
@@ -129,8 +151,8 @@ impl<'m> Bayes<'m> {
     /// # Errors
     ///
     /// None for a parsed model.
-    pub fn sequential(model: &Model<'m>, threshold: Threshold) -> Result<Self, SetupError> {
-        dynamic::sequential(model, threshold).map(|c| Self::new(model, c))
+    pub fn sequential(model: Model<&'m [u32]>, threshold: Threshold) -> Result<Self, SetupError> {
+        NaiveBayes::new(model, threshold).map(|c| Self::new(&model, Rules::Sequential(c)))
     }
 
     /// Maximum likelihood over windows (LEP10); see [`tactile::Window`].
@@ -138,21 +160,21 @@ impl<'m> Bayes<'m> {
     /// # Errors
     ///
     /// The window is zero or not a multiple of the model's block.
-    pub fn window(model: &Model<'m>, window: u32) -> Result<Self, SetupError> {
-        dynamic::window(model, window).map(|c| Self::new(model, c))
+    pub fn window(model: Model<&'m [u32]>, window: u32) -> Result<Self, SetupError> {
+        NaiveBayes::new(model, window).map(|c| Self::new(&model, Rules::Window(c)))
     }
 
     /// Stationary naive Bayes (BIOTACT eq. 15–16), which decides at the end of
-    /// a segment; see [`tactile::Stationary`].
+    /// a segment; see [`Stationary`].
     ///
     /// # Errors
     ///
     /// None for a parsed model.
-    pub fn stationary(model: &Model<'m>) -> Result<Self, SetupError> {
-        dynamic::stationary(model).map(|c| Self::new(model, c))
+    pub fn stationary(model: Model<&'m [u32]>) -> Result<Self, SetupError> {
+        NaiveBayes::new(model, ()).map(|c| Self::new(&model, Rules::Stationary(c)))
     }
 
-    fn new(model: &Model<'m>, classifier: Box<dyn Classifier + 'm>) -> Self {
+    fn new(model: &Model<&[u32]>, classifier: Rules<'m>) -> Self {
         let quantisers: Vec<_> = (0..model.channels())
             .filter_map(|channel| model.quantiser(channel))
             .collect();
@@ -164,8 +186,8 @@ impl<'m> Bayes<'m> {
     }
 
     /// Posterior of each class after the last full block.
-    pub fn posteriors(&self) -> Vec<f64> {
-        self.classifier.posteriors()
+    pub fn posteriors(&self) -> Posteriors {
+        each_rule!(&self.classifier, c => c.posteriors())
     }
 }
 
@@ -187,16 +209,16 @@ impl Recogniser for Bayes<'_> {
         self.codes.clear();
         let codes = self.quantisers.iter().zip(sample);
         self.codes.extend(codes.map(|(q, &x)| q.code_from_f64(x)));
-        let decision = self.classifier.push(&self.codes).ok().flatten();
-        decision.map(Outcome::from)
+        let pushed = each_rule!(&mut self.classifier, c => c.push(&self.codes));
+        pushed.ok().flatten().map(Outcome::from)
     }
 
     fn finish(&mut self) -> Option<Outcome> {
-        self.classifier.finish().map(Outcome::from)
+        each_rule!(&mut self.classifier, c => c.finish()).map(Outcome::from)
     }
 
     fn reset(&mut self) {
-        self.classifier.reset();
+        each_rule!(&mut self.classifier, c => c.reset());
     }
 }
 

@@ -1,9 +1,8 @@
 //! Recognisers answer as what they wrap, and refuse what does not fit.
 
 use classifiers::recogniser::{Bayes, Outcome, Picked, Recogniser, first_outcome, outcomes, pick};
-use tactile::Threshold;
-use tactile::dynamic;
 use tactile::train::{Options, Trainer};
+use tactile::{Sequential, Threshold};
 
 /// Channel 0 tells nothing, channel 1 is 0 or 1 but for one sample in ten.
 fn samples(class: usize) -> Vec<f64> {
@@ -32,11 +31,11 @@ fn rules_answer_as_they_do_without_a_wrapper() {
         }
     }
     let (buf, single) = (trainer.train().unwrap(), single.train().unwrap());
-    let (model, single) = (buf.model().unwrap(), single.model().unwrap());
+    let (model, single) = (buf.view(), single.view());
     let threshold = Threshold::new(0.99).unwrap();
     for class in 0..2 {
         let segment = samples(class);
-        let mut direct = dynamic::sequential(&model, threshold).unwrap();
+        let mut direct = Sequential::new(model, threshold).unwrap();
         let quantisers = [0, 1].map(|c| model.quantiser(c).unwrap());
         let expected: Vec<Outcome> = segment
             .chunks_exact(2)
@@ -45,7 +44,7 @@ fn rules_answer_as_they_do_without_a_wrapper() {
                 direct.push(&codes).unwrap().map(Outcome::from)
             })
             .collect();
-        let mut sequential = Bayes::sequential(&model, threshold).unwrap();
+        let mut sequential = Bayes::sequential(model, threshold).unwrap();
         assert!(expected.len() > 10 && expected.iter().all(|o| o.class == class));
         assert_eq!(outcomes(&mut sequential, &segment, 2), expected);
         assert_eq!(
@@ -58,14 +57,14 @@ fn rules_answer_as_they_do_without_a_wrapper() {
             samples: 600,
             value: None,
         });
-        let mut stationary = Bayes::stationary(&model).unwrap();
+        let mut stationary = Bayes::stationary(model).unwrap();
         assert_eq!(first_outcome(&mut stationary, &segment, 2), whole);
-        let mut y = Picked::new(Bayes::stationary(&single).unwrap(), &[1]);
+        let mut y = Picked::new(Bayes::stationary(single).unwrap(), &[1]);
         assert_eq!(first_outcome(&mut y, &segment, 2), whole);
-        let mut x = Picked::new(Bayes::stationary(&single).unwrap(), &[0]);
+        let mut x = Picked::new(Bayes::stationary(single).unwrap(), &[0]);
         assert_eq!(first_outcome(&mut x, &segment, 2).unwrap().class, 0);
 
-        let mut window = Bayes::window(&model, 60).unwrap();
+        let mut window = Bayes::window(model, 60).unwrap();
         let windows = outcomes(&mut window, &segment, 2);
         assert_eq!(windows.len(), 10);
         assert!(windows.iter().all(|o| (o.class, o.samples) == (class, 60)));
@@ -78,7 +77,7 @@ fn a_sample_of_other_channels_is_not_taken() {
     trainer.add("a", &[0.0, 0.0]).unwrap();
     trainer.add("b", &[900.0, 900.0]).unwrap();
     let buf = trainer.train().unwrap();
-    let mut r = Bayes::stationary(&buf.model().unwrap()).unwrap();
+    let mut r = Bayes::stationary(buf.view()).unwrap();
     assert_eq!(r.push(&[0.0]), None);
     assert_eq!(r.push(&[0.0; 3]), None);
     assert_eq!(r.finish(), None, "nothing was taken");

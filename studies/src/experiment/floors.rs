@@ -231,10 +231,10 @@ mod tests {
         let streams = streams();
         for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0)] {
             let buf = learn(&streams, &picked, 1).unwrap();
-            let model = buf.model().unwrap();
+            let model = buf.view();
             assert_eq!(model.bins(), 49, "1596 codes in bins of 32.77");
             let tally = Tally::of(&streams, || {
-                let bayes = Bayes::window(&model, 100);
+                let bayes = Bayes::window(model, 100);
                 let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
                 Ok(classifiers::recogniser::Picked::new(bayes, &picked))
             });

@@ -29,9 +29,9 @@ fn windows(
     validation: &[Stream],
     window: u32,
 ) -> Result<Tally, Error> {
-    let model = buf.model().map_err(refused)?;
+    let model = buf.view();
     Tally::of(validation, || {
-        let bayes = Bayes::window(&model, window).map_err(refused)?;
+        let bayes = Bayes::window(model, window).map_err(refused)?;
         Ok(Picked::new(bayes, picked))
     })
 }

@@ -1,6 +1,6 @@
 //! A classifier of one or two channels and what it heard.
 
-use tactile::{Classes, Model, Sequential, SequentialEvidence, State, Supported, Threshold};
+use tactile::{Model, Sequential, Threshold};
 
 /// Posterior at which a decision falls.
 pub const THRESHOLD: Threshold = match Threshold::new(0.99) {
@@ -40,35 +40,25 @@ pub fn block_9() -> &'static [u8] {
     model!("block9")
 }
 
-/// A classifier of `K` classes by `C` channels and its state.
+/// A sequential classifier of samples of `C` channels.
 #[derive(Debug)]
-pub struct Listener<const K: usize, const C: usize = 2>
-where
-    Classes<K>: Supported,
-{
-    classifier: Sequential<'static, C, K>,
-    state: State<SequentialEvidence<K>, K>,
-}
+pub struct Listener<const C: usize>(Sequential);
 
-impl<const K: usize, const C: usize> Listener<K, C>
-where
-    Classes<K>: Supported,
-{
-    /// Listens by a model of `K` classes.
+impl<const C: usize> Listener<C> {
+    /// With this model.
     ///
     /// # Panics
     /// If the build script made another.
     pub fn new(model: &'static [u8]) -> Self {
         let model = Model::parse(model).expect("a model");
-        let classifier = Sequential::new(&model, THRESHOLD).expect("C channels, K classes");
-        let state = classifier.state();
-        Self { classifier, state }
+        assert_eq!(model.channels(), C);
+        Self(Sequential::new(model, THRESHOLD).expect("any model has this rule"))
     }
 
     /// The samples that a decision used; 0: none fell.
     #[inline]
     pub fn push(&mut self, codes: [i32; C]) -> u32 {
-        let decision = self.classifier.push(&mut self.state, &codes);
+        let decision = self.0.push(&codes).ok().flatten();
         decision.map_or(0, |decision| decision.samples())
     }
 }

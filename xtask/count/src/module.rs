@@ -109,7 +109,7 @@ impl Clock for Counter {
 
 type Motor = HBridge<Compare, Pin>;
 type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
-type Perception = Classifying<CodeClassifier<'static, SequentialRule, 9>>;
+type Perception = Classifying<CodeClassifier<SequentialRule>>;
 
 /// A module and the last event that it told.
 #[derive(Debug)]
@@ -141,8 +141,8 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     /// If the build script made another model than this needs.
     pub fn new(start: &Start<R, S, N>) -> Self {
         let model = Model::parse(open_9()).expect("a model");
-        let classifier = Sequential::new(&model, THRESHOLD).expect("two channels, nine classes");
-        let stream = CodeClassifier::new(&model, classifier).expect("learnt from codes");
+        let classifier = Sequential::new(model, THRESHOLD).expect("any model has this rule");
+        let stream = CodeClassifier::new(classifier).expect("learnt from codes");
         let servos = core::array::from_fn(|_| {
             core::array::from_fn(|_| {
                 let motor = HBridge::new(Compare(0), Pin(false)).with_buffered_pwm();

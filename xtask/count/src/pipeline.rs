@@ -14,7 +14,7 @@ use crate::samples::frame;
 pub struct Channel<R: Format> {
     filters: [filter::State<R>; 2],
     pd: pd::State<R>,
-    listener: Listener<9>,
+    listener: Listener<2>,
     counts: i32,
 }
 

@@ -206,8 +206,8 @@ fn bayes<'w>(
         }
     }
     let buf = trainer.train().map_err(refused)?;
-    let model = buf.model().map_err(refused)?;
-    let bayes = Bayes::stationary(&model).map_err(refused)?;
+    let model = buf.view();
+    let bayes = Bayes::stationary(model).map_err(refused)?;
     Ok(share(&mut Picked::new(bayes, picked), task, validation))
 }
 

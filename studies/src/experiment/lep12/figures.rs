@@ -40,7 +40,7 @@ pub(super) fn all(
 fn distributions(section: &mut Section, groups: &[Group]) -> Result<(), Error> {
     let mut panels = Vec::new();
     for group in groups {
-        let model = group.model()?;
+        let model = group.model.view();
         for (channel, axis) in ["x", "y"].into_iter().enumerate() {
             let Some(q) = model.quantiser(channel) else {
                 continue;
@@ -127,12 +127,12 @@ fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Resu
 
 /// Fig. 7: posteriors of one stretch of rough carpet.
 fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
-    let model = group.model()?;
+    let model = group.model.view();
     let never = Threshold::new(1.0 - 1e-12).map_err(refused)?;
     let Some(stream) = group.validation.first() else {
         return Ok(());
     };
-    let mut bayes = Bayes::sequential(&model, never).map_err(refused)?;
+    let mut bayes = Bayes::sequential(model, never).map_err(refused)?;
     let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
     let mut passed = FIG7.map(|_| None);
     let block = BLOCK as usize;
@@ -143,13 +143,13 @@ fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Err
         }
         let time_s = (n + 1) as f64 / rate_hz;
         let posteriors = bayes.posteriors();
-        let most = posteriors.iter().copied().fold(0.0, f64::max);
+        let most = posteriors.to_f64().fold(0.0, f64::max);
         for (found, (threshold, _)) in passed.iter_mut().zip(FIG7) {
             if most > threshold && found.is_none() {
                 *found = Some(time_s);
             }
         }
-        for (curve, p) in curves.iter_mut().zip(posteriors) {
+        for (curve, p) in curves.iter_mut().zip(posteriors.to_f64()) {
             curve.points.push((time_s, p));
         }
     }
@@ -177,7 +177,7 @@ fn decision_times(section: &mut Section, group: &Group, rate_hz: f64) -> Result<
     /// Width of a bar, s, and how many there are.
     const BAR_S: f64 = 0.02;
     const BARS: usize = 40;
-    let model = group.model()?;
+    let model = group.model.view();
     let mut panels: Vec<(usize, Vec<Curve>)> = (0..FLOORS.len()).map(|k| (k, Vec::new())).collect();
     let mut means = Vec::new();
     for theta in FIG8_THRESHOLDS {
@@ -191,7 +191,7 @@ fn decision_times(section: &mut Section, group: &Group, rate_hz: f64) -> Result<
                 .iter()
                 .filter(|stream| stream.floor == *floor)
             {
-                let mut bayes = Bayes::sequential(&model, threshold).map_err(refused)?;
+                let mut bayes = Bayes::sequential(model, threshold).map_err(refused)?;
                 for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
                     let time_s = f64::from(outcome.samples) / rate_hz;
                     let bar = ((time_s / BAR_S) as usize).min(BARS - 1);

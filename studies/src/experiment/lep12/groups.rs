@@ -2,7 +2,7 @@
 //! curves of hit rate against time.
 
 use classifiers::recogniser::Bayes;
-use tactile::{Model, ModelBuf, Threshold};
+use tactile::{ModelBuf, Threshold};
 
 use crate::experiment::floors::{Floors, Half, Stream, Tally, learn};
 use crate::experiment::paper::lep12::{MOTIONS, TIME_S};
@@ -59,15 +59,11 @@ impl Group {
         MOTIONS.iter().zip(motions).map(group).collect()
     }
 
-    pub(super) fn model(&self) -> Result<Model<'_>, Error> {
-        self.model.model().map_err(refused)
-    }
-
     pub(super) fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point, Error> {
-        let model = self.model()?;
+        let model = self.model.view();
         let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
         let tally = Tally::of(&self.validation, || {
-            Bayes::sequential(&model, threshold).map_err(refused)
+            Bayes::sequential(model, threshold).map_err(refused)
         })?;
         Ok(Point {
             parameter: 1.0 - doubt,
@@ -77,9 +73,9 @@ impl Group {
     }
 
     pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
-        let model = self.model()?;
+        let model = self.model.view();
         let tally = Tally::of(&self.validation, || {
-            Bayes::window(&model, window).map_err(refused)
+            Bayes::window(model, window).map_err(refused)
         })?;
         Ok(Point {
             parameter: f64::from(window),

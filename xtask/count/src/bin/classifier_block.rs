@@ -10,9 +10,9 @@ program!(kernels);
 
 fn kernels() {
     kernel!("integer": "classifier push and end of block K=4",
-        (codes: Two<i32>, listener: &mut Listener<4>) -> u32 { listener.push([codes.0, codes.1]) },
+        (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(block_4()));
     kernel!("integer": "classifier push and end of block K=9",
-        (codes: Two<i32>, listener: &mut Listener<9>) -> u32 { listener.push([codes.0, codes.1]) },
+        (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(block_9()));
 }

@@ -10,12 +10,12 @@ program!(kernels);
 
 fn kernels() {
     kernel!("integer": "classifier push K=4",
-        (codes: Two<i32>, listener: &mut Listener<4>) -> u32 { listener.push([codes.0, codes.1]) },
+        (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(open_4()));
     kernel!("integer": "classifier push of one channel K=4",
-        (code: i32, listener: &mut Listener<4, 1>) -> u32 { listener.push([code]) },
+        (code: i32, listener: &mut Listener<1>) -> u32 { listener.push([code]) },
         |call| codes(call).0, Listener::new(single_4()));
     kernel!("integer": "classifier push K=9",
-        (codes: Two<i32>, listener: &mut Listener<9>) -> u32 { listener.push([codes.0, codes.1]) },
+        (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
         codes, Listener::new(open_9()));
 }

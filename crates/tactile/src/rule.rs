@@ -1,0 +1,46 @@
+//! What a rule is: when to decide, from the sums of blocks.
+
+use crate::decision::Decision;
+use crate::error::SetupError;
+use crate::evidence::EvidenceScale;
+use crate::model::Model;
+
+/// When a [`crate::NaiveBayes`] decides. Sums are log-likelihoods, an entry of
+/// the table a sample and channel, one sum a class of the model.
+pub trait DecisionRule: Sized {
+    /// What it is made from, beside the model.
+    type Settings;
+
+    /// What is kept from block to block.
+    type Evidence: Clone + core::fmt::Debug;
+
+    /// The rule for a model.
+    ///
+    /// # Errors
+    ///
+    /// The settings do not fit the model.
+    fn new<W: AsRef<[u32]>>(model: &Model<W>, settings: Self::Settings)
+    -> Result<Self, SetupError>;
+
+    /// Samples in a block; not zero.
+    fn interval(&self) -> u32;
+
+    /// Evidence of equal priors.
+    fn start(&self) -> Self::Evidence;
+
+    /// Takes in the sums of a full block; a decision starts again from the prior.
+    fn end_of_block(&self, sums: &[u32], evidence: &mut Self::Evidence) -> Option<Decision>;
+
+    /// The end of a whisk or of a recording, with `samples` in the open block.
+    /// Rules that decide on the way drop what is left.
+    fn finish(&self, _sums: &[u32], _samples: u32, _evidence: Self::Evidence) -> Option<Decision> {
+        None
+    }
+
+    /// How far each class lies behind the leader, in units of [`Self::scale`];
+    /// `deficits` has a place for each class.
+    fn deficits(&self, evidence: &Self::Evidence, deficits: &mut [u32]);
+
+    /// The scale of the deficits.
+    fn scale(&self) -> EvidenceScale;
+}

@@ -1,0 +1,142 @@
+//! The stationary rule against closed forms, at its limits and against double
+//! precision.
+
+#[path = "../../../crates/tactile/tests/common/mod.rs"]
+mod common;
+
+use classifiers::Stationary;
+use common::model;
+use proptest::prelude::*;
+use tactile::ModelBuf;
+use tactile::reference::{Reference, ReferenceRule};
+use tactile::train::{Options, Trainer};
+
+/// Two classes of normal codes, means 400 and 600, sd 150, in 100 bins. The
+/// likelihood ratio of code x in sd units is closed: (x − 500) · 200 / 150².
+fn two_normals(block: u32) -> ModelBuf {
+    model(2, 1, 100, block, |bin, _, class| {
+        let x = 10.0 * bin as f64 + 5.0;
+        let mean = [400.0, 600.0][class];
+        let z = (x - mean) / 150.0;
+        // Bin width over sd times the density.
+        (10.0 / 150.0 / (2.0 * std::f64::consts::PI).sqrt()).log2()
+            - 0.5 * z * z * std::f64::consts::LOG2_E
+    })
+}
+
+fn ln_ratio(code: i32) -> f64 {
+    let middle = 10.0 * f64::from(code / 10) + 5.0;
+    (middle - 500.0) * 200.0 / (150.0 * 150.0)
+}
+
+#[test]
+fn stationary_sums_whole_whisks() {
+    let buf = two_normals(20);
+    let model = buf.view();
+    let mut c = Stationary::new(model, ()).unwrap();
+    assert_eq!(c.finish(), None);
+    // Every sample in full, whatever the block.
+    let codes = [430, 560, 610, 480, 390, 520, 515];
+    let ratio: f64 = codes.map(ln_ratio).iter().sum();
+    for code in codes {
+        assert_eq!(c.push(&[code]).unwrap(), None);
+    }
+    let decision = c.finish().unwrap();
+    assert_eq!(decision.class(), usize::from(ratio > 0.0));
+    assert_eq!(decision.samples(), 7);
+    let p = 1.0 / (1.0 + (-ratio.abs()).exp());
+    assert!((decision.posterior().to_f64() - p).abs() < 2e-3);
+    // And it starts again from nothing.
+    assert_eq!(c.finish(), None);
+    c.push(&[700]).unwrap();
+    let decision = c.finish().unwrap();
+    assert_eq!((decision.class(), decision.samples()), (1, 1));
+}
+
+#[test]
+fn stationary_outlasts_a_word() {
+    // Class 1 leads by one table unit a sample and channel; past 2³² in sum.
+    let unit = 1.0 / 1024.0;
+    let buf = model(
+        2,
+        12,
+        2,
+        20,
+        |_, _, class| if class == 1 { 0.0 } else { -unit },
+    );
+    let model = buf.view();
+    let mut c = Stationary::new(model, ()).unwrap();
+    let samples = 20_000;
+    for _ in 0..samples {
+        c.push(&[3; 12]).unwrap();
+    }
+    let decision = c.finish().unwrap();
+    assert_eq!((decision.class(), decision.samples()), (1, samples));
+    assert!(decision.posterior().odds_against() < 1e-15);
+    for _ in 0..10 {
+        c.push(&[3; 12]).unwrap();
+    }
+    let odds = c.finish().unwrap().posterior().odds_against();
+    assert!((odds / (-120.0 * unit).exp2() - 1.0).abs() < 1e-5);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// On sensor codes, fixed point and reference give the same posterior, for
+    /// any bins, smoothing and number of classes.
+    #[test]
+    fn fixed_point_agrees_with_the_reference(
+        classes in 2_usize..=9,
+        bins in 1_usize..200,
+        smooth in 0.0_f64..10.0,
+        data in prop::collection::vec((0.0_f64..1.0, 0_i32..4096, 0_i32..4096), 300..600),
+    ) {
+        let names: Vec<String> = (0..classes).map(|k| format!("k{k}")).collect();
+        let mut trainer = Trainer::new(2, Options { bins, smooth, block: 5 }).unwrap();
+        for &(place, x, y) in &data {
+            let class = (place * classes as f64) as usize;
+            // Classes differ in the spread of x and the level of y.
+            let sample = [f64::from(x / (1 + class as i32)), f64::from(y / 2 + 200 * class as i32)];
+            trainer.add(&names[class], &sample).unwrap();
+        }
+        prop_assume!(trainer.names().len() == classes);
+        let buf = trainer.train().unwrap();
+        let reference = Reference::learn(&trainer).unwrap();
+        let mut fixed = Stationary::new(buf.view(), ()).unwrap();
+        let mut exact = reference.stream(ReferenceRule::Stationary);
+        for (_, sample) in trainer.samples().take(20) {
+            let codes: Vec<i32> = sample.iter().enumerate()
+                .map(|(c, &x)| buf.quantiser(c).unwrap().code_from_f64(x))
+                .collect();
+            fixed.push(&codes).unwrap();
+            exact.push(sample);
+        }
+        let (f, e) = (fixed.finish().unwrap(), exact.finish().unwrap());
+        prop_assert_eq!(u64::from(f.samples()), e.samples);
+        prop_assert!((f.posterior().to_f64() - e.posterior).abs() < 7e-3);
+    }
+
+    /// A channel that says nothing changes nothing. Odd and even numbers of
+    /// classes.
+    #[test]
+    fn any_number_of_channels_gives_the_same_bits(
+        classes in 2_usize..=32,
+        table in prop::collection::vec(0.0_f64..19.9, 8 * 2 * 32),
+        codes in prop::collection::vec((-100_i32..1100, any::<i32>()), 200),
+    ) {
+        let entry = |bin: usize, channel: usize, class: usize| -table[(bin * 2 + channel) * 32 + class];
+        let two = model(classes, 2, 8, 10, entry);
+        let three = model(classes, 3, 8, 10, |bin, channel, class| {
+            if channel < 2 { entry(bin, channel, class) } else { -7.0 }
+        });
+        let mut two = Stationary::new(two, ()).unwrap();
+        let mut three = Stationary::new(three, ()).unwrap();
+        for &(x, y) in &codes {
+            two.push(&[x, y]).unwrap();
+            three.push(&[x, y, x ^ y]).unwrap();
+        }
+        prop_assert_eq!(two.posteriors(), three.posteriors());
+        prop_assert_eq!(two.finish().unwrap(), three.finish().unwrap());
+    }
+}
