@@ -27,9 +27,9 @@ pub(crate) fn check(values: &Values, text: &mut Text<'_>) {
     }
 }
 
-/// Makes the values of a file without problems those of the scene: one number
-/// for all whiskers becomes one for each, and a default goes where its key would
-/// be an error.
+/// Completes the values of a file without problems: one number for all whiskers
+/// becomes one for each, and the default of a key that would be an error here is
+/// removed.
 pub(crate) fn settle(values: &mut Values) {
     let whiskers = match head(values) {
         Some((sides, Some(whiskers))) => sides * whiskers,

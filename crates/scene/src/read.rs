@@ -1,8 +1,8 @@
-//! From TOML to checked values, key by key as the catalogue has it.
+//! From TOML to checked values, key by key as the sections declare them.
 //!
-//! This stage sees each key alone; [`crate::rules`] then looks at keys together.
-//! A misspelt section or key is reported and then read as what it was taken
-//! for, so that one slip does not bring a train of others.
+//! This stage checks each key alone; [`crate::presence`] and [`crate::rules`]
+//! then check keys against each other. A misspelt section or key is reported and
+//! then read as the one that was meant, so that one slip causes one message.
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};

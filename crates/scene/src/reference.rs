@@ -1,4 +1,4 @@
-//! The reference page of scene files, written from the catalogue.
+//! The reference page of scene files, written from the declarations.
 
 use std::fmt::Write;
 
@@ -12,11 +12,11 @@ const EXAMPLE: &str = include_str!("example.toml");
 /// The reference page of scene files, in Markdown: every section and key with
 /// type, range, unit, default and meaning.
 ///
-/// It is written from the same catalogue that files are checked against.
+/// It is written from the declarations that files are checked against.
 pub fn reference() -> String {
     let mut page = String::from(
         "# Scene files\n\n\
-         <!-- Generated from the catalogue in crates/scene; do not edit by hand. -->\n\n\
+         <!-- Generated from crates/scene/src/sections by `cargo xtask docs`; do not edit by hand. -->\n\n\
          One TOML file says what a module is and what happens to it. The simulator runs it on a \
          PC, and the firmware is built from the same file. What a scene does not name is left \
          out: not computed in the simulation, not linked into the firmware.\n\n\

@@ -99,7 +99,7 @@ keys! {
     /// A shaft; all whiskers of a head have the same.
     #[derive(Copy)]
     pub struct ShaftChoice {
-        /// The whiskers' shaft: a paper's, or `own`: the numbers that follow.
+        /// The whiskers' shaft: that of a paper, or `own` with the keys that follow.
         shaft: ShaftName = word().default("\"biotact-middle\"").only_if(WHISKER),
 
         /// Its numbers; there exactly when `shaft` is [`ShaftName::Own`].

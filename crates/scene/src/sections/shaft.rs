@@ -40,7 +40,7 @@ keys! {
     /// to tip, on a hinge spring.
     #[derive(Copy)]
     pub struct ShaftNumbers {
-        /// Length.
+        /// Length of the shaft.
         length_m: f64 = own(1e-3..=1.0).unit("m"),
 
         /// Diameter at the base; at most a fifth of the length.
@@ -49,16 +49,16 @@ keys! {
         /// Diameter at the tip; at most a fifth of the length.
         tip_diameter_m: f64 = own(1e-6..=0.2).unit("m"),
 
-        /// Young's modulus.
+        /// Young's modulus of the material.
         youngs_pa: f64 = own(1e5..=1e12).unit("Pa"),
 
-        /// Density.
+        /// Density of the material.
         density_kg_m3: f64 = own(10.0..=3e4).unit("kg/m³"),
 
-        /// Of every mode.
+        /// Damping ratio of every mode.
         damping_ratio: f64 = own(1e-4..=0.99),
 
-        /// Rotational stiffness of what holds the base.
+        /// Rotational stiffness of the follicle, which holds the base.
         follicle_n_m_rad: f64 = own(1e-9..=1e6).unit("N m/rad"),
     }
 }

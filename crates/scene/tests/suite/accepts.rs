@@ -149,6 +149,7 @@ fn textured_surfaces_keep_their_order() {
         (plant.kind, plant.textured),
         (PlantKind::Textured, Some(expected))
     );
+    assert_eq!(plant.shaft, None, "its default is the elastic whisker's");
 }
 
 #[test]
