@@ -76,7 +76,7 @@ fn needed_section(section: &Section, given: Given, values: &Values, text: &mut T
     if values.section(needed).is_none() {
         let found = format!("found without [{needed}]");
         let allowed = format!(
-            "[{}] acts on whisking: add [{needed}], or leave [{}] out",
+            "[{}] acts on {needed}: add [{needed}], or leave [{}] out",
             section.name, section.name
         );
         text.report(given.offset, section.title(), found, allowed);
