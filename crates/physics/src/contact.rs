@@ -50,7 +50,7 @@ pub(crate) struct Force {
 
 impl Problem {
     /// The force; none where the gap is open without one.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn solve(&self) -> Force {
         if self.gap >= 0.0 {
             return Force::default();
@@ -82,6 +82,7 @@ impl Problem {
     }
 
     /// The force that holds the tip: (W + 1/k) F = −(g, ξ), by Cramer's rule.
+    #[inline(always)]
     fn stick(&self) -> [f64; 3] {
         let [[nn, na, nb], [_, aa, ab], [_, _, bb]] = self.response;
         let (nn, aa, bb) = (
@@ -106,6 +107,7 @@ impl Problem {
     /// and m = M_nt. Sought is the e that is opposed to the slip r = ξ + m N +
     /// μ N M_tt e: the root of r·e⊥, by Newton's method on the circle, between
     /// two directions that it lies between.
+    #[inline(always)]
     fn slip(&self, held: [f64; 3]) -> Force {
         let [[nn, na, nb], [_, aa, ab], [_, _, bb]] = self.response;
         let nn = nn + self.springs[0];
@@ -120,8 +122,8 @@ impl Problem {
         if mu <= 0.0 {
             return found;
         }
-        let against = [-(s + na * loose), -(t + nb * loose)];
-        let Some(mut e) = direction(self.near).or_else(|| direction(against)) else {
+        let against = || [-(s + na * loose), -(t + nb * loose)];
+        let Some(mut e) = direction(self.near).or_else(|| direction(against())) else {
             return found;
         };
         let (mut low, mut high) = (None, None);
@@ -158,7 +160,11 @@ impl Problem {
             let less = pull * steep / own * (steep + mu * (along[1] * x - along[0] * y));
             let turned = bb * x * x + aa * y * y - 2.0 * ab * x * y;
             let change = opposed + pull * turned - less;
-            *(if off < 0.0 { &mut low } else { &mut high }) = Some(e);
+            if off < 0.0 {
+                low = Some(e);
+            } else {
+                high = Some(e);
+            }
             let step = if change > off.abs() {
                 -off / change
             } else {

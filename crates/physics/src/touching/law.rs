@@ -97,6 +97,13 @@ fn kept(share: f64) -> f64 {
     (1.0 - 1.0 / share).max(0.0)
 }
 
+/// The force of a problem without friction. Apart: it is rare.
+#[cold]
+#[inline(never)]
+fn frictionless(problem: &Problem) -> Force {
+    problem.solve()
+}
+
 impl Body {
     /// The law for parts of the length `part_s`.
     #[inline]
@@ -114,7 +121,7 @@ impl Body {
     #[inline]
     pub(super) fn solve(&self, part: &Part<'_>, frame: Frame, end: [f64; 2]) -> Solved {
         let compliance = &part.law.compliance;
-        let middle = [0, 1].map(|i| f64::midpoint(part.start[i], end[i]));
+        let middle = [0, 1].map(|i| 0.5 * part.start[i] + 0.5 * end[i]);
         let ways = self.shaft.ways(middle, part.pose);
         let local = ways.map(|way| frame.local(way));
         let [u, v] = [0, 1].map(|i| part.free[i] - part.start[i]);
@@ -169,7 +176,7 @@ impl Body {
             // What slides before it touches down can do this; without friction,
             // nothing does.
             problem.friction = 0.0;
-            force = problem.solve();
+            force = frictionless(&problem);
             pushed = on_axes(&force);
             left_j = left(&force, pushed);
         }
