@@ -50,7 +50,7 @@ pub(crate) struct Force {
 
 impl Problem {
     /// The force; none where the gap is open without one.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn solve(&self) -> Force {
         if self.gap >= 0.0 {
             return Force::default();
@@ -82,7 +82,6 @@ impl Problem {
     }
 
     /// The force that holds the tip: (W + 1/k) F = −(g, ξ), by Cramer's rule.
-    #[inline(always)]
     fn stick(&self) -> [f64; 3] {
         let [[nn, na, nb], [_, aa, ab], [_, _, bb]] = self.response;
         let (nn, aa, bb) = (
@@ -107,7 +106,6 @@ impl Problem {
     /// and m = M_nt. Sought is the e that is opposed to the slip r = ξ + m N +
     /// μ N M_tt e: the root of r·e⊥, by Newton's method on the circle, between
     /// two directions that it lies between.
-    #[inline(always)]
     fn slip(&self, held: [f64; 3]) -> Force {
         let [[nn, na, nb], [_, aa, ab], [_, _, bb]] = self.response;
         let nn = nn + self.springs[0];

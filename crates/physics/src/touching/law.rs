@@ -97,13 +97,6 @@ fn kept(share: f64) -> f64 {
     (1.0 - 1.0 / share).max(0.0)
 }
 
-/// The force of a problem without friction. Apart: it is rare.
-#[cold]
-#[inline(never)]
-fn frictionless(problem: &Problem) -> Force {
-    problem.solve()
-}
-
 impl Body {
     /// The law for parts of the length `part_s`.
     #[inline]
@@ -176,7 +169,7 @@ impl Body {
             // What slides before it touches down can do this; without friction,
             // nothing does.
             problem.friction = 0.0;
-            force = frictionless(&problem);
+            force = problem.solve();
             pushed = on_axes(&force);
             left_j = left(&force, pushed);
         }
