@@ -93,6 +93,7 @@ pub struct Servo<R, M, A> {
     /// Counts at rest, θ = 0, and at the last tick.
     home: i32,
     counts: i32,
+    stall: StallConfig,
     guard: StallGuard,
     /// Ticks of rest left after a fault; 0: running.
     rest: u16,
@@ -109,7 +110,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             pd: pd::State::default(),
             home,
             counts: home,
-            guard: StallGuard::new(stall),
+            stall,
+            guard: StallGuard::default(),
             rest: 0,
         }
     }
@@ -122,7 +124,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     fn off(&mut self) {
         self.motor.off();
         self.pd = pd::State::default();
-        self.guard.reset();
+        self.guard = StallGuard::default();
     }
 
     /// One tick towards protraction `setpoint`; off while `valid` is false.
@@ -146,7 +148,10 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         let at = counts.wrapping_sub(self.home);
         let duty = config.pd.step(&mut self.pd, setpoint, at, moved);
         // A rotor that stands on an edge of its encoder flickers by a count.
-        let done = if self.guard.update(duty, moved.unsigned_abs() > 1) {
+        let done = if self
+            .guard
+            .update(self.stall, duty, moved.unsigned_abs() > 1)
+        {
             Err(motor::Fault::Stall)
         } else {
             self.motor.drive(duty)

@@ -1,4 +1,4 @@
-//! What is wrong with settings: one small value that names the parameter.
+//! The error of settings: one small value that names the parameter.
 
 use core::fmt;
 use core::ops::RangeInclusive;
@@ -31,7 +31,7 @@ pub enum Parameter {
 /// A setting is not finite or outside its range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Error {
-    /// Which one.
+    /// The setting.
     pub parameter: Parameter,
 }
 

@@ -4,16 +4,16 @@
 //! A first-order section and a second-order one with damping k = 1, both in
 //! trapezoidal state-variable form with g = tan(π f_c T). That is exactly the
 //! bilinear transform pre-warped at f_c, but the coefficients stay well scaled
-//! at any tick rate, where those of a direct form crowd around 1 and 2 and
-//! single precision loses three digits.
+//! at any tick rate; those of a direct form crowd around 1 and 2, which costs
+//! single precision three digits.
 //!
 //! The second-order section in full, with a = 1/(1 + g + g²) and v₃ its input
-//! less s₂: v₁ = a (s₁ + g v₃), v₂ = s₂ + g v₁, and each state moves by twice
-//! what v exceeds it. With the inner state kept as p = g s₁/2 the increment
-//! g v₁ is q = 2 a p + g² a v₃, and as 2 a = 2 − 2 (g + g²) a, the same sum
-//! that leads to it is the new p: two products where the states as they stand
-//! take four. In fixed point the output rests within 2^-28/(g² a) of what it
-//! follows: 6.5e-7 at 2 kHz, 6.1e-5 at 20 kHz, half a sensor's step.
+//! minus s₂: v₁ = a (s₁ + g v₃), v₂ = s₂ + g v₁, s₁ and s₂ change by twice
+//! (v₁ − s₁) and (v₂ − s₂). With the inner state kept as p = g s₁/2, the increment
+//! g v₁ is 2 a p + g² a v₃, which is p plus the new p, because
+//! 2 a = 2 − 2 (g + g²) a: two products instead of four. In fixed point the output
+//! settles within 2^-28/(g² a) of a constant input: 6.5e-7 at 2 kHz, 6.1e-5 at
+//! 20 kHz, half a sensor's step.
 
 use core::f64::consts::PI;
 
@@ -28,12 +28,12 @@ pub const CORNER_HZ: f64 = 50.0;
 pub struct Config<R: Real> {
     /// g/(1 + g) of the first-order section.
     pub first: R::Coefficient,
-    /// 2 (g + g²) and g² over 1 + g + g²: what the second-order section's inner
-    /// state gives up, and what it takes in.
+    /// 2 (g + g²) and g² over 1 + g + g²: decay of the second-order section's
+    /// inner state, and weight of its input.
     pub second: [R::Coefficient; 2],
 }
 
-/// What the filter remembers; the default is rest.
+/// The filter's state; the default is rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
     first: R,
@@ -42,7 +42,7 @@ pub struct State<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// A filter with its corner (−3.01 dB) at `corner_hz`, run `tick_hz` times a second.
+    /// A filter with its corner (−3.01 dB) at `corner_hz`, for `tick_hz` samples per second.
     ///
     /// # Errors
     /// [`Parameter::Corner`] unless 0 < `corner_hz` < `tick_hz`/2.
@@ -62,17 +62,17 @@ impl<R: Real> Config<R> {
         })
     }
 
-    /// One sample in, one sample out. Gain 1 at zero frequency; the output of
-    /// an input within ±1 stays within ±1.2 (overshoot of a third-order
-    /// Butterworth filter to the worst bounded input).
+    /// Filters one sample. The gain at zero frequency is 1; for inputs within ±1
+    /// the output stays within ±1.2, the overshoot of a third-order Butterworth
+    /// filter for the worst bounded input.
     #[inline]
     pub fn process(&self, state: &mut State<R>, x: R) -> R {
         let half = (x - state.first).times(self.first);
         let y = state.first + half;
         state.first = y + half;
 
-        // In increments: the coefficients are small at high tick rates, and so
-        // is what rounding does to them.
+        // In increments: at high tick rates the coefficients are small, and so
+        // are their rounding errors.
         let [leak, into] = self.second;
         let [p, s2] = state.second;
         let next = p - p.times(leak) + (y - s2).times(into);
@@ -88,7 +88,7 @@ mod tests {
     use super::{CORNER_HZ, Config, State};
     use core::f64::consts::PI;
 
-    /// Amplitude that the filter leaves of a sine of `hz`, by correlation over whole periods.
+    /// Gain at `hz`, by correlation with a sine over whole periods.
     fn gain(hz: f64, tick_hz: f64) -> f64 {
         let config = Config::<f64>::new(CORNER_HZ, tick_hz).unwrap();
         let mut state = State::default();

@@ -3,33 +3,33 @@
 
 use crate::{Integrator, Real};
 
-/// By how much contact has raised z of a side above 0, or g of a whisker above
-/// its nominal value; and what rounding took from its decay.
+/// How far contact has raised z of a side above 0, or g of a whisker above its
+/// nominal value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gate<R: Real> {
-    /// Its value, not negative.
+    /// The value at the end of the tick, not negative.
     pub value: R,
-    /// Its mean over this tick: it decays until contact is sampled again, or
-    /// stays where contact holds it.
+    /// The mean over the tick, in which the value decays or is held by contact.
     pub mean: R,
+    /// Rounding error of a slow decay.
     carry: R::Carry,
 }
 
-/// What one tick takes of an exponential decay.
+/// One tick of an exponential decay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
 pub struct Decay<R: Real> {
-    /// 1 − exp(−T/τ), or its first-order value T/τ in the papers' integrator,
-    /// at most 1.
+    /// The fraction that a tick removes: 1 − exp(−T/τ), or T/τ, at most 1, in the
+    /// papers' integrator.
     pub tick: R::Fine,
-    /// The same of half a tick, for the mean; 0 in the papers' integrator.
+    /// The same for half a tick, for the mean; 0 in the papers' integrator.
     pub half: R::Coefficient,
-    /// So slow that what rounding takes must be remembered.
+    /// Whether the decay is so slow that its rounding errors must be carried.
     pub slow: bool,
 }
 
-/// Below this share of a tick rounding would take a noticeable part of a decay
-/// in single precision.
+/// A decay that removes less than this per tick loses a noticeable part of it
+/// to rounding in single precision.
 const SLOW: f64 = 1.0 / 256.0;
 
 /// Rapid cessation of protraction (eq. 10): z = ⟨max(z − decay · z, σ_z π)⟩ on \[0, 1\].
@@ -53,8 +53,8 @@ pub struct Cia<R: Real> {
     pub gain: R::Coefficient,
 }
 
-/// The part of an exponential decay that one tick takes, 1 − exp(−T/τ) or its
-/// first-order value T/τ; `ticks` is τ/T.
+/// The fraction that a tick removes, 1 − exp(−T/τ) or its first-order value
+/// T/τ; `ticks` is τ/T.
 fn share(ticks: f64, integrator: Integrator) -> f64 {
     match integrator {
         Integrator::Euler => 1.0 / ticks,
@@ -65,8 +65,8 @@ fn share(ticks: f64, integrator: Integrator) -> f64 {
 impl<R: Real> Decay<R> {
     /// For `ticks` = τ/T.
     pub(crate) fn new(ticks: f64, integrator: Integrator) -> Self {
-        // A share above 1 would take a gate below its rest, where contact, which
-        // is not negative, holds it at once: the same as a share of 1.
+        // A share above 1 would make the gate negative; contact, which is not
+        // negative, would then set it at once, as it does after a share of 1.
         let tick = share(ticks, integrator).min(1.0);
         let half = match integrator {
             Integrator::Euler => 0.0,
@@ -90,13 +90,9 @@ impl<R: Real> Gate<R> {
         }
     }
 
-    /// Decays, but not below `floor`; always within 0..=`top`. A floor that is
-    /// not a number raises nothing.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "not inlined, it would fetch constants that the caller knows"
-    )]
+    /// Decays, but not below `floor`; always within 0..=`top`. A floor of NaN is
+    /// ignored.
+    #[inline]
     fn step(&mut self, decay: &Decay<R>, floor: R, top: R) {
         if decay.slow {
             self.value.decay(&mut self.carry, decay.tick);
@@ -120,8 +116,8 @@ impl<R: Real> Rcp<R> {
 }
 
 impl<R: Real> Cia<R> {
-    /// A tick of what lifts g of a whisker above `nominal`, with the array's
-    /// strongest contact `zeta` (eq. 14). g is always within \[0, 2\].
+    /// A tick of the lift of g above `nominal`, with the array's strongest
+    /// contact `zeta` (eq. 14). g is always within \[0, 2\].
     #[inline]
     pub fn step(&self, lift: &mut Gate<R>, nominal: R, zeta: R) {
         lift.step(&self.decay, zeta.times(self.gain), R::TWO - nominal);
@@ -154,7 +150,7 @@ mod tests {
         assert_eq!(z.value, 1.0);
     }
 
-    /// No contact that is not a number leaves a gate that is not a number.
+    /// A contact of NaN or infinity leaves a gate that is a number.
     #[test]
     fn a_gate_recovers_from_anything() {
         let rcp = rcp::<f32>(250.0);
@@ -213,10 +209,9 @@ mod tests {
         assert!((Decay::<f64>::new(4.0, Integrator::Exact).tick - 0.221_199_2).abs() < 1e-7);
     }
 
-    /// 1 − T/τ is negative for τ < T; the larger of that and of what contact
-    /// asks for is the latter.
+    /// 1 − T/τ is negative for τ < T, so the demand of contact is the larger.
     #[test]
-    fn a_decay_shorter_than_a_tick_leaves_what_contact_asks_for() {
+    fn a_decay_shorter_than_a_tick_leaves_the_demand_of_contact() {
         let rcp = Rcp {
             decay: Decay::<f64>::new(0.1, Integrator::Euler),
             gain: 0.7,
@@ -226,7 +221,7 @@ mod tests {
         assert_eq!(z.value, 0.35);
         rcp.step(&mut z, 0.0);
         assert_eq!(z.value, 0.0);
-        // A contact that is not a number asks for nothing, and all decays.
+        // A contact of NaN demands nothing, and all decays.
         z = Gate::new(1.0);
         rcp.step(&mut z, f64::NAN);
         assert_eq!((z.value, z.mean), (0.0, 0.0));

@@ -12,15 +12,15 @@
 //!
 //! - *protraction*: the whisker sweeping forward; the sign of a positive
 //!   [`Duty`].
-//! - *duty*: the fraction of the supply put across the motor, signed.
-//! - *off*: no phase driven by us. The H-bridge stands at PWM zero (most
+//! - *duty*: the fraction of the supply voltage applied to the motor, signed.
+//! - *off*: no phase is driven. The H-bridge is at a PWM of zero (most
 //!   bridges brake there); the three-phase stage has all phases floating.
 //! - *tick*: one call of `drive`, 500 µs apart at BIOTACT's 2 kHz.
-//! - *sector*: a sixth of an electrical turn, 60°, as told by three Hall
+//! - *sector*: a sixth of an electrical turn, 60°, as given by three Hall
 //!   sensors.
 //! - *lead*: the electrical angle from the rotor's magnet to the driven field;
-//!   torque goes with its sine.
-//! - *stall*: driven hard and not moving, the state that burns windings.
+//!   torque is proportional to its sine.
+//! - *stall*: driven hard without moving, which overheats windings.
 //! - *buffered PWM*: a timer whose compare value takes effect only at the next
 //!   PWM period ("preload"), so that a pin written later changes earlier.
 //!
@@ -42,17 +42,17 @@ pub use duty::Duty;
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
-pub use six_step::{SixStep, SixStepConfig};
+pub use six_step::{SixStep, SixStepConfig, SixStepState};
 pub use stall::{StallConfig, StallGuard};
 
 /// What the control loop needs of a motor.
 ///
-/// Call [`drive`](Self::drive) once a tick; an error means that the motor has
+/// Call [`drive`](Self::drive) once per tick; an error means that the motor has
 /// been switched off and stays off until [`clear`](Self::clear).
 pub trait MotorDriver {
     /// Drives with the given duty until the next call.
     ///
-    /// While a fault stands, the outputs are switched off anew and the same
+    /// While a fault stands, the outputs are switched off again and the same
     /// fault is returned.
     ///
     /// # Errors
@@ -63,17 +63,17 @@ pub trait MotorDriver {
     /// Switches the motor off.
     ///
     /// Always returns, and tries every output even when one fails; a failure
-    /// is kept as a fault and told by the next [`drive`](Self::drive).
+    /// becomes a fault, which the next [`drive`](Self::drive) returns.
     fn off(&mut self);
 
-    /// Forgets the fault. The motor stays off until the next
+    /// Clears the fault. The motor stays off until the next
     /// [`drive`](Self::drive).
     fn clear(&mut self);
 }
 
 /// Why a motor was switched off.
 ///
-/// Numbers (see [`Fault::code`]) never change meaning; 0 is left for "none".
+/// Numbers (see [`Fault::code`]) never change meaning; 0 is reserved for "none".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
     /// 1: a pin could not be read or written. Likely cause: an I/O expander
@@ -110,7 +110,7 @@ impl Fault {
         }
     }
 
-    /// The fault with a number, for readers of telemetry; none for a number
+    /// The fault with a number, for readers of telemetry; `None` for a number
     /// not in use. 4 becomes [`Fault::InvalidHall`]`(7)`, the only code it is
     /// given for in practice.
     pub const fn from_code(code: u8) -> Option<Self> {

@@ -3,10 +3,10 @@
 //! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1,
 //! m = T_W²/100 and ν = 4 √(k m): natural frequency ω_n = 10 f_W rad/s, damping
 //! ratio 2. With f = W exp(−θ²), the force per gain a = 1.45 (1 − z) g, and
-//! v = (dθ/dt)/ω_n, the equation is θ' = h v, v' = h (a f − θ − 4 v) a tick,
-//! h = ω_n T: linear in (θ, v) with input a f, and every state near one.
+//! v = (dθ/dt)/ω_n, the equations per tick are θ' = h v, v' = h (a f − θ − 4 v)
+//! with h = ω_n T: linear in (θ, v) with input a f, and every state is near one.
 //!
-//! Two integrators: [`Euler`] is the papers', step for step; [`Exact`]
+//! There are two integrators: [`Euler`] is the papers', step for step; [`Exact`]
 //! propagates the linear part exactly.
 
 mod config;
@@ -30,16 +30,16 @@ const DAMPING: f64 = 4.0;
 
 /// Steps a muscle.
 pub trait MuscleIntegrator<R: Real> {
-    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9, `before`
-    /// and `after` the drive W at the two ends of the tick.
+    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9; `before` and
+    /// `after` are the drive W at the two ends of the tick.
     ///
-    /// The force is between 0 and 1 and both integrators are bounded for bounded
-    /// forces: where the drives are those of an oscillator from the start on, |θ|
-    /// stays below 2.5 and what is kept below 5, at any f_W T and for any gains.
+    /// The force is between 0 and 1, and both integrators are bounded for bounded
+    /// forces: with the drives of an oscillator from the start on, |θ| stays below
+    /// 2.5 and the rest of the state below 5, at any f_W T and for any gains.
     fn step(&self, state: &mut State<R>, gain: R, before: R, after: R);
 }
 
-/// f at the last tick and its backward differences; unused by Euler.
+/// f at the last tick and its backward differences; [`Euler`] does not use them.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct History<R> {
@@ -47,12 +47,12 @@ pub struct History<R> {
     pub force: [R; 4],
 }
 
-/// θ of one whisker and what its integrator keeps beside it.
+/// θ of one whisker and the rest of its integrator's state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R: Real> {
     /// Protraction θ; θ' = 100 θ + 50 degrees.
     pub theta: R,
-    /// Of [`Euler`] v and nothing, of [`Exact`] its slow and its fast lag.
+    /// v and 0 with [`Euler`], the slow and the fast lag with [`Exact`].
     kept: [R; 2],
     carry: R::Carry,
     history: History<R>,
@@ -76,13 +76,13 @@ pub(crate) fn pace(cycles: f64) -> f64 {
     STIFFNESS * cycles
 }
 
-/// dv/dt in ticks at `theta` and `velocity` under the force `push` = a f.
+/// T dv/dt at `theta` and `velocity` under the force `push` = a f.
 pub(crate) fn acceleration(cycles: f64, [theta, velocity]: [f64; 2], push: f64) -> f64 {
     pace(cycles) * (push - theta - DAMPING * velocity)
 }
 
 impl<R: Real> State<R> {
-    /// At rest with these forces behind it.
+    /// At rest, with the forces before the start.
     pub fn new(history: History<R>) -> Self {
         Self {
             history,
@@ -90,8 +90,8 @@ impl<R: Real> State<R> {
         }
     }
 
-    /// What the integrator keeps beside θ: v of [`Euler`] and nothing, or the
-    /// lags of [`Exact`]. For reports of what stays in its bounds.
+    /// The integrator's state beside θ: v and 0 with [`Euler`], the slow and the
+    /// fast lag with [`Exact`]. For checks of its bounds.
     pub const fn kept(&self) -> [R; 2] {
         self.kept
     }

@@ -1,9 +1,9 @@
 //! The oscillators' noise (BIOTACT eq. 5): seeded white Gaussian numbers through H50.
 //!
 //! Gaussian numbers come from the inverse of the normal distribution function,
-//! tabulated at a constant number of points an octave of probability and
-//! interpolated linearly: one random word, a count of leading zeros and a
-//! multiplication each, in integers, so the same on every machine.
+//! tabulated at a constant number of points per octave of probability and
+//! interpolated linearly. Each takes one random word, a count of leading zeros
+//! and a multiplication, in integers: the numbers are the same on every machine.
 
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro128PlusPlus;
@@ -14,7 +14,7 @@ use crate::oscillator::Psi;
 use crate::{Error, Real};
 
 /// The tick rate at which σ_η is defined (BIOTACT: T = 500 µs), Hz. White noise
-/// of one variance a tick has a spectral density that falls with the tick rate;
+/// of one variance per tick has a spectral density that falls with the tick rate;
 /// the amplitude is scaled so that the noise below 50 Hz is the papers' at any rate.
 pub const REFERENCE_TICK_HZ: f64 = 2000.0;
 
@@ -32,7 +32,7 @@ const fn slope(x: f64) -> f64 {
 }
 
 /// Integrates the quantile function down from the median with classical
-/// Runge-Kutta steps; within 1e-6 of the truth everywhere in the table.
+/// Runge-Kutta steps; error at most 1e-6 everywhere in the table.
 const fn quantiles() -> [i32; OCTAVES * SEGMENTS + 1] {
     let mut table = [0; OCTAVES * SEGMENTS + 1];
     let mut x = 0.0;
@@ -81,14 +81,14 @@ fn normal_q24(word: u32) -> i32 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::noise))]
 pub struct Config<R: Real> {
-    /// 4 T σ_η √(tick rate/2 kHz): what is filtered is a quarter of η, so that
-    /// no format has to hold 4.9.
+    /// 4 T σ_η √(tick rate/2 kHz): the filter's input is a quarter of η, because
+    /// fixed point cannot hold 4.9.
     pub amplitude: R::Fine,
     /// H50 at this tick rate.
     pub filter: filter::Config<R>,
 }
 
-/// The generator and one filter for each oscillator state.
+/// The random generator, and a filter for each state of the oscillators.
 #[derive(Debug, Clone)]
 pub struct State<R, const S: usize> {
     random: Xoshiro128PlusPlus,
@@ -108,7 +108,7 @@ impl<R: Real> Config<R> {
         })
     }
 
-    /// T P_i of this tick for every oscillator state.
+    /// T P_i of this tick for each state of the oscillators.
     #[inline]
     pub fn step<const S: usize>(&self, state: &mut State<R, S>) -> [Psi<R>; S] {
         let State { random, filters } = state;
@@ -158,7 +158,7 @@ mod tests {
             let u = (f64::from(word >> 1) + 0.5) / 2.0_f64.powi(32);
             let x = f64::from(normal_q24(word & !1)) / Q24;
             if u > 1e-5 {
-                // Slope of the quantile turns its error of 2e-3 into one of probability.
+                // The quantile's error of 2e-3 as one of probability.
                 let density = (-x * x / 2.0).exp() / 2.506_628;
                 assert!(
                     (distribution(-x) - u).abs() < 2e-3 * density + 1e-9,

@@ -1,12 +1,12 @@
 //! The two coupled oscillators (BIOTACT eqs. 1 to 5).
 //!
 //! In Cartesian form dψ_i/dt = ((1 − r)/(τ_r r)) ψ_i + ω J ψ_i + (ψ_j1 − ψ_i1, 0)/τ_11
-//! with ω = 2π f_W, J = (0, −1; 1, 0) and τ_r = τ_11 = 2 T_W: no angle, sine or
-//! cosine in the tick. At the origin, where eq. 3 has no direction, the radial
+//! with ω = 2π f_W, J = (0, −1; 1, 0) and τ_r = τ_11 = 2 T_W, which needs no
+//! angle, sine or cosine in the tick. At the origin, where eq. 3 has no direction, the radial
 //! force pushes along +ψ_1.
 //!
-//! Two integrators: [`Euler`] is the papers', step for step; [`Exact`] composes
-//! parts that are each solved exactly.
+//! There are two integrators: [`Euler`] is the papers', step for step; [`Exact`]
+//! composes parts that are each solved exactly.
 
 mod config;
 mod euler;
@@ -18,7 +18,7 @@ pub use config::Config;
 pub use euler::Euler;
 pub(crate) use euler::field;
 pub(crate) use exact::keep;
-pub use exact::{Exact, Linear, Turn};
+pub use exact::{Exact, Turn};
 
 use crate::Real;
 
@@ -34,15 +34,15 @@ const TAU_PERIODS: f64 = 2.0;
 /// The oscillators of all sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State<R: Real, const S: usize> {
-    /// What the integrator keeps of ψ.
+    /// ψ in the form that the integrator keeps.
     kept: [Psi<R>; S],
-    /// What rounding took from its sums.
+    /// Rounding errors of its sums.
     carry: [[R::Carry; 2]; S],
 }
 
 impl<R: Real, const S: usize> State<R, S> {
     /// From [`Start::oscillators`](crate::Start::oscillators): ψ itself for
-    /// [`Euler`], half a tick before it by modes for [`Exact`].
+    /// [`Euler`], the modes half a tick earlier for [`Exact`].
     pub fn new(kept: [Psi<R>; S]) -> Self {
         Self {
             kept,
@@ -76,7 +76,7 @@ fn limited<R: Real>(psi: Psi<R>) -> Psi<R> {
     psi.map(|x| x.clamp(-psi_limit::<R>(), psi_limit()))
 }
 
-/// The pull of `share` of the way towards the unit circle; along +ψ_1 at the origin.
+/// `share` of the way to the unit circle; along +ψ_1 at the origin.
 #[inline]
 fn pull<R: Real>([a, b]: Psi<R>, share: R::Fine) -> Psi<R> {
     match R::unit(a, b) {

@@ -1,11 +1,11 @@
 //! Position control: proportional to the error, derivative on the measurement
-//! (a jump of the setpoint does not kick), limited in size and in slew.
+//! (so that a jump of the setpoint does not kick), limited in size and slew.
 //!
-//! Positions are protractions θ (θ' = 100 θ + 50 degrees), the output is a duty
-//! in −1..=1: u = ⟨k_p (⟨s⟩ − x) − k_d dx/dt⟩, dx/dt smoothed by a first-order
-//! low-pass because an encoder's steps are coarse against one tick. The duty
-//! and its limits are integers in every number format: they end in a timer's
-//! register, and integers are limited at half the cost.
+//! Positions are protractions θ (θ' = 100 θ + 50 degrees); the output is a duty
+//! within ±1: u = ⟨k_p (⟨s⟩ − x) − k_d dx/dt⟩, dx/dt smoothed by a first-order
+//! low-pass because the steps of an encoder are coarse compared with a tick. The
+//! duty and its limits are integers in every number format, as a timer's register
+//! takes them.
 
 use crate::motor::Duty;
 use crate::ranges::pd as ranges;
@@ -14,8 +14,8 @@ use crate::{DEGREES_PER_UNIT, Error, Parameter, Real, protraction};
 /// Corner of the low-pass on the measured velocity, Hz.
 const VELOCITY_CORNER_HZ: f64 = 100.0;
 
-/// A duty of one, for what the controller remembers: Q24, so that the slowest
-/// slew is not lost in rounding.
+/// A duty of one in the controller's state: Q24, so that the slowest slew is not
+/// lost in rounding.
 const FULL: f64 = 16_777_216.0;
 
 /// Gains and limits in physical units.
@@ -38,17 +38,17 @@ pub struct Settings {
     pub degrees_per_count: f64,
 }
 
-/// The same a tick and a unit of protraction.
+/// The same per tick and per unit of protraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::pd))]
 pub struct Config<R: Real> {
-    /// Duty a unit of error.
+    /// k_p, duty per unit of error.
     pub kp: R::Coefficient,
-    /// Duty a unit a tick.
+    /// k_d, duty per unit per tick.
     pub kd: R::Coefficient,
-    /// Share of a new velocity reading in the smoothed one.
+    /// Weight of a new velocity in the smoothed one.
     pub smooth: R::Coefficient,
-    /// Protraction a count of the encoder.
+    /// Protraction per count of the encoder.
     pub theta_per_count: R::Coefficient,
     /// Lowest setpoint.
     pub min: R,
@@ -56,23 +56,31 @@ pub struct Config<R: Real> {
     pub max: R,
     /// Largest duty, Q24.
     pub limit: i32,
-    /// Largest change of the duty a tick, Q24.
+    /// Largest change of the duty per tick, Q24.
     pub slew: i32,
 }
 
-/// What the controller remembers. The default is a motor that is off.
+/// The controller's state, with the terms of the last tick for a log. The default
+/// is that of a motor that is off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
-    velocity: R,
-    output: i32,
+    /// Proportional term k_p (⟨s⟩ − x), a duty before its limits.
+    pub p: R,
+    /// Derivative term −k_d dx/dt, a duty before its limits.
+    pub d: R,
+    /// dx/dt, smoothed: protraction per tick.
+    pub velocity: R,
+    /// The duty after its limits, Q24.
+    pub command: i32,
 }
 
 impl Settings {
-    /// Constants for `tick_hz` ticks a second.
+    /// The constants at `tick_hz` ticks per second.
     ///
     /// # Errors
-    /// [`Parameter::Pd`] if a value is not finite, negative where it must not
-    /// be, or the lowest setpoint is not below the highest.
+    /// [`Parameter::Pd`] if a value is outside its range in
+    /// [`ranges::pd`](crate::ranges::pd), or the highest setpoint is below the
+    /// lowest.
     pub fn build<R: Real>(&self, tick_hz: f64) -> Result<Config<R>, Error> {
         let check = |value, range: &_| Error::check(Parameter::Pd, value, range);
         check(tick_hz, &(f64::MIN_POSITIVE..=f64::MAX))?;
@@ -98,21 +106,22 @@ impl Settings {
 }
 
 impl<R: Real> Config<R> {
-    /// One tick: where the whisker should be as a protraction, where it is in
-    /// counts from θ = 0, and by how many counts it `moved` since the last
-    /// tick (0 in the first); to a duty within ±`limit` that differs from the
-    /// last by at most `slew`.
+    /// One tick, from the setpoint as a protraction, the measured angle in encoder
+    /// counts from θ = 0, and the counts `moved` since the last tick (0 in the
+    /// first). The duty is within ±`limit` and differs from the last one by at
+    /// most `slew`.
     #[inline]
     pub fn step(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
         let measured = R::from_counts(counts, self.theta_per_count);
         let moved = R::from_counts(moved, self.theta_per_count);
         state.velocity = state.velocity + (moved - state.velocity).times(self.smooth);
         let error = setpoint.clamp(self.min, self.max) - measured;
-        let wanted = error.times(self.kp) - state.velocity.times(self.kd);
-        let wanted = wanted.to_q24().clamp(-self.limit, self.limit);
+        state.p = error.times(self.kp);
+        state.d = -state.velocity.times(self.kd);
+        let wanted = (state.p + state.d).to_q24().clamp(-self.limit, self.limit);
         // Both are within ±2^24.
-        state.output += (wanted - state.output).clamp(-self.slew, self.slew);
-        Duty::from_q24(state.output)
+        state.command += (wanted - state.command).clamp(-self.slew, self.slew);
+        Duty::from_q24(state.command)
     }
 }
 
@@ -130,7 +139,7 @@ mod tests {
         max_deg: 150.0,
         degrees_per_count: 0.01,
     };
-    /// A step of the duty, and half of one of rounding.
+    /// A step of the duty, plus half a step of rounding.
     const STEP: f64 = 5e-5;
 
     fn fraction<R: Real>(
@@ -157,7 +166,7 @@ mod tests {
         }
         check::<f64>(STEP);
         check::<f32>(STEP);
-        // The angle of a count has 16 bits: 3e-5 of half a unit, times k_p.
+        // The angle per count has 16 bits: an error of 3e-5 of half a unit, times k_p.
         check::<Fix>(STEP + 8e-5);
     }
 
@@ -173,6 +182,9 @@ mod tests {
             duty = fraction(&pd, &mut state, setpoint, counts, 5);
         }
         assert!((duty + 0.1).abs() < STEP, "{duty}");
+        // k_d times 100 degrees a second, 5e-4 units a tick.
+        assert!((state.d + 0.1).abs() < 1e-9 && state.p.abs() < 1e-9);
+        assert!((state.velocity - 5e-4).abs() < 1e-9);
     }
 
     #[test]
@@ -201,8 +213,8 @@ mod tests {
         }
     }
 
-    /// A slew of one a second at 20 kHz is 838.9 in Q24 and less than two steps
-    /// of the duty.
+    /// A slew of one per second at 20 kHz is 838.9 per tick in Q24, less than two
+    /// steps of the duty.
     #[test]
     fn the_slowest_slew_is_kept() {
         let mut settings = SETTINGS;

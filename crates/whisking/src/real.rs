@@ -12,14 +12,14 @@ use crate::Elementary;
 
 pub use fix::{Factor, Factors, FineFactor, Fix};
 
-/// A constant of the tick, as configurations hold it; with the feature `bake`
-/// one that can be written as Rust source.
+/// A constant of the tick as a configuration holds it. With the feature `bake`
+/// it can also be written as Rust source.
 #[cfg(not(feature = "bake"))]
 pub trait Constant: Copy + Debug + PartialEq + 'static {}
 #[cfg(not(feature = "bake"))]
 impl<T: Copy + Debug + PartialEq + 'static> Constant for T {}
 
-/// A constant of the tick, as configurations hold it, that can be written as
+/// A constant of the tick as a configuration holds it, which can be written as
 /// Rust source.
 #[cfg(feature = "bake")]
 pub trait Constant:
@@ -32,8 +32,8 @@ impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize
 /// A number format of the tick.
 ///
 /// States lie within ±4. Constants of the tick have types of their own,
-/// because in fixed point a small constant needs a scale of its own to keep
-/// its digits.
+/// because in fixed point a small constant keeps its digits only with a scale
+/// of its own.
 pub trait Real:
     Constant
     + Elementary
@@ -44,16 +44,16 @@ pub trait Real:
     + Mul<Output = Self>
     + Neg<Output = Self>
 {
-    /// A constant of the tick, to multiply with.
+    /// A factor; relative error up to 3.1e-5 in fixed point.
     type Coefficient: Constant;
 
-    /// A constant below one whose error would gather over many ticks.
+    /// A factor below one whose error would accumulate over many ticks.
     type Fine: Constant;
 
-    /// `K` constants below one of the tick that are used together and share a scale.
+    /// `K` factors below one that are used together and share a scale.
     type Row<const K: usize>: Constant;
 
-    /// What rounding took from a long sum.
+    /// Rounding error that a long sum carries along.
     type Carry: Copy + Debug + Default + PartialEq + 'static;
 
     /// 0.
@@ -69,55 +69,54 @@ pub trait Real:
     /// The same value in f64. For reports, not for the tick.
     fn to_f64(self) -> f64;
 
-    /// The nearest coefficient. For configurations, not for the tick.
+    /// The nearest factor. For configurations, not for the tick.
     fn coefficient(value: f64) -> Self::Coefficient;
 
-    /// The nearest fine constant. For configurations, not for the tick.
+    /// The nearest fine factor. For configurations, not for the tick.
     fn fine(value: f64) -> Self::Fine;
 
     /// The nearest row. For configurations, not for the tick.
     fn row<const K: usize>(values: [f64; K]) -> Self::Row<K>;
 
-    /// The product with a fine constant.
+    /// The product with a fine factor.
     fn times_fine(self, factor: Self::Fine) -> Self;
 
-    /// Half of it.
+    /// Half of the number.
     fn halved(self) -> Self;
 
-    /// Itself, or the nearest number within ±1/2 in a format whose sums would
-    /// else overflow.
+    /// The number, limited to ±1/2 in a format whose sums would otherwise
+    /// overflow.
     fn within_half(self) -> Self;
 
-    /// The product, for a number below 2, with one of a magnitude up to 4 of
-    /// which four digits do.
+    /// The product of a number below 2 with one within ±4 of which four digits
+    /// are enough.
     fn rough(self, other: Self) -> Self;
 
     /// Σ x_k c_k, which must stay within ±8.
     fn dot<const K: usize>(x: [Self; K], row: &Self::Row<K>) -> Self;
 
-    /// The product with a constant.
+    /// The product with a factor.
     fn times(self, factor: Self::Coefficient) -> Self;
 
-    /// `counts` times a constant.
+    /// `counts` times a factor.
     fn from_counts(counts: i32, factor: Self::Coefficient) -> Self;
 
     /// `value` / 2^24.
     fn from_q24(value: i32) -> Self;
 
-    /// `code`/8191, the normalised value of a reading of 14 bits about its
-    /// middle, |code| ≤ 8191.
+    /// `code`/8191 for |code| ≤ 8191: a signed 14-bit reading, normalised.
     fn from_code(code: i16) -> Self;
 
     /// The value in Q24, rounded towards zero or downwards; saturates, and NaN
     /// gives 0.
     fn to_q24(self) -> i32;
 
-    /// Adds `increment`, and what rounding took from the last addition: a sum
-    /// of many small steps keeps its accuracy.
+    /// Adds `increment` and the rounding error of the last addition, so that a
+    /// sum of many small steps stays accurate.
     fn accumulate(&mut self, carry: &mut Self::Carry, increment: Self);
 
-    /// Loses the share `share` of itself, however small: what rounding takes is
-    /// remembered.
+    /// Decays by the fraction `share`, however small: `carry` holds the rounding
+    /// error.
     fn decay(&mut self, carry: &mut Self::Carry, share: Self::Fine);
 
     /// |x|.
@@ -132,8 +131,8 @@ pub trait Real:
         if self > other { self } else { other }
     }
 
-    /// The nearest number in `lo..=hi`; NaN gives `lo`, the side on which
-    /// every caller is safe.
+    /// The nearest number in `lo..=hi`; NaN gives `lo`, which is safe for every
+    /// caller.
     #[inline]
     fn clamp(self, lo: Self, hi: Self) -> Self {
         if self > lo {

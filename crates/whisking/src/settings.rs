@@ -1,4 +1,4 @@
-//! What a user sets, in physical units, and its check.
+//! Settings in physical units, and their check.
 
 use crate::step::Config;
 use crate::{Error, Integrator, Parameter, Real};
@@ -22,7 +22,7 @@ pub struct Settings {
     pub frequency_hz: f64,
     /// Which integrator.
     pub integrator: Integrator,
-    /// Whether the sides pull each other into phase (eq. 4).
+    /// Whether the sides are coupled (eq. 4).
     pub coupling: bool,
     /// σ_η of eq. 5, within [`ranges::NOISE`]; 0 leaves the noise out.
     pub noise: f64,
@@ -41,7 +41,7 @@ impl GateSettings {
 }
 
 impl Settings {
-    /// Whisks a tick, f_W T.
+    /// Whisks per tick, f_W T.
     pub(crate) fn cycles(&self) -> f64 {
         self.frequency_hz / self.tick_hz
     }

@@ -1,27 +1,26 @@
-//! Where a run starts: the given ψ, whiskers at rest, and a past for the
+//! The start of a run: the given ψ, whiskers at rest, and a past for the
 //! multistep integrator.
 //!
-//! A multistep method needs forces from before the start. There were none, but
-//! any past will do with which the first ticks come out right: the quartic
-//! through the first five forces of the run, which the same equations give by
-//! fine steps, is continued backwards. This happens in f64 once, outside the
-//! tick.
+//! A multistep method needs forces from before the start. The quartic through
+//! the first five forces of the run, computed from the same equations in fine
+//! steps, is continued backwards; with that past the first ticks are as accurate
+//! as the later ones. It is computed once, in f64, outside the tick.
 
 use crate::muscle::{self, History, PEAK_GAIN, acceleration, pace};
 use crate::oscillator::{self, PSI_LIMIT, Psi, field};
 use crate::{Error, Integrator, Parameter, Real, Settings, Start, ranges};
 
-/// Substeps a tick of the fourth-order Runge-Kutta method.
+/// Substeps per tick of the fourth-order Runge-Kutta method.
 const SUBSTEPS: usize = 32;
 
-/// ψ of all sides and (θ, v) of one whisker of side `side`.
+/// ψ of all sides and (θ, v) of one whisker.
 #[derive(Clone, Copy)]
 struct Joint<const S: usize> {
     psi: [Psi<f64>; S],
     whisker: [f64; 2],
 }
 
-/// One whisker's equations in ticks: what [`Joint`] changes a tick.
+/// One whisker's equations, which give the change of a [`Joint`] per tick.
 struct Equations {
     cycles: f64,
     coupling: bool,
@@ -66,7 +65,7 @@ impl<const S: usize> Joint<S> {
     }
 }
 
-/// Force of a whisker of side `side`.
+/// Force f of a whisker of side `side`.
 fn force<const S: usize>(joint: &Joint<S>, side: usize) -> f64 {
     muscle::force(muscle::drive(joint.psi[side][0]), joint.whisker[0])
 }
@@ -162,7 +161,7 @@ mod tests {
     use super::{Equations, Joint};
     use crate::{Fix, Integrator, PatternGenerator, Real, Settings, State};
 
-    /// Largest error of θ' in degrees over ten whisks against 64 Runge-Kutta steps a tick.
+    /// Largest error of θ' in degrees over ten whisks against 64 Runge-Kutta steps per tick.
     fn error<R: Real>(frequency_hz: f64, tick_hz: f64, gain: f64, psi: [[f64; 2]; 2]) -> f64 {
         let settings = Settings {
             tick_hz,
@@ -202,8 +201,8 @@ mod tests {
         worst
     }
 
-    /// The figures that the exact integrator is built for, in degrees: half a
-    /// millisecond at 2, 8 and 25 Hz, two milliseconds at 25 Hz.
+    /// The errors that the exact integrator was designed for, in degrees: ticks of
+    /// half a millisecond up to 25 Hz, of two milliseconds at 25 Hz.
     #[test]
     fn the_exact_integrator_holds_its_error_from_the_first_tick() {
         let psi = [[1.0, 0.0], [0.6, 0.5]];
@@ -228,8 +227,8 @@ mod tests {
         }
     }
 
-    /// Far from the circle the split of the radial part from the coupling
-    /// shows: second order in the tick.
+    /// Far from the circle the error of the split between radial part and coupling
+    /// dominates, which is of second order in the tick.
     #[test]
     fn another_start_and_gain_cost_no_more_than_the_split() {
         let psi = [[-1.0, 0.4], [0.1, 0.0]];

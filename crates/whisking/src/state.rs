@@ -1,4 +1,4 @@
-//! What a module remembers between ticks, and where it starts.
+//! The state of a module between ticks, and its start.
 
 use crate::gate::Gate;
 use crate::muscle::{self, History};
@@ -9,22 +9,22 @@ use crate::{Real, noise};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Start<R, const S: usize, const N: usize> {
-    /// What the integrator keeps of ψ of each side.
+    /// ψ of each side in the form that the integrator keeps.
     pub oscillators: [Psi<R>; S],
     /// Drive W of each side.
     pub drive: [R; S],
     /// Nominal gain of each whisker, g_nominal, 0 to 2.
     pub gain: [[R; N]; S],
-    /// Forces before the start, for each whisker.
+    /// Forces before the start, of each whisker.
     pub history: [[History<R>; N]; S],
 }
 
 /// One whisker: its muscle and its gain g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Whisker<R: Real> {
-    /// θ, v and the integrator's past.
+    /// θ and the rest of the integrator's state.
     pub muscle: muscle::State<R>,
-    /// By how much contact lifts g above its nominal value (eqs. 12 and 13).
+    /// How far contact lifts g above its nominal value (eqs. 12 and 13).
     pub lift: Gate<R>,
     /// Nominal value of g.
     pub nominal: R,
@@ -51,7 +51,7 @@ impl<R: Real> Whisker<R> {
 }
 
 impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
-    /// A module at its start; `seed` is that of the noise.
+    /// A module at its start. `seed` determines the noise.
     pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
         Self {
             oscillators: oscillator::State::new(start.oscillators),

@@ -1,5 +1,5 @@
-//! One tick of a whole module: RCP and oscillators by sides, then CIA and
-//! muscles by whiskers.
+//! One tick of a whole module: RCP and the oscillator of each side, then CIA
+//! and the muscle of each whisker.
 
 use crate::muscle::{self, MuscleIntegrator};
 use crate::oscillator::{self, OscillatorIntegrator};
@@ -9,8 +9,8 @@ use crate::{Optional, Real, State, gate, noise};
 ///
 /// The parts are types. A board names concrete ones, such as
 /// [`oscillator::Exact`], [`Present`](crate::Present) and
-/// [`Absent`](crate::Absent), so that its program has the code of those alone;
-/// the defaults are chosen at run time, for simulations of any scene.
+/// [`Absent`](crate::Absent), so that its program contains their code alone. The
+/// defaults are chosen at run time, for simulations of any scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Config<
@@ -35,12 +35,12 @@ pub struct Config<
     pub noise: Noise,
 }
 
-/// The pattern generator of a module: what steps its [`State`].
+/// The pattern generator of a module; it steps a [`State`].
 pub trait PatternGenerator<R: Real> {
-    /// One tick. `contact` is π of each side (eq. 9), from the angle before
-    /// this tick: a muscle moves with the z and g that follow it.
+    /// One tick. `contact` is π of each side (eq. 9), measured at the angle before
+    /// this tick; the muscles move with the z and g that follow from it.
     ///
-    /// Whatever comes in, NaN included, the state stays finite and in its
+    /// For any contact, NaN included, the state stays finite and within its
     /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
     fn step<const S: usize, const N: usize>(&self, state: &mut State<R, S, N>, contact: [R; S]);
 }
@@ -62,9 +62,7 @@ where
                 rcp.step(z, pi);
             }
         }
-        // No comparison with zero where there is one side.
-        let stronger = contact.into_iter().reduce(|zeta, pi| pi.max(zeta));
-        let zeta = stronger.unwrap_or(R::ZERO);
+        let zeta = contact.into_iter().fold(R::ZERO, |zeta, pi| pi.max(zeta));
 
         let noise = self.noise.part().map(|noise| noise.step(&mut state.noise));
         self.oscillators

@@ -24,13 +24,13 @@ impl<const N: usize, const BITS: u32> Quadratics<N, BITS> {
     /// The last number of the table.
     const LAST: u32 = ((N as u32) << BITS) - 1;
 
-    /// The value at `x` ≥ 0, beyond the table that at its end; Q28.
+    /// The value at `x` ≥ 0, or that at the end of the table; Q28.
     #[inline]
     fn at(&self, x: i32) -> i32 {
-        // A number that the compiler sees to be in the table.
+        // Limited so that the index is in the table for any `x`.
         let x = x.cast_unsigned().min(Self::LAST);
         let segment = self.0[(x >> BITS) as usize];
-        // Q16 about the middle: the top bit of the position turned round.
+        // The position about the middle in Q16: its top bit is inverted.
         let t = ((x << (32 - BITS)).cast_signed() ^ i32::MIN) >> 16;
         let [c1, c2] = segment.slopes.map(i32::from);
         segment.middle + (((c1 + ((c2 * t) >> 16)) * t) >> 9)
@@ -86,20 +86,20 @@ static HALF_TANH: Quadratics<96, 22> = quadratics!(half_tanh_f64, 96 segments of
 static EXP_NEG: Quadratics<144, 18> = quadratics!(exp_neg, 144 segments of 18 bits of Q 24);
 static INV_SQRT: Quadratics<48, 22> = quadratics!(inv_sqrt_quarter, 48 segments of 22 bits of Q 28);
 
-/// tanh(2x)/2 of `x`, |x| ≤ 1.5, the value there beyond; largest error 6e-7.
+/// tanh(2x)/2 for |x| ≤ 1.5, the value at ±1.5 beyond; largest error 6e-7.
 #[inline]
 pub(crate) fn half_tanh(x: i32) -> i32 {
     let half = HALF_TANH.at(x.saturating_abs());
     if x < 0 { -half } else { half }
 }
 
-/// exp(−x²) of `x`, |x| ≤ 1.5, the value there beyond; largest error 6e-7.
+/// exp(−x²) for |x| ≤ 1.5, the value at 1.5 beyond; largest error 6e-7.
 #[inline]
 pub(crate) fn exp_neg_square(x: i32) -> i32 {
     EXP_NEG.at(high(x, x))
 }
 
-/// 1 − 1/√(1 + x) of `x`, |x| ≤ 1/16; largest error 1.4e-4 of itself and 1e-8.
+/// 1 − 1/√(1 + x) for |x| ≤ 1/16; largest error 1.4e-4 of itself plus 1e-8.
 #[inline]
 pub(crate) fn one_minus_inv_sqrt(x: i32) -> i32 {
     // x (c_0 − x (c_1 − x c_2)), c in Q15.

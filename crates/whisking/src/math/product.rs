@@ -1,12 +1,12 @@
-//! Products of 32-bit integers of which the high part is wanted.
+//! The high part of products of 32-bit integers.
 //!
-//! The Cortex-M3 and larger have instructions for them. The Cortex-M0+
-//! multiplies 32 by 32 bits to the low 32 only, and the compiler calls a
-//! function of some forty instructions for more; there the same numbers, to
-//! the last bit, are put together from products of halves.
+//! The Cortex-M3 and larger have instructions for it. The Cortex-M0+ computes
+//! only the low 32 bits of a product, and for more the compiler calls a function
+//! of some forty instructions; there the same numbers, to the last bit, are
+//! composed from products of halves. A tick has more than twenty such products.
 
-/// Whether the processor is a Cortex-M0+: of the targets without a PC, those
-/// without an atomic exchange are.
+/// Whether the processor is a Cortex-M0+: the only supported one without atomic
+/// exchange.
 const IS_SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
 /// ⌊x y / 2^16⌋.
@@ -21,19 +21,8 @@ pub(crate) const fn scaled<const DOWN: u32>(x: i32, y: i16) -> i32 {
     if IS_SMALL {
         scaled_in_parts::<DOWN>(x, y)
     } else {
-        // The shape for which a Cortex-M4 has an instruction.
+        // The form that becomes a Cortex-M4's SMULWB.
         (((x << (16 - DOWN)) as i64 * y as i64) >> 16) as i32
-    }
-}
-
-/// ⌊x y / 2^16⌋ like [`by_half`], for a constant that may be small: the compiler
-/// finds the instruction of a Cortex-M4 only for constants of all 16 bits.
-#[inline]
-pub(crate) const fn by_constant(x: i32, y: i16) -> i32 {
-    if IS_SMALL {
-        scaled_in_parts::<16>(x, y)
-    } else {
-        high(x, (y as i32) << 16)
     }
 }
 
@@ -89,7 +78,7 @@ const fn high_rounded_in_parts(x: i32, y: i32) -> i32 {
 const fn sum_of_parts(x: i32, y: i32, more: i32) -> i32 {
     let (xh, xl) = (x >> 16, x as u32 & 0xFFFF);
     let (yh, yl) = (y >> 16, y as u32 & 0xFFFF);
-    // Each sum stays within 32 bits: a product of halves leaves room for one half more.
+    // Each sum fits 32 bits: a product of halves leaves room for one more half.
     let low = xh * yl as i32 + ((xl * yl) >> 16) as i32;
     let middle = xl as i32 * yh + (low & 0xFFFF) + more;
     xh * yh + (low >> 16) + (middle >> 16)
@@ -98,8 +87,8 @@ const fn sum_of_parts(x: i32, y: i32, more: i32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::{
-        by_constant, by_half, by_top, high, high_in_parts, high_rounded, high_rounded_in_parts,
-        scaled, scaled_in_parts,
+        by_half, by_top, high, high_in_parts, high_rounded, high_rounded_in_parts, scaled,
+        scaled_in_parts,
     };
     use proptest::prelude::*;
 
@@ -127,7 +116,6 @@ mod tests {
         assert_eq!(high_rounded_in_parts(x, top), by_top(x, y), "{x} {y}");
         let y = y as i16;
         assert_eq!(scaled_in_parts::<16>(x, y), by_half(x, y), "{x} {y}");
-        assert_eq!(by_constant(x, y), by_half(x, y), "{x} {y}");
         let x = x >> 3;
         assert_eq!(scaled_in_parts::<13>(x, y), scaled::<13>(x, y), "{x} {y}");
         assert_eq!(

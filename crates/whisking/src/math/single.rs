@@ -1,8 +1,8 @@
 //! Elementary functions in single precision.
 //!
-//! Only additions, multiplications and one division, in a fixed order: a PC
-//! and a microcontroller give the same bits. Coefficients are those that
-//! `fit/minimax.py` prints.
+//! They use additions, multiplications and one division in a fixed order, so
+//! that a PC and a microcontroller give the same bits. `fit/minimax.py` prints
+//! the coefficients.
 
 /// tanh(2x)/2 ≈ x P(x²)/Q(x²), |x| ≤ 1.5.
 const TANH_P: [f32; 3] = [0.999_999_9, 0.477_403_25, 0.029_635_241];
@@ -34,12 +34,11 @@ pub(crate) fn half_tanh(x: f32) -> f32 {
 
 /// exp(−x²) for |x| ≤ 1.5, the value at 1.5 beyond; largest error 3e-7.
 ///
-/// As the square of exp(−x²/2), which takes a polynomial of one degree less
-/// and centres nothing.
+/// The square of exp(−x²/2), whose polynomial is of one degree less.
 #[inline]
 pub(crate) fn exp_neg_square(x: f32) -> f32 {
     let u = x * x;
-    // Written so that a NaN takes the last value too.
+    // In this form NaN gives the last value too.
     let u = if u < EXP_LAST { u } else { EXP_LAST };
     let mut root = ROOT_EXP[6];
     for c in ROOT_EXP[..6].iter().rev() {

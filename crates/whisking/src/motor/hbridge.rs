@@ -18,15 +18,15 @@ use super::{Duty, Fault, MotorDriver};
 /// [`with_buffered_pwm`](Self::with_buffered_pwm) then.
 ///
 /// [`MotorDriver::off`] sets the PWM to zero and leaves the direction pin
-/// alone: a bridge at zero does not heed it, and should the PWM have failed, a
-/// pin moved under a live PWM would reverse the motor.
+/// alone: a bridge at zero ignores it, and if the PWM has failed, a change of the
+/// pin under a live PWM would reverse the motor.
 ///
 /// Stall and encoder are the caller's: see [`StallGuard`](super::StallGuard).
 #[derive(Debug)]
 pub struct HBridge<PWM, DIR> {
     pwm: PWM,
     dir: DIR,
-    /// What the pin was last set to; unknown before the first drive and after
+    /// Last state of the direction pin; unknown before the first drive and after
     /// a fault.
     forward: Option<bool>,
     /// Whether the PWM output may still be at a duty other than zero.
@@ -36,7 +36,7 @@ pub struct HBridge<PWM, DIR> {
 }
 
 impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
-    /// Takes the outputs and switches off. Should that fail, the first
+    /// Takes the outputs and switches off. If that fails, the first
     /// [`drive`](MotorDriver::drive) returns the fault.
     pub fn new(pwm: PWM, dir: DIR) -> Self {
         let mut bridge = Self {
@@ -73,7 +73,7 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
 
     #[inline]
     fn set_pwm(&mut self, duty: Duty) -> Result<(), Fault> {
-        // Said before the write: one that fails may have gone through.
+        // Set before the write: a failed one may still have taken effect.
         self.live |= duty != Duty::ZERO;
         let counts = duty.scaled_to(self.pwm.max_duty_cycle());
         self.pwm.set_duty_cycle(counts).map_err(|_| Fault::Pwm)?;

@@ -1,9 +1,9 @@
-//! Three pins as one thing: traits over the triples of PWM channels, enables
-//! and Hall inputs of a three-phase motor.
+//! Traits for the three PWM channels, enables and Hall inputs of a three-phase
+//! motor.
 //!
 //! Tuples of any three embedded-hal parts implement them, so that each pin may
-//! have its own type. Errors are folded into [`Fault`]: which of the three it
-//! was is not kept. A board that reads all Hall sensors in one port access may
+//! have its own type. An error becomes a [`Fault`], which does not say which of
+//! the three it was. A board that reads all Hall sensors in one port access may
 //! implement [`HallInputs`] itself.
 
 use embedded_hal::digital::{InputPin, OutputPin, PinState};

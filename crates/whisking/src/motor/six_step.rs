@@ -3,7 +3,7 @@
 //! For a power stage like ST's L6230: per phase an input IN (high connects the
 //! phase to the supply, low to ground) and an enable EN (low floats it). The
 //! stage itself must keep its two switches from conducting together and must
-//! bear a duty of 100 %, as a stage with a charge pump does.
+//! tolerate a duty of 100 %, as a stage with a charge pump does.
 //!
 //! Of the driven pair the high phase carries the PWM and the low phase is tied
 //! to ground, so the current circulates through the low switches between
@@ -64,7 +64,7 @@ impl Default for SixStepConfig {
 ///
 /// Each [`drive`](MotorDriver::drive) reads the sensors and sets the step. The
 /// lead of 60° to 120° holds at the tick; until the next one it falls by the
-/// angle turned, so torque sags as the speed nears one sector a tick.
+/// angle turned, so torque drops as the speed nears one sector per tick.
 ///
 /// When the step changes, phases that change role are floated first, then their
 /// inputs change, then the enables rise: no intermediate pattern drives. A
@@ -77,21 +77,37 @@ pub struct SixStep<PWM, EN, HALL> {
     enables: EN,
     halls: HALL,
     tracker: HallTracker,
+    stall: StallConfig,
     guard: StallGuard,
     /// Count at which the rotor was last seen to have moved.
     moved_at: i32,
+    /// Direction of the last duty other than zero.
     forward: bool,
-    /// The pair the outputs drive; none when off or unknown.
-    applied: Option<Pair>,
-    /// Whether the high phase of `applied` has a duty other than zero; without
-    /// meaning when there is none.
-    live: bool,
     buffered: bool,
-    fault: Option<Fault>,
+    state: SixStepState,
+}
+
+/// What a [`SixStep`] driver is doing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SixStepState {
+    /// All phases float.
+    Off,
+    /// A pair of phases is driven.
+    Driving {
+        /// The pair.
+        pair: Pair,
+        /// The duty of its high phase.
+        duty: Duty,
+    },
+    /// All phases float until the fault is cleared.
+    Faulted {
+        /// The first fault that was found.
+        fault: Fault,
+    },
 }
 
 impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> {
-    /// Takes the pins and switches off. Should that fail, the first
+    /// Takes the pins and switches off. If that fails, the first
     /// [`drive`](MotorDriver::drive) returns the fault.
     pub fn new(pwms: PWM, enables: EN, halls: HALL, config: SixStepConfig) -> Self {
         let mut motor = Self {
@@ -99,13 +115,12 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
             enables,
             halls,
             tracker: HallTracker::new(config.skip_limit),
-            guard: StallGuard::new(config.stall),
+            stall: config.stall,
+            guard: StallGuard::default(),
             moved_at: 0,
             forward: true,
-            applied: None,
-            live: false,
             buffered: false,
-            fault: None,
+            state: SixStepState::Off,
         };
         motor.off();
         motor
@@ -133,28 +148,43 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         self.tracker.sector()
     }
 
+    /// What it is doing.
+    pub const fn state(&self) -> SixStepState {
+        self.state
+    }
+
+    /// Whether the motor moves when it is driven.
+    pub const fn guard(&self) -> StallGuard {
+        self.guard
+    }
+
     /// The fault that holds the motor off.
     pub const fn fault(&self) -> Option<Fault> {
-        self.fault
+        match self.state {
+            SixStepState::Faulted { fault } => Some(fault),
+            SixStepState::Off | SixStepState::Driving { .. } => None,
+        }
     }
 
     /// Reads the sensors without touching the outputs, so that the count goes
-    /// on while the motor is off. Once a tick, instead of
+    /// on while the motor is off. Once per tick, instead of
     /// [`drive`](MotorDriver::drive).
     ///
     /// # Errors
     ///
-    /// The fault that stands, or one just found, for which the motor is
-    /// switched off.
+    /// The fault that holds the motor off: an earlier one, or one just found.
     pub fn observe(&mut self) -> Result<(), Fault> {
         let seen = self.track();
-        if self.fault.is_none()
-            && let Err(fault) = seen
-        {
-            self.fault = Some(fault);
-            self.off();
+        if let Some(fault) = self.fault() {
+            return Err(fault);
         }
-        self.fault.map_or(Ok(()), Err)
+        match seen {
+            Ok(_) => Ok(()),
+            Err(fault) => {
+                self.fail(fault);
+                Err(fault)
+            }
+        }
     }
 
     /// Switches off and gives the pins back.
@@ -169,8 +199,8 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         self.tracker.update(code)
     }
 
-    /// Whether the rotor has left the place where it was last seen to move. Two
-    /// counts are asked for: a blocked rotor on a Hall edge flickers by one.
+    /// Whether the rotor has left the place where it was last seen to move, by two
+    /// counts at least: a blocked rotor on a Hall edge flickers by one.
     #[inline]
     fn moved(&mut self) -> bool {
         let away = self.counts().wrapping_sub(self.moved_at).unsigned_abs() > 1;
@@ -184,7 +214,7 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
     fn step(&mut self, duty: Duty) -> Result<(), Fault> {
         let sector = self.track()?;
         let moved = self.moved();
-        if self.guard.update(duty, moved) {
+        if self.guard.update(self.stall, duty, moved) {
             return Err(Fault::Stall);
         }
         if duty != Duty::ZERO {
@@ -195,23 +225,28 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
 
     #[inline]
     fn apply(&mut self, pair: Pair, duty: Duty) -> Result<(), Fault> {
-        if self.applied != Some(pair) {
-            let old = self.applied;
-            if self.buffered && self.live && old.is_some_and(|old| old.high == pair.low) {
-                return self.coast();
+        match self.state {
+            SixStepState::Driving { pair: old, .. } if old == pair => {
+                self.pwms.set(pair.high, duty)?;
             }
-            self.change_to(pair, old)?;
+            SixStepState::Driving {
+                pair: old,
+                duty: last,
+            } => {
+                if self.buffered && last != Duty::ZERO && old.high == pair.low {
+                    self.state = SixStepState::Off;
+                    return self.coast();
+                }
+                self.change(Some(old), pair, duty)?;
+            }
+            SixStepState::Off | SixStepState::Faulted { .. } => self.change(None, pair, duty)?,
         }
-        self.live = duty != Duty::ZERO;
-        self.pwms.set(pair.high, duty)?;
-        if self.applied != Some(pair) {
-            self.raise(pair)?;
-        }
+        self.state = SixStepState::Driving { pair, duty };
         Ok(())
     }
 
-    /// Floats the phases that change role and takes their inputs low.
-    fn change_to(&mut self, pair: Pair, old: Option<Pair>) -> Result<(), Fault> {
+    /// Changes from the driven pair `old` to another.
+    fn change(&mut self, old: Option<Pair>, pair: Pair, duty: Duty) -> Result<(), Fault> {
         let changes = |phase| old.is_none_or(|old| old.role(phase) != pair.role(phase));
         for phase in Phase::ALL.into_iter().filter(|&phase| changes(phase)) {
             if old.is_none_or(|old| old.role(phase) != Role::Float) {
@@ -224,25 +259,24 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
                 self.pwms.zero(phase)?;
             }
         }
-        Ok(())
-    }
-
-    /// Enables the pair's phases that are not yet so.
-    fn raise(&mut self, pair: Pair) -> Result<(), Fault> {
-        let old = self.applied;
+        self.pwms.set(pair.high, duty)?;
         for phase in [pair.low, pair.high] {
-            if old.is_none_or(|old| old.role(phase) != pair.role(phase)) {
+            if changes(phase) {
                 self.enables.enable(phase, true)?;
             }
         }
-        self.applied = Some(pair);
         Ok(())
+    }
+
+    /// Switches off and holds it there.
+    fn fail(&mut self, fault: Fault) {
+        self.state = SixStepState::Faulted { fault };
+        self.off();
     }
 
     /// Floats all phases, then takes all inputs low, going on after an error;
     /// the first is returned.
     fn coast(&mut self) -> Result<(), Fault> {
-        self.applied = None;
         let mut result = Ok(());
         for phase in Phase::ALL {
             result = result.and(self.enables.enable(phase, false));
@@ -259,27 +293,30 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> MotorDriver for SixStep
     /// sensors allow.
     #[inline]
     fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
-        if let Some(fault) = self.fault {
+        if let SixStepState::Faulted { fault } = self.state {
             self.off();
-            // What is wrong with the sensors now adds nothing to the fault.
+            // The first fault stands, whatever the sensors say now.
             let _ = self.track();
             return Err(fault);
         }
-        self.step(duty).inspect_err(|&fault| {
-            self.fault = Some(fault);
-            self.off();
-        })
+        self.step(duty).inspect_err(|&fault| self.fail(fault))
     }
 
     fn off(&mut self) {
-        if let Err(fault) = self.coast() {
-            self.fault.get_or_insert(fault);
+        let done = self.coast();
+        self.guard = StallGuard::default();
+        if self.fault().is_none() {
+            self.state = match done {
+                Ok(()) => SixStepState::Off,
+                Err(fault) => SixStepState::Faulted { fault },
+            };
         }
-        self.guard.reset();
     }
 
     fn clear(&mut self) {
-        self.fault = None;
+        if self.fault().is_some() {
+            self.state = SixStepState::Off;
+        }
         // The stall guard was reset when the fault switched the motor off.
         self.tracker.forget_skips();
     }

@@ -30,40 +30,51 @@ impl Default for StallConfig {
     }
 }
 
-/// Counts the ticks for which a motor has been driven without moving.
+/// Whether a motor moves when it is driven.
 ///
 /// [`SixStep`](super::SixStep) has one inside. A motor on an
-/// [`HBridge`](super::HBridge) gives no sign of motion itself: there the
-/// control loop owns the guard and feeds it from the encoder, with `moved`
-/// meaning *further than the count or two by which a rotor standing on an
-/// encoder edge flickers*.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct StallGuard {
-    config: StallConfig,
-    still: u16,
+/// [`HBridge`](super::HBridge) gives no sign of motion itself: there the control
+/// loop owns the guard and updates it from the encoder. `moved` then means *by
+/// more than the count or two by which a rotor on an encoder edge flickers*.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StallGuard {
+    /// The motor moves, or is not driven hard enough to count.
+    #[default]
+    Free,
+    /// Driven without moving.
+    Still {
+        /// Ticks in succession, fewer than make a stall.
+        ticks: u16,
+    },
+    /// Driven without moving for too long.
+    Stalled,
 }
 
 impl StallGuard {
-    /// A guard that has seen nothing yet.
-    pub const fn new(config: StallConfig) -> Self {
-        Self { config, still: 0 }
-    }
-
-    /// Takes in one tick: the duty driven and whether the motor moved. True
-    /// when stalled, from the tick that completes the configured number until
+    /// One tick, with the duty driven and whether the motor moved. True when
+    /// stalled, from the tick that completes the configured number until
     /// the motor moves or the duty falls to the threshold.
     #[inline]
-    pub fn update(&mut self, duty: Duty, moved: bool) -> bool {
-        self.still = if moved || duty.magnitude() <= self.config.threshold.magnitude() {
-            0
+    pub fn update(&mut self, config: StallConfig, duty: Duty, moved: bool) -> bool {
+        *self = if moved || duty.magnitude() <= config.threshold.magnitude() {
+            Self::Free
         } else {
-            self.still.saturating_add(1)
+            match *self {
+                Self::Free => Self::after(config, 1),
+                Self::Still { ticks } => Self::after(config, ticks.saturating_add(1)),
+                Self::Stalled => Self::Stalled,
+            }
         };
-        self.still >= self.config.ticks.max(1)
+        *self == Self::Stalled
     }
 
-    /// Forgets what it has seen.
-    pub fn reset(&mut self) {
-        self.still = 0;
+    /// After `ticks` in succession, driven and not moving.
+    #[inline]
+    fn after(config: StallConfig, ticks: u16) -> Self {
+        if ticks >= config.ticks {
+            Self::Stalled
+        } else {
+            Self::Still { ticks }
+        }
     }
 }

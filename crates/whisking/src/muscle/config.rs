@@ -1,4 +1,4 @@
-//! The integrator of the muscles as a choice at run time.
+//! The muscles' integrator as a choice at run time.
 
 use super::{Euler, Exact, MuscleIntegrator, State};
 use crate::Real;

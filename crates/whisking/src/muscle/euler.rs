@@ -1,5 +1,5 @@
-//! The papers' integrator: forward Euler, with θ, v and the force at the state
-//! before the step.
+//! The papers' integrator: forward Euler, with θ, v and the force taken at the
+//! state before the step.
 
 use super::{DAMPING, MuscleIntegrator, State, force, pace};
 use crate::Real;
@@ -24,8 +24,8 @@ impl<R: Real> Euler<R> {
 }
 
 impl<R: Real> MuscleIntegrator<R> for Euler<R> {
-    /// θ and v are held within ±2, which no sane input reaches (the static
-    /// solution at full drive is 1.015), because large steps let them grow.
+    /// θ and v are limited to ±2, because large steps let them grow. No sensible
+    /// input reaches that: the static solution at full drive is 1.015.
     #[inline]
     fn step(&self, state: &mut State<R>, gain: R, drive: R, _after: R) {
         let push = gain * force(drive, state.theta);
@@ -33,7 +33,7 @@ impl<R: Real> MuscleIntegrator<R> for Euler<R> {
         let limited = |x: R| x.clamp(-R::TWO, R::TWO);
         let pull = (push - state.theta).times(self.spring);
         // Within ±6 in fixed point, where a product is within ±4 and the damping
-        // turns against the velocity.
+        // opposes the velocity.
         let next = velocity + pull - velocity.times(self.damping);
         state
             .theta

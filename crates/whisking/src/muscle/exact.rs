@@ -1,16 +1,16 @@
-//! The linear part propagated exactly, the force by an exponential multistep
-//! method.
+//! An integrator that propagates the linear part exactly, and the force by an
+//! exponential multistep method.
 //!
 //! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is
 //! the weighted sum of two *lags* that follow the same push a f, a slow one and
 //! a fast one: dy/dt = λ (a f − y), θ = y_slow + c (y_slow − y_fast) with
-//! c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the push
-//! however its constants are rounded, and as 0 ≤ f ≤ 1 nothing can make it grow.
+//! c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the push however
+//! its constants are rounded, and because 0 ≤ f ≤ 1 it cannot grow.
 //!
-//! f is taken as the quartic through its last values: an exponential Adams
-//! method of fifth order, predicted and corrected once, so one exponential and
-//! one drive a tick. The gain multiplies after the differences are taken, so
-//! that a jump of z or g does not enter the history.
+//! f is interpolated by the quartic through its last values: an exponential
+//! Adams method of fifth order, predicted and corrected once, with one
+//! exponential and one drive per tick. The gain is applied after the differences
+//! are taken, so that a jump of z or g does not enter the history.
 
 use super::{MuscleIntegrator, State, pace};
 use crate::Real;
@@ -25,15 +25,15 @@ const RATES: [f64; 2] = [0.267_949_192_431_122_7, 3.732_050_807_568_877];
 pub struct Exact<R: Real> {
     /// The slow lag and the fast one.
     pub lags: [Lag<R>; 2],
-    /// c, how much more than itself the slow one counts in θ.
+    /// c, the weight of y_slow − y_fast in θ.
     pub lead: R::Coefficient,
 }
 
-/// A first-order lag over one tick, in increments.
+/// A first-order lag over one tick, as increments.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
 pub struct Lag<R: Real> {
-    /// 1 − exp(−λ T), of the way to a f.
+    /// 1 − exp(−λ T), the fraction of the way to a f.
     pub decay: R::Fine,
     /// Weights of ∇f, ∇²f and ∇³f (predictor).
     pub predict: R::Row<3>,
@@ -68,7 +68,7 @@ impl<R: Real> Lag<R> {
 }
 
 impl<R: Real> Exact<R> {
-    /// For `cycles` = f_W T whisks a tick.
+    /// For `cycles` = f_W T whisks per tick.
     pub(crate) fn new(cycles: f64) -> Self {
         let [slow, fast] = RATES;
         Self {
@@ -93,11 +93,11 @@ impl<R: Real> MuscleIntegrator<R> for Exact<R> {
         let predicted = self.theta([0, 1].map(|i| state.kept[i] + (way[i] + bends[i].rough(gain))));
         let force = super::force(drive, predicted);
         let n1 = force - f;
-        // With less than ten ticks a whisk a jump of the gain can make these
+        // With fewer than ten ticks per whisk a jump of the gain can make these
         // as large as eight.
         let n2 = (n1 - d1).within_half();
         let n3 = (n2 - d2).within_half();
-        // The weight before the gain: the difference alone may be large.
+        // The weight comes before the gain: the difference alone may be large.
         let n4 = (n3 - d3).within_half();
         let [slow, fast] =
             [0, 1].map(|i| way[i] + (bends[i] + n4.times(self.lags[i].correct)).rough(gain));

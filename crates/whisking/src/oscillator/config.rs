@@ -1,4 +1,4 @@
-//! The integrator of the oscillators as a choice at run time.
+//! The oscillators' integrator as a choice at run time.
 
 use super::{Euler, Exact, OscillatorIntegrator, Psi, State};
 use crate::Real;
@@ -9,7 +9,7 @@ use crate::Real;
 pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
-    /// Exact parts, symmetrically composed.
+    /// Exact parts in symmetric composition.
     Exact(Exact<R>),
 }
 

@@ -1,5 +1,5 @@
-//! The papers' integrator: forward Euler, every right-hand side at the state
-//! before the step. It keeps ψ itself.
+//! The papers' integrator: forward Euler, with every right-hand side taken at
+//! the state before the step. It keeps ψ itself.
 
 use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
 use crate::Real;
@@ -17,7 +17,7 @@ pub struct Euler<R: Real> {
 }
 
 impl<R: Real> Euler<R> {
-    /// For `cycles` = f_W T whisks a tick.
+    /// For `cycles` = f_W T whisks per tick.
     pub(crate) fn new(cycles: f64, coupling: bool) -> Self {
         let rate = cycles / TAU_PERIODS;
         Self {
@@ -27,7 +27,7 @@ impl<R: Real> Euler<R> {
         }
     }
 
-    /// T dψ/dt of a side beside whose drive state the other's is `other`.
+    /// T dψ/dt of a side; `other` is ψ_1 of the other side.
     #[inline]
     fn rate(&self, [a, b]: Psi<R>, other: R) -> Psi<R> {
         let [x, y] = pull([a, b], self.relax);
@@ -39,7 +39,7 @@ impl<R: Real> Euler<R> {
 
     #[inline]
     pub(super) fn increments<const S: usize>(&self, psi: &[Psi<R>; S]) -> [Psi<R>; S] {
-        // A lone side pulls on itself, which is nothing.
+        // A lone side is coupled to itself, which has no effect.
         core::array::from_fn(|side| self.rate(psi[side], psi[(side + 1) % S][0]))
     }
 }
@@ -48,8 +48,6 @@ impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
     #[inline]
     fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
         let mut change = self.increments(&state.kept);
-        // Loops over constant bounds: the compiler unrolls them, as it does not
-        // flattened iterators.
         for side in 0..S {
             for k in 0..2 {
                 if let Some(noise) = noise {
@@ -70,7 +68,7 @@ impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
     }
 }
 
-/// The continuous field dψ/dt in ticks, f64; `cycles` is f_W T.
+/// The field T dψ/dt in f64; `cycles` is f_W T.
 pub(crate) fn field<const S: usize>(
     psi: &[Psi<f64>; S],
     cycles: f64,

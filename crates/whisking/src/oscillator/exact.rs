@@ -1,4 +1,4 @@
-//! Exact parts, symmetrically composed.
+//! An integrator of exactly solved parts in symmetric composition.
 //!
 //! - *modes*: the mean of the sides, m = (ψ_l + ψ_r)/2, and half their
 //!   difference, d = (ψ_l − ψ_r)/2. A lone side is its own mean.
@@ -6,51 +6,42 @@
 //!   rotates, the difference rotates and decays (a 2 × 2 exponential).
 //! - *R*: the radial relaxation of each side, r → 1 + (r − 1) exp(−T/τ_r).
 //!
-//! A tick is the symmetric product L½ R L½. As each half of L meets the next
-//! tick's, what is kept is χ = L½⁻¹ ψ, by modes; a tick takes it to R L χ, and
-//! ψ = L½ χ is worked out where it is asked for. Without noise the limit cycle
-//! has radius one to rounding, at any f_W T.
+//! A tick is the symmetric product L½ R L½. Because the last half of L meets the
+//! first half of the next tick, the integrator keeps χ = L½⁻¹ ψ, as modes: a tick
+//! takes it to R L χ, and ψ = L½ χ is computed on demand. Without noise the limit
+//! cycle has radius one, to rounding, at any f_W T.
 
 use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
 use crate::Real;
 use crate::linalg::{Matrix, exponential, identity, scaled};
 
-/// Constants of the structure-preserving step, in increments (coefficients
-/// near one would cost formats with few digits several of them).
+/// Constants of the structure-preserving step, as increments: factors near one
+/// would cost formats with few digits several of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Exact<R: Real> {
-    /// A whole tick of L.
-    pub tick: Linear<R>,
-    /// Half a tick.
-    pub half: Linear<R>,
-    /// What half a tick takes from ψ_1 of the mean and of the difference.
+    /// The increment of a tick of L, exp(A T) − 1, of the mean (a rotation) and of
+    /// the difference (rotation and decay).
+    pub tick: [Turn<R>; 2],
+    /// The same for half a tick.
+    pub half: [Turn<R>; 2],
+    /// The same for half a tick backwards.
+    pub back: [Turn<R>; 2],
+    /// What half a tick takes away from ψ_1 of the mean and of the difference.
     pub drive: [R::Row<2>; 2],
-    /// Half a tick back.
-    pub back: Linear<R>,
     /// 1 − exp(−T/τ_r).
     pub relax: R::Fine,
     /// Half of it.
     pub half_relax: R::Coefficient,
 }
 
-/// exp(A t) − 1 of either mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
-pub struct Linear<R: Real> {
-    /// Of the mean: a rotation.
-    pub mean: Turn<R>,
-    /// Of the difference: rotation and decay.
-    pub difference: Turn<R>,
-}
-
-/// (x, y) → (−a x − c y, c x − b y), what a rotation and a decay add to a vector.
+/// (x, y) → (−a x − c y, c x − b y), the increment of a rotation with decay.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
 pub struct Turn<R: Real> {
-    /// a and b, of which an error would show in the radius.
+    /// a and b; their error shows in the radius.
     pub shrink: [R::Fine; 2],
-    /// c, of which an error would gather in the phase.
+    /// c; its error accumulates in the phase.
     pub cross: R::Fine,
 }
 
@@ -64,7 +55,7 @@ fn difference<R: Real>(a: Psi<R>, b: Psi<R>) -> Psi<R> {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// The sides of `modes`; of sides, twice their modes.
+/// The sides of `modes`, or twice the modes of sides.
 #[inline]
 fn crossed<R: Real, const S: usize>(modes: &[Psi<R>; S]) -> [Psi<R>; S] {
     let mut out = *modes;
@@ -108,34 +99,14 @@ fn sums<R: Real, const S: usize>(a: &[Psi<R>; S], b: &[Psi<R>; S]) -> [Psi<R>; S
     out
 }
 
-impl<R: Real> Linear<R> {
-    fn new(cycles: f64, coupling: bool, ticks: f64) -> Self {
-        let [mean, difference] = growths(cycles, coupling, ticks).map(|m| Turn::new(&m));
-        Self { mean, difference }
+/// The increment of every mode by L.
+#[inline]
+fn increments<R: Real, const S: usize>(turns: &[Turn<R>; 2], modes: &[Psi<R>; S]) -> [Psi<R>; S] {
+    let mut out = *modes;
+    for (x, turn) in out.iter_mut().zip(turns) {
+        *x = turn.increment(*x);
     }
-
-    #[inline]
-    const fn turn(&self, mode: usize) -> &Turn<R> {
-        if mode == 0 {
-            &self.mean
-        } else {
-            &self.difference
-        }
-    }
-
-    /// What L adds to every mode.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "not inlined, it would fetch constants that the caller knows"
-    )]
-    fn increments<const S: usize>(&self, modes: &[Psi<R>; S]) -> [Psi<R>; S] {
-        let mut out = *modes;
-        for (mode, x) in out.iter_mut().enumerate() {
-            *x = self.turn(mode).increment(*x);
-        }
-        out
-    }
+    out
 }
 
 impl<R: Real> Turn<R> {
@@ -147,11 +118,7 @@ impl<R: Real> Turn<R> {
         }
     }
 
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "not inlined, it would fetch constants that the caller knows"
-    )]
+    #[inline]
     fn increment(&self, [x, y]: Psi<R>) -> Psi<R> {
         [
             -y.times_fine(self.cross) - x.times_fine(self.shrink[0]),
@@ -160,10 +127,15 @@ impl<R: Real> Turn<R> {
     }
 }
 
+/// L over `ticks` of a tick, on the mean and on the difference.
+fn turns<R: Real>(cycles: f64, coupling: bool, ticks: f64) -> [Turn<R>; 2] {
+    growths(cycles, coupling, ticks).map(|growth| Turn::new(&growth))
+}
+
 /// exp(A t) − 1 on the mean and on the difference.
 fn growths(cycles: f64, coupling: bool, ticks: f64) -> [Matrix<2>; 2] {
     let omega = core::f64::consts::TAU * cycles;
-    // Both sides pull: their difference decays twice as fast.
+    // Each side is drawn to the other, so their difference decays twice as fast.
     let couple = if coupling {
         2.0 * cycles / TAU_PERIODS
     } else {
@@ -190,7 +162,7 @@ impl<R: Real, const S: usize> State<R, S> {
         if let Some(noise) = noise {
             change = sums(&change, &modes(noise));
         }
-        // Only the mean's sum is a long one: the difference of coupled sides decays.
+        // Only the mean is a long sum: the difference of coupled sides decays.
         let mut modes = self.kept.iter_mut().zip(change);
         if let Some((mean, change)) = modes.next() {
             for ((x, carry), step) in mean.iter_mut().zip(&mut self.carry[0]).zip(change) {
@@ -204,26 +176,25 @@ impl<R: Real, const S: usize> State<R, S> {
 }
 
 impl<R: Real> Exact<R> {
-    /// For `cycles` = f_W T whisks a tick.
+    /// For `cycles` = f_W T whisks per tick.
     pub(crate) fn new(cycles: f64, coupling: bool) -> Self {
         let share = -libm::expm1(-cycles / TAU_PERIODS);
         Self {
-            tick: Linear::new(cycles, coupling, 1.0),
-            half: Linear::new(cycles, coupling, 0.5),
+            tick: turns(cycles, coupling, 1.0),
+            half: turns(cycles, coupling, 0.5),
             drive: growths(cycles, coupling, 0.5).map(|[first, _]| R::row(first.map(|x| -x))),
-            back: Linear::new(cycles, coupling, -0.5),
+            back: turns(cycles, coupling, -0.5),
             relax: R::fine(share),
             half_relax: R::coefficient(share / 2.0),
         }
     }
 
-    /// What R changes at `modes`, where every side is near the circle, and
-    /// `linear`.
+    /// The change by R at `modes` plus `linear`, if every side is near the circle.
     ///
-    /// The sides are m ± d, their r² − 1 is e ± 2 m d with e = m² + d² − 1, and
-    /// to take a share h_l of the left and h_r of the right takes
-    /// (h_l + h_r) m + (h_l − h_r) d of their sum, m and d exchanged of their
-    /// difference.
+    /// The sides are m ± d, and their r² − 1 is e ± 2 m d with e = m² + d² − 1.
+    /// Removing a share h_l of the left and h_r of the right side removes
+    /// (h_l + h_r) m + (h_l − h_r) d from their sum, and the same with m and d
+    /// exchanged from their difference.
     #[inline]
     fn near<const S: usize>(
         &self,
@@ -259,21 +230,16 @@ impl<R: Real> Exact<R> {
         Some(change)
     }
 
-    /// Half of (a x + b y), times what a tick relaxes.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "not inlined, it would fetch constants that the caller knows"
-    )]
+    /// (a x + b y)/2 times the relaxation of a tick.
+    #[inline]
     fn half_pull(&self, a: R, x: R, b: R, y: R) -> R {
         (a.rough(x) + b.rough(y)).times(self.half_relax)
     }
 
-    /// The same step far from the circle, where ψ may also meet its limits.
+    /// The same step far from the circle, where ψ may also reach its limits.
     #[cold]
-    #[inline(never)]
     fn far<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        let linear = self.tick.increments(&state.kept);
+        let linear = increments(&self.tick, &state.kept);
         let turned = sums(&state.kept, &linear);
         let pulls = crossed(&turned).map(|side| pull(side, self.relax));
         state.change(&sums(&linear, &modes(&pulls)), noise);
@@ -281,20 +247,20 @@ impl<R: Real> Exact<R> {
         let within = psi.map(limited);
         if within != psi {
             let modes = modes(&within);
-            *state = State::new(sums(&modes, &self.back.increments(&modes)));
+            *state = State::new(sums(&modes, &increments(&self.back, &modes)));
         }
     }
 
-    /// ψ of every side, before the limits.
+    /// ψ of every side before it is limited.
     fn unlimited<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
-        crossed(&sums(kept, &self.half.increments(kept)))
+        crossed(&sums(kept, &increments(&self.half, kept)))
     }
 }
 
 impl<R: Real> OscillatorIntegrator<R> for Exact<R> {
     #[inline]
     fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        let linear = self.tick.increments(&state.kept);
+        let linear = increments(&self.tick, &state.kept);
         match self.near(&sums(&state.kept, &linear), &linear) {
             Some(change) => state.change(&change, noise),
             None => self.far(state, noise),
@@ -315,7 +281,7 @@ impl<R: Real> OscillatorIntegrator<R> for Exact<R> {
     }
 
     fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
-        // Rounding may lead out of a corner.
+        // Rounding may lead slightly beyond a limit.
         self.unlimited(&state.kept).map(limited)
     }
 }
@@ -327,8 +293,5 @@ pub(crate) fn keep<const S: usize>(
     coupling: bool,
 ) -> [Psi<f64>; S] {
     let modes = modes(psi);
-    sums(
-        &modes,
-        &Linear::<f64>::new(cycles, coupling, -0.5).increments(&modes),
-    )
+    sums(&modes, &increments(&turns(cycles, coupling, -0.5), &modes))
 }

@@ -1,9 +1,9 @@
 //! 32-bit fixed point as a number format of the tick.
 //!
-//! A number takes 32 bits; constants take 16 where a relative error of 3e-5 in
-//! them is harmless, and 31 where it would gather over many ticks: products
-//! with 16 bits are cheap on every Cortex-M, those of 32 are not on a
-//! Cortex-M0+ (see [`product`](crate::math::product)).
+//! Numbers have 32 bits. Factors have 16 where a relative error of 3e-5 is
+//! harmless, and 31 where it would accumulate over many ticks: a product with
+//! 16 bits is cheap on every Cortex-M, one with 32 is not on a Cortex-M0+ (see
+//! [`product`](crate::math::product)).
 
 mod factor;
 #[cfg(test)]
@@ -22,13 +22,13 @@ use crate::math::product::{by_top, high_rounded};
 /// The product of two numbers.
 #[inline]
 const fn product(x: i32, y: i32) -> i32 {
-    // Rounded, or a sum of many would lean downwards.
+    // Rounded: truncation would bias a sum of many downwards.
     high_rounded(x, y) << 4
 }
 
 /// A number from −8 to 8 in steps of 2^-28 (3.7e-9).
 ///
-/// Products with constants and readings saturate at ±4; sums of two such
+/// Products with factors and readings saturate at ±4; a sum of two of them
 /// cannot wrap around, and no state of the tick comes near that.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
@@ -61,7 +61,7 @@ impl Neg for Fix {
     }
 }
 
-/// Within 3.1e-8 of the product, for a right side within ±4.
+/// Error at most 3.1e-8 for a right operand within ±4.
 impl Mul for Fix {
     type Output = Self;
     #[inline]
@@ -74,7 +74,7 @@ impl Real for Fix {
     type Coefficient = Factor;
     type Fine = FineFactor;
     type Row<const K: usize> = Factors<K>;
-    /// Bits below the last of the sum.
+    /// The bits below the last one of the sum.
     type Carry = i64;
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1 << FRACTION);
@@ -126,7 +126,7 @@ impl Real for Fix {
         Self(self.0.clamp(-half, half - 1))
     }
 
-    /// Within 1.3e-4 of `self`, and 3.8e-9.
+    /// Error at most 1.3e-4 of `self` and 3.8e-9.
     #[inline]
     fn rough(self, other: Self) -> Self {
         Self(by_top(self.0 << 2, other.0 << 1) << 1)
@@ -154,7 +154,7 @@ impl Real for Fix {
         self.0 >> (FRACTION - 24)
     }
 
-    // Additions are exact; what rounding takes, it takes from the increment.
+    // Additions are exact; only increments are rounded.
     #[inline]
     fn accumulate(&mut self, _carry: &mut i64, increment: Self) {
         *self = *self + increment;

@@ -67,13 +67,7 @@ macro_rules! float {
 
         #[inline]
         fn dot<const K: usize>(x: [Self; K], row: &[Self; K]) -> Self {
-            let mut sum = 0.0;
-            // From the first product on: adding it to zero would cost an addition.
-            for k in 0..K {
-                let product = x[k] * row[k];
-                sum = if k == 0 { product } else { sum + product };
-            }
-            sum
+            x.iter().zip(row).map(|(x, c)| x * c).sum()
         }
 
         #[inline]

@@ -1,13 +1,13 @@
-//! The format of fixed point, and constants of the tick in it.
+//! The fixed-point format and its factors.
 
-use crate::math::product::{by_constant, by_half, high};
+use crate::math::product::{by_half, high};
 
-/// Bits behind the point.
+/// Bits after the binary point.
 pub(super) const FRACTION: u32 = 28;
 /// Where products and readings saturate: 4.
 pub(super) const SATURATED: i32 = 4 << FRACTION;
 
-/// A constant with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
+/// A factor with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
 /// 3.1e-5 of its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
@@ -18,7 +18,7 @@ pub struct Factor {
     pub shift: i32,
 }
 
-/// A constant below one: `mantissa` · 2^-(32 + `shift`), within 5e-10 of its value.
+/// A factor below one: `mantissa` · 2^-(32 + `shift`), within 5e-10 of its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct FineFactor {
@@ -28,7 +28,7 @@ pub struct FineFactor {
     pub shift: i32,
 }
 
-/// Constants below one with a scale in common: `mantissas` · 2^-(16 + `shift`).
+/// Factors below one with a common scale: `mantissas` · 2^-(16 + `shift`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Factors<const K: usize> {
@@ -38,11 +38,11 @@ pub struct Factors<const K: usize> {
     pub shift: i32,
 }
 
-/// The most by which an `i32` can be shifted and rounded.
+/// The largest shift of an `i32` that can be rounded.
 const SHIFT_MAX: i32 = 30;
 
-/// The largest power of two, as its exponent from `least` to [`SHIFT_MAX`], by
-/// which `value` may be multiplied and stay within `limit` when rounded.
+/// The exponent, `least` to [`SHIFT_MAX`], of the largest power of two with
+/// which the product of `value`, rounded, stays within `limit`.
 fn scale(value: f64, limit: f64, least: i32) -> i32 {
     let mut shift = least;
     while shift < SHIFT_MAX
@@ -56,11 +56,11 @@ fn scale(value: f64, limit: f64, least: i32) -> i32 {
 /// x / 2^shift, rounded to the nearest; halves upwards.
 #[inline]
 const fn rounded(x: i32, shift: u32) -> i32 {
-    // No carry out of 32 bits: what is shifted is at most 2^30.
+    // No overflow: what is added is at most 2^29, and |x| at most 2^30.
     (x + ((1 << shift) >> 1)) >> shift
 }
 
-/// `x` scaled by a constant below one: 2^-`shift`, −1 at least.
+/// x / 2^shift, rounded to the nearest, for a shift of −1 or more.
 #[inline]
 const fn lowered(x: i32, shift: i32) -> i32 {
     if shift < 0 {
@@ -87,7 +87,7 @@ impl Factor {
     const LEAST: i32 = -30;
 
     pub(super) fn new(value: f64) -> Self {
-        // The casts saturate, and take a NaN to zero.
+        // Casts saturate, and turn NaN into zero.
         let shift = scale(value * 65_536.0, 32_767.0, Self::LEAST);
         let mantissa = libm::round(value * libm::exp2(f64::from(16 + shift)));
         Self {
@@ -108,10 +108,10 @@ impl Factor {
     /// The product with an integer, in Q28; saturates at ±4.
     #[inline]
     pub(super) fn times_integer(self, x: i32) -> i32 {
-        // As the mantissa is at least 2^14, nothing beyond this is within ±4 ...
+        // The mantissa is at least 2^14, so a larger `x` gives a product beyond ±4 ...
         let bits = (4 + self.shift).clamp(0, 29).unsigned_abs();
         let within = x.clamp(-(1 << bits), 1 << bits);
-        // ... and 2^30 is left for the product, whose steps are 2^-26 then.
+        // ... and this leaves 2^30 for the product, in steps of 2^-26.
         raised(by_half(within << (30 - bits), self.mantissa), 2)
     }
 }
@@ -130,13 +130,13 @@ impl FineFactor {
     #[inline]
     pub(super) const fn times(self, x: i32) -> i32 {
         if self.shift < 0 {
-            // A share of more than half must not take more than all.
+            // 64 bits, so that a share close to one takes no more than all of `x`.
             return nearest(x as i64 * self.mantissa as i64, 31);
         }
         rounded(high(x, self.mantissa), self.shift.unsigned_abs())
     }
 
-    /// What this share takes of `x`, and what is left of `carry` below the last bit.
+    /// This share of `x`, and the new `carry`: the bits below the last one.
     #[inline]
     pub(super) fn of(self, x: i32, carry: i64) -> (i32, i64) {
         let bits = (32 + self.shift).unsigned_abs();
@@ -165,7 +165,7 @@ impl<const K: usize> Factors<K> {
         let sum = x
             .iter()
             .zip(self.mantissas)
-            .map(|(x, m)| by_constant(*x, m))
+            .map(|(x, m)| by_half(*x, m))
             .sum();
         lowered(sum, self.shift)
     }

@@ -1,11 +1,11 @@
-//! Products, constants and limits of fixed point against f64.
+//! Products, factors and limits of fixed point against f64.
 
 use super::{FRACTION, Factor, Factors, FineFactor, Fix};
 use crate::Real;
 use proptest::prelude::*;
 
 const STEP: f64 = 1.0 / (1_u64 << FRACTION) as f64;
-/// Relative error of a constant of 16 bits.
+/// Relative error of a 16-bit factor.
 const FACTOR: f64 = 3.1e-5;
 
 proptest! {
@@ -16,7 +16,7 @@ proptest! {
         let c = if up { libm::exp2(power) } else { -libm::exp2(power) };
         let found = Fix::from_f64(x).times(Fix::coefficient(c)).to_f64();
         let exact = x * c;
-        // A constant of one half and more costs the bits that it raises by.
+        // A factor of one half or more loses the bits by which it shifts up.
         let error = FACTOR * exact.abs() + STEP * (1.0 + 4.0 * c.abs());
         if exact.abs() + error < 4.0 {
             prop_assert!((found - exact).abs() <= error, "{found} {exact}");
@@ -31,7 +31,7 @@ proptest! {
         prop_assert!((found - x * c).abs() <= 3.0 * STEP, "{found} {}", x * c);
     }
 
-    /// Up to where a sum of three would leave the format.
+    /// Over the range in which a sum of three fits the format.
     #[test]
     fn rows_share_a_scale(x in prop::array::uniform3(-2.9..2.9_f64), c in prop::array::uniform3(-0.9..0.9_f64)) {
         let largest = c.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
@@ -50,7 +50,7 @@ proptest! {
         prop_assert!(error <= 1.23e-4 * a.abs() / 1.41 + STEP, "{error:e}");
     }
 
-    /// Whatever two products or readings are, their sum and their difference fit.
+    /// The sum and the difference of any two products or readings fit.
     #[test]
     fn sums_of_two_saturated_numbers_do_not_wrap(a in any::<i32>(), b in any::<i32>()) {
         let per_count = Fix::coefficient(0.37);
@@ -67,7 +67,7 @@ fn constants_keep_their_digits_at_any_scale() {
     for value in [1.0, -1.0, 1e-9, 3.3e-5, -0.7, 120.0, 5000.0, 1e8] {
         let Factor { mantissa, shift } = Factor::new(value);
         let back = f64::from(mantissa) / libm::exp2(f64::from(16 + shift));
-        // Below 2^-32 digits go.
+        // Digits below 2^-32 are lost.
         let error = FACTOR.max(2e-14 / f64::abs(value));
         assert!((back / value - 1.0).abs() < error, "{value}: {back}");
     }
@@ -84,7 +84,7 @@ fn constants_keep_their_digits_at_any_scale() {
 
 #[test]
 fn counts_become_numbers_and_saturate() {
-    // From the coarsest encoder to the finest: 4 counts a turn, BIOTACT's, and
+    // From the coarsest encoder to the finest: 4 counts per turn, BIOTACT's, and
     // 65,536 with a gear of 1000.
     for counts_per_turn in [4.0, 512.0 * 11.0, 65_536.0, 65_536.0 * 1_000.0] {
         let per_count = 360.0 / counts_per_turn / 100.0;

@@ -6,7 +6,10 @@ use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use std::io::ErrorKind;
-use whisking::motor::{Duty, Fault, MotorDriver, SixStep, SixStepConfig, StallConfig};
+use whisking::motor::{
+    COMMUTATION, Duty, Fault, MotorDriver, SixStep, SixStepConfig, SixStepState, StallConfig,
+    StallGuard,
+};
 
 type Motor = SixStep<(Pwm, Pwm, Pwm), (Pin, Pin, Pin), (Pin, Pin, Pin)>;
 
@@ -237,10 +240,17 @@ fn stall_is_told_after_the_ticks_and_clear_starts_over() {
     bench.hall(1).off();
     bench.hall(1).first_step(2, 3, 100, 50);
     bench.run(stall_after(3), |motor| {
+        assert_eq!(motor.state(), SixStepState::Off);
         assert_eq!(motor.drive(HALF), Ok(()));
         assert_eq!(motor.drive(HALF), Ok(()));
+        let pair = COMMUTATION[0].forward;
+        assert_eq!(motor.state(), SixStepState::Driving { pair, duty: HALF });
+        assert_eq!(motor.guard(), StallGuard::Still { ticks: 2 });
         assert_eq!(motor.drive(HALF), Err(Fault::Stall));
+        let fault = Fault::Stall;
+        assert_eq!(motor.state(), SixStepState::Faulted { fault });
         motor.clear();
+        assert_eq!(motor.state(), SixStepState::Off);
         assert_eq!(motor.drive(HALF), Ok(()));
     });
 }

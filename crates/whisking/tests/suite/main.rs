@@ -1,0 +1,14 @@
+//! Tests of the pattern generator, the position control and the motor drivers,
+//! by topic.
+
+mod bits;
+mod module_terms;
+mod motor_duty;
+mod motor_hall;
+mod motor_hbridge;
+mod motor_order;
+mod motor_rotor;
+mod motor_six_step;
+mod motor_stall;
+mod oscillator_terms;
+mod phase_noise;
