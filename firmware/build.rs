@@ -1,16 +1,18 @@
-//! For a board: turns the scene into constants and types, and tells the linker
+//! For a board: turns the scene into types and settings, and tells the linker
 //! about the memory. Without a board (no feature names one) it does nothing.
 //!
-//! The scene is the file that `WHISKER_SCENE` names, seen from the workspace's
-//! root; without it `scenes/textures.toml`. What is wrong with it ends the
-//! build with a message.
+//! The scene is the file that `WHISKER_SCENE` names, relative to the
+//! workspace's root; without it `scenes/textures.toml`. A scene that is wrong
+//! ends the build with a message.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
-#[path = "build/written.rs"]
-mod written;
+#[path = "build/model.rs"]
+mod model;
+#[path = "build/source.rs"]
+mod source;
 
 #[allow(dead_code, reason = "the boards use the rest")]
 #[path = "src/board"]
@@ -22,6 +24,7 @@ mod board {
 }
 
 use board::timing::{Clocks, TICK_MIN_HZ};
+use databake::quote;
 use plan::NumberFormat;
 use scene::Scene;
 use whisking::Fix;
@@ -59,6 +62,7 @@ const DEFAULT_SCENE: &str = "scenes/textures.toml";
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
     println!("cargo::rerun-if-changed=src/board");
     println!("cargo::rerun-if-env-changed=WHISKER_SCENE");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
@@ -100,7 +104,7 @@ fn link(board: &Board) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Reads the scene and writes its constants and types.
+/// Reads the scene and writes its types and settings.
 fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     let path = env::var("WHISKER_SCENE").unwrap_or_else(|_| DEFAULT_SCENE.to_owned());
     let path = workspace()?.join(path);
@@ -110,12 +114,25 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     fits(&scene, board).map_err(wrong)?;
 
     let scene_dir = path.parent().unwrap_or(Path::new(""));
-    let format = plan::on_board(&scene, board.name, board.has_fpu);
-    let text = match format.map_err(|error| wrong(error.to_string()))? {
-        NumberFormat::Fixed => written::written::<Fix>(&scene, scene_dir, "whisking::Fix")?,
-        _ => written::written::<f32>(&scene, scene_dir, "f32")?,
+    let model = match (&scene.classifier, scene.model_path(scene_dir)) {
+        (Some(classifier), Some(path)) => {
+            // A path that is not found beside the scene counts from the workspace's root.
+            let path = workspace()?.join(path);
+            println!("cargo::rerun-if-changed={}", path.display());
+            let model = model::read(&path, classifier)?;
+            fs::copy(&path, output("touch.model")?)?;
+            Some(model)
+        }
+        _ => None,
     };
-    fs::write(output("scene.rs")?, text)?;
+    let format = plan::on_board(&scene, board.name, board.has_fpu);
+    let source = match format.map_err(|error| wrong(error.to_string()))? {
+        NumberFormat::Fixed => {
+            source::source::<Fix>(&scene, model.as_ref(), &quote!(whisking::Fix))?
+        }
+        _ => source::source::<f32>(&scene, model.as_ref(), &quote!(f32))?,
+    };
+    fs::write(output("scene.rs")?, source)?;
     Ok(())
 }
 

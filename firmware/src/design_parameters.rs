@@ -30,12 +30,17 @@ pub const RETRY_S: f64 = 1.0;
 /// at a whisk's turning point, shorter than a small winding takes to overheat.
 pub const STALL_S: f64 = 0.2;
 
-/// How long bad frames are borne at `tick_hz` ticks a second.
+/// For how long readings are held at `tick_hz` ticks a second.
 pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
     HoldLimits {
         hold: ticks(HOLD_S, tick_hz),
         recover: ticks(RECOVER_S, tick_hz),
     }
+}
+
+/// How long a motor rests after a fault at `tick_hz` ticks a second.
+pub const fn retry(tick_hz: u32) -> u16 {
+    ticks(RETRY_S, tick_hz)
 }
 
 /// When a motor counts as stalled at `tick_hz` ticks a second: driven above

@@ -4,19 +4,21 @@
 //! # Glossary
 //!
 //! - *tick*: one pass of the control loop, [`Module::tick`]: sense, filter,
-//!   gate, step, follow, classify, in this order.
+//!   gate, step, position control, classify, in this order.
 //! - *frame*: the eight bytes of one sensor reading; the tick uses the one
 //!   that was complete before it began.
 //! - *fault*: the motor of that whisker is off until a retry succeeds.
 //! - *limit*: something out of the ordinary while the module still runs.
-//! - *event*: what the tick has to say; queued, and logged elsewhere.
+//! - *event*: what a tick reports; queued, and logged elsewhere.
+//! - *servo*: a whisker's motor, angle input and position control.
 //!
 //! # Composition
 //!
 //! A module is generic over what it reads ([`FrameSource`]), how it moves
 //! ([`Motion`]: [`Passive`] or [`Active`]), what it decides ([`Perception`]:
-//! `()` or [`Classifying`]) and its [`Clock`]. What a scene leaves out is a type
-//! without state and code, or a `None` in a constant [`Config`].
+//! `()` or [`Classifying`]) and its [`Clock`]. Its constants are one [`Config`],
+//! which each tick reads. What a scene leaves out is a type without state and
+//! code. Between ticks a [`Command`] changes a whisker's gain or setpoint.
 #![cfg_attr(not(test), no_std)]
 
 mod active;
@@ -24,16 +26,20 @@ pub mod design_parameters;
 mod event;
 mod io;
 mod module;
+mod motion;
 mod perception;
 mod sensing;
+mod servo;
 mod timing;
 
-pub use active::{Active, ActiveConfig, Motion, Passive, Servo};
+pub use active::{Active, ActiveConfig};
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
 pub use module::{Config, Module};
+pub use motion::{Command, Motion, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
     Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, SampleClassifier, shifts,
 };
-pub use sensing::{HoldLimits, Reading, Sensor};
+pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
+pub use servo::{Servo, ServoConfig, ServoState};
 pub use timing::Timing;

@@ -1,21 +1,25 @@
 //! The tick.
 
 use mlx90333::Decoder;
-use whisking::{Real, filter};
+use whisking::{Optional, Real, filter};
 
 use crate::sensing::{HoldLimits, Reading, Sensor};
-use crate::{Clock, Event, FrameSource, Motion, Perception, Place, Timing};
+use crate::{
+    Clock, Command, Event, FrameSource, Motion, MotorControl, NoActiveWhisker, Perception, Place,
+    Timing,
+};
 
-/// Constants of a module. A board holds it in a `const`, so that the compiler
-/// sees what is left out.
+/// The settings of a module: every constant that its tick reads. A board copies
+/// them from flash to RAM when it starts. What is left out is left out by type:
+/// `()` for motion or perception, [`Absent`](whisking::Absent) for the filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<R: Real, M, P> {
+pub struct Config<M, P, H> {
     /// How the sensors' frames are read.
     pub decoder: Decoder,
     /// How long bad frames are bridged.
     pub hold_limits: HoldLimits,
     /// H50 on x, where something needs contact signals.
-    pub contact: Option<filter::Config<R>>,
+    pub contact: H,
     /// How it moves.
     pub motion: M,
     /// What it decides.
@@ -40,8 +44,6 @@ impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
 where
     R: Real,
     F: FrameSource,
-    M: Motion<R, S, N>,
-    P: Perception<R, S, N>,
     C: Clock,
 {
     /// A module that has not ticked yet, from its sensors (left side first),
@@ -60,15 +62,16 @@ where
 
     /// One tick. `events` gets what is worth telling; nothing is formatted here.
     #[inline]
-    pub fn tick(
-        &mut self,
-        config: &Config<R, M::Config, P::Config>,
-        events: &mut impl FnMut(Event),
-    ) {
+    pub fn tick<MC, PC, H>(&mut self, config: &Config<MC, PC, H>, events: &mut impl FnMut(Event))
+    where
+        M: Motion<R, MC, S, N>,
+        P: Perception<R, PC, S, N>,
+        H: Optional<filter::Config<R>>,
+    {
         self.timing.begin(self.clock.now(), config.period);
 
-        let readings = self.sense(config, events);
-        if let Some(h50) = &config.contact {
+        let readings = self.sense(config.decoder, config.hold_limits, events);
+        if let Some(h50) = config.contact.part() {
             self.feel(h50, &readings);
         }
         self.motion
@@ -86,7 +89,8 @@ where
     #[inline]
     fn sense(
         &mut self,
-        config: &Config<R, M::Config, P::Config>,
+        decoder: Decoder,
+        limits: HoldLimits,
         events: &mut impl FnMut(Event),
     ) -> [[Reading; N]; S] {
         let mut readings = [[Reading::REST; N]; S];
@@ -96,7 +100,7 @@ where
                     side: side as u8,
                     whisker: w as u8,
                 };
-                *reading = sensor.read(config.decoder, config.hold_limits, place, events);
+                *reading = sensor.read(decoder, limits, place, events);
             }
         }
         readings
@@ -144,8 +148,22 @@ where
         &mut self.timing
     }
 
+    /// Carries out `command` for the whisker at `place`, between two ticks.
+    ///
+    /// # Errors
+    /// [`NoActiveWhisker`] if there is none.
+    pub fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>
+    where
+        M: MotorControl<R>,
+    {
+        self.motion.command(place, command)
+    }
+
     /// Switches every motor off, until the next tick.
-    pub fn off(&mut self) {
+    pub fn off(&mut self)
+    where
+        M: MotorControl<R>,
+    {
         self.motion.off();
     }
 }

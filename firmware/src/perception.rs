@@ -1,28 +1,23 @@
-//! What a module decides about what it touches.
+//! What decides about what a module touches, or does not.
 
 use tactile::{Decision, DecisionRule, Model, NaiveBayes};
-use whisking::Real;
+use whisking::{Optional, Real};
 
 use crate::sensing::Reading;
 
-/// Decides from the readings of a module, or does not.
-pub trait Perception<R, const S: usize, const N: usize> {
-    /// Its constants.
-    type Config;
-
+/// Decides from the readings of a module by the constants `C`, or does not.
+pub trait Perception<R, C, const S: usize, const N: usize> {
     /// One tick: contact π of each side and the readings it came from.
     fn step(
         &mut self,
-        config: &Self::Config,
+        config: &C,
         contact: [R; S],
         readings: &[[Reading; N]; S],
     ) -> Option<Decision>;
 }
 
 /// No perception.
-impl<R, const S: usize, const N: usize> Perception<R, S, N> for () {
-    type Config = ();
-
+impl<R, const S: usize, const N: usize> Perception<R, (), S, N> for () {
     #[inline]
     fn step(
         &mut self,
@@ -36,15 +31,14 @@ impl<R, const S: usize, const N: usize> Perception<R, S, N> for () {
 
 /// Perception that is there or not at run time, for simulations of any scene.
 /// A configuration without the perception, or the reverse, decides nothing.
-impl<R: Copy, P: Perception<R, S, N>, const S: usize, const N: usize> Perception<R, S, N>
-    for Option<P>
+impl<R, C, P, const S: usize, const N: usize> Perception<R, Option<C>, S, N> for Option<P>
+where
+    P: Perception<R, C, S, N>,
 {
-    type Config = Option<P::Config>;
-
     #[inline]
     fn step(
         &mut self,
-        config: &Self::Config,
+        config: &Option<C>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
     ) -> Option<Decision> {
@@ -63,17 +57,19 @@ pub trait SampleClassifier {
 
 /// Constants of [`Classifying`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClassifyingConfig<R> {
+pub struct ClassifyingConfig<T, D> {
     /// Samples count only while contact π of the whisker's side is at least
-    /// this; `None`: always.
-    pub contact_min: Option<R>,
+    /// this; absent: always.
+    pub contact_min: T,
+    /// Settings of the decision rule, with which the classifier is made.
+    pub rule: D,
 }
 
-/// The first whisker of the module (left side first), listened to by `L`.
+/// Classifies what the first whisker of the module (left side first) touches.
 ///
 /// Samples are the sensor's raw 14-bit codes, not the filtered contact signal:
 /// texture is in the vibration above 50 Hz. While the sensor has a fault there
-/// is nothing to listen to.
+/// are no samples.
 #[derive(Debug)]
 pub struct Classifying<L> {
     classifier: L,
@@ -91,21 +87,26 @@ impl<L> Classifying<L> {
     }
 }
 
-impl<R: Real, L: SampleClassifier, const S: usize, const N: usize> Perception<R, S, N>
+impl<R, T, D, L, const S: usize, const N: usize> Perception<R, ClassifyingConfig<T, D>, S, N>
     for Classifying<L>
+where
+    R: Real,
+    T: Optional<R>,
+    L: SampleClassifier,
 {
-    type Config = ClassifyingConfig<R>;
-
     #[inline]
     fn step(
         &mut self,
-        config: &ClassifyingConfig<R>,
+        config: &ClassifyingConfig<T, D>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
     ) -> Option<Decision> {
         let reading = readings.first()?.first()?;
         let contact = *contact.first()?;
-        let touching = config.contact_min.is_none_or(|least| contact >= least);
+        let touching = config
+            .contact_min
+            .part()
+            .is_none_or(|least| contact >= *least);
         if !reading.valid || !touching {
             return None;
         }
@@ -132,7 +133,7 @@ impl core::fmt::Display for NotCodes {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(
             f,
-            "the model was not learnt from 14-bit sensor codes of two channels"
+            "the model was not trained on 14-bit sensor codes of two channels"
         )
     }
 }
@@ -143,7 +144,7 @@ impl core::error::Error for NotCodes {}
 /// each channel.
 ///
 /// # Errors
-/// [`NotCodes`] if the model was learnt from something else.
+/// [`NotCodes`] if the model was trained on something else.
 pub fn shifts<W: AsRef<[u32]>>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
     let shift = |channel| -> Option<u32> {
         let quantiser = model.quantiser(channel)?;

@@ -1,11 +1,11 @@
-//! From frames to readings, and what happens when frames are bad.
+//! From frames to readings, and what happens without good frames.
 
 use mlx90333::{Decoder, FRAME_LEN, Word};
 
 use crate::io::{BusError, FrameSource};
 use crate::{Event, Place, SensorFault};
 
-/// What one whisker feels in one tick.
+/// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reading {
     /// Deflection along the direction of whisking.
@@ -28,22 +28,36 @@ impl Reading {
     };
 }
 
+/// The health of a sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SensorHealth {
+    /// It is trusted.
+    Ok {
+        /// Ticks without a good frame in succession, up to now.
+        bad: u16,
+    },
+    /// Its readings cannot be used.
+    Faulted {
+        /// Ticks with a good frame in succession, up to now.
+        good: u16,
+    },
+}
+
+/// For how long readings are held, and how long a recovery takes, in ticks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HoldLimits {
+    /// Ticks without a good frame for which the last one is held.
+    pub hold: u16,
+    /// Good frames in succession before a faulty sensor is trusted again.
+    pub recover: u16,
+}
+
 /// One whisker's sensor and its health.
 #[derive(Debug)]
 pub struct Sensor<F> {
     source: F,
     last: Reading,
-    /// Ticks in succession: bad ones while valid, good ones while not.
-    run: u16,
-}
-
-/// How long a reading is held and how long a recovery takes, in ticks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct HoldLimits {
-    /// Bad ticks that are bridged.
-    pub hold: u16,
-    /// Good ticks before a faulty sensor is trusted again.
-    pub recover: u16,
+    health: SensorHealth,
 }
 
 #[inline]
@@ -64,7 +78,7 @@ impl<F: FrameSource> Sensor<F> {
         Self {
             source,
             last: Reading::REST,
-            run: 0,
+            health: SensorHealth::Ok { bad: 0 },
         }
     }
 
@@ -73,29 +87,36 @@ impl<F: FrameSource> Sensor<F> {
         &mut self.source
     }
 
-    /// Takes the frame of this tick. Bad ones are bridged with the last good
-    /// reading for `hold_limits.hold` ticks, then the sensor counts as faulty
-    /// until `hold_limits.recover` good ones have come in a row.
+    /// Its health after the last tick.
+    pub const fn health(&self) -> SensorHealth {
+        self.health
+    }
+
+    /// Takes the frame of this tick. Without a good one the last good reading
+    /// is held for `limits.hold` ticks; then the sensor counts as faulty until
+    /// `limits.recover` good ones have come in succession.
     #[inline]
     pub fn read(
         &mut self,
         decoder: Decoder,
-        hold_limits: HoldLimits,
+        limits: HoldLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) -> Reading {
-        match decode(decoder, self.source.take()) {
-            Ok((x, y)) if self.last.valid => self.keep(x, y),
-            Ok((x, y)) => self.recover(x, y, hold_limits, place, events),
-            Err(fault) => self.bridge(fault, hold_limits, place, events),
+        match (decode(decoder, self.source.take()), self.health) {
+            (Ok((x, y)), SensorHealth::Ok { .. }) => self.accept(x, y),
+            (Ok((x, y)), SensorHealth::Faulted { good }) => {
+                self.recover(good, limits, [x, y], place, events);
+            }
+            (Err(fault), health) => self.hold(health, limits, fault, place, events),
         }
         self.last
     }
 
     /// A good frame of a trusted sensor.
     #[inline]
-    const fn keep(&mut self, x: Word, y: Word) {
-        self.run = 0;
+    const fn accept(&mut self, x: Word, y: Word) {
+        self.health = SensorHealth::Ok { bad: 0 };
         self.last = Reading {
             x,
             y,
@@ -104,48 +125,52 @@ impl<F: FrameSource> Sensor<F> {
         };
     }
 
-    /// A good frame of a faulty sensor.
+    /// A good frame of a faulty sensor, after `good` others.
     #[cold]
     #[inline(never)]
     fn recover(
         &mut self,
-        x: Word,
-        y: Word,
-        hold_limits: HoldLimits,
+        good: u16,
+        limits: HoldLimits,
+        [x, y]: [Word; 2],
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
-        self.run = self.run.saturating_add(1);
-        if self.run >= hold_limits.recover {
-            self.keep(x, y);
+        let good = good.saturating_add(1);
+        if good >= limits.recover {
+            self.accept(x, y);
             events(Event::SensorBack(place));
+        } else {
+            self.health = SensorHealth::Faulted { good };
         }
     }
 
     /// No good frame.
     #[cold]
     #[inline(never)]
-    fn bridge(
+    fn hold(
         &mut self,
+        health: SensorHealth,
+        limits: HoldLimits,
         fault: SensorFault,
-        hold_limits: HoldLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
-        if !self.last.valid {
-            self.run = 0;
-            return;
-        }
-        self.run = self.run.saturating_add(1);
-        self.last.fresh = false;
-        if self.run > hold_limits.hold {
-            self.run = 0;
-            self.last = Reading {
-                valid: false,
-                ..Reading::REST
-            };
-            events(Event::SensorLost(place, fault));
-        }
+        self.health = match health {
+            SensorHealth::Ok { bad } if bad < limits.hold => {
+                self.last.fresh = false;
+                SensorHealth::Ok { bad: bad + 1 }
+            }
+            SensorHealth::Ok { .. } => {
+                self.last = Reading {
+                    valid: false,
+                    ..Reading::REST
+                };
+                events(Event::SensorLost(place, fault));
+                SensorHealth::Faulted { good: 0 }
+            }
+            SensorHealth::Faulted { .. } => SensorHealth::Faulted { good: 0 },
+        };
     }
 }
 

@@ -1,10 +1,10 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use firmware::design_parameters::{RETRY_S, hold_limits, stall, ticks};
+use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Config, Event, Module, Polled,
-    SampleClassifier, Servo,
+    SampleClassifier, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
@@ -72,9 +72,15 @@ pub trait HostModule: Bench + Send {
 type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
 type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
 
+type HostConfig<R> = Config<
+    Option<ActiveConfig<R>>,
+    Option<ClassifyingConfig<Option<R>, ()>>,
+    Option<filter::Config<R>>,
+>;
+
 struct Shaped<R: Real, const S: usize, const N: usize> {
     module: Module<R, Polled<Slave>, Motors<R, S, N>, Option<Classifying<Tap>>, NoClock, S, N>,
-    config: Config<R, Option<ActiveConfig<R>>, Option<ClassifyingConfig<R>>>,
+    config: HostConfig<R>,
     start: Option<Start<R, S, N>>,
 }
 
@@ -124,7 +130,7 @@ where
     Self: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        let stall = self.config.motion.as_ref().map(|motion| motion.stall);
+        let stall = self.config.motion.as_ref().map(|motion| motion.servo.stall);
         let motors = match (&self.start, stall) {
             (Some(start), Some(stall)) => Some(motors(start, stall, seed, pins)?),
             _ => None,
@@ -160,7 +166,7 @@ fn motors<R: Real, const S: usize, const N: usize>(
     let mut pins = pins.into_iter();
     let servos = array(|| {
         let (motor, angle) = drive::on(pins.next()?, stall);
-        Some(Servo::new(motor, angle, stall))
+        Some(Servo::new(motor, angle))
     });
     let state = whisking::State::new(start, seed);
     Ok(Active::new(state, servos.ok_or_else(|| misfit("motors"))?))
@@ -228,17 +234,20 @@ where
         contact,
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
-            pd: plan.pd,
-            retry: ticks(RETRY_S, scene.tick_hz),
-            stall: stall(scene.tick_hz, plan.stall_q15),
+            servo: ServoConfig {
+                pd: plan.pd,
+                retry: retry(scene.tick_hz),
+                stall: stall(scene.tick_hz, plan.stall_q15),
+            },
         }),
         perception: Some(ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),
+            rule: (),
         }),
         period: 0,
     };
     let motors = match (&start, &config.motion) {
-        (Some(start), Some(motion)) => Some(motors(start, motion.stall, scene.seed, pins)?),
+        (Some(start), Some(motion)) => Some(motors(start, motion.servo.stall, scene.seed, pins)?),
         _ => None,
     };
     let perception = Some(Classifying::new(Tap::new(classifier)));

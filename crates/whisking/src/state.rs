@@ -48,6 +48,15 @@ impl<R: Real> Whisker<R> {
     pub fn gain(&self) -> f64 {
         self.nominal.to_f64() + self.lift.value.to_f64()
     }
+
+    /// Sets the nominal value of g, limited to 0..=2; what contact adds is
+    /// limited so that g stays there too.
+    pub fn set_nominal(&mut self, nominal: R) {
+        self.nominal = nominal.clamp(R::ZERO, R::TWO);
+        let room = R::TWO - self.nominal;
+        self.lift.value = self.lift.value.clamp(R::ZERO, room);
+        self.lift.mean = self.lift.mean.clamp(R::ZERO, room);
+    }
 }
 
 impl<R: Real, const S: usize, const N: usize> State<R, S, N> {

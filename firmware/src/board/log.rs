@@ -1,30 +1,26 @@
 //! Lines of the log, by defmt over RTT. Texts stay on the PC; the board sends
 //! a number for each.
 //!
-//! Only idle writes here. A line that finds no room in the ring is dropped
-//! whole, and nothing waits for the probe.
+//! Only idle writes here, and fault handlers. A line that finds no room in the
+//! ring is dropped whole; nothing waits for the probe.
 
-use core::sync::atomic::Ordering;
-
-use firmware::{Event, Place, SensorFault};
+use firmware::{Place, SensorFault};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
-use super::motion::Moves as _;
-use super::program::TICKS;
+use super::counters::TICKS;
 use super::reset::{Cause, ClockError};
-use super::scene::{self, Moving};
-use super::touch::Names;
+use super::scene::{NAME, TICK_HZ};
 use crate::here::CLOCKS;
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {
-    let ticks = TICKS.load(Ordering::Relaxed);
-    let (whole, part) = (ticks / scene::TICK_HZ, ticks % scene::TICK_HZ);
+    let ticks = TICKS.get();
+    let (whole, part) = (ticks / TICK_HZ, ticks % TICK_HZ);
     // Wraps after seven weeks, as a clock of 32 bits in milliseconds does.
     whole
         .wrapping_mul(1_000)
-        .wrapping_add(part * 1_000 / scene::TICK_HZ)
+        .wrapping_add(part * 1_000 / TICK_HZ)
 });
 
 /// Counts of the clock in a microsecond.
@@ -35,13 +31,13 @@ pub(crate) fn start(cause: Cause) {
     defmt::info!(
         "whisker {=str}: scene {=str}, {=u32} ticks a second",
         env!("CARGO_PKG_VERSION"),
-        scene::NAME,
-        scene::TICK_HZ
+        NAME,
+        TICK_HZ
     );
     match cause {
         Cause::Watchdog => {
             defmt::warn!(
-                "reset by the watchdog: a fault (told above), or tick or idle stood still"
+                "reset by the watchdog: a fault (logged above), or tick or idle stood still"
             );
         }
         Cause::Software => defmt::info!("reset by software"),
@@ -51,7 +47,7 @@ pub(crate) fn start(cause: Cause) {
     }
 }
 
-/// Last words where a clock did not come.
+/// The last line where a clock did not start.
 pub(crate) fn clock(error: ClockError) {
     match error {
         ClockError::NoHse => defmt::error!("no 8 MHz clock from the ST-LINK (PH0)"),
@@ -59,7 +55,7 @@ pub(crate) fn clock(error: ClockError) {
     }
 }
 
-/// Last words where the classifier cannot start.
+/// The last line where the classifier cannot start.
 pub(crate) fn model() {
     defmt::error!("the model in flash is damaged: flash again");
 }
@@ -83,7 +79,7 @@ pub(crate) fn health(now: &Health, before: &Health) {
         "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
         tenths / 10,
         tenths % 10,
-        1_000_000 / scene::TICK_HZ,
+        1_000_000 / TICK_HZ,
         now.missed,
         now.dropped
     );
@@ -95,24 +91,11 @@ pub(crate) fn health(now: &Health, before: &Health) {
     }
 }
 
-/// One event of a tick.
-pub(crate) fn event(event: Event, names: &impl Names) {
-    match event {
-        Event::Decision(decided) => names.tell(decided),
-        Event::SensorLost(place, fault) => sensor_lost(place, fault),
-        Event::SensorBack(place) => {
-            defmt::info!("{=str} {=u8}: sensor is back", side(place), place.whisker);
-        }
-        Event::MotorFault(place, fault) => Moving::tell_fault(place, fault),
-        Event::MotorRetry(place) => Moving::tell_retry(place),
-    }
-}
-
 const fn side(place: Place) -> &'static str {
     if place.side == 0 { "left" } else { "right" }
 }
 
-/// A decision for the class of that name.
+/// A decision for the class `name`.
 pub(crate) fn decision(name: &str, decided: tactile::Decision) {
     // Percent with four decimals, rounded down: at most 99.9999.
     let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
@@ -168,7 +151,13 @@ pub(crate) fn motor_retry(place: Place) {
     );
 }
 
-fn sensor_lost(place: Place, fault: SensorFault) {
+/// A sensor is trusted again.
+pub(crate) fn sensor_back(place: Place) {
+    defmt::info!("{=str} {=u8}: sensor is back", side(place), place.whisker);
+}
+
+/// A sensor has a fault; the motor is off.
+pub(crate) fn sensor_lost(place: Place, fault: SensorFault) {
     let (side, whisker) = (side(place), place.whisker);
     let code = fault.code();
     match fault {
@@ -226,14 +215,14 @@ fn sensor_lost(place: Place, fault: SensorFault) {
 
 /// One line for each bit set of the sensor's error word.
 fn sensor_reports(faults: Faults) {
-    macro_rules! tell {
+    macro_rules! lines {
         ($($bit:ident: $text:literal;)*) => {
             $(if faults.contains(Faults::$bit) {
                 defmt::error!($text);
             })*
         };
     }
-    tell! {
+    lines! {
         ADC_MONITOR: "- converter self-test failed (supply?)";
         ADC_SATURATED: "- converter saturated (magnet too close?)";
         GAIN_TOO_LOW: "- gain at its lower end (magnet too strong?)";

@@ -1,12 +1,13 @@
 //! What every board has in common: drivers over the registers that the chip
 //! families share, and the program.
 //!
-//! Three things are a board's own, in a file of its name beside this one, which
-//! is `crate::here`: its clocks, its pins and timers as constants, and which of
-//! the drivers that exist in several versions (`gpio_*`, `spi_*`, `dma_*`) its
-//! chip has. What a scene has of its own comes from the build script into
-//! [`scene`]. Nothing else chooses: no feature or `cfg` of a scene is asked
-//! anywhere. See docs/boards.md for how to add a board.
+//! A board has a file of its own beside this one, which is `crate::here`. It
+//! names three things: its clocks; its peripherals as constants; and which of
+//! the drivers that exist in several versions (`gpio_*`, `spi_*`, `dma_*`) fit
+//! its chip. The pins are the same on every board: [`wiring`]. The scene's types
+//! and settings come from the build script into [`scene`]; nothing else depends
+//! on the scene, no feature and no `cfg`. See docs/boards.md for how to add a
+//! board.
 //!
 //! Register-level throughout: for time, safety and size, and because that is
 //! what the families share. All `unsafe` of the firmware is in here.
@@ -16,10 +17,10 @@
 )]
 #![allow(
     clippy::unused_self,
-    reason = "who may write a register holds the value without size that stands for it"
+    reason = "the right to write a register is a value without size"
 )]
 
-pub(crate) mod counter;
+pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;
 pub(crate) mod gpio;
@@ -34,7 +35,8 @@ pub(crate) mod pwm;
 pub(crate) mod reset;
 pub(crate) mod scene;
 pub(crate) mod sensor;
+pub(crate) mod systick;
+pub(crate) mod tick_timer;
 pub(crate) mod timing;
-pub(crate) mod touch;
 pub(crate) mod watchdog;
 pub(crate) mod wiring;

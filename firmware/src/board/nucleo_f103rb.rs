@@ -67,9 +67,9 @@ mod chip {
     use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, TIM2, TIM3, TIM4};
 
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
-    use crate::board::counter::SysTick;
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
+    use crate::board::systick::SysTick;
 
     /// Requests each byte of a frame.
     pub(crate) const BYTE_TIMER: TimGp16 = TIM4;

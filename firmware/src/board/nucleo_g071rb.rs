@@ -67,9 +67,9 @@ mod chip {
     use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, TIM2, TIM3, TIM6};
 
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
-    use crate::board::counter::SysTick;
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
+    use crate::board::systick::SysTick;
 
     /// Requests each byte of a frame.
     pub(crate) const BYTE_TIMER: TimBasic = TIM6;

@@ -9,65 +9,29 @@
 //! The first two have one priority: they work on the same registers. They are
 //! bound to a board's interrupts by [`program!`](crate::program).
 
-use core::sync::atomic::{AtomicU32, Ordering};
-
 use firmware::Event;
-use firmware::design_parameters::hold_limits;
 use heapless::spsc::{Consumer, Producer};
-use mlx90333::Decoder;
 
-use super::motion::{self, Moves};
-use super::scene::{self, Deciding, Moving, Number, TICK_HZ};
+use super::counters::{TICKS, WrappingCounter};
+use super::scene::{self, Motion, Number, Perception, SETTINGS, Settings, TICK_HZ};
 use super::sensor::Frames;
-use super::touch::{self, Decides};
 use super::watchdog::Watchdog;
 use super::{faults, log, outputs};
 use crate::here::{self, CLOCKS, Counter};
 
-/// The module. A type of its own, because RTIC would make those inside public.
+/// The module and its settings. A type of its own, because RTIC would make
+/// those inside public.
 pub struct Module {
-    inner: Inner,
+    inner: firmware::Module<Number, Frames, Motion, Perception, Counter, 1, 1>,
+    /// In RAM, where they can be changed.
+    settings: Settings,
 }
 
-type Inner = firmware::Module<
-    Number,
-    Frames,
-    <Moving as Moves>::Motion,
-    <Deciding as Decides>::Perception,
-    Counter,
-    1,
-    1,
->;
-
-/// Its constants.
-const CONFIG: firmware::Config<Number, motion::Config<Moving>, touch::Config<Deciding>> =
-    firmware::Config {
-        decoder: Decoder::new(),
-        hold_limits: hold_limits(TICK_HZ),
-        contact: scene::CONTACT,
-        motion: Moving::CONFIG,
-        perception: Deciding::CONFIG,
-        period: CLOCKS.tick_counts(TICK_HZ),
-    };
-
-/// Ticks since the start. Only the tick writes it.
-pub(crate) static TICKS: AtomicU32 = AtomicU32::new(0);
-
-/// Events that found the queue full. Only the tick writes it.
-static DROPPED: AtomicU32 = AtomicU32::new(0);
-
-/// One more. In two steps, because a Cortex-M0+ has none that does both; each
-/// counter has one writer.
-#[inline]
-fn count(counter: &AtomicU32) {
-    counter.store(
-        counter.load(Ordering::Relaxed).wrapping_add(1),
-        Ordering::Relaxed,
-    );
-}
+/// Events that found the queue full. Only the tick counts them.
+static DROPPED: WrappingCounter = WrappingCounter::new();
 
 /// From the reset to a module that is ready for its first tick.
-pub(crate) fn start(core: cortex_m::Peripherals) -> (Module, <Deciding as Decides>::Names) {
+pub(crate) fn start(core: cortex_m::Peripherals) -> Module {
     outputs::off();
     here::prepare_for_debuggers();
     log::start(here::reset_cause());
@@ -75,27 +39,30 @@ pub(crate) fn start(core: cortex_m::Peripherals) -> (Module, <Deciding as Decide
         faults::die(|| log::clock(error));
     }
     let frames = Frames::new(const { CLOCKS.slot_counts(TICK_HZ) });
-    let motion = Moving::start();
-    let Some((perception, names)) = Deciding::start() else {
+    let motion = scene::start_motion();
+    let Some(perception) = scene::start_perception() else {
         faults::die(log::model)
     };
     let counter = here::start_counter(core);
-    let inner = Inner::new([[frames]], motion, perception, counter);
+    let inner = firmware::Module::new([[frames]], motion, perception, counter);
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
-    (Module { inner }, names)
+    Module {
+        inner,
+        settings: SETTINGS,
+    }
 }
 
-/// One tick of the module; its events go to `say`.
+/// One tick of the module; its events go to `queue`.
 #[inline]
-pub(crate) fn tick(module: &mut Module, say: &mut Producer<'static, Event>) {
-    module.inner.tick(&CONFIG, &mut |event| {
-        if say.enqueue(event).is_err() {
-            count(&DROPPED);
+pub(crate) fn tick(module: &mut Module, queue: &mut Producer<'static, Event>) {
+    module.inner.tick(&module.settings, &mut |event| {
+        if queue.enqueue(event).is_err() {
+            DROPPED.increment();
         }
     });
-    count(&TICKS);
+    TICKS.increment();
 }
 
 /// The longest tick since the last call, and the ticks missed since the start.
@@ -112,28 +79,39 @@ pub(crate) fn end_of_frame(module: &mut Module) {
     }
 }
 
-/// What idle remembers.
+/// Writes an event to the log. What the scene cannot do has no line.
+fn write(event: Event) {
+    match event {
+        Event::Decision(decision) if !scene::CLASS_NAMES.is_empty() => {
+            let name = scene::CLASS_NAMES.get(decision.class());
+            log::decision(name.unwrap_or(&"?"), decision);
+        }
+        Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
+        Event::SensorBack(place) => log::sensor_back(place),
+        Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
+        Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
+        Event::Decision(_) | Event::MotorFault(..) | Event::MotorRetry(_) => {}
+    }
+}
+
+/// The state of the idle task.
 pub(crate) struct Idle {
-    heard: Consumer<'static, Event>,
-    names: <Deciding as Decides>::Names,
+    events: Consumer<'static, Event>,
     watchdog: Watchdog,
-    seen: u32,
-    told: u32,
+    /// Ticks at the last feed of the watchdog, and at the last line on timing.
+    fed: u32,
+    logged: u32,
     before: log::Health,
 }
 
 impl Idle {
     /// Starts the watchdog.
-    pub(crate) fn new(
-        heard: Consumer<'static, Event>,
-        names: <Deciding as Decides>::Names,
-    ) -> Self {
+    pub(crate) fn new(events: Consumer<'static, Event>) -> Self {
         Self {
-            heard,
-            names,
+            events,
             watchdog: Watchdog::start(),
-            seen: 0,
-            told: 0,
+            fed: 0,
+            logged: 0,
             before: log::Health::default(),
         }
     }
@@ -141,23 +119,23 @@ impl Idle {
     /// What is to be done between two sleeps; `timing` asks the module for its
     /// [`timing`].
     pub(crate) fn run(&mut self, timing: impl FnOnce() -> (u32, u32)) {
-        while let Some(event) = self.heard.dequeue() {
-            log::event(event, &self.names);
+        while let Some(event) = self.events.dequeue() {
+            write(event);
         }
-        let now = TICKS.load(Ordering::Relaxed);
-        if now == self.seen {
+        let now = TICKS.get();
+        if now == self.fed {
             return;
         }
-        self.seen = now;
-        // Both have done their work: the tick, and idle itself.
+        self.fed = now;
+        // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
-        if now.wrapping_sub(self.told) >= TICK_HZ {
-            self.told = now;
+        if now.wrapping_sub(self.logged) >= TICK_HZ {
+            self.logged = now;
             let (worst, missed) = timing();
             let health = log::Health {
                 worst,
                 missed,
-                dropped: DROPPED.load(Ordering::Relaxed),
+                dropped: DROPPED.get(),
             };
             log::health(&health, &self.before);
             self.before = health;
@@ -180,9 +158,9 @@ macro_rules! program {
             use firmware::Event;
             use heapless::spsc::{Producer, Queue};
 
-            use $crate::board::counter::TickTimer;
             use $crate::board::program::{self, Idle, Module};
             use $crate::board::scene::TICK_HZ;
+            use $crate::board::tick_timer::TickTimer;
             use $crate::here::CLOCKS;
 
             #[shared]
@@ -193,28 +171,30 @@ macro_rules! program {
             #[local]
             struct Local {
                 tick_timer: TickTimer,
-                say: Producer<'static, Event>,
+                events: Producer<'static, Event>,
                 idle: Idle,
             }
 
             // Sixteen events: idle drains them after every tick, which has three at most.
             #[init(local = [queue: Queue<Event, 17> = Queue::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
-                let (module, names) = program::start(cx.core);
-                let (say, heard) = cx.local.queue.split();
+                let module = program::start(cx.core);
+                let (events, logged) = cx.local.queue.split();
                 let local = Local {
                     tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
-                    say,
-                    idle: Idle::new(heard, names),
+                    events,
+                    idle: Idle::new(logged),
                 };
                 (Shared { module }, local)
             }
 
-            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, say])]
+            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, events])]
             fn tick(mut cx: tick::Context) {
                 cx.local.tick_timer.acknowledge();
-                let say = cx.local.say;
-                cx.shared.module.lock(|module| program::tick(module, say));
+                let events = cx.local.events;
+                cx.shared
+                    .module
+                    .lock(|module| program::tick(module, events));
             }
 
             #[task(binds = $end_of_frame, priority = 2, shared = [module])]

@@ -3,7 +3,7 @@
 
 use firmware::{BusError, Clock, Config, FrameSource, HoldLimits, Module, Passive};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
-use whisking::filter;
+use whisking::{Present, filter};
 
 /// A sensor that always sends the same word.
 struct Bent(u16);
@@ -32,13 +32,13 @@ const REST: u16 = 0x8000;
 
 /// Contact of both sides after one tick of whiskers at these words.
 fn contact(words: [[u16; 2]; 2]) -> [f64; 2] {
-    let config = Config::<f64, (), ()> {
+    let config = Config {
         decoder: Decoder::new(),
         hold_limits: HoldLimits {
             hold: 1,
             recover: 1,
         },
-        contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
+        contact: Present(filter::Config::<f64>::new(50.0, 2000.0).unwrap()),
         motion: (),
         perception: (),
         period: 0,

@@ -6,11 +6,11 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
     Active, ActiveConfig, AngleInput, Clock, Config, Event, HoldLimits, Module, Place, Polled,
-    SensorFault, Servo,
+    SensorFault, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{Duty, HBridge, StallConfig};
-use whisking::{GateSettings, Integrator, Settings, filter, pd};
+use whisking::{GateSettings, Integrator, Present, Settings, filter, pd};
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
@@ -96,7 +96,7 @@ const STALL: StallConfig = StallConfig {
 };
 
 /// Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a tick.
-fn config() -> Config<f32, ActiveConfig<f32>, ()> {
+fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
     let pd = pd::Settings {
         kp: 0.05,
         kd: 0.0,
@@ -112,12 +112,14 @@ fn config() -> Config<f32, ActiveConfig<f32>, ()> {
             hold: 1,
             recover: 2,
         },
-        contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
+        contact: Present(filter::Config::new(50.0, 2000.0).unwrap()),
         motion: ActiveConfig {
             whisking: SETTINGS.build().unwrap(),
-            pd: pd.build(2000.0).unwrap(),
-            retry: 10,
-            stall: STALL,
+            servo: ServoConfig {
+                pd: pd.build(2000.0).unwrap(),
+                retry: 10,
+                stall: STALL,
+            },
         },
         perception: (),
         period: 500,
@@ -171,7 +173,7 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     let config = config();
     let start = SETTINGS.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
     let bridge = HBridge::new(pwm.clone(), pin.clone());
-    let servo = Servo::new(bridge, Encoder(counts.into_iter()), STALL);
+    let servo = Servo::new(bridge, Encoder(counts.into_iter()));
     let active = Active::new(whisking::State::new(&start, 1), [[servo]]);
     let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
     let mut module = Module::new([[sensor]], active, (), Microseconds(40));

@@ -5,15 +5,15 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{RETRY_S, hold_limits, stall, ticks};
+use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
-    CodeClassifier, Config, Event, FrameSource, Module, Servo,
+    CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FRAME_LEN};
 use tactile::{Model, Sequential, SequentialRule};
 use whisking::motor::{HBridge, StallConfig};
-use whisking::{Start, State};
+use whisking::{Absent, Present, Start, State, filter};
 
 use crate::format::Format;
 use crate::listener::{THRESHOLD, open_9};
@@ -111,6 +111,9 @@ type Motor = HBridge<Compare, Pin>;
 type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
 type Perception = Classifying<CodeClassifier<SequentialRule>>;
 
+type Settings<R> =
+    Config<ActiveConfig<R>, ClassifyingConfig<Absent, ()>, Present<filter::Config<R>>>;
+
 /// A module and the last event that it told.
 #[derive(Debug)]
 pub struct Whole<R: Format, const S: usize, const N: usize> {
@@ -121,17 +124,22 @@ pub struct Whole<R: Format, const S: usize, const N: usize> {
 impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     /// Frame, contact filter, RCP, CIA, oscillators, muscles, position control
     /// and a classifier of nine classes; no noise, which few scenes have.
-    const CONFIG: Config<R, ActiveConfig<R>, ClassifyingConfig<R>> = Config {
+    const CONFIG: Settings<R> = Config {
         decoder: Decoder::new(),
         hold_limits: hold_limits(TICK_HZ),
-        contact: Some(R::H50),
+        contact: Present(R::H50),
         motion: ActiveConfig {
             whisking: R::WHISKING,
-            pd: R::PD,
-            retry: ticks(RETRY_S, TICK_HZ),
-            stall: STALL,
+            servo: ServoConfig {
+                pd: R::PD,
+                retry: retry(TICK_HZ),
+                stall: STALL,
+            },
         },
-        perception: ClassifyingConfig { contact_min: None },
+        perception: ClassifyingConfig {
+            contact_min: Absent,
+            rule: (),
+        },
         period: PERIOD,
     };
 
@@ -146,7 +154,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
         let servos = core::array::from_fn(|_| {
             core::array::from_fn(|_| {
                 let motor = HBridge::new(Compare(0), Pin(false)).with_buffered_pwm();
-                Servo::new(motor, Encoder(0), STALL)
+                Servo::new(motor, Encoder(0))
             })
         });
         let sources = core::array::from_fn(|side| {

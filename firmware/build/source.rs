@@ -1,0 +1,187 @@
+//! The scene as Rust source: the types and settings of `src/board/scene.rs`.
+
+use std::error::Error;
+
+use databake::{Bake, CrateEnv, TokenStream, quote};
+use scene::{Driver, Rule, Scene};
+use tactile::ModelBuf;
+use whisking::{Real, Source};
+
+/// Writes the source in number format `R`, which the firmware calls `number`.
+/// `model` is the classifier's.
+///
+/// # Errors
+/// What is wrong with the scene.
+pub(crate) fn source<R: Real>(
+    scene: &Scene,
+    model: Option<&ModelBuf>,
+    number: &TokenStream,
+) -> Result<String, Box<dyn Error>> {
+    let (name, tick_hz) = (&scene.name, scene.tick_hz);
+    let contact = Source::optional(
+        plan::contact::<R>(scene)?.as_ref(),
+        &quote! { whisking::filter::Config<Number> },
+        &CrateEnv::default(),
+    );
+    let motion = motion::<R>(scene)?;
+    let perception = perception::<R>(scene, model)?;
+
+    let (contact_type, contact_value) = (contact.of_type, contact.value);
+    let (motion_type, motion_value) = (motion.config.of_type, motion.config.value);
+    let (perception_type, perception_value) = (perception.config.of_type, perception.config.value);
+    let items = [
+        quote! { pub(crate) const NAME: &str = #name; },
+        quote! { pub(crate) const TICK_HZ: u32 = #tick_hz; },
+        quote! { pub(crate) type Number = #number; },
+        quote! {
+            pub(crate) type Settings =
+                firmware::Config<#motion_type, #perception_type, #contact_type>;
+        },
+        quote! {
+            pub(crate) const SETTINGS: Settings = firmware::Config {
+                decoder: mlx90333::Decoder::new(),
+                hold_limits: firmware::design_parameters::hold_limits(TICK_HZ),
+                contact: #contact_value,
+                motion: #motion_value,
+                perception: #perception_value,
+                period: crate::here::CLOCKS.tick_counts(TICK_HZ),
+            };
+        },
+    ];
+    let items = items
+        .into_iter()
+        .chain(motion.items)
+        .chain(perception.items);
+    Ok(items.map(|item| format!("{item}\n")).collect())
+}
+
+/// The types, constants and start of motion or perception, and its settings.
+struct Part {
+    items: Vec<TokenStream>,
+    config: Source,
+}
+
+fn nothing() -> Source {
+    Source {
+        of_type: quote! { () },
+        value: quote! { () },
+    }
+}
+
+/// The pattern generator and the position control.
+fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
+    let (Some(motor), Some(plan)) = (&scene.motor, plan::motion::<R, 1, 1>(scene)?) else {
+        let items = vec![
+            quote! { pub(crate) const HAS_MOTOR: bool = false; },
+            quote! { pub(crate) type Motion = firmware::Passive; },
+            quote! {
+                pub(crate) fn start_motion() -> Motion {
+                    firmware::Passive
+                }
+            },
+        ];
+        let config = nothing();
+        return Ok(Part { items, config });
+    };
+    let (motor, start_motor) = match motor.driver {
+        Driver::HBridge => (quote! { Brushed }, quote! { start_brushed() }),
+        Driver::SixStep => (
+            quote! { Brushless },
+            quote! { start_brushless(SETTINGS.motion.servo.stall) },
+        ),
+    };
+    let env = CrateEnv::default();
+    let whisking = plan.whisking.source(&quote! { Number }, &env);
+    let (generator, whisking) = (whisking.of_type, whisking.value);
+    let (pd, start) = (plan.pd.bake(&env), plan.start.bake(&env));
+    let (stall_q15, seed) = (plan.stall_q15, scene.seed);
+    let items = vec![
+        quote! { pub(crate) const HAS_MOTOR: bool = true; },
+        quote! {
+            pub(crate) type Motion = firmware::Active<
+                Number, super::motors::#motor, super::encoder::Encoder, 1, 1
+            >;
+        },
+        quote! { const START: whisking::Start<Number, 1, 1> = #start; },
+        quote! {
+            pub(crate) fn start_motion() -> Motion {
+                let motor = || super::motors::#start_motor;
+                super::motion::start(motor, &START, #seed)
+            }
+        },
+    ];
+    let config = Source {
+        of_type: quote! { firmware::ActiveConfig<Number, #generator> },
+        value: quote! {
+            firmware::ActiveConfig {
+                whisking: #whisking,
+                servo: firmware::ServoConfig {
+                    pd: #pd,
+                    retry: firmware::design_parameters::retry(TICK_HZ),
+                    stall: firmware::design_parameters::stall(TICK_HZ, #stall_q15),
+                },
+            }
+        },
+    };
+    Ok(Part { items, config })
+}
+
+/// The classifier and its model.
+fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Result<Part, Box<dyn Error>> {
+    let (Some(classifier), Some(model)) = (&scene.classifier, model) else {
+        let items = vec![
+            quote! { pub(crate) const CLASS_NAMES: &[&str] = &[]; },
+            quote! { pub(crate) type Perception = (); },
+            quote! {
+                pub(crate) fn start_perception() -> Option<Perception> {
+                    Some(())
+                }
+            },
+        ];
+        let config = nothing();
+        return Ok(Part { items, config });
+    };
+    let names = model.names();
+    let (rule, rule_type, rule_value) = match classifier.rule {
+        Rule::Sequential { threshold } => (
+            quote! { SequentialRule },
+            quote! { tactile::Threshold },
+            quote! {
+                match tactile::Threshold::new(#threshold) {
+                    Ok(threshold) => threshold,
+                    Err(_) => panic!("the build script has checked it"),
+                }
+            },
+        ),
+        Rule::Window { samples } => (quote! { WindowRule }, quote! { u32 }, quote! { #samples }),
+    };
+    let contact_min = Source::optional(
+        classifier.contact_min.map(R::from_f64).as_ref(),
+        &quote! { Number },
+        &CrateEnv::default(),
+    );
+    let (contact_min_type, contact_min) = (contact_min.of_type, contact_min.value);
+    let items = vec![
+        quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
+        quote! {
+            pub(crate) type Perception =
+                firmware::Classifying<firmware::CodeClassifier<tactile::#rule>>;
+        },
+        quote! {
+            pub(crate) fn start_perception() -> Option<Perception> {
+                let bytes = tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"));
+                let model = tactile::Model::parse(bytes).ok()?;
+                let bayes = tactile::NaiveBayes::new(model, SETTINGS.perception.rule).ok()?;
+                let classifier = firmware::CodeClassifier::new(bayes).ok()?;
+                Some(firmware::Classifying::new(classifier))
+            }
+        },
+    ];
+    let config = Source {
+        of_type: quote! { firmware::ClassifyingConfig<#contact_min_type, #rule_type> },
+        value: quote! {
+            firmware::ClassifyingConfig { contact_min: #contact_min, rule: #rule_value }
+        },
+    };
+    Ok(Part { items, config })
+}

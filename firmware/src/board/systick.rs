@@ -1,0 +1,38 @@
+//! The core's SysTick as a clock that measures ticks. It counts on while the
+//! core sleeps, as the core's cycle counter may not.
+
+use cortex_m::peripheral::{SYST, syst::SystClkSource};
+use firmware::Clock;
+
+/// SysTick, 24 bits at the core's clock, widened to 32 when it is read. Right as
+/// long as it is read within its round (0.2 s at 80 MHz); each tick reads it
+/// twice.
+pub(crate) struct SysTick {
+    last: u32,
+    now: u32,
+}
+
+impl SysTick {
+    const MASK: u32 = 0x00FF_FFFF;
+
+    /// Counts from now on.
+    pub(crate) fn start(mut timer: SYST) -> Self {
+        timer.set_clock_source(SystClkSource::Core);
+        timer.set_reload(Self::MASK);
+        timer.clear_current();
+        timer.enable_counter();
+        Self { last: 0, now: 0 }
+    }
+}
+
+impl Clock for SysTick {
+    #[inline]
+    fn now(&mut self) -> u32 {
+        let current = SYST::get_current();
+        // It counts down.
+        let elapsed = self.last.wrapping_sub(current) & Self::MASK;
+        self.last = current;
+        self.now = self.now.wrapping_add(elapsed);
+        self.now
+    }
+}

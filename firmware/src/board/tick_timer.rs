@@ -1,0 +1,29 @@
+//! The timer that makes the ticks.
+
+use stm32_metapac::timer::vals::Urs;
+
+use super::timing::TickPeriod;
+use crate::here::TICK_TIMER;
+
+/// The timer that interrupts once a tick.
+pub(crate) struct TickTimer(());
+
+impl TickTimer {
+    /// The first tick comes one period from now.
+    pub(crate) fn start(period: TickPeriod) -> Self {
+        TICK_TIMER.psc().write_value(period.prescaler - 1);
+        TICK_TIMER.arr().write(|w| w.set_arr(period.period - 1));
+        // The prescaler takes effect with an update; that one is no tick.
+        TICK_TIMER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
+        TICK_TIMER.egr().write(|w| w.set_ug(true));
+        TICK_TIMER.dier().write(|w| w.set_uie(true));
+        TICK_TIMER.cr1().modify(|w| w.set_cen(true));
+        Self(())
+    }
+
+    /// Acknowledges the interrupt.
+    #[inline]
+    pub(crate) fn acknowledge(&mut self) {
+        TICK_TIMER.sr().write(|w| w.set_uif(false));
+    }
+}

@@ -1,0 +1,109 @@
+//! What moves the whiskers of a module, or does not.
+
+use crate::sensing::Reading;
+use crate::{Event, Place};
+
+/// Moves the whiskers of a module by the constants `C`.
+pub trait Motion<R, C, const S: usize, const N: usize> {
+    /// One tick: contact π of each side and the readings it came from.
+    fn step(
+        &mut self,
+        config: &C,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    );
+}
+
+/// An intervention between two ticks, for one whisker.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Command<R> {
+    /// Nominal value of the gain g, limited to 0..=2.
+    Gain(R),
+    /// Protraction θ that takes the place of the pattern generator's, limited
+    /// to the range of the position control; `None`: the pattern generator's
+    /// again.
+    Setpoint(Option<R>),
+}
+
+/// There is no such whisker, or it is passive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NoActiveWhisker;
+
+impl core::fmt::Display for NoActiveWhisker {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "no such whisker, or it is passive")
+    }
+}
+
+impl core::error::Error for NoActiveWhisker {}
+
+/// What can be done to the whiskers of a module between ticks.
+pub trait MotorControl<R> {
+    /// Carries out `command` for a whisker.
+    ///
+    /// # Errors
+    /// [`NoActiveWhisker`] if there is none at `place`.
+    fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>;
+
+    /// Switches every motor off, until the next tick.
+    fn off(&mut self);
+}
+
+/// Whiskers that hang still: no oscillator, muscle, motor or position control.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Passive;
+
+impl<R, const S: usize, const N: usize> Motion<R, (), S, N> for Passive {
+    #[inline]
+    fn step(
+        &mut self,
+        (): &(),
+        _contact: [R; S],
+        _readings: &[[Reading; N]; S],
+        _events: &mut impl FnMut(Event),
+    ) {
+    }
+}
+
+impl<R> MotorControl<R> for Passive {
+    fn command(&mut self, _: Place, _: Command<R>) -> Result<(), NoActiveWhisker> {
+        Err(NoActiveWhisker)
+    }
+
+    fn off(&mut self) {}
+}
+
+/// Motion that is there or not at run time, for simulations of any scene. A
+/// configuration without the motion, or the reverse, moves nothing.
+impl<R, C, M: Motion<R, C, S, N>, const S: usize, const N: usize> Motion<R, Option<C>, S, N>
+    for Option<M>
+{
+    #[inline]
+    fn step(
+        &mut self,
+        config: &Option<C>,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    ) {
+        if let (Some(motion), Some(config)) = (self, config) {
+            motion.step(config, contact, readings, events);
+        }
+    }
+}
+
+impl<R, M: MotorControl<R>> MotorControl<R> for Option<M> {
+    fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker> {
+        match self {
+            Some(motion) => motion.command(place, command),
+            None => Err(NoActiveWhisker),
+        }
+    }
+
+    fn off(&mut self) {
+        if let Some(motion) = self {
+            motion.off();
+        }
+    }
+}

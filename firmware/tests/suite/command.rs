@@ -1,0 +1,209 @@
+//! Commands between ticks: the nominal gain and the setpoint of a whisker.
+
+use firmware::{
+    Active, ActiveConfig, AngleInput, BusError, Clock, Command, Config, FrameSource, HoldLimits,
+    Module, NoActiveWhisker, Passive, Place, Servo, ServoConfig, ServoState,
+};
+use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
+use whisking::{Absent, Fix, GateSettings, Integrator, Real, Settings, State, filter, pd};
+
+/// A sensor that is always bent as far.
+struct Bent;
+
+impl FrameSource for Bent {
+    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+        let x = Word::new(0xC000);
+        let frame = encode::alpha_beta(x, Word::MID, Faults::NONE, SumRule::SumB1B6);
+        Ok(Some(frame))
+    }
+}
+
+struct NoClock;
+
+impl Clock for NoClock {
+    fn now(&mut self) -> u32 {
+        0
+    }
+}
+
+/// A motor that keeps what it is driven with.
+#[derive(Default)]
+struct Kept {
+    duty: f64,
+}
+
+impl MotorDriver for Kept {
+    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
+        self.duty = f64::from(duty.q15()) / 32_767.0;
+        Ok(())
+    }
+
+    fn off(&mut self) {
+        self.duty = 0.0;
+    }
+
+    fn clear(&mut self) {}
+}
+
+/// A whisker that does not turn.
+struct Still;
+
+impl AngleInput for Still {
+    fn counts(&mut self) -> i32 {
+        0
+    }
+}
+
+const SETTINGS: Settings = Settings {
+    tick_hz: 2000.0,
+    frequency_hz: 8.0,
+    integrator: Integrator::Exact,
+    coupling: true,
+    noise: 0.0,
+    rcp: None,
+    cia: Some(GateSettings {
+        gain: 2.0,
+        tau_s: 0.125,
+    }),
+};
+
+/// A degree of error is 0.01 of duty; setpoints reach from 30° to 140°.
+const PD: pd::Settings = pd::Settings {
+    kp: 0.01,
+    kd: 0.0,
+    limit: 1.0,
+    slew_per_s: 1e6,
+    min_deg: 30.0,
+    max_deg: 140.0,
+    degrees_per_count: 0.1,
+};
+
+type Settable<R> = Config<ActiveConfig<R>, (), Option<filter::Config<R>>>;
+type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1, 2>;
+
+fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
+    let config = Config {
+        decoder: Decoder::new(),
+        hold_limits: HoldLimits {
+            hold: 1,
+            recover: 1,
+        },
+        contact: Some(filter::Config::new(filter::CORNER_HZ, 2000.0).unwrap()),
+        motion: ActiveConfig {
+            whisking: SETTINGS.build().unwrap(),
+            servo: ServoConfig {
+                pd: PD.build(2000.0).unwrap(),
+                retry: 1,
+                stall: StallConfig {
+                    ticks: u16::MAX,
+                    threshold: Duty::FULL,
+                },
+            },
+        },
+        perception: (),
+        period: 0,
+    };
+    let start = SETTINGS.start([[1.0, 0.0]], [[1.0; 2]]).unwrap();
+    let servo = || Servo::new(Kept::default(), Still);
+    let active = Active::new(State::new(&start, 1), [[servo(), servo()]]);
+    let module = Module::new([[Bent, Bent]], active, (), NoClock);
+    (module, config)
+}
+
+const SECOND: Place = Place {
+    side: 0,
+    whisker: 1,
+};
+
+/// Duties of both motors after a tick.
+fn tick<R: Real>(module: &mut Whiskers<R>, config: &Settable<R>) -> [f64; 2] {
+    module.tick(config, &mut |event| panic!("{event:?}"));
+    let [servos] = module.motion_mut().servos_mut();
+    servos.each_mut().map(|servo| servo.parts_mut().0.duty)
+}
+
+#[test]
+fn a_setpoint_takes_the_place_of_the_pattern_generators_within_its_limits() {
+    fn check<R: Real>() {
+        let (mut module, config) = module::<R>();
+        let (mut other, _) = self::module::<R>();
+        // θ' is 100 θ + 50 degrees, and the whisker stands at 50 degrees.
+        for (theta, duty) in [(0.3, 0.3), (-0.1, -0.1), (9.0, 0.9), (-9.0, -0.2)] {
+            let setpoint = Command::Setpoint(Some(R::from_f64(theta)));
+            module.command(SECOND, setpoint).unwrap();
+            for _ in 0..100 {
+                let [first, second] = tick(&mut module, &config);
+                assert!((second - duty).abs() < 2e-4, "{theta}: {second}");
+                assert_eq!(first, tick(&mut other, &config)[0], "the other whisks on");
+            }
+        }
+        module.command(SECOND, Command::Setpoint(None)).unwrap();
+        assert_eq!(tick(&mut module, &config), tick(&mut other, &config));
+        let state = module.motion().servos()[0][1].state();
+        assert!(matches!(state, ServoState::Running { .. }), "{state:?}");
+    }
+    check::<f32>();
+    check::<f64>();
+    check::<Fix>();
+}
+
+#[test]
+fn gains_stay_within_0_and_2_whatever_is_commanded() {
+    fn check<R: Real>(wild: &[R]) {
+        let (mut module, config) = module::<R>();
+        // Contact lifts g as far as it goes.
+        for _ in 0..200 {
+            tick(&mut module, &config);
+        }
+        let gain = |module: &Whiskers<R>| module.motion().state().whiskers[0][1].gain();
+        assert!(gain(&module) > 1.2, "{}", gain(&module));
+        let commanded = [0.5, 2.0, 0.0, 3.0, -1.0].map(R::from_f64);
+        for gain_wanted in commanded.iter().chain(wild) {
+            module.command(SECOND, Command::Gain(*gain_wanted)).unwrap();
+            let nominal = module.motion().state().whiskers[0][1].nominal;
+            let expected = gain_wanted.clamp(R::ZERO, R::TWO);
+            assert_eq!(nominal, expected);
+            for _ in 0..20 {
+                assert!((0.0..=2.0).contains(&gain(&module)), "{}", gain(&module));
+                tick(&mut module, &config);
+            }
+            assert_eq!(module.motion().state().whiskers[0][0].nominal, R::ONE);
+        }
+    }
+    check::<f32>(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+    check::<f64>(&[f64::NAN, f64::MAX]);
+    check::<Fix>(&[Fix(i32::MAX), Fix(i32::MIN)]);
+}
+
+#[test]
+fn whiskers_that_are_not_there_or_passive_are_refused() {
+    let (mut module, _) = module::<f32>();
+    for (side, whisker) in [(0, 2), (1, 0), (255, 255)] {
+        let place = Place { side, whisker };
+        for command in [Command::Gain(1.0), Command::Setpoint(None)] {
+            assert_eq!(module.command(place, command), Err(NoActiveWhisker));
+        }
+    }
+    let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent]], Passive, (), NoClock);
+    let refused = passive.command(
+        Place {
+            side: 0,
+            whisker: 0,
+        },
+        Command::Gain(1.0),
+    );
+    assert_eq!(refused, Err(NoActiveWhisker));
+    let config = Config {
+        decoder: Decoder::new(),
+        hold_limits: HoldLimits {
+            hold: 1,
+            recover: 1,
+        },
+        contact: Absent,
+        motion: (),
+        perception: (),
+        period: 0,
+    };
+    passive.tick(&config, &mut |event| panic!("{event:?}"));
+}
