@@ -16,42 +16,42 @@
 //! tip slips against it: T · slip ≤ 0, so that friction takes energy. What modes
 //! and springs exchange is in the law that sets the problem.
 
-use super::vector::{V3, add, dot, length2, scale};
+use crate::vector::{V3, add, dot, length2, scale};
 
 /// Rounds by which the direction of sliding is found, at most; mostly three.
 const ROUNDS: usize = 24;
 
 /// A contact problem in a frame (normal, first tangent, second tangent).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Problem {
+pub(crate) struct Problem {
     /// Gap without the force, m; negative.
-    pub(super) gap: f64,
+    pub(crate) gap: f64,
     /// Stretch without slip and without the force, m.
-    pub(super) stretch: [f64; 2],
+    pub(crate) stretch: [f64; 2],
     /// W, m/N; symmetric and positive. What of the springs is not the same in all
     /// directions may be part of it.
-    pub(super) response: [[f64; 3]; 3],
+    pub(crate) response: [[f64; 3]; 3],
     /// 1/k_n and 1/k_t, m/N; positive.
-    pub(super) springs: [f64; 2],
+    pub(crate) springs: [f64; 2],
     /// Coefficient of friction μ.
-    pub(super) friction: f64,
+    pub(crate) friction: f64,
     /// Where T may point if it slides: where it did before, or zero.
-    pub(super) near: [f64; 2],
+    pub(crate) near: [f64; 2],
 }
 
 /// What a contact does during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Force {
+pub(crate) struct Force {
     /// N and the two components of T, N.
-    pub(super) local: [f64; 3],
+    pub(crate) local: [f64; 3],
     /// Whether the tip is held.
-    pub(super) stuck: bool,
+    pub(crate) stuck: bool,
 }
 
 impl Problem {
     /// The force; none where the gap is open without one.
     #[inline]
-    pub(super) fn solve(&self) -> Force {
+    pub(crate) fn solve(&self) -> Force {
         if self.gap >= 0.0 {
             return Force::default();
         }
@@ -69,7 +69,7 @@ impl Problem {
 
     /// How far the tip has slid under a force, m.
     #[inline]
-    pub(super) fn slipped(&self, force: &Force) -> f64 {
+    pub(crate) fn slipped(&self, force: &Force) -> f64 {
         if force.stuck {
             return 0.0;
         }
@@ -120,8 +120,8 @@ impl Problem {
         if mu <= 0.0 {
             return found;
         }
-        let against = [-(s + na * loose), -(t + nb * loose)];
-        let Some(mut e) = direction(self.near).or_else(|| direction(against)) else {
+        let against = || [-(s + na * loose), -(t + nb * loose)];
+        let Some(mut e) = direction(self.near).or_else(|| direction(against())) else {
             return found;
         };
         let (mut low, mut high) = (None, None);
@@ -158,7 +158,11 @@ impl Problem {
             let less = pull * steep / own * (steep + mu * (along[1] * x - along[0] * y));
             let turned = bb * x * x + aa * y * y - 2.0 * ab * x * y;
             let change = opposed + pull * turned - less;
-            *(if off < 0.0 { &mut low } else { &mut high }) = Some(e);
+            if off < 0.0 {
+                low = Some(e);
+            } else {
+                high = Some(e);
+            }
             let step = if change > off.abs() {
                 -off / change
             } else {
@@ -192,23 +196,23 @@ fn direction(v: [f64; 2]) -> Option<[f64; 2]> {
 /// Axes of a contact in the plate's coordinates: the normal of a ground with the
 /// slopes (h₁, h₂), and two tangents.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
-    pub(super) axes: [V3; 3],
+pub(crate) struct Frame {
+    pub(crate) axes: [V3; 3],
     /// Cosine of the ground's slope: a height above the ground times it is the
     /// distance to it.
-    pub(super) upright: f64,
+    pub(crate) upright: f64,
 }
 
 impl Frame {
     #[inline]
-    pub(super) fn new(slopes: [f64; 2]) -> Self {
+    pub(crate) fn new(slopes: [f64; 2]) -> Self {
         let [p, q] = slopes;
         let upright = 1.0 / (1.0 + p * p + q * q).sqrt();
         let normal = [-p * upright, -q * upright, upright];
         // Up the first coordinate, and across: normal × first.
         let level = 1.0 / (1.0 + p * p).sqrt();
         let first = [level, 0.0, p * level];
-        let second = super::vector::cross(normal, first);
+        let second = crate::vector::cross(normal, first);
         Self {
             axes: [normal, first, second],
             upright,
@@ -217,13 +221,13 @@ impl Frame {
 
     /// Components of a vector in this frame.
     #[inline]
-    pub(super) fn local(&self, v: V3) -> [f64; 3] {
+    pub(crate) fn local(&self, v: V3) -> [f64; 3] {
         self.axes.map(|axis| dot(axis, v))
     }
 
     /// The vector with these components.
     #[inline]
-    pub(super) fn plate(&self, local: [f64; 3]) -> V3 {
+    pub(crate) fn plate(&self, local: [f64; 3]) -> V3 {
         let [n, a, b] = self.axes;
         add(add(scale(local[0], n), local[1], a), local[2], b)
     }

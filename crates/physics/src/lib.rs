@@ -14,22 +14,23 @@
 //! creates energy.
 
 mod beam;
+mod compliance;
 mod contact;
 mod error;
+mod modal;
 mod noise;
 mod pose;
 mod relief;
 mod resonator;
 mod sensor;
 mod shaft;
-mod state;
 mod surface;
 mod swing;
 mod touching;
 pub mod vector;
 mod whiskers;
 
-pub use beam::{Mode, Modes};
+pub use beam::{BendingMode, Modes};
 pub use error::BadSetting;
 pub use noise::{Noise, box_muller};
 pub use pose::{Plate, Pose};

@@ -1,7 +1,7 @@
 //! Where a whisker is, and the flat plate that it may touch.
 
-use super::surface::Surface;
-use super::vector::{V3, across, add, cross, dot, scale, sub, unit};
+use crate::surface::Surface;
+use crate::vector::{V3, across, add, cross, dot, scale, sub, unit};
 
 /// A whisker's base in space. The shaft points along z = x × y; the sensor's
 /// axes are x and y.
@@ -37,56 +37,83 @@ pub struct Plate {
     pub surface: Surface,
 }
 
-/// A pose as the plate sees it: along, across, and above it.
+/// The axes of a plate in space: coordinates along it, across it, and above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Seen {
-    /// Tip of the unbent shaft, m.
-    pub(super) tip: V3,
-    pub(super) x: V3,
-    pub(super) y: V3,
-    pub(super) z: V3,
+pub(crate) struct PlateFrame {
+    point_m: V3,
+    along: V3,
+    side: V3,
+    normal: V3,
 }
 
-impl Seen {
-    /// A vector with these components along x, y and z.
+impl PlateFrame {
+    /// The axes of a plate, orthonormal whatever its directions are.
+    pub(crate) fn new(plate: &Plate) -> Self {
+        let normal = unit(plate.normal, [0.0, 0.0, 1.0]);
+        let along = across(plate.along, normal);
+        Self {
+            point_m: plate.point_m,
+            along,
+            side: cross(normal, along),
+            normal,
+        }
+    }
+
+    /// `pose`, with a shaft of length `length_m`, in the plate's coordinates.
     #[inline]
-    pub(super) fn space(&self, [x, y, z]: V3) -> V3 {
+    pub(crate) fn see(&self, pose: &Pose, length_m: f64) -> PlatePose {
+        let turn = |v: V3| [dot(self.along, v), dot(self.side, v), dot(self.normal, v)];
+        let z = pose.z();
+        let tip = add(pose.base_m, length_m, z);
+        PlatePose {
+            tip: turn(sub(tip, self.point_m)),
+            x: turn(pose.x),
+            y: turn(pose.y),
+            z: turn(z),
+        }
+    }
+}
+
+/// A pose in a plate's coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PlatePose {
+    /// Tip of the unbent shaft, m.
+    pub(crate) tip: V3,
+    pub(crate) x: V3,
+    pub(crate) y: V3,
+    pub(crate) z: V3,
+}
+
+impl PlatePose {
+    /// The tip of a shaft with these deflections that has come back along itself
+    /// by `shortened_m`, m.
+    #[inline]
+    pub(crate) fn tip(&self, [u, v]: [f64; 2], shortened_m: f64) -> V3 {
+        let bent = add(add(self.tip, u, self.x), v, self.y);
+        add(bent, -shortened_m, self.z)
+    }
+
+    /// A vector with these components along x, y and z, in the plate's coordinates.
+    #[inline]
+    pub(crate) fn vector(&self, [x, y, z]: V3) -> V3 {
         add(add(scale(x, self.x), y, self.y), z, self.z)
     }
 
-    /// Components of a vector along x, y and z.
+    /// Components along x, y and z of a vector in the plate's coordinates.
     #[inline]
-    pub(super) fn body(&self, v: V3) -> V3 {
+    pub(crate) fn components(&self, v: V3) -> V3 {
         [dot(v, self.x), dot(v, self.y), dot(v, self.z)]
     }
 
     /// This far on the straight way to another, 0 to 1.
     #[inline]
-    pub(super) fn towards(&self, other: &Self, share: f64) -> Self {
+    pub(crate) fn towards(&self, other: &Self, share: f64) -> Self {
         let mix = |a: V3, b: V3| add(a, share, sub(b, a));
         Self {
             tip: mix(self.tip, other.tip),
             x: mix(self.x, other.x),
             y: mix(self.y, other.y),
             z: mix(self.z, other.z),
-        }
-    }
-}
-
-impl Plate {
-    /// `pose`, with a shaft of length `length_m`, in this plate's coordinates.
-    pub(super) fn see(&self, pose: &Pose, length_m: f64) -> Seen {
-        let normal = unit(self.normal, [0.0, 0.0, 1.0]);
-        let along = across(self.along, normal);
-        let side = cross(normal, along);
-        let turn = |v: V3| [dot(along, v), dot(side, v), dot(normal, v)];
-        let z = pose.z();
-        let tip = add(pose.base_m, length_m, z);
-        Seen {
-            tip: turn(sub(tip, self.point_m)),
-            x: turn(pose.x),
-            y: turn(pose.y),
-            z: turn(z),
         }
     }
 }

@@ -13,7 +13,7 @@
 //! octave then is ℓ long. Octaves below are cut to 0.3 of their sagitta, the root
 //! mean square of an arc.
 
-use super::surface::Surface;
+use crate::surface::Surface;
 
 /// Octaves from the grain down, each with half the length and height.
 const OCTAVES: usize = 3;
@@ -29,6 +29,24 @@ const SMOOTHING: f64 = 35.0 / 26.0;
 /// along all lattices; its cosine and sine.
 const TURN: [f64; 2] = [0.8, 0.6];
 
+/// A cell of the lattice: its lower corner, in lattice points, and the numbers
+/// of its four corners.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    low: [f64; 2],
+    corners: [[f64; 2]; 2],
+}
+
+impl Default for Cell {
+    /// Nowhere: no place is in it.
+    fn default() -> Self {
+        Self {
+            low: [f64::NAN; 2],
+            corners: [[0.0; 2]; 2],
+        }
+    }
+}
+
 /// One octave.
 #[derive(Debug, Clone, Copy, Default)]
 struct Octave {
@@ -39,17 +57,19 @@ struct Octave {
     /// Direction of the lattice.
     turn: [f64; 2],
     seed: u64,
+    /// Where the last place was: the next one mostly lies in the same cell.
+    cell: Cell,
 }
 
 /// Heights of a surface.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Relief {
+pub(crate) struct Relief {
     octaves: [Octave; OCTAVES],
     used: usize,
     /// No height is above this, m.
-    pub(super) top_m: f64,
+    pub(crate) top_m: f64,
     /// Shortest distance between lattice points, m; infinite if flat.
-    pub(super) finest_m: f64,
+    pub(crate) finest_m: f64,
 }
 
 /// Mixes all bits (the finaliser of SplitMix64).
@@ -68,29 +88,37 @@ impl Octave {
         UNIT * ((bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
     }
 
+    /// The cell whose lower corner is at the whole numbers `low`.
+    fn cell(&self, low: [f64; 2]) -> Cell {
+        // Wraps at the ends of the integers, far from any place in a room.
+        let [i, j] = low.map(|low| low as i64 as u64);
+        let row = |i: u64| {
+            let row = mix(self.seed ^ i.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+            [Self::number(row, j), Self::number(row, j.wrapping_add(1))]
+        };
+        Cell {
+            low,
+            corners: [row(i), row(i.wrapping_add(1))],
+        }
+    }
+
     /// Height and its slopes at a place.
     #[inline]
-    fn at(&self, place: [f64; 2]) -> [f64; 3] {
+    fn at(&mut self, place: [f64; 2]) -> [f64; 3] {
         let [c, s] = self.turn;
         let u = self.per_m * (c * place[0] + s * place[1]);
         let v = self.per_m * (c * place[1] - s * place[0]);
-        let (low_u, low_v) = (u.floor(), v.floor());
-        let (a, b) = (u - low_u, v - low_v);
-        // Wraps at the ends of the integers, far from any place in a room.
-        let (i, j) = (low_u as i64 as u64, low_v as i64 as u64);
-        let row = |i: u64| mix(self.seed ^ i.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let (row0, row1) = (row(i), row(i.wrapping_add(1)));
-        let next = j.wrapping_add(1);
-        let corners = [
-            [Self::number(row0, j), Self::number(row0, next)],
-            [Self::number(row1, j), Self::number(row1, next)],
-        ];
+        let inside = |at: f64| (0.0..1.0).contains(&at);
+        if !(inside(u - self.cell.low[0]) && inside(v - self.cell.low[1])) {
+            self.cell = self.cell([u.floor(), v.floor()]);
+        }
+        let Cell { low, corners } = &self.cell;
         let ease = |s: f64| (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s));
-        let ((wa, da), (wb, db)) = (ease(a), ease(b));
-        let low = corners[0][0] + wb * (corners[0][1] - corners[0][0]);
-        let high = corners[1][0] + wb * (corners[1][1] - corners[1][0]);
-        let cross =
-            (1.0 - wa) * (corners[0][1] - corners[0][0]) + wa * (corners[1][1] - corners[1][0]);
+        let ((wa, da), (wb, db)) = (ease(u - low[0]), ease(v - low[1]));
+        let rise = corners.map(|row| row[1] - row[0]);
+        let low = corners[0][0] + wb * rise[0];
+        let high = corners[1][0] + wb * rise[1];
+        let cross = (1.0 - wa) * rise[0] + wa * rise[1];
         let height = self.height_m * (low + wa * (high - low));
         let scale = self.height_m * self.per_m;
         let (du, dv) = (scale * da * (high - low), scale * db * cross);
@@ -100,7 +128,7 @@ impl Octave {
 
 impl Relief {
     /// Heights of a surface with values in their ranges, for a tip of a radius.
-    pub(super) fn new(surface: &Surface, tip_radius_m: f64) -> Self {
+    pub(crate) fn new(surface: &Surface, tip_radius_m: f64) -> Self {
         let mut relief = Self {
             finest_m: f64::INFINITY,
             ..Self::default()
@@ -134,6 +162,7 @@ impl Relief {
                 height_m: SMOOTHING * height,
                 turn,
                 seed: mix(surface.seed.wrapping_add(n as u64).wrapping_add(1)),
+                cell: Cell::default(),
             };
             relief.used = n + 1;
             relief.finest_m = spacing;
@@ -148,9 +177,9 @@ impl Relief {
 
     /// Height (m) and slopes along the two coordinates at a place.
     #[inline]
-    pub(super) fn at(&self, place: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn at(&mut self, place: [f64; 2]) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        for octave in self.octaves.iter().take(self.used) {
+        for octave in self.octaves.iter_mut().take(self.used) {
             let part = octave.at(place);
             for (sum, part) in sum.iter_mut().zip(part) {
                 *sum += part;

@@ -36,15 +36,23 @@ impl Propagator {
             v: [-omega * omega * share, cosine - sigma * share],
         }
     }
+
+    /// Deflection and rate after the step, towards `target`.
+    #[inline]
+    pub(crate) fn apply(&self, x: f64, v: f64, target: f64) -> [f64; 2] {
+        let away = x - target;
+        [
+            target + self.x[0] * away + self.x[1] * v,
+            self.v[0] * away + self.v[1] * v,
+        ]
+    }
 }
 
 impl Resonator {
     /// One step towards `target`.
     #[inline]
     pub fn step(&mut self, over: &Propagator, target: f64) {
-        let (away, v) = (self.x - target, self.v);
-        self.x = target + over.x[0] * away + over.x[1] * v;
-        self.v = over.v[0] * away + over.v[1] * v;
+        [self.x, self.v] = over.apply(self.x, self.v, target);
     }
 }
 

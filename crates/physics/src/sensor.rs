@@ -1,7 +1,7 @@
 //! Magnet and Hall sensor: from rotations of the base to 14-bit codes.
 
-use super::Noise;
-use crate::BadSetting;
+use crate::error::BadSetting;
+use crate::noise::Noise;
 
 /// Code of a reading of 1: 14 bits with a sign.
 const CODES: f64 = 8191.0;
@@ -46,7 +46,7 @@ impl SensorSettings {
 
 /// A sensor at work.
 #[derive(Debug, Clone)]
-pub(super) struct Sensor {
+pub(crate) struct Sensor {
     settings: SensorSettings,
     noise: Noise,
     /// Time until the next measurement, s.
@@ -56,7 +56,7 @@ pub(super) struct Sensor {
 
 impl Sensor {
     /// With checked settings.
-    pub(super) fn new(settings: SensorSettings, seed: u64) -> Self {
+    pub(crate) fn new(settings: SensorSettings, seed: u64) -> Self {
         Self {
             settings,
             noise: Noise::new(seed),
@@ -72,12 +72,12 @@ impl Sensor {
 
     /// Whether the next call of [`Sensor::advance`] with this time measures.
     #[inline]
-    pub(super) fn due(&self, dt_s: f64) -> bool {
+    pub(crate) fn due(&self, dt_s: f64) -> bool {
         self.due_s <= dt_s
     }
 
     /// Lets `dt_s` pass; measures the rotations if it is time.
-    pub(super) fn advance(&mut self, rotation_rad: [f64; 2], dt_s: f64) {
+    pub(crate) fn advance(&mut self, rotation_rad: [f64; 2], dt_s: f64) {
         let due = self.due(dt_s);
         self.due_s -= dt_s;
         if !due {
@@ -99,12 +99,12 @@ impl Sensor {
     }
 
     /// The last measurement, ±8191.
-    pub(super) fn codes(&self) -> [i16; 2] {
+    pub(crate) fn codes(&self) -> [i16; 2] {
         self.codes
     }
 
     /// The last measurement, ±1.
-    pub(super) fn reading(&self) -> [f64; 2] {
+    pub(crate) fn reading(&self) -> [f64; 2] {
         self.codes.map(|code| f64::from(code) / CODES)
     }
 }

@@ -1,7 +1,6 @@
 //! A whisker's shaft and what holds it: dimensions, material, ranges.
 
-use super::beam::{self, Modes};
-use crate::BadSetting;
+use crate::error::BadSetting;
 
 /// What holds the base of a shaft: rubber in a tube.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,23 +56,8 @@ impl Shaft {
         Ok(())
     }
 
-    /// The first `count` bending modes, 1 to 12, and the static response.
-    ///
-    /// Frequencies of the first three are within 1e-4 of the closed forms for
-    /// uniform beams and cones.
-    ///
-    /// # Errors
-    /// A setting out of its range, or `count`.
-    pub fn modes(&self, count: usize) -> Result<Modes, BadSetting> {
-        self.check()?;
-        if !(1..=12).contains(&count) {
-            return Err(BadSetting("count"));
-        }
-        beam::solve(self, count).ok_or(BadSetting("shaft"))
-    }
-
     /// Diameter at a distance from the base, m.
-    pub(super) fn diameter_m(&self, at_m: f64) -> f64 {
+    pub(crate) fn diameter_m(&self, at_m: f64) -> f64 {
         let share = at_m / self.length_m;
         self.hub_diameter_m + share * (self.tip_diameter_m - self.hub_diameter_m)
     }

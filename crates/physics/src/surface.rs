@@ -4,7 +4,12 @@
 //! 43-1, ISO 6344; BIOTACT table I has those of P240 and P600). All else is a
 //! choice, stated at each material.
 
-use crate::BadSetting;
+use crate::error::BadSetting;
+
+/// Speed by which friction has gone 63 % of the way from resting to sliding, m/s
+/// (Stribeck; of the order of what is measured on plastics). A tip that is held
+/// across the shaft creeps along it, as the bend draws it back.
+const CREEP_M_S: f64 = 1e-3;
 
 /// A statistically described surface: rough within ±√3 · 1.35 of its root mean
 /// square height, over three octaves from its grain down.
@@ -168,9 +173,22 @@ impl Surface {
         Ok(())
     }
 
+    /// Coefficient of friction at a sliding speed, m/s, 0 or more: from `hold` at
+    /// rest to `friction`, exponentially.
+    #[inline]
+    pub(crate) fn friction_at(&self, sliding_m_s: f64) -> f64 {
+        let change = self.hold - self.friction;
+        let speeds = sliding_m_s / CREEP_M_S;
+        // e^−40 of it is less than what rounding leaves of the sum.
+        if change == 0.0 || (speeds > 40.0 && change <= self.friction) {
+            return self.friction;
+        }
+        self.friction + change * libm::exp(-speeds)
+    }
+
     /// The nearest surface whose values are in their ranges; one that is not a
     /// number counts as the lowest.
-    pub(super) fn limited(self) -> Self {
+    pub(crate) fn limited(self) -> Self {
         // The larger of a number and NaN is the number.
         let limit = |value: f64, lo: f64, hi: f64| value.max(lo).min(hi);
         let friction = limit(self.friction, 0.0, 10.0);

@@ -5,8 +5,8 @@
 //! larger θ. The sensor's x is opposed to protraction, so that a plate in the
 //! way makes it positive, as BIOTACT eq. 11 has it; its y is opposed to the axis.
 
-use super::pose::{Plate, Pose};
-use super::surface::Surface;
+use crate::pose::{Plate, Pose};
+use crate::surface::Surface;
 
 /// How a plate faces a swung whisker at first touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,6 +65,7 @@ impl Plate {
 #[cfg(test)]
 mod tests {
     use super::{Facing, Plate, Pose};
+    use crate::pose::PlateFrame;
     use crate::vector::{dot, sub};
     use crate::{Material, Surface};
 
@@ -83,7 +84,7 @@ mod tests {
         let flat = Surface::of(Material::Flat);
         let plate = Plate::in_the_way(theta, length, &Facing::USUAL, flat);
         assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
-        let above = |theta: f64| plate.see(&Pose::swung(theta), length).tip[2];
+        let above = |theta: f64| PlateFrame::new(&plate).see(&Pose::swung(theta), length).tip[2];
         assert!(above(theta).abs() < 1e-15);
         // By L cos 30° cos 20° a radian.
         let depth = length * 30.0_f64.to_radians().cos() * 20.0_f64.to_radians().cos();

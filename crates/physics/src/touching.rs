@@ -29,28 +29,22 @@
 //! the highest mode rings; one that stays clear of the plate is not cut and knows
 //! nothing of contact.
 
-mod before;
-mod ground;
+mod body;
 mod law;
+mod outputs;
 mod part;
-mod spring;
-mod telling;
+mod secant;
+mod step;
 
-use super::beam::Modes;
-use super::pose::{Plate, Pose};
-use super::relief::Relief;
-use super::sensor::{Sensor, SensorSettings};
-use super::shaft::Shaft;
-use super::state::{MODES, Reach, Shape, State};
-use super::surface::Surface;
-use super::vector::{V3, across, dot, scale, sub, unit};
-use crate::BadSetting;
-use before::Last;
-use part::Touch;
-pub(crate) use spring::Give;
-
-/// Parts of a step are at most 2 to this power.
-const POWERS: usize = 6;
+use crate::beam::Modes;
+use crate::error::BadSetting;
+use crate::modal::{MODES, ModalShaft, ModalState};
+use crate::pose::{Plate, PlateFrame, Pose};
+use crate::sensor::{Sensor, SensorSettings};
+use crate::shaft::Shaft;
+use crate::surface::{Material, Surface};
+use crate::vector::{V3, across, dot, scale, sub, unit};
+use body::{Body, Ground, Steps, Touch};
 
 /// Largest change of velocity of the base in a step, m/s, and of its direction,
 /// rad/s: they keep the arithmetic finite.
@@ -59,18 +53,14 @@ const KICK: f64 = 1e4;
 /// A whisker with its sensor.
 #[derive(Debug, Clone)]
 pub struct TouchingWhisker {
-    shape: Shape,
-    state: State,
-    /// For steps of this length: how modes move in 1, 2, 4 … parts of it.
-    reach: (f64, [Reach; POWERS]),
+    body: Body,
+    steps: Steps,
     pose: Option<Pose>,
     /// Velocity of the base and of the direction of the shaft.
     motion: Option<[V3; 2]>,
-    relief: (Surface, Relief),
-    last: Option<Last>,
-    touch: Touch,
+    /// Point and directions of the last plate, and its axes.
+    plate: ([V3; 3], Option<PlateFrame>),
     sensor: Sensor,
-    finer: u32,
     /// Of the last step.
     parts: u32,
 }
@@ -104,53 +94,54 @@ impl TouchingWhisker {
     }
 
     fn of(shaft: &Shaft, modes: &Modes, sensor: &SensorSettings, seed: u64) -> Self {
-        Self::at_rest(Shape::new(shaft, modes), *sensor, seed)
+        Self::at_rest(ModalShaft::new(shaft, modes), *sensor, seed)
     }
 
-    fn at_rest(shape: Shape, sensor: SensorSettings, seed: u64) -> Self {
-        let flat = Surface::of(super::Material::Flat);
+    fn at_rest(shaft: ModalShaft, sensor: SensorSettings, seed: u64) -> Self {
         Self {
-            shape,
-            state: State::default(),
-            reach: (0.0, [Reach::default(); POWERS]),
+            body: Body {
+                ground: Ground::new(Surface::of(Material::Flat), shaft.tip_radius_m),
+                shaft,
+                state: ModalState::default(),
+                touch: Touch::default(),
+                last: None,
+                finer: 0,
+            },
+            steps: Steps::default(),
             pose: None,
             motion: None,
-            relief: (flat, Relief::new(&flat, 0.0)),
-            last: None,
-            touch: Touch::default(),
+            plate: ([[f64::NAN; 3]; 3], None),
             sensor: Sensor::new(sensor, seed),
-            finer: 0,
             parts: 0,
         }
     }
 
     /// Starts anew, as newly made with this seed for the sensor's noise.
     pub fn restart(&mut self, seed: u64) {
-        *self = Self::at_rest(self.shape.clone(), self.sensor.settings(), seed).finer(self.finer);
+        let shaft = self.body.shaft.clone();
+        *self = Self::at_rest(shaft, self.sensor.settings(), seed).finer(self.body.finer);
     }
 
     /// Cuts steps in contact 2ⁿ times finer, up to 32 parts in all: to see what
     /// the usual choice costs in accuracy.
     #[must_use]
     pub fn finer(mut self, n: u32) -> Self {
-        self.finer = n;
+        self.body.finer = n;
         self
     }
 
     /// Straightens the shaft, at rest, wherever the next pose is; the surface,
     /// the sensor's noise and its last value stay.
     pub fn rest(&mut self) {
-        self.state = State::default();
-        self.touch = Touch::default();
+        self.body.place(ModalState::default());
         self.pose = None;
         self.motion = None;
-        self.last = None;
     }
 
     /// Bends the shaft statically, at rest, until its tip is off by these
     /// distances, m, within ±L.
     pub fn bend(&mut self, tip_m: [f64; 2]) {
-        let limit = self.shape.length_m;
+        let limit = self.body.shaft.length_m;
         let tip_m = tip_m.map(|u| {
             if u.is_finite() {
                 u.clamp(-limit, limit)
@@ -158,9 +149,7 @@ impl TouchingWhisker {
                 0.0
             }
         });
-        self.state = self.shape.bent(tip_m);
-        self.touch = Touch::default();
-        self.last = None;
+        self.body.place(self.body.shaft.bent(tip_m));
     }
 
     /// Moves on by `dt_s` (s, positive) to a pose, before a plate if there is
@@ -175,27 +164,25 @@ impl TouchingWhisker {
         let Some(pose) = proper(pose).or(self.pose) else {
             return;
         };
-        if self.reach.0 != dt_s {
-            let of = |power: usize| Reach::new(&self.shape, dt_s / f64::from(1_u32 << power));
-            self.reach = (dt_s, core::array::from_fn(of));
+        if self.steps.dt_s != dt_s {
+            self.steps = Steps::new(&self.body.shaft, dt_s);
         }
         self.carry(&pose, dt_s);
         self.parts = 0;
         if let Some(plate) = plate {
-            self.before(&pose, plate, dt_s);
+            self.step_before(&pose, plate);
         } else {
-            self.state.free(&self.reach.1[0]);
-            self.touch = Touch::default();
-            self.last = None;
+            self.body.state.free(&self.steps.parts[0]);
+            self.body.touch = Touch::default();
+            self.body.last = None;
         }
-        self.state.limit(&self.shape);
-        if !self.state.is_finite() {
-            self.state = State::default();
-            self.touch = Touch::default();
+        self.body.state.limit(&self.body.shaft);
+        if !self.body.state.is_finite() {
+            self.body.state = ModalState::default();
+            self.body.touch = Touch::default();
         }
         if self.sensor.due(dt_s) {
-            let rotation = self.shape.rotation(&self.state, self.touch.pull);
-            self.sensor.advance(rotation, dt_s);
+            self.sensor.advance(self.rotation_rad(), dt_s);
         } else {
             self.sensor.advance([0.0; 2], dt_s);
         }
@@ -203,8 +190,7 @@ impl TouchingWhisker {
 
     /// The base goes to a new pose: kicks by the change of its velocity.
     fn carry(&mut self, pose: &Pose, dt_s: f64) {
-        let before = self.pose.replace(*pose);
-        let Some(before) = before else {
+        let Some(before) = self.pose.replace(*pose) else {
             return;
         };
         let rate = |to: V3, from: V3| scale(1.0 / dt_s, sub(to, from));
@@ -213,13 +199,29 @@ impl TouchingWhisker {
             return;
         };
         let [shift, turn] = [0, 1].map(|i| {
-            let change = sub(motion[i], old[i]);
-            change.map(|c| c.clamp(-KICK, KICK))
+            let change = sub(motion[i], old[i]).map(|c| c.clamp(-KICK, KICK));
+            [dot(change, pose.x), dot(change, pose.y)]
         });
-        for (axis, way) in [pose.x, pose.y].into_iter().enumerate() {
-            self.state
-                .kick(&self.shape, axis, dot(shift, way), dot(turn, way));
+        self.body.state.kick(&self.body.shaft, shift, turn);
+    }
+
+    /// A step before a plate; one whose point or directions are not finite is none.
+    fn step_before(&mut self, pose: &Pose, plate: &Plate) {
+        let placed = [plate.point_m, plate.normal, plate.along];
+        if self.plate.0 != placed {
+            let finite = placed.iter().flatten().all(|x| x.is_finite());
+            self.plate = (placed, finite.then(|| PlateFrame::new(plate)));
         }
+        let Some(frame) = &self.plate.1 else {
+            self.body.state.free(&self.steps.parts[0]);
+            return;
+        };
+        if !self.body.ground.is_of(&plate.surface) {
+            self.body.ground = Ground::new(plate.surface, self.body.shaft.tip_radius_m);
+            self.body.touch.ground = None;
+        }
+        let pose = frame.see(pose, self.body.shaft.length_m);
+        self.parts = self.body.step(pose, &self.steps);
     }
 }
 

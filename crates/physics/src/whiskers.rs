@@ -11,7 +11,7 @@
 
 use core::f64::consts::PI;
 
-use super::shaft::{Follicle, Shaft};
+use crate::shaft::{Follicle, Shaft};
 
 /// Young's modulus of acrylonitrile butadiene styrene, Pa, and its density,
 /// kg/m³: middle of the usual ranges, 2.0 to 2.6 GPa and 1030 to 1070.

@@ -27,7 +27,7 @@ use physics::{
 const ANGLE_LIMIT: f64 = 1e6;
 
 /// Elastic whiskers and what they meet.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElasticSettings {
     /// All whiskers' shaft.
     pub shaft: Shaft,
@@ -53,8 +53,8 @@ impl ElasticSettings {
 #[derive(Debug, Clone)]
 struct Swung {
     whisker: TouchingWhisker,
-    /// θ′_lim; infinite: no plate.
-    limit_deg: f64,
+    /// Where a straight tip touches at θ′_lim; none: no plate.
+    plate: Option<Plate>,
     angle_deg: Option<f64>,
 }
 
@@ -62,7 +62,6 @@ struct Swung {
 #[derive(Debug, Clone)]
 pub struct Elastic {
     head: Head,
-    settings: ElasticSettings,
     surface: Surface,
     seed: u64,
     /// Presentations so far.
@@ -115,12 +114,17 @@ impl Elastic {
             noise_codes: settings.noise_codes,
             ..SensorSettings::default()
         };
+        let surface = Surface::of(Material::SmoothPlastic);
         let swung = |(stream, limit_deg): (u64, f64)| {
             let seed = apart(seed, stream);
+            let plate = limit_deg.is_finite().then(|| {
+                let limit = limit_deg.to_radians();
+                Plate::in_the_way(limit, shaft.length_m, &settings.facing, surface)
+            });
             let whisker = TouchingWhisker::with_modes(&shaft, &modes, &sensor, seed)?;
             Ok(Swung {
                 whisker,
-                limit_deg,
+                plate,
                 angle_deg: None,
             })
         };
@@ -128,8 +132,7 @@ impl Elastic {
         let whiskers = whiskers.collect::<Result<_, BadSetting>>()?;
         Ok(Self {
             head,
-            settings,
-            surface: Surface::of(Material::SmoothPlastic),
+            surface,
             seed,
             pieces: 0,
             whiskers,
@@ -157,19 +160,17 @@ impl Elastic {
 }
 
 impl Swung {
-    fn advance(&mut self, settings: &ElasticSettings, surface: Surface, angle: f64, dt_s: f64) {
+    fn advance(&mut self, surface: Surface, angle: f64, dt_s: f64) {
         let believed = Some(angle).filter(|angle| angle.abs() <= ANGLE_LIMIT);
         let Some(angle) = believed.or(self.angle_deg) else {
             return;
         };
         self.angle_deg = Some(angle);
-        let length_m = settings.shaft.length_m;
-        let plate = self.limit_deg.is_finite().then(|| {
-            let limit = self.limit_deg.to_radians();
-            Plate::in_the_way(limit, length_m, &settings.facing, surface)
-        });
+        if let Some(plate) = &mut self.plate {
+            plate.surface = surface;
+        }
         let pose = Pose::swung(angle.to_radians());
-        self.whisker.step(&pose, plate.as_ref(), dt_s);
+        self.whisker.step(&pose, self.plate.as_ref(), dt_s);
     }
 }
 
@@ -185,12 +186,11 @@ impl Plant for Elastic {
             return;
         }
         let angles = angles_deg.iter().copied().chain(repeat(f64::NAN));
-        let pieces: Vec<Surface> = (0..self.whiskers.len() as u64)
-            .map(|whisker| self.piece(whisker))
-            .collect();
-        let each = self.whiskers.iter_mut().zip(pieces).zip(angles);
-        for ((swung, surface), angle) in each {
-            swung.advance(&self.settings, surface, angle, dt_s);
+        for (n, angle) in (0..self.whiskers.len()).zip(angles) {
+            let surface = self.piece(n as u64);
+            if let Some(swung) = self.whiskers.get_mut(n) {
+                swung.advance(surface, angle, dt_s);
+            }
         }
     }
 

@@ -19,7 +19,7 @@ fn places() -> impl Iterator<Item = [f64; 2]> {
 
 #[test]
 fn spread_is_the_surface_s_and_top_is_never_passed() {
-    let relief = Relief::new(&ROUGH, 1e-6);
+    let mut relief = Relief::new(&ROUGH, 1e-6);
     let (mut sum, mut square, mut top) = (0.0, 0.0, 0.0_f64);
     for place in places() {
         let height = relief.at(place)[0];
@@ -42,11 +42,12 @@ fn spread_is_the_surface_s_and_top_is_never_passed() {
 
 #[test]
 fn slopes_are_those_of_the_heights() {
-    let relief = Relief::new(&ROUGH, 1e-6);
+    let mut relief = Relief::new(&ROUGH, 1e-6);
     let d = 1e-8;
     for place in places().step_by(997) {
         let [_, x, y] = relief.at([place[0] + 1e-4, place[1] - 3e-4]);
-        let height = |dx: f64, dy: f64| relief.at([place[0] + 1e-4 + dx, place[1] - 3e-4 + dy])[0];
+        let mut height =
+            |dx: f64, dy: f64| relief.at([place[0] + 1e-4 + dx, place[1] - 3e-4 + dy])[0];
         assert!((x - (height(d, 0.0) - height(-d, 0.0)) / (2.0 * d)).abs() < 1e-4);
         assert!((y - (height(0.0, d) - height(0.0, -d)) / (2.0 * d)).abs() < 1e-4);
     }
@@ -63,13 +64,13 @@ fn a_seed_is_a_place_and_another_seed_another() {
 fn a_blunt_tip_does_not_feel_fine_grains() {
     // Tip 10 mm, h 1 mm: ℓ² = 80 mm², n = 3.2; the second octave's arcs are
     // 4.47 mm long.
-    let blunt = Relief::new(&ROUGH, 1e-2);
+    let mut blunt = Relief::new(&ROUGH, 1e-2);
     let square: f64 = places().map(|p| blunt.at(p)[0].powi(2) / 160e3).sum();
     let first = 1e-3 / (1.0 + 2.0 * 3.2_f64.ln()).sqrt() / 1.3125_f64.sqrt();
     let second: f64 = 0.3 * 20e-6 / 80e-3;
     assert!((square.sqrt() / first.hypot(second) - 1.0).abs() < 0.02);
     assert!((blunt.finest_m / 20e-6_f64.sqrt() - 1.0).abs() < 1e-9);
-    let flat = Relief::new(&Surface::of(Material::Flat), 1e-3);
+    let mut flat = Relief::new(&Surface::of(Material::Flat), 1e-3);
     assert_eq!(flat.at([0.1, 0.2]), [0.0; 3]);
     assert_eq!((flat.top_m, flat.finest_m), (0.0, f64::INFINITY));
 }

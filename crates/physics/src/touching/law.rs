@@ -5,7 +5,7 @@
 //!
 //! −C F = w ξ₁ + (1 − w) ξ₀ + τ (ξ₁ − ξ₀)/h,  ½ ≤ w < 1
 //!
-//! with the give C and the lag τ of [`super::spring`]. With s = w + τ/h that is
+//! with the compliance C and the lag τ of [`crate::compliance`]. With s = w + τ/h that is
 //! −C F = s ξ₁ + (1 − s) ξ₀. The end is ξ₁ = ξ₀ + Δ + W F − slip, with the way Δ
 //! of the tip without a force and the response W of the modes, and so
 //!
@@ -23,28 +23,26 @@
 //! Of a foot that touches down, friction might still give energy; it then has
 //! none in that part.
 
-use super::TouchingWhisker;
-use super::spring::Give;
+use super::body::Body;
+use crate::compliance::Compliance;
 use crate::contact::{Force, Frame, Problem};
-use crate::pose::Seen;
-use crate::state::Reach;
+use crate::modal::ModalStep;
+use crate::pose::PlatePose;
 use crate::vector::{V3, dot, length2};
-
-/// Speed by which friction has gone 63 % of the way from resting to sliding, m/s
-/// (Stribeck; of the order of what is measured on plastics). A tip that is held
-/// across the shaft creeps along it, as the bend draws it back.
-const CREEP_M_S: f64 = 1e-3;
 
 /// Least share of a part after touching down: keeps quotients finite.
 const LATEST: f64 = 1e-9;
 
 /// A part without its force.
 pub(super) struct Part<'a> {
-    pub(super) new: &'a Seen,
-    pub(super) reach: &'a Reach,
+    /// The pose at its end.
+    pub(super) pose: &'a PlatePose,
+    pub(super) step: &'a ModalStep,
     pub(super) dt_s: f64,
-    pub(super) give: Give,
+    pub(super) law: Law,
+    /// In contact at the begin; sliding friction then is that of the last part.
     pub(super) touching: bool,
+    pub(super) friction: f64,
     /// Deflections at the begin, and at the end without a force.
     pub(super) start: [f64; 2],
     pub(super) free: [f64; 2],
@@ -58,38 +56,66 @@ pub(super) struct Part<'a> {
 }
 
 /// A part with a force on a plane.
-#[derive(Clone, Copy)]
 pub(super) struct Solved {
     pub(super) frame: Frame,
+    pub(super) problem: Problem,
     pub(super) force: Force,
     /// The force on the axes x and y, N.
     pub(super) pushed: [f64; 2],
     /// At the end, plate coordinates, m.
     pub(super) stretch: V3,
-    pub(super) slipped_m: f64,
     /// Energy of the spring at the begin less the work on the tip, J.
     pub(super) left_j: f64,
 }
 
-/// What a part without a force leaves of a stretch: F = 0 in the law.
+/// The constants of the law for parts of one length.
+#[derive(Clone, Copy)]
+pub(super) struct Law {
+    pub(super) compliance: Compliance,
+    /// w.
+    weight: f64,
+    /// τ/h.
+    lag: f64,
+}
+
+impl Law {
+    /// s of a part in contact for a share of it.
+    #[inline]
+    pub(super) fn share(&self, late: f64) -> f64 {
+        late * self.weight + self.lag
+    }
+
+    /// The part of a stretch that a part without a force leaves: F = 0 in the law.
+    #[inline]
+    pub(super) fn kept(&self) -> f64 {
+        kept(self.share(1.0))
+    }
+}
+
 #[inline]
-pub(super) fn kept(share: f64) -> f64 {
+fn kept(share: f64) -> f64 {
     (1.0 - 1.0 / share).max(0.0)
 }
 
-impl TouchingWhisker {
-    /// s of a part in contact for a share of it.
+impl Body {
+    /// The law for parts of the length `part_s`.
     #[inline]
-    pub(super) fn share(&self, reach: &Reach, part_s: f64, give: &Give, late: f64) -> f64 {
-        let lag_s = give.lag_s(self.relief.0.damping, self.shape.mobility);
-        late * give.weight(reach.response) + lag_s / part_s
+    pub(super) fn law(&self, step: &ModalStep, part_s: f64) -> Law {
+        let compliance = self.shaft.compliance(self.ground.compliance_m_n);
+        let lag_s = compliance.lag_s(self.ground.surface.damping, self.shaft.mobility);
+        Law {
+            compliance,
+            weight: compliance.weight(step.response),
+            lag: lag_s / part_s,
+        }
     }
 
     /// The force on a plane, for deflections at the end of about `end`.
+    #[inline]
     pub(super) fn solve(&self, part: &Part<'_>, frame: Frame, end: [f64; 2]) -> Solved {
-        let surface = &self.relief.0;
-        let middle = [0, 1].map(|i| f64::midpoint(part.start[i], end[i]));
-        let ways = self.shape.ways(middle, part.new);
+        let compliance = &part.law.compliance;
+        let middle = [0, 1].map(|i| 0.5 * part.start[i] + 0.5 * end[i]);
+        let ways = self.shaft.ways(middle, part.pose);
         let local = ways.map(|way| frame.local(way));
         let [u, v] = [0, 1].map(|i| part.free[i] - part.start[i]);
         // The tip's way without a force.
@@ -102,56 +128,54 @@ impl TouchingWhisker {
             ((part.foot[2] - part.ground[0]) * frame.upright).max(0.0)
         };
         // The share of the part after it touches down.
-        let late = if moved[0] < 0.0 {
+        let late = if moved[0] < 0.0 && !part.touching {
             (1.0 + above / moved[0]).clamp(LATEST, 1.0)
         } else {
             1.0
         };
-        let share = self.share(part.reach, part.dt_s, &part.give, late);
-        let sliding = if part.touching {
-            self.touch.slip_m_s
+        let share = part.law.share(late);
+        let friction = if part.touching {
+            part.friction
         } else {
-            length2([moved[1], moved[2]]) / part.dt_s
+            let sliding_m_s = length2([moved[1], moved[2]]) / part.dt_s;
+            self.ground.surface.friction_at(sliding_m_s)
         };
-        let along = frame.local(part.new.z);
-        let response = |i: usize, j: usize| {
-            part.reach.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j])
-        };
-        let least = part.give.least();
-        let more = |i: usize, j: usize| {
-            (part.give.at(along, i, j) - if i == j { least } else { 0.0 }) / share
+        let along = frame.local(part.pose.z);
+        let given: [V3; 3] =
+            core::array::from_fn(|i| core::array::from_fn(|j| compliance.at(along, i, j)));
+        let least = compliance.least();
+        let entry = |i: usize, j: usize| {
+            let modes =
+                part.step.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j]);
+            modes + (given[i][j] - if i == j { least } else { 0.0 }) / share
         };
         let mut problem = Problem {
             gap: above + begin[0] / share + moved[0],
             stretch: [1, 2].map(|i| begin[i] / share + late * moved[i]),
-            response: core::array::from_fn(|i| {
-                core::array::from_fn(|j| response(i, j) + more(i, j))
-            }),
+            response: core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j))),
             springs: [least / share; 2],
-            friction: surface.friction
-                + (surface.hold - surface.friction) * libm::exp(-sliding / CREEP_M_S),
+            friction,
             near: [1, 2].map(|i| dot(frame.axes[i], self.touch.force)),
         };
         let on_axes = |force: &Force| local.map(|way| dot(way, force.local));
-        let left = |force: &Force| {
-            let pushed = on_axes(force);
-            let shaft = part.reach.response * (pushed[0] * pushed[0] + pushed[1] * pushed[1]);
+        let left = |force: &Force, pushed: [f64; 2]| {
+            let shaft = part.step.response * (pushed[0] * pushed[0] + pushed[1] * pushed[1]);
             self.touch.spring_j - dot(force.local, moved) - shaft
         };
         let mut force = problem.solve();
-        let mut left_j = left(&force);
+        let mut pushed = on_axes(&force);
+        let mut left_j = left(&force, pushed);
         if left_j < 0.0 {
             // What slides before it touches down can do this; without friction,
             // nothing does.
             problem.friction = 0.0;
             force = problem.solve();
-            left_j = left(&force);
+            pushed = on_axes(&force);
+            left_j = left(&force, pushed);
         }
         let stretch = if force.local[0] > 0.0 {
             core::array::from_fn(|i| {
-                let given: f64 = (0..3)
-                    .map(|j| part.give.at(along, i, j) * force.local[j])
-                    .sum();
+                let given: f64 = (0..3).map(|j| given[i][j] * force.local[j]).sum();
                 begin[i] - (begin[i] + given) / share
             })
         } else {
@@ -159,10 +183,10 @@ impl TouchingWhisker {
         };
         Solved {
             frame,
+            problem,
             force,
-            pushed: on_axes(&force),
+            pushed,
             stretch: frame.plate(stretch),
-            slipped_m: problem.slipped(&force),
             left_j,
         }
     }

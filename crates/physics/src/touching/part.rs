@@ -25,12 +25,12 @@
 //!
 //! whatever surface, stiffness, speed and step.
 
-use super::TouchingWhisker;
-use super::ground::secant;
-use super::law::{Part, Solved, kept};
-use super::spring::Give;
+use super::body::{Body, Touch};
+use super::law::{Part, Solved};
+use super::secant::secant;
 use crate::contact::Frame;
-use crate::pose::Seen;
+use crate::modal::ModalStep;
+use crate::pose::PlatePose;
 use crate::vector::{V3, dot, length2, scale, sub};
 
 /// Rounds by which the end of a part is found, at most; mostly one.
@@ -44,113 +44,80 @@ const NEAR_RAD: f64 = 1e-4;
 /// Smallest share of a round.
 const LEAST: f64 = 0.05;
 
-/// What the tip and the plate are to each other.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Touch {
-    /// Stretch along the whisker's axes x, y and z, m.
-    pub(super) stretch: V3,
-    /// Its energy, J.
-    pub(super) spring_j: f64,
-    /// Its force on the axes x and y, N.
-    pub(super) pull: [f64; 2],
-    /// Force on the tip, the mean of the part, plate coordinates, N.
-    pub(super) force: V3,
-    /// Its normal component; positive: in contact.
-    pub(super) normal_n: f64,
-    pub(super) stuck: bool,
-    /// Speed at which it slides, m/s.
-    pub(super) slip_m_s: f64,
-    /// Height and slopes under the foot, if known.
-    pub(super) ground: Option<[f64; 3]>,
-    /// How much lower than it is the ground counts, m.
-    pub(super) lowered_m: f64,
-}
-
-impl Touch {
-    /// A foot in the air with a stretch.
-    fn of(give: &Give, stretch: V3) -> Self {
-        let force = give.force(stretch);
-        Self {
-            stretch,
-            spring_j: -0.5 * dot(force, stretch),
-            pull: [force[0], force[1]],
-            ..Self::default()
-        }
-    }
-}
-
-impl TouchingWhisker {
+impl Body {
     /// One part of a step, from one rigid tip to the next.
-    pub(super) fn part(&mut self, old: &Seen, new: &Seen, power: usize, part_s: f64) {
-        let Some(reach) = self.reach.1.get(power) else {
-            return;
-        };
-        let start = self.shape.deflections(&self.state);
-        self.state.free(reach);
-        let free = self.shape.deflections(&self.state);
-        let give = self.shape.give(1.0 / self.relief.0.stiffness_n_m);
-        let touching = self.contact();
-        let stretch = new.space(self.touch.stretch);
+    pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
+        let start = self.shaft.deflections(&self.state);
+        self.state.free(step);
+        let free = self.shaft.deflections(&self.state);
+        let law = self.law(step, part_s);
+        let touching = self.touch.is_contact();
+        let stretch = new.vector(self.touch.stretch);
         let mut end = free;
         let (mut to, mut below);
         if touching {
             // Forces change little from part to part.
-            let push = |way: V3| reach.response * dot(way, self.touch.force);
+            let push = |way: V3| step.response * dot(way, self.touch.force);
             end = [end[0] + push(new.x), end[1] + push(new.y)];
-            to = sub(self.shape.tip(end, new), stretch);
+            to = sub(self.shaft.tip(end, new), stretch);
             below = None;
         } else {
-            let keep = kept(self.share(reach, part_s, &give, 1.0));
-            to = sub(self.shape.tip(free, new), scale(keep, stretch));
-            let ground = self.relief.1.at([to[0], to[1]]);
+            let keep = law.kept();
+            to = sub(self.shaft.tip(free, new), scale(keep, stretch));
+            let ground = self.ground.relief.at([to[0], to[1]]);
             if to[2] >= ground[0] {
                 let stretch = scale(keep, self.touch.stretch);
-                self.touch = Touch::of(&give, stretch);
+                self.touch = Touch::in_the_air(&law.compliance, stretch);
                 self.touch.ground = Some(ground);
                 return;
             }
             below = Some(ground);
         }
-        let tip = self.shape.tip(start, old);
-        let foot = sub(tip, old.space(self.touch.stretch));
-        let here = || self.relief.1.at([foot[0], foot[1]]);
+        let shortened_m = self.shaft.shortened_m(start);
+        let tip = old.tip(start, shortened_m);
+        let foot = sub(tip, old.vector(self.touch.stretch));
+        let known = self.touch.ground;
         let part = Part {
-            new,
-            reach,
+            pose: new,
+            step,
             dt_s: part_s,
-            give,
+            law,
             touching,
+            friction: self.ground.surface.friction_at(self.touch.slip_m_s),
             start,
             free,
             stretch,
             foot,
-            ground: self.touch.ground.unwrap_or_else(here),
-            carried: sub(sub(self.shape.tip(start, new), stretch), foot),
+            ground: known.unwrap_or_else(|| self.ground.relief.at([foot[0], foot[1]])),
+            carried: sub(sub(new.tip(start, shortened_m), stretch), foot),
         };
-        let near = NEAR * self.relief.1.finest_m;
+        let near = NEAR * self.ground.relief.finest_m;
         if touching && self.touch.stuck {
             to = foot;
         }
         let (mut missed, mut relax) = (None, 1.0);
         for round in 1..=ROUNDS {
-            let at = |to: V3| self.relief.1.at([to[0], to[1]]);
-            let ground = below.take().unwrap_or_else(|| at(to));
+            let ground = match below.take() {
+                Some(ground) => ground,
+                None => self.ground.relief.at([to[0], to[1]]),
+            };
             let slopes = secant([foot[0], foot[1]], part.ground, [to[0], to[1]], ground);
             let solved = self.solve(&part, Frame::new(slopes), end);
-            let next = [0, 1].map(|i| free[i] + reach.response * solved.pushed[i]);
+            let next = [0, 1].map(|i| free[i] + step.response * solved.pushed[i]);
             let bend = length2([next[0] - end[0], next[1] - end[1]]);
             end = next;
-            let tip = self.shape.tip(end, new);
+            let tip = self.shaft.tip(end, new);
             let next = sub(tip, solved.stretch);
             let miss = [next[0] - to[0], next[1] - to[1]];
             let moved = length2(miss);
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
-            if round == ROUNDS || (self.shape.turn(bend) < NEAR_RAD && moved < near) {
-                self.state.push(reach, solved.pushed);
-                self.touch = settled(&part, &solved, at(next), tip);
-                if self.state.limit(&self.shape) {
+            if round == ROUNDS || (self.shaft.turn(bend) < NEAR_RAD && moved < near) {
+                self.state.push(step, solved.pushed);
+                let ground = self.ground.relief.at([next[0], next[1]]);
+                self.touch = settled(&part, &solved, ground, next);
+                if self.state.limit(&self.shaft) {
                     self.touch.ground = None;
                 }
                 return;
@@ -174,25 +141,24 @@ fn relaxed(share: f64, old: [f64; 2], new: [f64; 2]) -> f64 {
 }
 
 /// Brings the foot to the ground, as far as there is the energy.
-fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], tip: V3) -> Touch {
-    let Solved { frame, .. } = solved;
-    let foot = sub(tip, solved.stretch);
+fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], foot: V3) -> Touch {
+    let Solved { frame, force, .. } = solved;
     // Straight up or down: the ground is known there.
     let deep = ground[0] - foot[2];
-    let body = part.new.body(solved.stretch);
+    let body = part.pose.components(solved.stretch);
     let left_j = solved.left_j.max(0.0);
     // A foot in the air stays there.
-    let normal_n = solved.force.local[0];
+    let normal_n = force.local[0];
     let deep = if normal_n > 0.0 { deep } else { deep.max(0.0) };
-    let up = part.new.body([0.0, 0.0, -deep]);
-    let (stretch, paid) = part.give.within(left_j, body, up);
+    let up = part.pose.components([0.0, 0.0, -deep]);
+    let (stretch, paid) = part.law.compliance.within(left_j, body, up);
     Touch {
-        force: frame.plate(solved.force.local),
+        force: frame.plate(force.local),
         normal_n,
-        stuck: solved.force.stuck,
-        slip_m_s: solved.slipped_m / part.dt_s,
+        stuck: force.stuck,
+        slip_m_s: solved.problem.slipped(force) / part.dt_s,
         ground: Some(ground),
         lowered_m: (1.0 - paid) * deep,
-        ..Touch::of(&part.give, stretch)
+        ..Touch::in_the_air(&part.law.compliance, stretch)
     }
 }

@@ -9,10 +9,7 @@ const NO_WAY_M: f64 = 1e-12;
 #[inline]
 pub(super) fn secant(from: [f64; 2], start: [f64; 3], to: [f64; 2], end: [f64; 3]) -> [f64; 2] {
     let way = [to[0] - from[0], to[1] - from[1]];
-    let mean = [
-        f64::midpoint(start[1], end[1]),
-        f64::midpoint(start[2], end[2]),
-    ];
+    let mean = [0.5 * start[1] + 0.5 * end[1], 0.5 * start[2] + 0.5 * end[2]];
     let square = way[0] * way[0] + way[1] * way[1];
     if square < NO_WAY_M * NO_WAY_M {
         return mean;

@@ -1,4 +1,4 @@
-//! What a whisker tells of itself: readings, contact, forces, energy.
+//! Outputs of a whisker: readings, contact, forces, energy.
 
 use super::TouchingWhisker;
 use crate::vector::dot;
@@ -18,7 +18,7 @@ impl TouchingWhisker {
 
     /// Whether the tip is pressed on the plate at the end of the step.
     pub fn contact(&self) -> bool {
-        self.touch.normal_n > 0.0
+        self.body.touch.is_contact()
     }
 
     /// How many parts the last step was cut into; none if the tip stayed clear
@@ -29,35 +29,39 @@ impl TouchingWhisker {
 
     /// Whether it is held there by friction.
     pub fn sticking(&self) -> bool {
-        self.contact() && self.touch.stuck
+        self.contact() && self.body.touch.stuck
     }
 
     /// Normal and tangential force on the tip, N.
     pub fn force_n(&self) -> [f64; 2] {
-        let normal = self.touch.normal_n;
-        let square = dot(self.touch.force, self.touch.force) - normal * normal;
+        let normal = self.body.touch.normal_n;
+        let square = dot(self.body.touch.force, self.body.touch.force) - normal * normal;
         [normal, square.max(0.0).sqrt()]
     }
 
     /// How much lower than it is the ground counts, m, as contact had no energy
     /// to press its spring: an error of the method, not of the energy.
     pub fn lowered_m(&self) -> f64 {
-        self.touch.lowered_m
+        self.body.touch.lowered_m
     }
 
     /// Deflection of the tip in x and y, m.
     pub fn tip_m(&self) -> [f64; 2] {
-        self.shape.deflection(&self.state, self.touch.pull)
+        self.body
+            .shaft
+            .deflection(&self.body.state, self.body.touch.pull)
     }
 
     /// Rotation of the base in x and y as it is, rad.
     pub fn rotation_rad(&self) -> [f64; 2] {
-        self.shape.rotation(&self.state, self.touch.pull)
+        self.body
+            .shaft
+            .rotation(&self.body.state, self.body.touch.pull)
     }
 
     /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes
     /// that move with the base.
     pub fn energy_j(&self) -> f64 {
-        self.state.energy_j(&self.shape) + self.touch.spring_j
+        self.body.state.energy_j(&self.body.shaft) + self.body.touch.spring_j
     }
 }

@@ -1,34 +1,34 @@
-//! The massless spring between modal tip and foot: what it gives, its energy, and
+//! The massless spring between modal tip and foot: its compliance, its energy, and
 //! how coarse a part is for it.
 
 use crate::vector::{V3, add, dot};
 
 /// Compliances of shaft and ground in series, m/N; positive.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Give {
+pub(crate) struct Compliance {
     /// Transverse to the shaft.
     pub(crate) across: f64,
     /// Along it.
     pub(crate) along: f64,
 }
 
-impl Give {
-    /// The smaller one.
+impl Compliance {
+    /// The smaller of the two.
     #[inline]
-    pub(super) fn least(&self) -> f64 {
+    pub(crate) fn least(&self) -> f64 {
         self.across.min(self.along)
     }
 
     /// An entry of C in axes in which the shaft has the direction `z`.
     #[inline]
-    pub(super) fn at(&self, z: V3, i: usize, j: usize) -> f64 {
+    pub(crate) fn at(&self, z: V3, i: usize, j: usize) -> f64 {
         let own = if i == j { self.across } else { 0.0 };
         own + (self.along - self.across) * z[i] * z[j]
     }
 
     /// Force of a stretch along the axes x, y and z, N.
     #[inline]
-    pub(super) fn force(&self, [x, y, z]: V3) -> V3 {
+    pub(crate) fn force(&self, [x, y, z]: V3) -> V3 {
         [-x / self.across, -y / self.across, -z / self.along]
     }
 
@@ -36,7 +36,7 @@ impl Give {
     /// the square of the part's length, so that the second order stays, and near
     /// 1 where the modes give way by far more than the spring.
     #[inline]
-    pub(super) fn weight(&self, response: f64) -> f64 {
+    pub(crate) fn weight(&self, response: f64) -> f64 {
         let coarse = 0.25 * response / self.across;
         (0.5 + coarse) / (1.0 + coarse)
     }
@@ -44,7 +44,7 @@ impl Give {
     /// τ = 2 ζ/ω of a tip that rings on its stretch with ω² = mobility/C, s; zero
     /// for one that does not move.
     #[inline]
-    pub(super) fn lag_s(&self, damping: f64, mobility: f64) -> f64 {
+    pub(crate) fn lag_s(&self, damping: f64, mobility: f64) -> f64 {
         if mobility > 0.0 {
             2.0 * damping * (self.across / mobility).sqrt()
         } else {
@@ -55,7 +55,7 @@ impl Give {
     /// A stretch with as much of a change, 0 to 1, as an energy allows; less
     /// than the stretch, where it does not allow that.
     #[inline]
-    pub(super) fn within(&self, energy_j: f64, stretch: V3, change: V3) -> (V3, f64) {
+    pub(crate) fn within(&self, energy_j: f64, stretch: V3, change: V3) -> (V3, f64) {
         // E = a + b s + c s².
         let force = self.force(stretch);
         let a = -0.5 * dot(force, stretch);

@@ -1,0 +1,138 @@
+//! A whisker before a plate: its modes, the ground, and what they are to each other.
+
+use crate::compliance::Compliance;
+use crate::modal::{ModalShaft, ModalState, ModalStep};
+use crate::pose::PlatePose;
+use crate::relief::Relief;
+use crate::surface::Surface;
+use crate::vector::{V3, dot};
+
+/// The elastic whisker and the surface before it.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    pub(super) shaft: ModalShaft,
+    pub(super) state: ModalState,
+    pub(super) ground: Ground,
+    pub(super) touch: Touch,
+    pub(super) last: Option<Last>,
+    /// Steps in contact are cut 2ⁿ times as finely as usual.
+    pub(super) finer: u32,
+}
+
+impl Body {
+    /// Takes another state of the modes, away from any plate.
+    pub(super) fn place(&mut self, state: ModalState) {
+        self.state = state;
+        self.touch = Touch::default();
+        self.last = None;
+    }
+}
+
+/// The end of the last step before the plate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Last {
+    pub(super) pose: PlatePose,
+    /// Modal tip above the mean plane, m.
+    pub(super) above: f64,
+}
+
+/// Parts of a step are less than 2 to this power.
+pub(super) const POWERS: usize = 6;
+
+/// How modes move in a step of one length, and in a half, a quarter … of it.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Steps {
+    pub(super) dt_s: f64,
+    pub(super) parts: [ModalStep; POWERS],
+}
+
+impl Steps {
+    /// For steps of this length.
+    pub(super) fn new(shaft: &ModalShaft, dt_s: f64) -> Self {
+        let of = |power: usize| ModalStep::new(shaft, dt_s / f64::from(1_u32 << power));
+        Self {
+            dt_s,
+            parts: core::array::from_fn(of),
+        }
+    }
+}
+
+/// A surface with its heights.
+#[derive(Debug, Clone)]
+pub(super) struct Ground {
+    /// As it was given.
+    given: Surface,
+    /// With its values limited to their ranges.
+    pub(super) surface: Surface,
+    pub(super) relief: Relief,
+    /// 1/k, m/N.
+    pub(super) compliance_m_n: f64,
+}
+
+impl Ground {
+    /// A surface as a tip of this radius feels it.
+    pub(super) fn new(given: Surface, tip_radius_m: f64) -> Self {
+        let surface = given.limited();
+        Self {
+            given,
+            surface,
+            relief: Relief::new(&surface, tip_radius_m),
+            compliance_m_n: 1.0 / surface.stiffness_n_m,
+        }
+    }
+
+    /// Whether this is the ground of a surface already.
+    #[inline]
+    pub(super) fn is_of(&mut self, given: &Surface) -> bool {
+        if self.given == *given {
+            return true;
+        }
+        let same = given.limited() == self.surface;
+        if same {
+            self.given = *given;
+        }
+        same
+    }
+}
+
+/// The state of the contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Touch {
+    /// Stretch along the whisker's axes x, y and z, m.
+    pub(super) stretch: V3,
+    /// Its energy, J.
+    pub(super) spring_j: f64,
+    /// Its force on the axes x and y, N.
+    pub(super) pull: [f64; 2],
+    /// Force on the tip, the mean of the part, plate coordinates, N.
+    pub(super) force: V3,
+    /// Its normal component; positive: in contact.
+    pub(super) normal_n: f64,
+    pub(super) stuck: bool,
+    /// Speed at which it slides, m/s.
+    pub(super) slip_m_s: f64,
+    /// Height and slopes under the foot, if known.
+    pub(super) ground: Option<[f64; 3]>,
+    /// How much lower than it is the ground counts, m.
+    pub(super) lowered_m: f64,
+}
+
+impl Touch {
+    /// A foot in the air with a stretch.
+    #[inline]
+    pub(super) fn in_the_air(compliance: &Compliance, stretch: V3) -> Self {
+        let force = compliance.force(stretch);
+        Self {
+            stretch,
+            spring_j: -0.5 * dot(force, stretch),
+            pull: [force[0], force[1]],
+            ..Self::default()
+        }
+    }
+
+    /// Whether the tip is pressed on the plate.
+    #[inline]
+    pub(super) fn is_contact(&self) -> bool {
+        self.normal_n > 0.0
+    }
+}
