@@ -18,7 +18,7 @@ use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{PWM_MAX, Pins, SimPwm};
 
-use crate::chip::{Fault, Ps, ResetCause, Sensor};
+use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
 use crate::meter::{Figures, Meter};
 use crate::program::Program;
@@ -31,7 +31,7 @@ struct Wired {
     exchange: Option<Exchange>,
 }
 
-impl Sensor for Wired {
+impl SensorEnd for Wired {
     fn latch(&mut self) {
         self.exchange = Some(self.slave.select());
     }

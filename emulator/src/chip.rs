@@ -13,14 +13,17 @@ mod gpio;
 mod plain;
 mod rcc;
 mod registers;
+mod reset;
 mod sensor_lines;
 mod spi;
+mod time;
 mod timer;
 mod watchdog;
 
 pub use fault::Fault;
-pub use rcc::ResetCause;
-pub use sensor_lines::Sensor;
+pub use reset::ResetCause;
+pub use sensor_lines::SensorEnd;
+pub use time::Ps;
 
 use dma::{Dma, Move};
 use gpio::{Gpio, Role};
@@ -30,9 +33,6 @@ use sensor_lines::SensorLines;
 use spi::Spi;
 use timer::Timer;
 use watchdog::Watchdog;
-
-/// Time since power-up, picoseconds: wraps after half a year.
-pub type Ps = u64;
 
 /// The interrupt of the tick, TIM3, in the NVIC.
 pub(crate) const TICK_IRQ: u16 = 29;
@@ -186,7 +186,7 @@ impl Chip {
         &mut self,
         now: Ps,
         memory: &dyn Memory,
-        sensor: &mut dyn Sensor,
+        sensor: &mut dyn SensorEnd,
     ) -> Result<Option<ResetCause>, Fault> {
         loop {
             if let Some(fault) = self.fault.take() {

@@ -9,7 +9,7 @@ use host_sim::progress::{Progress, Verbosity};
 
 use crate::chip::Ps;
 use crate::emulate::start;
-use crate::meter::{Extent, Figures};
+use crate::meter::{Figures, Tally};
 use crate::program::Program;
 
 /// What was measured.
@@ -70,7 +70,7 @@ impl Deadlines {
     pub fn csv(&self) -> String {
         let figures = &self.figures;
         let cycles = |ps: Ps| ps / self.cycle.max(1);
-        let line = |what: &str, extent: &Extent| {
+        let line = |what: &str, extent: &Tally| {
             format!("{what},{:.1},{}\n", extent.mean(), extent.worst())
         };
         [
@@ -110,7 +110,7 @@ impl fmt::Display for Deadlines {
             figures.length.worst() as f64 / 1e6
         )?;
         writeln!(f, "instructions{:>32} {:>8}", "mean", "worst")?;
-        let mut line = |name: &str, extent: &Extent| {
+        let mut line = |name: &str, extent: &Tally| {
             writeln!(
                 f,
                 "  {name:<32} {:>9.1} {:>8}",

@@ -5,8 +5,8 @@ mod place;
 
 use gimli::{
     AttributeValue, DW_AT_data_member_location, DW_AT_location, DW_AT_name, DW_AT_type,
-    DW_TAG_member, DW_TAG_variable, DebuggingInformationEntry, DwAt, Dwarf, EndianRcSlice,
-    LittleEndian, Operation, Unit, UnitOffset,
+    DW_TAG_member, DebuggingInformationEntry, DwAt, Dwarf, EndianRcSlice, LittleEndian, Operation,
+    Unit, UnitOffset,
 };
 use object::{Object, ObjectSection};
 
@@ -53,27 +53,6 @@ impl DebugInfo {
             units.push(dwarf.unit(header).map_err(bad)?);
         }
         Ok(Self { dwarf, units })
-    }
-
-    /// The static variable of that name.
-    pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
-        for unit in 0..self.units.len() {
-            let mut entries = self.units[unit].entries();
-            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
-                if entry.tag() == DW_TAG_variable
-                    && self.name(unit, entry)?.as_deref() == Some(name)
-                    && let Some(address) = self.address(unit, entry)?
-                    && let Some(of) = self.type_of(unit, entry)?
-                {
-                    return Ok(Place {
-                        info: self,
-                        address,
-                        of,
-                    });
-                }
-            }
-        }
-        Err(bad(format!("no variable {name}")))
     }
 
     fn name(&self, unit: usize, entry: &Entry<'_>) -> Result<Option<String>, Fault> {

@@ -30,8 +30,8 @@ mod trouble;
 mod watch;
 
 pub use board::{Board, Emulated};
-pub use chip::{Chip, Fault, Memory, Ps, ResetCause, Sensor};
+pub use chip::{Chip, Fault, Memory, Ps, ResetCause, SensorEnd};
 pub use machine::{Machine, Observer, Spent, Stop};
-pub use meter::{Extent, Figures};
+pub use meter::{Figures, Tally};
 pub use program::Program;
 pub use rtt::LogDecoder;

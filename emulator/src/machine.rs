@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
-use crate::chip::{Chip, FRAME_IRQ, Fault, Ps, ResetCause, Sensor, TICK_IRQ};
+use crate::chip::{Chip, FRAME_IRQ, Fault, Ps, ResetCause, SensorEnd, TICK_IRQ};
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
@@ -172,7 +172,7 @@ impl Machine {
     pub fn run(
         &mut self,
         until: Ps,
-        sensor: &mut dyn Sensor,
+        sensor: &mut dyn SensorEnd,
         observer: &mut impl Observer,
     ) -> Result<Stop, Fault> {
         loop {
@@ -241,7 +241,7 @@ impl Machine {
     }
 
     /// Lets the chip do what is due and sets the core's interrupt lines.
-    fn look(&mut self, sensor: &mut dyn Sensor) -> Result<Option<ResetCause>, Fault> {
+    fn look(&mut self, sensor: &mut dyn SensorEnd) -> Result<Option<ResetCause>, Fault> {
         let due = self.due.is_some_and(|due| due <= self.now);
         if !self.shared.take_touched() && !due {
             return Ok(None);

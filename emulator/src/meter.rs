@@ -6,13 +6,13 @@ use crate::machine::{Observer, Spent};
 
 /// A figure over many ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Extent {
+pub struct Tally {
     count: u64,
     sum: u64,
     worst: u64,
 }
 
-impl Extent {
+impl Tally {
     const fn add(&mut self, value: u64) {
         self.count += 1;
         self.sum += value;
@@ -42,22 +42,22 @@ impl Extent {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Figures {
     /// From the timer's update to the first instruction of the tick's handler, ps.
-    pub latency: Extent,
+    pub latency: Tally,
     /// From there to the handler's return, ps.
-    pub length: Extent,
+    pub length: Tally,
     /// From the first instruction of a handler to that of the next, ps.
-    pub period: Extent,
+    pub period: Tally,
     /// Instructions of the tick's handler.
-    pub tick: Extent,
+    pub tick: Tally,
     /// Instructions of the handlers beside it, a whole tick.
-    pub handlers: Extent,
+    pub handlers: Tally,
     /// Instructions of idle in whole ticks in which it logs nothing.
-    pub idle: Extent,
+    pub idle: Tally,
     /// Instructions of idle in whole ticks in which it logs.
-    pub logging: Extent,
+    pub logging: Tally,
     /// Instructions of a whole tick but for the log: where idle logs, its mean
     /// without logging stands for it.
-    pub whole: Extent,
+    pub whole: Tally,
 }
 
 /// Takes the figures.
@@ -121,7 +121,7 @@ impl Observer for Meter {
 
 #[cfg(test)]
 mod tests {
-    use super::{Extent, Meter};
+    use super::{Meter, Tally};
     use crate::machine::{Observer, Spent};
 
     #[test]
@@ -148,7 +148,7 @@ mod tests {
         meter.logged(writer);
 
         let figures = meter.figures();
-        let is = |extent: Extent, sum, worst| {
+        let is = |extent: Tally, sum, worst| {
             assert_eq!((extent.sum, extent.worst), (sum, worst));
         };
         is(figures.tick, 310, 120);

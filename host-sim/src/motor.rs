@@ -36,7 +36,7 @@ use std::sync::Arc;
 
 pub use ideal::IdealMotor;
 use pins::Wires;
-pub use pins::{PWM_MAX, SimDir, SimEncoder, SimHall, SimPin, SimPwm};
+pub use pins::{PWM_MAX, SimDir, SimEncoder, SimHall, SimPin, SimPwm, Wire};
 use rotor::Rotor;
 pub use settings::{BadMotorSetting, MotorSettings};
 use stage::Stage;
@@ -74,19 +74,6 @@ pub enum Pins {
     Brushed(Brushed),
     /// Three half-bridges, three Hall sensors and an encoder.
     Brushless(Brushless),
-}
-
-/// A wire that can be cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Wire {
-    /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one;
-    /// others are not there.
-    Winding(usize),
-    /// The cable of the Hall sensors: their pull-ups read high, code 7.
-    Halls,
-    /// The cable of the encoder: its count stands still. Once mended it goes on
-    /// from there, off by what it has missed.
-    Encoder,
 }
 
 /// A motor, its gear and its whisker.

@@ -17,7 +17,7 @@ mod textured;
 mod whisker;
 
 pub use ideal::Ideal;
-pub use surface::Surface;
+pub use surface::SurfaceSettings;
 pub use textured::{Textured, TexturedSettings, WhiskerSettings};
 pub use whisker::{Elastic, ElasticSettings};
 

@@ -39,7 +39,7 @@ pub enum Fault {
     Asleep,
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
-    Reset(super::ResetCause),
+    Reset(super::reset::ResetCause),
     /// The emulator's own memory map refused what it should not.
     #[error("memory: {0}")]
     Memory(String),

@@ -4,8 +4,9 @@
 //! Oscillators and the PLL are ready at once. Frequencies are worked out from
 //! the registers, so a wrong divider makes a wrong time everywhere.
 
-use super::Ps;
 use super::fault::Fault;
+use super::reset::ResetCause;
+use super::time::Ps;
 
 /// The internal oscillator, Hz.
 const HSI_HZ: u64 = 16_000_000;
@@ -36,17 +37,6 @@ const PINRSTF: u32 = 1 << 26;
 const PORRSTF: u32 = 1 << 27;
 const SFTRSTF: u32 = 1 << 28;
 const IWDGRSTF: u32 = 1 << 29;
-
-/// What resets the chip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ResetCause {
-    /// The supply came.
-    Power,
-    /// The independent watchdog.
-    Watchdog,
-    /// The core asked for it (SYSRESETREQ).
-    Software,
-}
 
 impl ResetCause {
     const fn flags(self) -> u32 {

@@ -6,11 +6,11 @@
 
 use mlx90333::timing::{BYTE_GAP_FAST_NS, CLOCK_MAX_HZ, START_UP_US};
 
-use super::Ps;
 use super::fault::Fault;
+use super::time::Ps;
 
 /// The sensor's end of the wires.
-pub trait Sensor {
+pub trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with.
     fn latch(&mut self);
 
@@ -62,7 +62,7 @@ impl SensorLines {
         &mut self,
         began: Ps,
         bit: Ps,
-        sensor: &mut dyn Sensor,
+        sensor: &mut dyn SensorEnd,
     ) -> Result<(), Fault> {
         if self.told == Some(began) || !self.selected {
             return Ok(());
@@ -86,7 +86,7 @@ impl SensorLines {
     }
 
     /// A byte ended: what the master has read.
-    pub(super) fn end(&mut self, sent: u8, now: Ps, heard: bool, sensor: &mut dyn Sensor) -> u8 {
+    pub(super) fn end(&mut self, sent: u8, now: Ps, heard: bool, sensor: &mut dyn SensorEnd) -> u8 {
         self.ended = Some(now);
         if self.selected && heard {
             sensor.exchange(sent)

@@ -1,6 +1,6 @@
 //! An SPI as master of eight-bit frames (RM0390, chapter 26).
 
-use super::Ps;
+use super::time::Ps;
 
 const CR1: u32 = 0x00;
 const CR2: u32 = 0x04;

@@ -5,7 +5,7 @@ mod time;
 
 use std::cell::RefCell;
 
-use super::{Chip, Fault, Memory, Ps, ResetCause, Sensor};
+use super::{Chip, Fault, Memory, Ps, ResetCause, SensorEnd};
 
 const RCC: u32 = 0x4002_3800;
 const FLASH: u32 = 0x4002_3C00;
@@ -24,7 +24,7 @@ struct Script {
     latched: usize,
 }
 
-impl Sensor for Script {
+impl SensorEnd for Script {
     fn latch(&mut self) {
         self.latched += 1;
     }

@@ -5,7 +5,7 @@
 //! make a DMA request are events. Compare values act at once: the buffering of
 //! a PWM period, 50 µs, is not modelled.
 
-use super::Ps;
+use super::time::Ps;
 
 const CR1: u32 = 0x00;
 const CR2: u32 = 0x04;

@@ -1,6 +1,6 @@
 //! The independent watchdog (RM0390, chapter 20), on an LSI of its nominal 32 kHz.
 
-use super::Ps;
+use super::time::Ps;
 
 /// One period of the LSI.
 const LSI: Ps = 1_000_000_000_000 / 32_000;

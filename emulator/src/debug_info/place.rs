@@ -3,8 +3,8 @@
 use gimli::{
     AttributeValue, DW_AT_byte_size, DW_AT_count, DW_AT_data_member_location, DW_AT_discr_value,
     DW_AT_encoding, DW_AT_upper_bound, DW_ATE_float, DW_TAG_array_type, DW_TAG_base_type,
-    DW_TAG_member, DW_TAG_structure_type, DW_TAG_subrange_type, DW_TAG_union_type, DW_TAG_variant,
-    DW_TAG_variant_part,
+    DW_TAG_member, DW_TAG_structure_type, DW_TAG_subrange_type, DW_TAG_union_type, DW_TAG_variable,
+    DW_TAG_variant, DW_TAG_variant_part,
 };
 
 use super::{DebugInfo, Type, bad, number};
@@ -30,6 +30,29 @@ pub(crate) enum Number {
 
 /// Members that only wrap one other.
 const WRAPPERS: [&str; 3] = ["value", "__0", "inner"];
+
+impl DebugInfo {
+    /// The static variable of that name.
+    pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
+        for unit in 0..self.units.len() {
+            let mut entries = self.units[unit].entries();
+            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
+                if entry.tag() == DW_TAG_variable
+                    && self.name(unit, entry)?.as_deref() == Some(name)
+                    && let Some(address) = self.address(unit, entry)?
+                    && let Some(of) = self.type_of(unit, entry)?
+                {
+                    return Ok(Place {
+                        info: self,
+                        address,
+                        of,
+                    });
+                }
+            }
+        }
+        Err(bad(format!("no variable {name}")))
+    }
+}
 
 impl Place<'_> {
     fn part(self, offset: u32, of: Type) -> Self {

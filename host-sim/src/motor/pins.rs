@@ -13,11 +13,22 @@ use embedded_hal::digital::{self, InputPin, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use firmware::AngleInput;
 
-use super::Wire;
-
 /// Duty of a PWM channel that is fully on: the NUCLEO-F446RE's timer of 160 MHz
 /// at 20 kHz, so that its steps are the board's.
 pub const PWM_MAX: u16 = 8000;
+
+/// A wire that can be cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Wire {
+    /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one;
+    /// others are not there.
+    Winding(usize),
+    /// The cable of the Hall sensors: their pull-ups read high, code 7.
+    Halls,
+    /// The cable of the encoder: its count stands still. Once mended it goes on
+    /// from there, off by what it has missed.
+    Encoder,
+}
 
 /// A number that both ends of a wire can reach.
 #[derive(Debug, Default)]

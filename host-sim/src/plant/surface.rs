@@ -7,7 +7,7 @@ use physics::Noise;
 
 /// What a surface is to the tip of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surface {
+pub struct SurfaceSettings {
     /// Root mean square of the profile's height, m.
     pub height_m: f64,
     /// Distance over which heights are alike, m: their correlation falls as
@@ -23,7 +23,7 @@ pub struct Surface {
     pub friction: f64,
 }
 
-impl Surface {
+impl SurfaceSettings {
     /// The surface of a texture of a scene.
     ///
     /// From sources: the grains of P600 and P240, 25.8 µm and 58.5 µm, are the
@@ -136,13 +136,13 @@ impl Profile {
 
 #[cfg(test)]
 mod tests {
-    use super::{Noise, Path, Profile, Surface};
+    use super::{Noise, Path, Profile, SurfaceSettings};
     use scene::Texture;
 
     #[test]
     fn abrasives_have_the_grains_of_biotact_s_table() {
-        assert_eq!(Surface::of(Texture::P240).grain_m, 58.5e-6);
-        assert_eq!(Surface::of(Texture::P600).grain_m, 25.8e-6);
+        assert_eq!(SurfaceSettings::of(Texture::P240).grain_m, 58.5e-6);
+        assert_eq!(SurfaceSettings::of(Texture::P600).grain_m, 25.8e-6);
     }
 
     #[test]

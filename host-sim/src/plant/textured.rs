@@ -12,7 +12,7 @@
 //! # Model
 //!
 //! For overlap o = max(0, θ′ − θ′_lim), a tip that travels L |do/dt| along the
-//! surface ([`Surface`]) over a profile of relative heights h_x, h_y, and sliding
+//! surface ([`SurfaceSettings`]) over a profile of relative heights h_x, h_y, and sliding
 //! s = v/(|v| + creep) with v = do/dt:
 //!
 //! - bend: n = B tanh(σ_x u/B), u = max(0, o/(1 + softness) + e h_x). On a hard,
@@ -34,7 +34,7 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::surface::{Profile, Surface};
+use super::surface::{Profile, SurfaceSettings};
 use super::{BadSetting, Head, Plant};
 use physics::{Noise, Propagator, Resonator};
 pub use settings::{TexturedSettings, WhiskerSettings};
@@ -71,7 +71,7 @@ struct Whisker {
 pub struct Textured {
     head: Head,
     settings: TexturedSettings,
-    surface: Surface,
+    surface: SurfaceSettings,
     whiskers: Vec<Whisker>,
 }
 
@@ -88,23 +88,23 @@ impl Textured {
         Ok(Self {
             head,
             settings,
-            surface: Surface::of(Texture::Smooth),
+            surface: SurfaceSettings::of(Texture::Smooth),
             whiskers,
         })
     }
 
     /// Puts another surface before all whiskers; those in contact land anew.
     pub fn present(&mut self, texture: Texture) {
-        self.present_surface(Surface::of(texture));
+        self.present_surface(SurfaceSettings::of(texture));
     }
 
     /// As [`Textured::present`], with any surface. Its values are limited to 0
     /// to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of grip and softness and
     /// 10 of friction; one that is not a number counts as the lowest.
-    pub fn present_surface(&mut self, surface: Surface) {
+    pub fn present_surface(&mut self, surface: SurfaceSettings) {
         // The larger of a number and NaN is the number.
         let limit = |value: f64, lo: f64, hi: f64| value.max(lo).min(hi);
-        self.surface = Surface {
+        self.surface = SurfaceSettings {
             height_m: limit(surface.height_m, 0.0, 1.0),
             grain_m: limit(surface.grain_m, 1e-9, 1e3),
             grip: limit(surface.grip, 0.0, 1e3),
@@ -132,7 +132,7 @@ fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker>
 
 /// What a step happens in.
 struct World<'a> {
-    surface: &'a Surface,
+    surface: &'a SurfaceSettings,
     stiffness: f64,
     settings: &'a TexturedSettings,
     dt_s: f64,
@@ -246,7 +246,7 @@ impl Plant for Textured {
     }
 
     fn restart(&mut self, seed: u64) {
-        self.surface = Surface::of(Texture::Smooth);
+        self.surface = SurfaceSettings::of(Texture::Smooth);
         self.whiskers = whiskers(&self.head, &self.settings, seed);
     }
 }

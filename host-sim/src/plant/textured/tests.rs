@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Textured, TexturedSettings, WhiskerSettings};
-use crate::plant::{BadSetting, Head, Plant, Surface};
+use crate::plant::{BadSetting, Head, Plant, SurfaceSettings};
 
 const TICK_S: f64 = 5e-4;
 
@@ -29,7 +29,7 @@ fn quiet() -> TexturedSettings {
     }
 }
 
-const FLAT: Surface = Surface {
+const FLAT: SurfaceSettings = SurfaceSettings {
     height_m: 0.0,
     grain_m: 1e-3,
     grip: 0.0,
@@ -37,7 +37,7 @@ const FLAT: Surface = Surface {
     friction: 0.0,
 };
 
-fn plant(settings: TexturedSettings, surface: Surface) -> Textured {
+fn plant(settings: TexturedSettings, surface: SurfaceSettings) -> Textured {
     let mut plant = Textured::new(head(1), settings, 7).unwrap();
     plant.present_surface(surface);
     plant
@@ -55,7 +55,7 @@ fn sweep(plant: &mut Textured, from: f64, to: f64, seconds: f64) -> [f64; 2] {
 #[test]
 fn a_resting_whisker_is_bent_as_the_formula_says() {
     for (overlap, softness) in [(1.0, 0.0), (4.0, 0.0), (30.0, 0.0), (4.0, 3.0)] {
-        let mut plant = plant(quiet(), Surface { softness, ..FLAT });
+        let mut plant = plant(quiet(), SurfaceSettings { softness, ..FLAT });
         let [x, y] = sweep(&mut plant, 100.0 + overlap, 100.0 + overlap, 1.0);
         let expected = 0.8 * (0.1 * overlap / (1.0 + softness) / 0.8).tanh();
         assert!((x - expected).abs() < 1e-9 && y == 0.0, "{overlap}: {x}");
@@ -67,7 +67,7 @@ fn friction_adds_in_protraction_and_takes_in_retraction() {
     // 30 degrees a second against a creep of 10: s = ±0.75. Slow enough for the
     // mode's lag, 2 ζ/ω = 0.6 ms or 0.002 in x, to be small.
     let friction = 0.5;
-    let surface = Surface { friction, ..FLAT };
+    let surface = SurfaceSettings { friction, ..FLAT };
     let bend = 0.8 * (0.5_f64 / 0.8).tanh();
     for (from, sign) in [(80.0, 1.0), (130.0, -1.0)] {
         let mut plant = plant(quiet(), surface);
@@ -161,7 +161,7 @@ fn the_sensor_s_noise_is_as_set() {
 }
 
 /// Variance of y in a steady slide of `speed` degrees a second, to and fro.
-fn vibration(surface: Surface, speed: f64, tick_s: f64, seconds: f64) -> f64 {
+fn vibration(surface: SurfaceSettings, speed: f64, tick_s: f64, seconds: f64) -> f64 {
     let settings = TexturedSettings {
         drag_y: 0.0,
         ..quiet()
@@ -181,7 +181,7 @@ fn vibration(surface: Surface, speed: f64, tick_s: f64, seconds: f64) -> f64 {
 
 /// The same for a resonator behind a process with correlation exp(−a |t|) and
 /// variance s²: s² ω (a + 2 ζ ω)/(2 ζ (ω² + a² + 2 ζ ω a)).
-fn vibration_in_theory(surface: Surface, speed: f64) -> f64 {
+fn vibration_in_theory(surface: SurfaceSettings, speed: f64) -> f64 {
     let metres_per_degree = 0.112 * PI / 180.0;
     let (omega, damping) = (TAU * 50.0, 0.1);
     let a = speed * metres_per_degree / surface.grain_m;
@@ -193,7 +193,7 @@ fn vibration_in_theory(surface: Surface, speed: f64) -> f64 {
 #[test]
 fn vibration_is_that_of_a_resonator_over_a_random_profile() {
     for texture in [Texture::P600, Texture::P240, Texture::Carpet] {
-        let surface = Surface::of(texture);
+        let surface = SurfaceSettings::of(texture);
         for (speed, tick_s) in [(300.0, TICK_S), (300.0, 5e-5), (20.0, TICK_S)] {
             let found = vibration(surface, speed, tick_s, 200.0);
             let expected = vibration_in_theory(surface, speed);
@@ -214,7 +214,8 @@ fn rougher_textures_shake_more() {
         Texture::P240,
         Texture::Carpet,
     ];
-    let shaking = textures.map(|texture| vibration(Surface::of(texture), 300.0, TICK_S, 5.0));
+    let shaking =
+        textures.map(|texture| vibration(SurfaceSettings::of(texture), 300.0, TICK_S, 5.0));
     assert!(
         shaking.windows(2).all(|pair| pair[1] > 3.0 * pair[0]),
         "{shaking:?}"
@@ -276,7 +277,7 @@ proptest! {
         friction in prop_oneof![0.0..1.0, Just(1e300)],
     ) {
         let mut plant = Textured::new(head(2), TexturedSettings::default(), 1).unwrap();
-        plant.present_surface(Surface { height_m, grain_m, grip: 20.0, softness: 1.0, friction });
+        plant.present_surface(SurfaceSettings { height_m, grain_m, grip: 20.0, softness: 1.0, friction });
         for angle in angles {
             plant.advance(&[angle], tick_s);
             let [x, y] = plant.deflection(0, 0);

@@ -1,0 +1,12 @@
+//! Why the chip was reset.
+
+/// What resets the chip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResetCause {
+    /// The supply came.
+    Power,
+    /// The independent watchdog.
+    Watchdog,
+    /// The core asked for it (SYSRESETREQ).
+    Software,
+}
