@@ -13,9 +13,9 @@ use scene::Rule;
 /// Simulates active whisker modules: the firmware's tick on a mock SPI bus and
 /// mock motors, with whiskers and surfaces behind them.
 ///
-/// Without a command it runs the main job: the left whisker of a module learns
-/// four textures by whisking against them, then decides by touch which one it
-/// feels; decisions are printed as they fall, and traces, model and a plot are
+/// Without a command it runs the main job: the left whisker of a module is
+/// trained on four textures by whisking against them, then decides by touch which
+/// one it feels; decisions are printed as they fall, and traces, model and a plot are
 /// written to out/textures.
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
@@ -40,7 +40,7 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
-    /// Runs one scene and records what its first whisker feels, to learn from
+    /// Runs one scene and records what its first whisker feels, to train on
     Record {
         /// The scene file
         scene: PathBuf,
@@ -51,7 +51,7 @@ enum Command {
         #[arg(long)]
         seed: Option<u64>,
     },
-    /// Learns a likelihood model from a recording
+    /// Trains a likelihood model from a recording
     #[command(allow_negative_numbers = true)]
     Train {
         /// The recording: label,trial,x,y

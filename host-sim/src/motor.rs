@@ -68,7 +68,7 @@ pub struct Brushless {
 /// The ends of a motor's wires that a board has.
 #[derive(Debug)]
 pub enum Pins {
-    /// No wires: the motor is where it should be, and only counts.
+    /// No wires: the motor is always at its setpoint, and only counts.
     Ideal(IdealMotor),
     /// An H-bridge and an encoder.
     Brushed(Brushed),

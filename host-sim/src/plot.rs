@@ -42,14 +42,14 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Fault = Box<dyn std::error::Error>;
 
 const SIZE: (u32, u32) = (1000, 760);
-const SHOULD: RGBColor = RGBColor(150, 150, 150);
-const IS: RGBColor = RGBColor(0, 90, 170);
+const SETPOINT: RGBColor = RGBColor(150, 150, 150);
+const MEASURED: RGBColor = RGBColor(0, 90, 170);
 const CONTACT: RGBColor = RGBColor(200, 90, 0);
 const RIGHT: RGBColor = RGBColor(0, 130, 60);
 const WRONG: RGBColor = RGBColor(190, 20, 20);
 const TRUTH: RGBColor = RGBColor(220, 225, 230);
 
-/// The left whisker as an SVG document: where it should be and is, what the
+/// The left whisker as an SVG document: setpoint and measured angle, what the
 /// sensor felt, contact and suppression, and each decision beside the truth.
 ///
 /// # Errors
@@ -70,13 +70,19 @@ pub fn left_whisker(picture: &Picture<'_>) -> Result<String, Fault> {
             rows.last().map_or(1.0, |row| row.t_s),
         );
         let left = |value| envelope(rows, value);
-        let should = ("should be", SHOULD, left(|row| row.theta_deg[0]));
-        let is = ("is", IS, left(|row| row.angle_deg[0]));
-        curves(angle, "degrees", span, (40.0, 140.0), vec![should, is])?;
-        let x = ("x", IS, left(|row| row.x[0]));
+        let setpoint = ("setpoint", SETPOINT, left(|row| row.theta_deg[0]));
+        let measured = ("measured", MEASURED, left(|row| row.angle_deg[0]));
+        curves(
+            angle,
+            "degrees",
+            span,
+            (40.0, 140.0),
+            vec![setpoint, measured],
+        )?;
+        let x = ("x", MEASURED, left(|row| row.x[0]));
         curves(sensor, "codes", span, (6000.0, 15_000.0), vec![x])?;
         let pi = ("contact", CONTACT, left(|row| row.contact[0]));
-        let z = ("suppression z", SHOULD, left(|row| row.z[0]));
+        let z = ("suppression z", SETPOINT, left(|row| row.z[0]));
         curves(contact, "", span, (0.0, 1.2), vec![pi, z])?;
         decisions(classes, picture, span)?;
         root.present()?;

@@ -24,8 +24,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// How long work may be silent.
-    const PATIENCE: Duration = Duration::from_secs(1);
+    /// Work that takes no longer than this shows no bar.
+    const SILENT: Duration = Duration::from_secs(1);
 
     /// Work of `total` steps.
     pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
@@ -43,7 +43,7 @@ impl Progress {
         if self.verbosity == Verbosity::Quiet {
             return;
         }
-        if self.bar.is_none() && self.since.elapsed() >= Self::PATIENCE {
+        if self.bar.is_none() && self.since.elapsed() >= Self::SILENT {
             let bar = ProgressBar::new(self.total).with_message(self.message);
             if let Ok(style) =
                 ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta} left")

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 pub struct Row {
     /// End of the tick, s; the first row is at 1/tick_hz.
     pub t_s: f64,
-    /// θ' of the first whisker of each side, degrees: where it should be.
+    /// θ' of the first whisker of each side, degrees: the setpoint.
     pub theta_deg: [f64; 2],
     /// z of each side.
     pub z: [f64; 2],
@@ -17,7 +17,7 @@ pub struct Row {
     pub g: [f64; 2],
     /// Contact π of each side.
     pub contact: [f64; 2],
-    /// Where the first whisker of each side is, degrees.
+    /// Measured angle of the first whisker of each side, degrees.
     pub angle_deg: [f64; 2],
     /// The 14-bit codes of x of the first whisker of each side.
     pub x: [f64; 2],

@@ -1,4 +1,4 @@
-//! `host-sim` without arguments: a whisker learns textures and tells them apart.
+//! `host-sim` without arguments: trains a whisker on textures and lets it tell them apart.
 
 use std::path::Path;
 
@@ -33,12 +33,12 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     let out = Path::new(OUT);
 
     report::say(format_args!(
-        "learning: {} s of whisking against each texture in turn",
+        "training: {} s of whisking against each texture in turn",
         scene.duration_s
     ));
     let streams = record(&scene, verbosity)?;
     files::write_recording(&out.join("training.csv"), &streams)?;
-    let model = learn(&streams)?;
+    let model = train(&streams)?;
     write_whole(&out.join("textures.model"), model.as_bytes())?;
 
     report::say(format_args!(
@@ -68,7 +68,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the classifier of `scene` would have heard in another run of it: the
+/// What the classifier of `scene` would have got in another run of it: the
 /// same scene with another seed, so other noise and other grit.
 ///
 /// # Errors
@@ -84,11 +84,11 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
 /// The model of a recording with the settings that `host-sim train` has by default.
 ///
 /// # Errors
-/// [`Error::Work`] if the recording teaches nothing.
-pub fn learn(streams: &[Stream]) -> Result<ModelBuf, Error> {
+/// [`Error::Work`] if no model can be trained from the recording.
+pub fn train(streams: &[Stream]) -> Result<ModelBuf, Error> {
     let wrong = |error| Error::Work(format!("training: {error}"));
     let trainer = Trainer::new(2, Options::default()).map_err(wrong)?;
-    super::train::learn(trainer, streams).map_err(wrong)
+    super::train::model(trainer, streams).map_err(wrong)
 }
 
 /// A run with decisions.

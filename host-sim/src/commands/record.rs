@@ -1,4 +1,4 @@
-//! `host-sim record`: what a classifier would hear, to learn from.
+//! `host-sim record`: what a classifier would get, to train on.
 
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub fn record(
     ))
 }
 
-/// What the classifier of `scene` would hear, a stream a presentation.
+/// What the classifier of `scene` would get, a stream a presentation.
 ///
 /// # Errors
 /// [`Error::Work`] if the module cannot be put together.

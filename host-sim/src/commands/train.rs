@@ -10,7 +10,7 @@ use crate::files;
 use crate::output::write_whole;
 use crate::recording::Stream;
 
-/// Learns a model from the recording `data` and writes it to `out`.
+/// Trains a model from the recording `data` and writes it to `out`.
 /// Returns what it was made of.
 ///
 /// # Errors
@@ -32,7 +32,7 @@ pub fn train(
     )
     .map_err(|error| Error::Input(format!("{}{error}", option(&error))))?;
     let streams = files::read_recording(data)?;
-    let model = learn(trainer, &streams).map_err(|error| Error::file(data, error))?;
+    let model = model(trainer, &streams).map_err(|error| Error::file(data, error))?;
     write_whole(out, model.as_bytes())?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
     Ok(format!(
@@ -57,7 +57,7 @@ fn option(error: &TrainError) -> &'static str {
 ///
 /// # Errors
 /// What the trainer refuses.
-pub fn learn(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
+pub fn model(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
     for stream in streams {
         for sample in &stream.samples {
             trainer.add(&stream.label, sample)?;

@@ -7,7 +7,7 @@ use whisking::motor::{Duty, Fault, MotorDriver};
 
 use super::pins::Level;
 
-/// A motor that is where it should be: the simulation says where. Clones are
+/// A motor that is always at its setpoint: the simulation puts it there. Clones are
 /// the same motor.
 #[derive(Debug, Clone)]
 pub struct IdealMotor {

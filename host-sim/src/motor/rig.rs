@@ -38,7 +38,7 @@ pub(crate) struct Rig {
     h50: filter::Config<f64>,
     smoothed: filter::State<f64>,
     pd: pd::Config<f64>,
-    follower: pd::State<f64>,
+    servo: pd::State<f64>,
     driver: HBridge<SimPwm, SimDir>,
     encoder: SimEncoder,
     counts: i32,
@@ -56,7 +56,7 @@ impl Rig {
             h50: filter::Config::new(filter::CORNER_HZ, settings.tick_hz).unwrap(),
             smoothed: filter::State::default(),
             pd: pd.build(settings.tick_hz).unwrap(),
-            follower: pd::State::default(),
+            servo: pd::State::default(),
             driver: HBridge::new(pins.pwm, pins.dir),
             encoder: pins.encoder,
             counts: 0,
@@ -72,7 +72,7 @@ impl Rig {
         let [[setpoint]] = self.state.theta();
         let counts = self.encoder.counts();
         let moved = counts - std::mem::replace(&mut self.counts, counts);
-        let duty = self.pd.step(&mut self.follower, setpoint, counts, moved);
+        let duty = self.pd.step(&mut self.servo, setpoint, counts, moved);
         self.driver.drive(duty).unwrap();
         self.motor.advance(self.tick_s);
         whisking::degrees(setpoint)

@@ -211,7 +211,7 @@ fn walk(folder: &Path, content: &mut BTreeMap<PathBuf, Option<Vec<u8>>>) {
 }
 
 /// A model of `channels` channels and two classes with blocks of `block`,
-/// learnt from two samples, whole numbers or not.
+/// trained on two samples, whole numbers or not.
 pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
     let options = Options {
         bins: 10,

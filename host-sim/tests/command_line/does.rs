@@ -7,14 +7,20 @@ use scene::Scene;
 
 use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions};
 
-/// The textured scene with a model that was learnt from it by `train`.
+/// The textured scene with a model that `train` made of it.
 fn classifying() -> Place {
     let scene = Scene::from_str("training.toml", &TEXTURED.replace("= 0.5", "= 3.0")).unwrap();
     let streams = main_job::record(&scene, Verbosity::Quiet).unwrap();
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
-    files::write_recording(&place.path("heard.csv"), &streams).unwrap();
-    place.done(&["train", "--data", "heard.csv", "--out", "scenes/the.model"]);
+    files::write_recording(&place.path("recorded.csv"), &streams).unwrap();
+    place.done(&[
+        "train",
+        "--data",
+        "recorded.csv",
+        "--out",
+        "scenes/the.model",
+    ]);
     place
 }
 
@@ -155,13 +161,13 @@ fn train_and_classify_say_and_write_what_they_did() {
 /// The same table in every dress that spreadsheets give it.
 #[test]
 fn recordings_may_come_in_any_dress() {
-    let learn = |bytes: &[u8]| {
+    let train = |bytes: &[u8]| {
         let place = Place::new();
         place.write("r.csv", bytes);
         place.done(&["train", "--data", "r.csv", "--out", "m"]);
         place.bytes("m")
     };
-    let plain = learn(RECORDING.as_bytes());
+    let plain = train(RECORDING.as_bytes());
     let with = |from: &str, to: &str| RECORDING.replace(from, to).into_bytes();
     let mut reordered = Vec::new();
     for row in cells(RECORDING) {
@@ -180,37 +186,37 @@ fn recordings_may_come_in_any_dress() {
         ("other order, more columns", reordered.join("\n").into()),
     ];
     for (dress, bytes) in dresses {
-        assert!(learn(&bytes) == plain, "{dress}");
+        assert!(train(&bytes) == plain, "{dress}");
     }
     let unfinished = RECORDING.trim_end().as_bytes();
-    assert!(learn(unfinished) == plain, "no newline at the end");
+    assert!(train(unfinished) == plain, "no newline at the end");
 }
 
 #[test]
-fn record_writes_what_the_classifier_would_hear() {
+fn record_writes_what_the_classifier_would_get() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
-    let ran = place.done(&["record", "s.toml", "--out", "heard.csv"]);
+    let ran = place.done(&["record", "s.toml", "--out", "recorded.csv"]);
     assert!(
         ran.stdout.contains("1000 samples in 4 streams"),
         "{}",
         ran.stdout
     );
     place.done(&["run", "s.toml", "--out", "."]);
-    let (heard, trace) = (place.text("heard.csv"), place.text("trace.csv"));
-    let (heard, trace) = (cells(&heard), cells(&trace));
+    let (recorded, trace) = (place.text("recorded.csv"), place.text("trace.csv"));
+    let (recorded, trace) = (cells(&recorded), cells(&trace));
     let column = |name: &str| trace[0].iter().position(|title| *title == name).unwrap();
     let (x, y) = (column("x_left"), column("y_left"));
-    assert_eq!(heard.len(), trace.len());
-    for (heard, trace) in heard[1..].iter().zip(&trace[1..]) {
-        assert_eq!(heard[2..], [trace[x], trace[y]]);
+    assert_eq!(recorded.len(), trace.len());
+    for (recorded, trace) in recorded[1..].iter().zip(&trace[1..]) {
+        assert_eq!(recorded[2..], [trace[x], trace[y]]);
     }
     assert_eq!(
-        (heard[1][0], heard[251][0], heard[501][0]),
+        (recorded[1][0], recorded[251][0], recorded[501][0]),
         ("smooth", "carpet", "smooth")
     );
-    assert_eq!((heard[1][1], heard[501][1]), ("0", "1"));
+    assert_eq!((recorded[1][1], recorded[501][1]), ("0", "1"));
     place.done(&["record", "s.toml", "--out", "other.csv", "--seed", "7"]);
-    assert_ne!(place.text("other.csv"), place.text("heard.csv"));
+    assert_ne!(place.text("other.csv"), place.text("recorded.csv"));
 }
 
 #[test]

@@ -131,9 +131,9 @@ fn runs_on_other_threads_agree() {
 
 #[test]
 fn a_recording_is_what_a_classifier_gets() {
-    let listening = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
+    let classifying = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
     let recording = run(&scene(TEXTURED, 1));
-    let [decided, recorded] = [listening, recording].map(|mut run| see(&mut run));
+    let [decided, recorded] = [classifying, recording].map(|mut run| see(&mut run));
     assert_eq!(decided.samples, recorded.samples);
     assert!(recorded.samples.iter().all(Option::is_some));
 }

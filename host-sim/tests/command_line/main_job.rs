@@ -1,4 +1,4 @@
-//! `host-sim` without arguments: learns four textures and tells them apart.
+//! `host-sim` without arguments: trains on four textures and tells them apart.
 
 use crate::common::{Place, cells, decisions};
 
@@ -58,8 +58,8 @@ fn textures_are_told_apart_better_than_by_chance_and_not_by_magic() {
     let trace = place.text("out/textures/trace.csv");
     assert!(cells(&trace)[1][0].parse::<f64>().unwrap() > 0.0);
 
-    // What it learnt is what `train` learns from what it heard.
-    let heard = "out/textures/training.csv";
-    place.done(&["train", "--data", heard, "--out", "again.model"]);
+    // Its model is what `train` makes of its recording.
+    let recorded = "out/textures/training.csv";
+    place.done(&["train", "--data", recorded, "--out", "again.model"]);
     assert!(place.bytes("again.model") == place.bytes("out/textures/textures.model"));
 }

@@ -3,14 +3,14 @@
 
 use crate::common::{Decided, Place, decisions};
 
-/// Learns `training` and classifies `test` with the options of each command.
-fn decide(training: &str, learning: &str, test: &str, deciding: &str) -> Vec<Decided> {
+/// Trains on `training` and classifies `test` with the options of each command.
+fn decide(training: &str, options: &str, test: &str, deciding: &str) -> Vec<Decided> {
     let header = "label,trial,x,y\n";
     let place = Place::with(&[
         ("training.csv", &format!("{header}{training}")),
         ("test.csv", &format!("{header}{test}")),
     ]);
-    let train = format!("train --data training.csv --out m {learning}");
+    let train = format!("train --data training.csv --out m {options}");
     place.done(&train.split_whitespace().collect::<Vec<_>>());
     let classify = format!("classify --model m --data test.csv --out d.csv {deciding}");
     place.done(&classify.split_whitespace().collect::<Vec<_>>());
@@ -64,13 +64,13 @@ fn classes_that_never_overlap_are_told_apart_in_one_block() {
 #[test]
 fn a_tie_goes_to_the_class_that_the_training_file_has_first() {
     let test = stream("a", 0, &[0, 100]);
-    let learning = format!("{SHARP} --block 2");
-    let decided = decide(APART, &learning, &test, "--rule window --window 2");
+    let options = format!("{SHARP} --block 2");
+    let decided = decide(APART, &options, &test, "--rule window --window 2");
     assert_eq!(outcome(&decided), [("b", 2)]);
     assert_eq!(decided[0].posterior, 0.5);
     // Names do not matter, the order does.
     let reversed = APART.lines().rev().collect::<Vec<_>>().join("\n");
-    let decided = decide(&reversed, &learning, &test, "--rule window --window 2");
+    let decided = decide(&reversed, &options, &test, "--rule window --window 2");
     assert_eq!(outcome(&decided), [("a", 2)]);
 }
 
@@ -82,9 +82,9 @@ fn a_block_counts_as_the_mean_of_its_samples() {
         (4, vec![100, 0, 100, 100]),
         (8, vec![100, 0, 100, 100, 0, 100, 100, 100]),
     ] {
-        let learning = format!("{SHARP} --block {block}");
+        let options = format!("{SHARP} --block {block}");
         let deciding = "--rule sequential --threshold 0.9";
-        let decided = decide(APART, &learning, &stream("b", 0, &x), deciding);
+        let decided = decide(APART, &options, &stream("b", 0, &x), deciding);
         assert_eq!(outcome(&decided), [("b", block)]);
         near(decided[0].posterior, 1000.0 / 1001.0, 2e-6);
     }
@@ -94,9 +94,9 @@ fn a_block_counts_as_the_mean_of_its_samples() {
 #[test]
 fn evidence_adds_up_over_blocks_and_starts_again_after_a_decision() {
     let x = [100, 0, 100, 100].repeat(5);
-    let learning = format!("{SHARP} --block 4");
+    let options = format!("{SHARP} --block 4");
     let deciding = "--rule sequential --threshold 0.9999";
-    let decided = decide(APART, &learning, &stream("b", 0, &x), deciding);
+    let decided = decide(APART, &options, &stream("b", 0, &x), deciding);
     assert_eq!(outcome(&decided), [("b", 8), ("b", 8)]);
     near(decided[0].posterior, 1.0 - 1e-6, 3e-9);
     assert_eq!(decided[0].posterior, decided[1].posterior);
@@ -105,39 +105,39 @@ fn evidence_adds_up_over_blocks_and_starts_again_after_a_decision() {
 #[test]
 fn evidence_is_dropped_at_the_end_of_a_stream() {
     let x = [100, 0, 100, 100];
-    let learning = format!("{SHARP} --block 4");
+    let options = format!("{SHARP} --block 4");
     for deciding in [
         "--rule sequential --threshold 0.9999",
         "--rule window --window 8",
     ] {
         let apart = stream("b", 0, &x) + &stream("b", 1, &x) + &stream("a", 1, &x);
-        assert_eq!(decide(APART, &learning, &apart, deciding), []);
+        assert_eq!(decide(APART, &options, &apart, deciding), []);
         let joined = stream("b", 0, &x) + &stream("b", 0, &x);
-        let decided = decide(APART, &learning, &joined, deciding);
+        let decided = decide(APART, &options, &joined, deciding);
         assert_eq!(outcome(&decided), [("b", 8)], "{deciding}");
     }
     // So is half a block.
     let halves = stream("b", 0, &x[..3]) + &stream("b", 1, &x[..3]);
     let deciding = "--rule window --window 4";
-    assert_eq!(decide(APART, &learning, &halves, deciding), []);
+    assert_eq!(decide(APART, &options, &halves, deciding), []);
 }
 
 #[test]
 fn the_posterior_must_exceed_the_threshold() {
     let tie = stream("b", 0, &[0, 100]);
-    let learning = format!("{SHARP} --block 2");
+    let options = format!("{SHARP} --block 2");
     let at = |threshold| format!("--rule sequential --threshold {threshold}");
-    assert_eq!(decide(APART, &learning, &tie, &at("0.5")), []);
-    let decided = decide(APART, &learning, &tie, &at("0.49999"));
+    assert_eq!(decide(APART, &options, &tie, &at("0.5")), []);
+    let decided = decide(APART, &options, &tie, &at("0.49999"));
     assert_eq!(outcome(&decided), [("b", 2)]);
 }
 
 #[test]
 fn edges_belong_to_the_bins_inside_and_the_middle_to_the_upper_bin() {
-    let learning = format!("{SHARP} --block 1");
+    let options = format!("{SHARP} --block 1");
     let x = [-1_000_000, 0, 49, 50, 100, 1_000_000];
     let test = stream("a", 0, &x);
-    let decided = decide(APART, &learning, &test, "--rule window --window 1");
+    let decided = decide(APART, &options, &test, "--rule window --window 1");
     let found: String = decided.iter().map(|d| d.decision.as_str()).collect();
     assert_eq!(found, "aaabbb");
 }
@@ -148,9 +148,9 @@ fn edges_belong_to_the_bins_inside_and_the_middle_to_the_upper_bin() {
 #[test]
 fn smoothing_is_a_gaussian_of_so_many_bins() {
     let decided = |smooth: &str| {
-        let learning = format!("--bins 3 --block 1 --smooth {smooth}");
+        let options = format!("--bins 3 --block 1 --smooth {smooth}");
         let test = stream("a", 0, &[0]);
-        let decided = decide(APART, &learning, &test, "--rule window --window 1");
+        let decided = decide(APART, &options, &test, "--rule window --window 1");
         decided[0].posterior
     };
     near(decided("1"), 1.0 / (1.0 + (-2.0_f64).exp()), 2e-4);
@@ -162,9 +162,9 @@ fn smoothing_is_a_gaussian_of_so_many_bins() {
 #[test]
 fn both_channels_count() {
     let training = "b,0,100,100\na,0,0,0\n";
-    let learning = "--bins 3 --smooth 1 --block 1";
+    let options = "--bins 3 --smooth 1 --block 1";
     let deciding = "--rule window --window 1";
-    let posterior = |test| decide(training, learning, test, deciding)[0].posterior;
+    let posterior = |test| decide(training, options, test, deciding)[0].posterior;
     near(posterior("a,0,0,0\n"), 1.0 / (1.0 + (-4.0_f64).exp()), 2e-4);
     near(
         posterior("a,0,0,50\n"),

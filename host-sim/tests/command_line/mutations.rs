@@ -126,13 +126,13 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Learns from and classifies a recording, whatever it is; decisions, if any
+/// Trains on and classifies a recording, whatever it is; decisions, if any
 /// fall, must be whole.
-fn learn_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
+fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
     let path = |name: &str| folder.path(name);
-    let learnt = train::train(&path(recording), &path("learnt"), 10, 1.0, 2);
-    let models: &[&str] = if learnt.is_ok() {
-        &["learnt", model]
+    let trained = train::train(&path(recording), &path("trained"), 10, 1.0, 2);
+    let models: &[&str] = if trained.is_ok() {
+        &["trained", model]
     } else {
         &[model]
     };
@@ -180,7 +180,7 @@ proptest! {
         let place = Place::new();
         place.write("m", model(2, 2, true));
         place.write("r.csv", mutilated(RECORDING.as_bytes(), &cuts));
-        learn_and_decide(&place, "m", "r.csv")?;
+        train_and_decide(&place, "m", "r.csv")?;
     }
 
     /// With its checksum mended, so that what lies behind it is reached.
@@ -192,7 +192,7 @@ proptest! {
             mend(&mut bytes);
         }
         place.write("m", bytes);
-        learn_and_decide(&place, "m", "r.csv")?;
+        train_and_decide(&place, "m", "r.csv")?;
     }
 }
 
@@ -221,12 +221,12 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn a_mended_model_is_sound() {
-    let sound = model(2, 2, true);
-    let mut bytes = sound.clone();
+fn a_mended_model_is_valid() {
+    let valid = model(2, 2, true);
+    let mut bytes = valid.clone();
     *bytes.last_mut().unwrap() ^= 1;
     mend(&mut bytes);
-    assert!(bytes == sound);
+    assert!(bytes == valid);
 }
 
 proptest! {
@@ -248,7 +248,7 @@ proptest! {
         let classify = "classify --model the.model --data r.csv --rule window --window 20 --out d";
         let commands = [
             "run s.toml --out out",
-            "train --data r.csv --out learnt",
+            "train --data r.csv --out trained",
             classify,
         ];
         for command in commands {

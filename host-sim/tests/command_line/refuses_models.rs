@@ -23,7 +23,7 @@ fn refused_by_both(bytes: &[u8], naming: &str) {
 }
 
 #[test]
-fn a_sound_model_is_taken() {
+fn a_valid_model_is_taken() {
     let place = place();
     place.write("the.model", model(2, 20, true));
     place.done(&["run", "s.toml", "--out", "out"]);
@@ -44,21 +44,21 @@ fn files_that_are_no_model() {
 
 #[test]
 fn models_that_have_suffered() {
-    let sound = model(2, 20, true);
-    for kept in [3, 15, 16, 60, sound.len() / 2, sound.len() - 1] {
-        refused_by_both(&sound[..kept], "cut short");
+    let valid = model(2, 20, true);
+    for kept in [3, 15, 16, 60, valid.len() / 2, valid.len() - 1] {
+        refused_by_both(&valid[..kept], "cut short");
     }
-    refused_by_both(&[&sound[..], b"\0"].concat(), "bytes follow");
+    refused_by_both(&[&valid[..], b"\0"].concat(), "bytes follow");
     // In the header, a quantiser, a name, the table and the checksum.
     for (at, naming) in [
         (0, "WLIK"),
         (4, "version"),
         (20, "CRC-32"),
         (58, "CRC-32"),
-        (sound.len() / 2, "CRC-32"),
-        (sound.len() - 1, "CRC-32"),
+        (valid.len() / 2, "CRC-32"),
+        (valid.len() - 1, "CRC-32"),
     ] {
-        let mut damaged = sound.clone();
+        let mut damaged = valid.clone();
         damaged[at] ^= 0x10;
         refused_by_both(&damaged, naming);
     }
@@ -77,7 +77,7 @@ fn models_for_something_else() {
     place.write("the.model", model(2, 20, true));
     let naming = ["s.toml: classifier.model", "smooth, carpet", "p600, p240"];
     place.refuses_to_write(&["run", "s.toml"], &naming);
-    // Learnt from real numbers: good for recordings of such, not for a sensor.
+    // Trained on real numbers: good for recordings of such, not for a sensor.
     let place = self::place();
     place.write("the.model", model(2, 20, false));
     place.refuses_to_write(&["run", "s.toml"], &["the.model: ", "codes"]);

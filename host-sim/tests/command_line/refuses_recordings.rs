@@ -99,7 +99,7 @@ fn lessons_without_content() {
     refused(&narrow, &["range"]);
 }
 
-/// Numbers far outside what the model learnt are the edge's, not an error.
+/// Numbers far outside the model's range are the edge's, not an error.
 #[test]
 fn huge_numbers_are_classified() {
     let place = Place::with(&[("r.csv", RECORDING)]);
