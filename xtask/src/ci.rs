@@ -1,50 +1,80 @@
-//! What CI checks, in the order in which it is quickest to fail.
+//! What CI checks, in the order in which it is quickest to fail: everything once, and
+//! of what takes long as much as can still fail. The long runs are [`crate::nightly`]'s.
 
 use std::path::Path;
 
 use crate::emulate::Task;
+use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, run, target};
-use crate::{cost, docs, emulate, firmware, size};
+use crate::steps::Steps;
+use crate::{arrows, cost, count, docs, emulate, size};
+
+/// What a warning becomes.
+const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// Everything.
 ///
 /// # Errors
 /// The first check that fails.
 pub(crate) fn all() -> Result<(), Fault> {
-    run(&mut cargo(&["fmt", "--all", "--check"]))?;
-    let deny = ["--", "-D", "warnings"];
-    let lints = ["clippy", "--workspace", "--all-targets", "--all-features"];
-    run(cargo(&lints).args(deny))?;
+    let mut steps = Steps::default();
+    steps.run("format", || run(&mut cargo(&["fmt", "--all", "--check"])))?;
+    steps.run("arrows", || arrows::all(&[]))?;
+    steps.run("core for WebAssembly", web)?;
+    steps.run("lints", lints)?;
+    // What the README tells a newcomer to run: all tests, and the main job, whose
+    // output and files are what the generated documents must hold.
+    steps.run("tests", tests)?;
+    steps.run("main job and documents", || docs::all(true))?;
+    steps.run("experiments, cut short", experiments)?;
+    steps.run("firmware, two scenes", size::short)?;
+    steps.run("emulated board, one scene", board)?;
+    steps.run("counts of a tick", count::short)?;
+    steps.run("cost of a tick on the board", cost::short)?;
+    steps.end()
+}
 
-    for board in firmware::Board::ALL {
-        run(cargo(&["clippy"]).args(board.build_arguments()).args(deny))?;
-    }
-    // Builds every scene for every board.
-    size::all(None, true)?;
+/// host-sim without its command line, where there are no files, threads or clocks.
+fn web() -> Result<(), Fault> {
+    let core = ["check", "--locked", "-p", "host-sim", "--lib"];
+    let web = [
+        "--no-default-features",
+        "--target",
+        "wasm32-unknown-unknown",
+    ];
+    run(cargo(&core).args(web))
+}
 
-    // The same binary on the emulated chip: PC and board agree, no tick is missed,
-    // and ticks that are too long and a sensor that is lost are noticed.
-    for board in firmware::Board::ALL {
-        if board.is_emulated() {
-            emulate::compare_all(board)?;
-            let scene = Path::new("scenes/full.toml");
-            emulate::emulate(board, scene, &Task::Deadlines(0.25))?;
-            emulate::emulate(board, scene, &Task::Overload)?;
-            emulate::emulate(board, scene, &Task::SensorLoss)?;
-        }
-    }
+fn lints() -> Result<(), Fault> {
+    let everything = ["clippy", "--workspace", "--all-targets", "--all-features"];
+    run(cargo(&everything).args(DENY))?;
+    let board = Board::ALL[0].build_arguments();
+    run(cargo(&["clippy"]).args(board).args(DENY))
+}
 
-    run(&mut cargo(&["test", "-p", "count", "--lib"]))?;
-    // Counts anew what docs/measured/instructions.csv and docs/measured/cost.csv say.
-    cost::all(None, true)?;
+fn tests() -> Result<(), Fault> {
+    run(&mut cargo(&["test", "--locked"]))?;
+    run(&mut cargo(&["test", "--locked", "-p", "count", "--lib"]))
+}
 
-    // What the README tells a newcomer to run: the main job (its output and its
-    // files are what the generated documents must hold), then all tests.
-    docs::all(true)?;
-    // Every experiment of the papers, cut short.
-    let experiments = ["run", "--release", "--quiet", "-p", "studies", "--"];
+/// In the profile of the tests, which has built all of it.
+fn experiments() -> Result<(), Fault> {
+    let studies = ["run", "--quiet", "--locked", "-p", "studies", "--"];
     let quick = ["--quiet", "experiment", "all", "--quick", "--out"];
-    let out = target().join("experiments");
-    run(cargo(&experiments).args(quick).arg(out))?;
-    run(&mut cargo(&["test"]))
+    run(cargo(&studies)
+        .args(quick)
+        .arg(target().join("experiments")))
+}
+
+/// The board's own program on the emulated chip: PC and board agree, in single
+/// precision and in fixed point, no tick is missed, and ticks that are too long and a
+/// sensor that is lost are noticed.
+fn board() -> Result<(), Fault> {
+    let board = firmware::Board::ALL[0];
+    let scene = Path::new("scenes/full.toml");
+    emulate::emulate(board, scene, &Task::Compare)?;
+    emulate::compare_in_fixed_point(board)?;
+    emulate::emulate(board, scene, &Task::Deadlines(0.05))?;
+    emulate::emulate(board, scene, &Task::Overload)?;
+    emulate::emulate(board, scene, &Task::SensorLoss)
 }

@@ -90,7 +90,15 @@ pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
         let taken = variants::half(&scene, &target().join("left"))?.unwrap_or(scene);
         emulate(board, &taken, &Task::Compare)?;
     }
-    let fixed = variants::in_fixed_point(&folder.join("full.toml"), &target().join("fixed"))?;
-    emulate(board, &fixed, &Task::Compare)?;
-    Ok(())
+    compare_in_fixed_point(board)
+}
+
+/// Compares the scene that has everything with host-sim in fixed point.
+///
+/// # Errors
+/// If it differs or cannot be built.
+pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
+    let full = top().join("scenes/full.toml");
+    let fixed = variants::in_fixed_point(&full, &target().join("fixed"))?;
+    emulate(board, &fixed, &Task::Compare)
 }

@@ -6,9 +6,12 @@ mod cost;
 mod count;
 mod docs;
 mod emulate;
+mod figures;
 mod firmware;
+mod nightly;
 mod run;
 mod size;
+mod steps;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -24,9 +27,12 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// All that CI checks: format, lints, generated documents, the firmware
-    /// build, the main job, all tests
+    /// All that CI checks: format, arrows, lints, all tests, the main job and the
+    /// generated documents, firmware, and short forms of the long runs
     Ci,
+    /// The long runs in full: every scene on every board, every count, experiments,
+    /// mutations (takes hours)
+    Nightly,
     /// Fails on a dependency against the order of the crates, on a circle of files
     /// within a crate, and on a type name that is public in two
     Arrows {
@@ -150,6 +156,7 @@ impl Emulate {
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci => ci::all(),
+        Command::Nightly => nightly::all(),
         Command::Arrows { packages } => arrows::all(&packages),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),

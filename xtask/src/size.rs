@@ -19,11 +19,11 @@ use crate::run::{Fault, top};
 use parts::Seen;
 use table::Row;
 
-/// The committed table.
-const TABLE: &str = "docs/measured/sizes.csv";
-
 /// Names between them, on one board, what no scene names: not in the table.
 const CONTROL: &str = "xtask/src/size/control.toml";
+
+/// Of the scenes, those that are built where time is short: all parts and none.
+const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 
 /// Measures everything; prints it and writes the table to `csv` (or to the
 /// committed one; `-`: prints the table alone), or checks that no program has
@@ -34,56 +34,106 @@ const CONTROL: &str = "xtask/src/size/control.toml";
 /// If something cannot be built or read, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let quiet = csv == Some(Path::new("-"));
-    let mut rows = Vec::new();
-    let mut seen = Seen::default();
-    let mut wrong = Vec::new();
+    let mut measured = Measured::default();
     for path in scenes()? {
         let scene = Scene::load(top().join(&path)).map_err(|error| error.to_string())?;
-        let host = host::ns_per_tick(&path, &scene)?;
+        let host = Some(host::ns_per_tick(&path, &scene)?);
         for board in Board::ALL {
-            match firmware::try_build(board, &path)? {
-                Ok(elf) => {
-                    wrong.extend(misfits(&mut seen, board, &path, &scene, &elf)?);
-                    rows.push(measured(board, &scene, &elf, host)?);
-                }
-                Err(reason) if !quiet => println!("{}: {reason}", board.name),
-                Err(_) => {}
+            match measured.take(board, &path, host)? {
+                Some(reason) if !quiet => println!("{}: {reason}", board.name),
+                _ => {}
             }
         }
-        if !quiet {
-            println!("host-sim: {host} ns a tick of {}", scene.name);
-        }
     }
-    let control = Scene::load(top().join(CONTROL)).map_err(|error| error.to_string())?;
     for board in Board::ALL {
-        let elf = firmware::build(board, Path::new(CONTROL))?;
-        let control = &control;
-        wrong.extend(misfits(
-            &mut seen,
-            board,
-            Path::new(CONTROL),
-            control,
-            &elf,
-        )?);
+        measured.control(board)?;
     }
-    let unproven = seen.unproven().into_iter();
-    wrong.extend(unproven.map(|part| format!("{part}: never there, or never absent")));
-    if !wrong.is_empty() {
-        return Err(wrong.join("\n"));
-    }
-
+    let rows = measured.proven()?;
     if quiet {
         print!("{}", table::csv(&rows));
         return Ok(());
     }
     print!("{}", table::columns(&rows));
-    let path = csv.map_or_else(|| top().join(TABLE), Path::to_owned);
+    let path = csv.map_or_else(|| top().join(table::FILE), Path::to_owned);
     let wrong = |error| format!("{}: {error}", path.display());
     if check {
         let known = fs::read_to_string(&path).map_err(wrong)?;
-        return table::compare(&table::read(&known)?, &rows);
+        return table::compare(&table::read(&known)?, &rows, true);
     }
     fs::write(&path, table::csv(&rows)).map_err(wrong)
+}
+
+/// Checks [`SHORT`] on every board, and what a program holds.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn short() -> Result<(), Fault> {
+    let mut measured = Measured::default();
+    for scene in SHORT {
+        for board in Board::ALL {
+            if let Some(reason) = measured.take(board, Path::new(scene), None)? {
+                return Err(reason);
+            }
+        }
+    }
+    measured.control(Board::ALL[0])?;
+    let rows = measured.proven()?;
+    print!("{}", table::columns(&rows));
+    let path = top().join(table::FILE);
+    let known = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    table::compare(&table::read(&known)?, &rows, false)
+}
+
+/// What the programs built so far take and hold.
+#[derive(Default)]
+struct Measured {
+    rows: Vec<Row>,
+    seen: Seen,
+    wrong: Vec<String>,
+}
+
+impl Measured {
+    /// Builds the scene at `path` and measures it; gives the reason if the board does
+    /// not take it.
+    fn take(
+        &mut self,
+        board: Board,
+        path: &Path,
+        host: Option<u64>,
+    ) -> Result<Option<String>, Fault> {
+        let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
+        let elf = match firmware::try_build(board, path)? {
+            Ok(elf) => elf,
+            Err(reason) => return Ok(Some(reason)),
+        };
+        let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
+        self.wrong.extend(misfits);
+        self.rows.push(measured(board, &scene, &elf, host)?);
+        Ok(None)
+    }
+
+    /// Builds [`CONTROL`], which has no line in the table.
+    fn control(&mut self, board: Board) -> Result<(), Fault> {
+        let path = Path::new(CONTROL);
+        let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
+        let elf = firmware::build(board, path)?;
+        let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
+        self.wrong.extend(misfits);
+        Ok(())
+    }
+
+    /// The lines, if every program holds what its scene names and nothing else, and
+    /// every part was once there and once absent.
+    fn proven(mut self) -> Result<Vec<Row>, Fault> {
+        let unproven = self.seen.unproven().into_iter();
+        let told = unproven.map(|part| format!("{part}: never there, or never absent"));
+        self.wrong.extend(told);
+        if self.wrong.is_empty() {
+            Ok(self.rows)
+        } else {
+            Err(self.wrong.join("\n"))
+        }
+    }
 }
 
 /// The scenes of the project, seen from its top.
@@ -104,7 +154,7 @@ fn scenes() -> Result<Vec<PathBuf>, Fault> {
     Ok(paths)
 }
 
-fn measured(board: Board, scene: &Scene, elf: &Path, host: u64) -> Result<Row, Fault> {
+fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Result<Row, Fault> {
     let size = Size::of(elf)?;
     Ok(Row {
         scene: scene.name.clone(),

@@ -39,6 +39,8 @@ pub mod networks;
 pub mod pipeline;
 pub mod report;
 pub mod samples;
+#[cfg(target_os = "none")]
+pub mod start;
 
 /// Makes a program of a function that counts kernels.
 #[macro_export]
@@ -52,7 +54,7 @@ macro_rules! program {
         )]
         #[unsafe(no_mangle)]
         extern "C" fn start() -> ! {
-            $crate::machine::run($kernels)
+            $crate::start::run($kernels)
         }
 
         /// On a PC the kernels run, and nothing is counted.

@@ -1,0 +1,223 @@
+//! Tables of measured instructions: as they are committed, for a person to read,
+//! and compared, so that nothing can become dearer unseen.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::run::{Fault, top};
+
+/// By how much a mean or a worst may become dearer before a check fails.
+const SLACK: f64 = 0.05;
+
+/// A line of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Figure {
+    /// What was measured, in as many fields as the table has before `mean`.
+    pub(crate) key: Vec<String>,
+    /// Mean instructions, to a tenth.
+    pub(crate) mean: f64,
+    /// The most instructions.
+    pub(crate) worst: f64,
+}
+
+impl Figure {
+    pub(crate) fn new(key: &[&str], mean: f64, worst: f64) -> Self {
+        Self {
+            key: key.iter().map(|&field| field.to_owned()).collect(),
+            mean: (mean * 10.0).round() / 10.0,
+            worst,
+        }
+    }
+}
+
+/// A committed table.
+pub(crate) struct Table {
+    /// Seen from the top of the workspace.
+    pub(crate) file: &'static str,
+    pub(crate) header: &'static str,
+    /// What writes it anew.
+    pub(crate) command: &'static str,
+}
+
+impl Table {
+    /// Reads it, or what stands in its place at `csv`.
+    ///
+    /// # Errors
+    /// If it is missing or is no such table.
+    pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
+        let path = self.place(csv);
+        let text = fs::read_to_string(&path);
+        self.parse(&text.map_err(|error| format!("{}: {error}", path.display()))?)
+    }
+
+    /// Prints `figures` in columns, each with its note, and writes them, to `csv` or
+    /// to its own file; for a `csv` of `-` prints the table alone.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(crate) fn write(
+        &self,
+        figures: &[Figure],
+        csv: Option<&Path>,
+        note: impl Fn(&Figure) -> String,
+    ) -> Result<(), Fault> {
+        if csv == Some(Path::new("-")) {
+            print!("{}", self.text(figures));
+            return Ok(());
+        }
+        print!("{}", columns(figures, note));
+        let path = self.place(csv);
+        fs::write(&path, self.text(figures)).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    fn place(&self, csv: Option<&Path>) -> PathBuf {
+        csv.map_or_else(|| top().join(self.file), Path::to_owned)
+    }
+
+    /// The table as it is committed.
+    fn text(&self, figures: &[Figure]) -> String {
+        let mut text = format!("{}\n", self.header);
+        for figure in figures {
+            let key = figure.key.join(",");
+            let _ = writeln!(text, "{key},{:.1},{:.0}", figure.mean, figure.worst);
+        }
+        text
+    }
+
+    fn parse(&self, text: &str) -> Result<Vec<Figure>, Fault> {
+        let mut lines = text.lines();
+        if lines.next() != Some(self.header) {
+            return Err(format!("{} does not begin with {}", self.file, self.header));
+        }
+        let figure = |line: &str| {
+            let fields: Vec<&str> = line.split(',').collect();
+            let [key @ .., mean, worst] = &fields[..] else {
+                return None;
+            };
+            let is_whole = fields.len() == self.header.split(',').count();
+            is_whole.then_some(Figure::new(key, mean.parse().ok()?, worst.parse().ok()?))
+        };
+        lines
+            .map(|line| figure(line).ok_or_else(|| format!("{} has a line {line:?}", self.file)))
+            .collect()
+    }
+
+    /// Names everything in `found` that has become dearer than `known` says or is
+    /// new there; where `found` `is_all`, also what is gone.
+    ///
+    /// # Errors
+    /// If there is any.
+    pub(crate) fn compare(
+        &self,
+        known: &[Figure],
+        found: &[Figure],
+        is_all: bool,
+    ) -> Result<(), Fault> {
+        let mut faults = String::new();
+        for now in found {
+            let name = now.key.join(",");
+            let Some(was) = known.iter().find(|was| was.key == now.key) else {
+                let _ = writeln!(faults, "{name} is not in the table");
+                continue;
+            };
+            // A count of board and emulator has tenths that depend on the scene's end.
+            let dearer = |now: f64, was: f64| now > was * (1.0 + SLACK) + 0.05;
+            if dearer(now.mean, was.mean) || dearer(now.worst, was.worst) {
+                let _ = writeln!(
+                    faults,
+                    "{name}: mean {:.1} was {:.1}, worst {:.0} was {:.0}",
+                    now.mean, was.mean, now.worst, was.worst
+                );
+            }
+        }
+        for was in known {
+            if is_all && !found.iter().any(|now| now.key == was.key) {
+                let _ = writeln!(faults, "{} is no longer measured", was.key.join(","));
+            }
+        }
+        if faults.is_empty() {
+            return Ok(());
+        }
+        let Self { file, command, .. } = self;
+        Err(format!(
+            "{faults}If that is meant: {command}, and commit {file}"
+        ))
+    }
+}
+
+/// `figures` in columns for a person to read, each with its note.
+pub(crate) fn columns(figures: &[Figure], note: impl Fn(&Figure) -> String) -> String {
+    let fields = figures.iter().map(|figure| figure.key.len()).max();
+    let width = |field: usize| {
+        let lengths = figures.iter().filter_map(|figure| figure.key.get(field));
+        lengths.map(String::len).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..fields.unwrap_or(0)).map(width).collect();
+    let mut text = String::new();
+    for figure in figures {
+        for (field, width) in figure.key.iter().zip(&widths) {
+            let _ = write!(text, "{field:width$}  ");
+        }
+        let line = format!(
+            "{:>9.1}  {:>7.0}  {}",
+            figure.mean,
+            figure.worst,
+            note(figure)
+        );
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Figure, Table, columns};
+
+    const TABLE: Table = Table {
+        file: "a.csv",
+        header: "kernel,format,mean,worst",
+        command: "count",
+    };
+
+    fn figure(name: &str, mean: f64, worst: f64) -> Figure {
+        Figure::new(&[name, "f32"], mean, worst)
+    }
+
+    #[test]
+    fn a_table_is_read_back_as_it_was_written() {
+        let figures = [figure("drive", 21.0, 21.0), figure("unit", 33.5, 40.0)];
+        assert_eq!(TABLE.parse(&TABLE.text(&figures)), Ok(figures.to_vec()));
+        assert!(TABLE.parse("kernel,mean\n").is_err());
+        assert!(
+            TABLE
+                .parse(&(TABLE.text(&figures) + "drive,f32\n"))
+                .is_err()
+        );
+        assert!(
+            TABLE
+                .parse(&(TABLE.text(&figures) + "drive,1,2\n"))
+                .is_err()
+        );
+        assert_eq!(columns(&figures, |_| String::new()).lines().count(), 2);
+    }
+
+    #[test]
+    fn five_per_cent_are_borne_and_no_more() {
+        let known = [figure("a", 100.0, 200.0)];
+        let check = |mean, worst| TABLE.compare(&known, &[figure("a", mean, worst)], true);
+        assert_eq!(check(105.0, 210.0), Ok(()));
+        assert_eq!(check(50.0, 100.0), Ok(()));
+        assert!(check(105.2, 200.0).is_err());
+        assert!(check(100.0, 211.0).is_err());
+    }
+
+    #[test]
+    fn what_is_new_or_gone_is_named() {
+        let (a, b) = ([figure("a", 1.0, 1.0)], [figure("b", 1.0, 1.0)]);
+        let fault = TABLE.compare(&a, &b, true).unwrap_err();
+        assert!(fault.contains("b,f32 is not in the table"));
+        assert!(fault.contains("a,f32 is no longer measured"));
+        assert_eq!(TABLE.compare(&[a, b.clone()].concat(), &b, false), Ok(()));
+    }
+}

@@ -1,0 +1,80 @@
+//! The long runs: what CI checks in part, in full. A failure does not keep the others
+//! from running.
+
+use std::path::Path;
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use crate::emulate::Task;
+use crate::firmware::Board;
+use crate::run::{Fault, cargo, output, run, target};
+use crate::steps::Steps;
+use crate::{cost, emulate, size};
+
+/// In how many nights every mutation is tried once.
+const NIGHTS: u64 = 7;
+
+/// Everything.
+///
+/// # Errors
+/// All checks that fail.
+pub(crate) fn all() -> Result<(), Fault> {
+    let mut steps = Steps::default();
+    steps.try_run("lints of every board", lints);
+    steps.try_run("size of every scene on every board", || {
+        size::all(None, true)
+    });
+    steps.try_run("every scene on the emulated board", boards);
+    steps.try_run("counts and cost of every stage", || cost::all(None, true));
+    steps.try_run("experiments", experiments);
+    steps.try_run("mutations", mutations);
+    steps.end()
+}
+
+fn lints() -> Result<(), Fault> {
+    for board in Board::ALL {
+        let deny = ["--", "-D", "warnings"];
+        run(cargo(&["clippy"]).args(board.build_arguments()).args(deny))?;
+    }
+    Ok(())
+}
+
+/// PC and board agree, over ten minutes no tick is missed, and ticks that are too long
+/// and a sensor that is lost are noticed.
+fn boards() -> Result<(), Fault> {
+    for board in Board::ALL.into_iter().filter(|board| board.is_emulated()) {
+        emulate::compare_all(board)?;
+        let scene = Path::new("scenes/full.toml");
+        for task in [Task::Deadlines(10.0), Task::Overload, Task::SensorLoss] {
+            emulate::emulate(board, scene, &task)?;
+        }
+    }
+    Ok(())
+}
+
+fn experiments() -> Result<(), Fault> {
+    let studies = [
+        "run",
+        "--release",
+        "--quiet",
+        "--locked",
+        "-p",
+        "studies",
+        "--",
+    ];
+    let all = ["--quiet", "experiment", "all", "--out"];
+    run(cargo(&studies).args(all).arg(target().join("nightly")))
+}
+
+/// Changes the product's crates (.cargo/mutants.toml) in one place at a time and asks
+/// their tests; another seventh of the places every night.
+fn mutations() -> Result<(), Fault> {
+    if output(&mut cargo(&["mutants", "--version"])).is_err() {
+        run(&mut cargo(&["install", "--locked", "cargo-mutants"]))?;
+    }
+    let now = SystemTime::now().duration_since(UNIX_EPOCH);
+    let day = now.map_err(|error| error.to_string())?.as_secs() / (24 * 60 * 60);
+    let mut command: Command = cargo(&["mutants", "--shard"]);
+    command.arg(format!("{}/{NIGHTS}", day % NIGHTS));
+    run(command.arg("--output").arg(target()))
+}
