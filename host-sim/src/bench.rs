@@ -20,7 +20,7 @@ use crate::motor::Pins;
 
 /// Time does not pass within a tick of the simulation.
 #[derive(Debug, Clone, Copy)]
-struct NoClock;
+pub struct NoClock;
 
 impl Clock for NoClock {
     fn now(&mut self) -> u32 {

@@ -33,7 +33,7 @@ impl AngleInput for AnyAngle {
 }
 
 /// The firmware's driver and angle input on these pins, set up as on a board.
-pub(crate) fn on(pins: Pins, stall: StallConfig) -> (AnyMotor, AnyAngle) {
+pub fn on(pins: Pins, stall: StallConfig) -> (AnyMotor, AnyAngle) {
     match pins {
         Pins::Ideal(motor) => (AnyMotor(Box::new(motor.clone())), AnyAngle(Box::new(motor))),
         Pins::Brushed(pins) => {

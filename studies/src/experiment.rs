@@ -21,7 +21,6 @@ mod lep10;
 mod lep12;
 mod matrix;
 mod page;
-pub mod paper;
 mod part;
 mod picture;
 mod pose;

@@ -5,5 +5,7 @@
 pub mod accuracy;
 pub mod commands;
 pub mod experiment;
+pub mod paper;
+mod peaks;
 mod refused;
 pub mod rigs;

@@ -35,7 +35,7 @@ pub use error::BadSetting;
 pub use noise::{Noise, box_muller};
 pub use pose::{Plate, Pose};
 pub use resonator::{Propagator, Resonator};
-pub use sensor::SensorSettings;
+pub use sensor::{SensorSettings, sensor_code};
 pub use shaft::{Follicle, Shaft};
 pub use surface::{Grit, Material, Surface};
 pub use swing::Facing;

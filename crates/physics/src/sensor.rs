@@ -6,6 +6,12 @@ use crate::noise::Noise;
 /// Code of a reading of 1: 14 bits with a sign.
 const CODES: f64 = 8191.0;
 
+/// The code of a reading in codes: the nearest that is within ±`most`, which is
+/// at most 32767.
+pub fn sensor_code(reading: f64, most: f64) -> i16 {
+    reading.round().clamp(-most, most) as i16
+}
+
 /// A sensor's settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorSettings {
@@ -93,8 +99,7 @@ impl Sensor {
         let scale = CODES / self.settings.full_scale_rad;
         for (code, rotation) in self.codes.iter_mut().zip(rotation_rad) {
             let noise = self.settings.noise_codes * self.noise.next();
-            let value = (scale * rotation + noise).round();
-            *code = value.clamp(-CODES, CODES) as i16;
+            *code = sensor_code(scale * rotation + noise, CODES);
         }
     }
 

@@ -10,18 +10,18 @@ pub(crate) mod figures;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, State};
 
-use figures::{FIG6, FIG7, FIG8, FIG9, FREE, FREQUENCY_HZ, Figure, Printed, Row, TICK_HZ, run};
+use figures::{FREE, FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
 
 use super::page::Page;
 use super::schemes::Pace;
+use crate::paper::biotact::{FIG6, FIG7, FIG8, FIG9, Figure};
+use crate::peaks::peaks;
 use crate::refused::refused;
 use host_sim::Error;
 
 const WHISK_TICKS: usize = 1_000;
 /// Whisks that are measured.
 const WHISKS: usize = 5;
-/// Fall of θ' in degrees that makes a maximum a peak.
-const PROMINENCE_DEG: f64 = 0.5;
 /// π at which a contact begins, and below which it has ended.
 const TOUCH: f64 = 0.05;
 const RELEASE: f64 = 0.02;
@@ -71,24 +71,6 @@ impl Quantity {
             ),
         }
     }
-}
-
-/// Maxima that angles fall from by [`PROMINENCE_DEG`], from a trough on.
-fn peaks(angles: impl Iterator<Item = f64>) -> usize {
-    let (mut count, mut rising, mut extreme) = (0, false, f64::INFINITY);
-    for angle in angles {
-        extreme = if rising {
-            extreme.max(angle)
-        } else {
-            extreme.min(angle)
-        };
-        if rising && angle <= extreme - PROMINENCE_DEG {
-            (count, rising, extreme) = (count + 1, false, angle);
-        } else if !rising && angle >= extreme + PROMINENCE_DEG {
-            (rising, extreme) = (true, angle);
-        }
-    }
-    count
 }
 
 /// Contacts begun, from none on.

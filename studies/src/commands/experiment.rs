@@ -35,7 +35,11 @@ pub struct Asked {
 pub fn experiment(asked: &Asked, verbosity: Verbosity) -> Result<String, Error> {
     let request = Request {
         names: asked.names.clone(),
-        scale: Extent { quick: asked.quick },
+        extent: if asked.quick {
+            Extent::Quick
+        } else {
+            Extent::Full
+        },
         seed: asked.seed,
         rigs: Rigs::load(asked.rigs.as_deref())?,
     };

@@ -11,13 +11,13 @@ mod why;
 use rayon::prelude::*;
 
 use super::page::Section;
-use super::paper::biotact::{
-    DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
-};
 use super::picture::{Curve, FOLDER, linear, panel, percent};
 use super::recording::Recordings;
 use super::request::Request;
 use crate::accuracy::chart::{Mark, draw};
+use crate::paper::biotact::{
+    DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
+};
 use crate::rigs::{Chance, seed_of};
 use host_sim::Error;
 use whisks::{Method, Task, Visits};
@@ -26,14 +26,14 @@ use whisks::{Method, Task, Visits};
 const DRAWS: usize = 10;
 
 /// Hit rates, percent, of 1, 2, … training whisks.
-type Learning = Vec<f64>;
+type HitCurve = Vec<f64>;
 
 /// Hit rates `[method][task][strategy]`.
-struct Hits(Vec<Vec<Vec<Learning>>>);
+struct Hits(Vec<Vec<Vec<HitCurve>>>);
 
 impl Hits {
     fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self, Error> {
-        let whisks = request.scale.whisks();
+        let whisks = request.extent.whisks();
         let mut cases = Vec::new();
         for method in Method::ALL {
             for task in Task::ALL {
@@ -81,7 +81,7 @@ impl Hits {
 /// Evaluates the recordings.
 pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
     let visits = Visits::new(request, recordings);
-    let most = MOST_TRAINING.min(request.scale.whisks().saturating_sub(2));
+    let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));
     let hits = Hits::measure(request, &visits, most)?;
     let mut section = Section::default();
     section.page.heading(2, "BIOTACT: active whisking");
@@ -93,7 +93,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
          other whisks validate. The paper's curves are drawn without numbers; its text says: {}.",
         TEXTURES.len(),
         DISTANCES_MM.len(),
-        request.scale.whisks(),
+        request.extent.whisks(),
         SAID.join("; ")
     ));
     patterns::section(&mut section)?;

@@ -1,16 +1,18 @@
 //! The floor robot's recordings as LEP10 and LEP12 use them: the first half of
-//! every trial to learn from, the second to validate with.
+//! every trial to train on, the second to validate with.
 
 use classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use rayon::prelude::*;
 use tactile::ModelBuf;
+use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
 
 use super::dataset::Dataset;
-use super::paper::lep10::FLOORS;
+use super::page::percent_of;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings};
 use super::request::{Extent, Request};
+use crate::paper::lep10::FLOORS;
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
 use host_sim::Error;
@@ -42,7 +44,7 @@ pub(super) enum Half {
 #[derive(Debug)]
 pub(super) struct Floors<'a> {
     recordings: Vec<&'a Recording>,
-    scale: Extent,
+    extent: Extent,
     /// Trials of natural motion that are used.
     natural: usize,
     /// Samples a second.
@@ -55,8 +57,8 @@ impl<'a> Floors<'a> {
     pub(super) fn new(request: &Request, recordings: &'a Recordings) -> Self {
         Self {
             recordings: recordings.of(Dataset::Floor),
-            scale: request.scale,
-            natural: request.scale.trials(),
+            extent: request.extent,
+            natural: request.extent.trials(),
             rate_hz: request.rigs.floor.tick_hz,
         }
     }
@@ -64,7 +66,7 @@ impl<'a> Floors<'a> {
     /// As LEP10 has them, with all trials of natural motion.
     pub(super) fn with_all(request: &Request, recordings: &'a Recordings) -> Self {
         Self {
-            natural: request.scale.natural_trials(),
+            natural: request.extent.natural_trials(),
             ..Self::new(request, recordings)
         }
     }
@@ -76,10 +78,10 @@ impl<'a> Floors<'a> {
             for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
                 let trials = match motion {
                     RobotMotion::Autonomous => self.natural,
-                    _ => self.scale.trials(),
+                    _ => self.extent.trials(),
                 };
                 for trial in 0..trials {
-                    let number = number(self.scale, floor, *motion, trial);
+                    let number = number(self.extent, floor, *motion, trial);
                     let Some(recording) = self.recordings.get(number) else {
                         continue;
                     };
@@ -106,7 +108,7 @@ impl<'a> Floors<'a> {
 ///
 /// The model's bins span each channel's own range, so every class is given the
 /// common range's two ends as samples: 2 among some 10⁵.
-pub(super) fn learn(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
+pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
     let all = || streams.iter().flat_map(|stream| &stream.samples).copied();
     let low = all().fold(f64::INFINITY, f64::min);
     let high = all().fold(f64::NEG_INFINITY, f64::max);
@@ -135,8 +137,7 @@ pub(super) fn learn(streams: &[Stream], picked: &[usize], block: u32) -> Result<
 /// Outcomes of each true floor.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tally {
-    /// `[true][decided]`.
-    counts: [[u64; 4]; 4],
+    pub(super) confusion: Confusion,
     samples: u64,
 }
 
@@ -154,13 +155,10 @@ impl Tally {
                 Ok((stream.floor, found))
             })
             .collect();
-        let mut tally = Self {
-            counts: [[0; 4]; 4],
-            samples: 0,
-        };
+        let mut tally = Self::empty();
         for (floor, outcomes) in found? {
             for outcome in outcomes {
-                tally.add(floor, outcome.class, u64::from(outcome.samples));
+                tally.add(floor, outcome.class, u64::from(outcome.samples))?;
             }
         }
         Ok(tally)
@@ -168,33 +166,21 @@ impl Tally {
 
     pub(super) fn empty() -> Self {
         Self {
-            counts: [[0; 4]; 4],
+            confusion: Confusion::new(FLOORS.len()),
             samples: 0,
         }
     }
 
-    pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) {
-        let count = self
-            .counts
-            .get_mut(floor)
-            .and_then(|row| row.get_mut(decided));
-        if let Some(count) = count {
-            *count += 1;
-            self.samples += samples;
-        }
-    }
-
-    /// Percent of a true floor's outcomes that are `decided`.
-    pub(super) fn percent(&self, decided: usize, floor: usize) -> f64 {
-        let row = self.counts.get(floor).copied().unwrap_or_default();
-        let total: u64 = row.iter().sum();
-        let count = row.get(decided).copied().unwrap_or(0);
-        100.0 * count as f64 / total.max(1) as f64
+    /// Counts an outcome after so many samples.
+    pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) -> Result<(), Error> {
+        self.confusion.add(floor, Some(decided)).map_err(refused)?;
+        self.samples += samples;
+        Ok(())
     }
 
     /// Hit rate of each floor, percent.
     pub(super) fn hits(&self) -> [f64; 4] {
-        core::array::from_fn(|floor| self.percent(floor, floor))
+        core::array::from_fn(|floor| percent_of(&self.confusion, floor, floor))
     }
 
     /// Mean hit rate over the floors, percent.
@@ -204,14 +190,13 @@ impl Tally {
 
     /// Mean samples of an outcome.
     pub(super) fn mean_samples(&self) -> f64 {
-        let outcomes: u64 = self.counts.iter().flatten().sum();
-        self.samples as f64 / outcomes.max(1) as f64
+        self.samples as f64 / self.confusion.named().max(1) as f64
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Stream, Tally, learn};
+    use super::{Stream, Tally, train};
     use classifiers::recogniser::Bayes;
     use host_sim::Error;
 
@@ -230,7 +215,7 @@ mod tests {
     fn a_channel_that_tells_floors_apart_does_and_one_that_does_not_does_not() {
         let streams = streams();
         for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0)] {
-            let buf = learn(&streams, &picked, 1).unwrap();
+            let buf = train(&streams, &picked, 1).unwrap();
             let model = buf.view();
             assert_eq!(model.bins(), 49, "1596 codes in bins of 32.77");
             let tally = Tally::of(&streams, || {

@@ -1,12 +1,12 @@
 //! LEP10: naive Bayes over fixed windows, on x, y and both; artificial motion
 //! (turning on the spot) against natural motion (autonomous).
 
-use super::floors::{Floors, Half, Stream, Tally, learn};
+use super::floors::{Floors, Half, Stream, Tally, train};
 use super::page::{Section, confusion};
-use super::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
+use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
 use classifiers::recogniser::{Bayes, Picked};
@@ -46,12 +46,12 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     section.page.say(
         "A passive whisker dragged over four floors by a small robot (`studies/rigs/floor.toml`). \
          Likelihoods in bins of 10 mV, smoothed over 100 mV, from the first half of each trial \
-         (four of each rotation, eight of natural motion); the second half is cut into windows. In the tables a column is the true floor, a row \
+         (four of each rotation, eight of natural motion); the second half is cut into windows. In the tables a row is the true floor, a column \
          what was decided, and a cell holds the paper's percentage and **ours**.",
     );
 
     let window = floors.samples(WINDOW_S) as u32;
-    let (learning, validation) = (
+    let (training, validation) = (
         floors.half(&SPOT, Half::First),
         floors.half(&SPOT, Half::Second),
     );
@@ -60,7 +60,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     let mut means = [0.0; 5];
     let mut models = Vec::new();
     for (_, picked) in CHANNELS {
-        models.push(learn(&learning, picked, 1)?);
+        models.push(train(&training, picked, 1)?);
     }
     let both: &[usize] = &[0, 1];
     for (n, table) in TABLES.iter().enumerate() {
@@ -68,7 +68,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
             0..3 => windows(&models[n], CHANNELS[n].1, &validation, window)?,
             3 => windows(&models[2], both, &natural_validation, window)?,
             _ => windows(
-                &learn(&natural, both, 1)?,
+                &train(&natural, both, 1)?,
                 both,
                 &natural_validation,
                 window,
@@ -79,14 +79,9 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
             "**Table {}**, {}, 0.5 s: mean hit rate {:.0} % in the paper, **{:.1} %** here.",
             table.number, table.what, table.mean, means[n]
         ));
-        let names = FLOORS.map(str::to_owned);
-        confusion(
-            &mut section.page,
-            "decided \\ true",
-            &names,
-            &|decided, floor| Some(table.percent[decided][floor]),
-            &|decided, floor| tally.percent(decided, floor),
-        );
+        // The paper's columns are the true floors.
+        let paper = |truth: usize, named: usize| table.percent[named][truth];
+        confusion(&mut section.page, &FLOORS, &paper, &tally.confusion);
     }
 
     let knee = figure_4(&floors, &models, &validation, &mut section)?;

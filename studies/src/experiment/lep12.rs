@@ -8,10 +8,10 @@ mod why;
 
 use super::floors::Floors;
 use super::page::{Section, beside};
-use super::paper::lep10::FLOORS;
-use super::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use super::recording::Recordings;
 use super::request::Request;
+use crate::paper::lep10::FLOORS;
+use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use crate::refused::refused;
 use groups::{Curves, Group, interpolate};
 use host_sim::Error;

@@ -1,7 +1,9 @@
 //! Confusion matrices as pictures: a square of shaded cells each.
 
 use plotters::prelude::*;
+use tactile::score::Confusion;
 
+use super::page::percent_of;
 use host_sim::Error;
 
 /// A confusion matrix with its names.
@@ -10,8 +12,7 @@ pub(super) struct Matrix {
     pub(super) title: String,
     /// Names of the classes.
     pub(super) classes: Vec<String>,
-    /// `[true][named]`.
-    pub(super) counts: Vec<Vec<u64>>,
+    pub(super) score: Confusion,
 }
 
 type Fault = Box<dyn std::error::Error>;
@@ -53,17 +54,16 @@ fn draw_on(svg: &mut String, matrices: &[Matrix], columns: usize) -> Result<(), 
         let (left, top) = CORNER;
         let step = SQUARE / (matrix.classes.len().max(1) as i32);
         let end = step * matrix.classes.len() as i32;
-        for (n, (name, counts)) in matrix.classes.iter().zip(&matrix.counts).enumerate() {
+        for (n, name) in matrix.classes.iter().enumerate() {
             let y = top + step * n as i32;
             text(name, (8, y + step / 2 - 7), 13)?;
             // Names below need room: every second one where there are many.
             if matrix.classes.len() < 6 || n.is_multiple_of(2) {
                 text(name, (left + step * n as i32 + 2, top + end + 6), 13)?;
             }
-            let all: u64 = counts.iter().sum();
-            for (k, count) in counts.iter().enumerate() {
+            for k in 0..matrix.classes.len() {
                 let x = left + step * k as i32;
-                let share = *count as f64 / all.max(1) as f64;
+                let share = percent_of(&matrix.score, n, k) / 100.0;
                 let cell = Rectangle::new([(x, y), (x + step, y + step)], shade(share).filled());
                 area.draw(&cell)?;
             }
@@ -79,13 +79,18 @@ fn draw_on(svg: &mut String, matrices: &[Matrix], columns: usize) -> Result<(), 
 mod tests {
     use super::{Matrix, draw, shade};
     use plotters::style::RGBColor;
+    use tactile::score::Confusion;
 
     #[test]
     fn every_cell_is_drawn_in_the_shade_of_its_share() {
+        let mut score = Confusion::new(2);
+        for (truth, named) in [(0, 0), (1, 0), (1, 1), (1, 1), (1, 1)] {
+            score.add(truth, Some(named)).unwrap();
+        }
         let matrix = Matrix {
             title: "two".to_owned(),
             classes: vec!["a".to_owned(), "b".to_owned()],
-            counts: vec![vec![4, 0], vec![1, 3]],
+            score,
         };
         let svg = draw(&[matrix], 1).unwrap();
         assert_eq!(shade(0.0), RGBColor(255, 255, 255));

@@ -2,6 +2,8 @@
 
 use std::fmt::Display;
 
+use tactile::score::Confusion;
+
 use crate::accuracy::page::Page;
 
 /// Something that must come out, and whether it does.
@@ -75,27 +77,26 @@ pub(super) fn beside(paper: f64, ours: f64) -> String {
     format!("{paper:.0} / **{ours:.0}**")
 }
 
-/// A confusion matrix, ours and the paper's in each cell, `[row][column]` in
-/// percent; `corner` names rows and columns.
+/// Percent of the trials of a true class in which `named` was named.
+pub(super) fn percent_of(score: &Confusion, truth: usize, named: usize) -> f64 {
+    let sum: u64 = (0..score.classes()).map(|k| score.count(truth, k)).sum();
+    100.0 * score.count(truth, named) as f64 / sum.max(1) as f64
+}
+
+/// A confusion matrix in percent: a row is the true class, a column what was
+/// decided; the paper's `[true][decided]` beside ours.
 pub(super) fn confusion(
     page: &mut Page,
-    corner: &str,
-    names: &[String],
-    paper: &dyn Fn(usize, usize) -> Option<f64>,
-    ours: &dyn Fn(usize, usize) -> f64,
+    names: &[&str],
+    paper: &dyn Fn(usize, usize) -> f64,
+    ours: &Confusion,
 ) {
-    let mut header = vec![corner.to_owned()];
-    header.extend_from_slice(names);
-    let rows = names.iter().enumerate().map(|(row, name)| {
-        let mut cells = vec![name.clone()];
-        cells.extend((0..names.len()).map(|column| {
-            let ours = ours(row, column);
-            match paper(row, column) {
-                Some(paper) => beside(paper, ours),
-                None => format!("**{ours:.0}**"),
-            }
-        }));
-        cells
+    let rows = names.iter().enumerate().map(|(truth, name)| {
+        let cell = |named| beside(paper(truth, named), percent_of(ours, truth, named));
+        std::iter::once((*name).to_owned())
+            .chain((0..names.len()).map(cell))
+            .collect()
     });
-    page.table(&header.join(" | "), rows.collect::<Vec<_>>());
+    let header = format!("true \\ decided | {}", names.join(" | "));
+    page.table(&header, rows);
 }

@@ -8,10 +8,10 @@ mod sets;
 mod tables;
 
 use super::page::Section;
-use super::paper::pose::{ROWS, TEXTURE_ALONE};
 use super::record::on_other_rigs;
 use super::recording::Recordings;
 use super::request::{Name, Request};
+use crate::paper::pose::{ROWS, TEXTURE_ALONE};
 use host_sim::Error;
 use rules::{features, spectral, template};
 use scores::Scores;
@@ -29,11 +29,11 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         .heading(2, "POSE: one contact at an unknown angle and speed");
     section.page.say(format_args!(
         "A textured surface is carried into a fixed whisker (`studies/rigs/table.toml`): {} contacts to \
-         learn from and {} to test with, each every combination of angle, speed and texture once. \
+         train on and {} to test with, each every combination of angle, speed and texture once. \
          Signals are x alone, as the paper's count of samples says. κ is Cohen's. That signals are \
          aligned by their peaks and that the approach ends at a deflection of 0.05 was chosen \
          after a first run; the paper's notch at the whisker's resonance is left out.",
-        sets.learning.len(),
+        sets.training.len(),
         sets.testing.len()
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];

@@ -10,12 +10,12 @@ use tactile::score::Confusion;
 
 use super::dataset::Dataset;
 use super::page::{Section, confusion};
-use super::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use super::picture::{Curve, FOLDER, linear, panel, percent};
 use super::record::pad::PAPERS;
 use super::recording::Recordings;
 use super::request::Request;
 use crate::accuracy::chart::{Mark, draw};
+use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
@@ -33,14 +33,14 @@ fn borders() -> Vec<usize> {
 /// Evaluates the recordings.
 pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
     let sweeps = Sweeps::new(request, &recordings.of(Dataset::Pad));
-    let (learning, testing) = request.scale.sweeps();
+    let (training, testing) = request.extent.sweeps();
     let mut section = Section::default();
     section.page.heading(2, "PSIK: many vibrissae");
     section.page.say(format_args!(
         "A pad of {VIBRISSAE} vibrissae in eight arcs swept over eight sandpapers \
          (`studies/rigs/pad.toml`); the IMP of each, summed over the sweep, goes to a network of 33–33–8 \
-         units, whose penalty on weights is chosen by a fifth of the learning sweeps that is held \
-         out. {learning} sweeps of each paper to learn from and {testing} to test with. The \
+         units, whose penalty on weights is chosen by a fifth of the training sweeps that is held \
+         out. {training} sweeps of each paper to train on and {testing} to test with. The \
          paper names neither the eight grades nor their order; here {} from coarse to fine.",
         NAMES.join(", ")
     ));
@@ -70,17 +70,8 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
          {mean:.1} % in the paper, **{:.1} %** here.",
         hit(all)
     ));
-    let names = NAMES.map(str::to_owned);
-    confusion(
-        &mut section.page,
-        "true \\ decided",
-        &names,
-        &|row, column| Some(TABLE_2[row][column]),
-        &|row, column| {
-            let sum: u64 = (0..PAPERS).map(|k| all.count(row, k)).sum();
-            100.0 * all.count(row, column) as f64 / sum.max(1) as f64
-        },
-    );
+    let paper = |truth: usize, named: usize| TABLE_2[truth][named];
+    confusion(&mut section.page, &NAMES, &paper, all);
     figures(&mut section, &more, &single, &borders)?;
     let why = why::section(&mut section, request, &sweeps, &borders)?;
     claims(&mut section, &more, &why);

@@ -21,13 +21,13 @@ use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 
 /// How many recordings a data set has.
-fn count(dataset: Dataset, scale: Extent) -> usize {
+fn count(dataset: Dataset, extent: Extent) -> usize {
     match dataset {
-        Dataset::Floor => floor::jobs(scale),
+        Dataset::Floor => floor::jobs(extent),
         Dataset::Head => head::jobs(),
-        Dataset::Table => table::jobs(scale),
-        Dataset::Pad => pad::jobs(scale),
-        Dataset::Corridor => corridor::jobs(scale),
+        Dataset::Table => table::jobs(extent),
+        Dataset::Pad => pad::jobs(extent),
+        Dataset::Corridor => corridor::jobs(extent),
     }
 }
 
@@ -38,7 +38,7 @@ pub fn jobs(request: &Request) -> Vec<Job> {
     datasets.sort_unstable();
     datasets.dedup();
     let of = |dataset: Dataset| {
-        (0..count(dataset, request.scale)).map(move |number| Job { dataset, number })
+        (0..count(dataset, request.extent)).map(move |number| Job { dataset, number })
     };
     datasets.into_iter().flat_map(of).collect()
 }
@@ -115,7 +115,7 @@ mod tests {
         }
         let request = Request {
             names: Name::ALL.to_vec(),
-            scale: Extent { quick: true },
+            extent: Extent::Quick,
             seed: 1,
             rigs: Rigs::load(None).unwrap(),
         };

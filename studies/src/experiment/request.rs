@@ -84,16 +84,24 @@ impl FromStr for Shard {
     }
 }
 
-/// How much of each experiment.
+/// How much of each experiment: fewer trials, whisks, contacts, sweeps and runs;
+/// the physics is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Extent {
-    /// Fewer trials, whisks, contacts, sweeps and runs; the physics is the same.
-    pub quick: bool,
+pub enum Extent {
+    /// As much as the papers.
+    Full,
+    /// What PSIK's comparisons of rigs within a full run have.
+    Reduced,
+    /// The least with which an experiment can still fail.
+    Quick,
 }
 
 impl Extent {
     const fn pick(self, full: usize, quick: usize) -> usize {
-        if self.quick { quick } else { full }
+        match self {
+            Self::Full => full,
+            Self::Reduced | Self::Quick => quick,
+        }
     }
 
     /// Floor robot: trials of each rotation (LEP10 and LEP12: 4); of natural
@@ -117,16 +125,20 @@ impl Extent {
         self.pick(1, 2)
     }
 
-    /// Fixed head: sweeps of each sandpaper to learn from and to test with
+    /// Fixed head: sweeps of each sandpaper to train on and to test with
     /// (PSIK: 300 and 100).
     pub const fn sweeps(self) -> (usize, usize) {
-        (self.pick(300, 30), self.pick(100, 10))
+        match self {
+            Self::Full => (300, 100),
+            Self::Reduced => (30, 10),
+            Self::Quick => (15, 5),
+        }
     }
 
-    /// Corridor: runs of each to learn from (of these, to test with), and to
+    /// Corridor: runs of each to train on (of these, to test with), and to
     /// decide in (PSIK: 10, 3, 20).
     pub const fn runs(self) -> (usize, usize, usize) {
-        (self.pick(10, 4), self.pick(3, 1), self.pick(20, 4))
+        (self.pick(10, 3), self.pick(3, 1), self.pick(20, 2))
     }
 }
 
@@ -136,7 +148,7 @@ pub struct Request {
     /// The experiments.
     pub names: Vec<Name>,
     /// How much of each.
-    pub scale: Extent,
+    pub extent: Extent,
     /// All chance comes from it.
     pub seed: u64,
     /// Where whiskers are and how they move.
@@ -150,7 +162,11 @@ impl Request {
         let names: Vec<&str> = self.names.iter().map(|name| name.text()).collect();
         let rigs = format!("{:?}", self.rigs);
         let sum = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(rigs.as_bytes());
-        let quick = if self.scale.quick { " quick" } else { "" };
+        let quick = if self.extent == Extent::Quick {
+            " quick"
+        } else {
+            ""
+        };
         format!(
             "{}{quick} seed {} rigs {sum:08x}",
             names.join("+"),
@@ -172,7 +188,7 @@ impl Request {
         let seed = words.next()?.parse().ok()?;
         (next == "seed").then_some(Self {
             names,
-            scale: Extent { quick },
+            extent: if quick { Extent::Quick } else { Extent::Full },
             seed,
             rigs,
         })
@@ -186,10 +202,13 @@ mod tests {
 
     #[test]
     fn a_request_is_read_back_from_its_line() {
-        for (names, quick) in [(Name::ALL.to_vec(), true), (vec![Name::Pose], false)] {
+        for (names, extent) in [
+            (Name::ALL.to_vec(), Extent::Quick),
+            (vec![Name::Pose], Extent::Full),
+        ] {
             let request = Request {
                 names,
-                scale: Extent { quick },
+                extent,
                 seed: 77,
                 rigs: Rigs::load(None).unwrap(),
             };

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 fn request(name: Name, seed: u64) -> Request {
     Request {
         names: vec![name],
-        scale: Extent { quick: true },
+        extent: Extent::Quick,
         seed,
         rigs: Rigs::load(None).unwrap(),
     }

@@ -8,19 +8,15 @@
 //! whisker at θ' = 90 degrees points sideways, beyond that forward.
 
 use serde::Deserialize;
-use whisking::filter::{CORNER_HZ, Config as LowPass, State as Smoothed};
-use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, degrees};
+use whisking::{GateSettings, Integrator, Settings};
 
 use super::chance::{Chance, seed_of};
-use super::follow::{Follower, Loop};
+use super::module::{EACH, HeadModule, PositionControl, SIDES};
 use super::read::{OutOfRange, Rig, within};
+use crate::refused::refused;
 use host_sim::Error;
 use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
-/// Sides of the head.
-const SIDES: usize = 2;
-/// Whiskers of a side, the front one first.
-const EACH: usize = 3;
 /// Channels: x and y of every whisker, left side first.
 pub const CHANNELS: usize = 2 * SIDES * EACH;
 
@@ -38,7 +34,7 @@ pub struct WhiskingHead {
     pub base_side_m: [f64; EACH],
     pub placement_sd_m: f64,
     pub full_scale_rad: f64,
-    pub motor: Loop,
+    pub motor: PositionControl,
 }
 
 impl Rig for WhiskingHead {
@@ -117,7 +113,6 @@ impl WhiskingHead {
         sensor: &SensorSettings,
         visit: &Visit<'_>,
     ) -> Result<Felt, Error> {
-        let refused = |error: &dyn std::fmt::Display| Error::Work(format!("head: {error}"));
         let settings = Settings {
             tick_hz: self.tick_hz,
             frequency_hz: self.whisk_hz,
@@ -127,13 +122,8 @@ impl WhiskingHead {
             rcp: visit.rcp,
             cia: None,
         };
-        let config = settings.build::<f64>().map_err(|error| refused(&error))?;
-        // Retracted, so that no whisker begins inside the surface.
-        let start = settings
-            .start::<f64, SIDES, EACH>([[-1.0, 0.0]; SIDES], [[self.gain; EACH]; SIDES])
-            .map_err(|error| refused(&error))?;
-        let mut muscles = State::new(&start, seed_of(visit.seed, &[0]));
-        let h50 = LowPass::<f64>::new(CORNER_HZ, self.tick_hz).map_err(|error| refused(&error))?;
+        let seed = seed_of(visit.seed, &[0]);
+        let mut module = HeadModule::new(&settings, &self.motor, self.gain, seed)?;
 
         let mut chance = Chance::new(seed_of(visit.seed, &[1]));
         let distance = visit.distance_m + self.placement_sd_m * chance.normal();
@@ -144,44 +134,29 @@ impl WhiskingHead {
             surface: *visit.surface,
         };
         let mut whiskers = Vec::with_capacity(SIDES * EACH);
-        let mut motors = Vec::with_capacity(SIDES * EACH);
         for n in 0..SIDES * EACH {
-            let shaft = &shafts[n % EACH];
             let seed = seed_of(visit.seed, &[2, n as u64]);
-            let whisker = TouchingWhisker::new(shaft, sensor, seed);
-            whiskers.push((
-                whisker.map_err(|error| refused(&error))?,
-                Smoothed::default(),
-            ));
-            let motor = Follower::new(&self.motor, self.tick_hz);
-            motors.push(motor.map_err(|error| refused(&error))?);
+            let whisker = TouchingWhisker::new(&shafts[n % EACH], sensor, seed);
+            whiskers.push(whisker.map_err(refused)?);
         }
         let dt_s = 1.0 / self.tick_hz;
 
         let lead = self.lead_whisks * self.whisk_ticks();
         let mut felt = Felt::default();
         for tick in 0..lead + visit.whisks * self.whisk_ticks() {
-            let mut contact = [0.0_f64; SIDES];
-            for (n, (whisker, smoothed)) in whiskers.iter_mut().enumerate() {
-                let x = h50.process(smoothed, whisker.reading()[0]);
-                contact[n / EACH] = contact[n / EACH].max(x.abs());
+            for (n, whisker) in whiskers.iter().enumerate() {
+                module.feel(n, whisker.codes());
             }
-            config.step(&mut muscles, contact);
-            let theta = muscles.theta();
+            module.tick()?;
             let mut touching = [false; SIDES];
             let mut front = [0.0; SIDES];
-            for (n, ((whisker, _), motor)) in whiskers.iter_mut().zip(&mut motors).enumerate() {
+            for (n, whisker) in whiskers.iter_mut().enumerate() {
                 let (side, place) = (n / EACH, n % EACH);
-                let wanted = theta[side][place];
-                let angle = if self.motor.follows {
-                    // The follicle's torque; a free whisker's inertia is in the motor's.
-                    let stiffness = shafts[place].follicle.rotation_n_m_rad;
-                    let bent = stiffness * whisker.rotation_rad()[0];
-                    let load = if whisker.contact() { bent } else { 0.0 };
-                    motor.step(wanted, load, dt_s)
-                } else {
-                    degrees(wanted)
-                };
+                // The follicle's torque; a free whisker's inertia is in the motor's.
+                let stiffness = shafts[place].follicle.rotation_n_m_rad;
+                let bent = stiffness * whisker.rotation_rad()[0];
+                let load = if whisker.contact() { bent } else { 0.0 };
+                let angle = module.turn(n, load, dt_s);
                 if place == 0 {
                     front[side] = angle;
                 }
@@ -204,7 +179,7 @@ impl WhiskingHead {
 #[cfg(test)]
 mod tests {
     use super::WhiskingHead;
-    use crate::experiment::paper::biotact::{DISTANCES_MM, WHISKERS};
+    use crate::paper::biotact::{DISTANCES_MM, WHISKERS};
     use crate::rigs::read::{Rig, parse};
     use physics::vector::{add, cross, dot};
     use std::path::Path;

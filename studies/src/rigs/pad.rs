@@ -19,7 +19,7 @@ use serde::Deserialize;
 
 use super::chance::Chance;
 use super::read::{OutOfRange, Rig, within};
-use crate::experiment::paper::psik::{ARCS, RATE_HZ};
+use crate::paper::psik::{ARCS, RATE_HZ};
 use crate::rigs::frame::{direction, turn};
 use physics::Pose;
 use physics::vector::{add, cross};
@@ -169,7 +169,7 @@ impl Pad {
 #[cfg(test)]
 mod tests {
     use super::{Pad, panned};
-    use crate::experiment::paper::psik::VIBRISSAE;
+    use crate::paper::psik::VIBRISSAE;
     use crate::rigs::read::{Rig, parse};
     use physics::vector::{add, cross, dot};
     use std::path::Path;

@@ -5,6 +5,7 @@ use whisking::{
     GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter, muscle,
 };
 
+use crate::paper::biotact::{FIG6, FIG9, Figure, OBSTACLES_DEG, OVERLAP_GAIN};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -13,10 +14,6 @@ pub(crate) const TICK_HZ: f64 = 2_000.0;
 /// Whisk frequency of all runs, Hz.
 pub(crate) const FREQUENCY_HZ: f64 = 2.0;
 const RUN_TICKS: usize = 20_000;
-/// Obstacles beside the head, degrees, and σ_x a degree (BIOTACT Fig. 7).
-pub(crate) const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
-const STIFFNESS: f64 = 0.1;
-
 /// One formula as printed; the others as read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Printed {
@@ -29,46 +26,18 @@ pub(crate) enum Printed {
     Decay,
 }
 
-/// What a figure of the paper sets.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Figure {
-    pub(crate) gain: f64,
-    pub(crate) rcp: Option<GateSettings>,
-    pub(crate) cia: Option<GateSettings>,
-    pub(crate) obstacles: bool,
-}
-
-const fn gate(gain: f64, tau_whisks: f64) -> GateSettings {
+/// A gate of the paper, whose time constant is a share of the whisk period.
+fn gate((gain, whisks): (f64, f64)) -> GateSettings {
     GateSettings {
         gain,
-        tau_s: tau_whisks / FREQUENCY_HZ,
+        tau_s: whisks / FREQUENCY_HZ,
     }
 }
 
-pub(crate) const FIG6: Figure = Figure {
-    gain: 2.0,
-    rcp: None,
-    cia: None,
-    obstacles: false,
-};
-pub(crate) const FIG7: Figure = Figure {
-    gain: 1.0,
-    rcp: Some(gate(0.7, 0.25)),
-    cia: None,
-    obstacles: true,
-};
-pub(crate) const FIG8: Figure = Figure {
-    rcp: Some(gate(2.0, 0.1)),
-    ..FIG7
-};
-pub(crate) const FIG9: Figure = Figure {
-    cia: Some(gate(0.5, 0.25)),
-    ..FIG7
-};
 /// Free whisking with CIA that nothing excites.
 pub(super) const FREE: Figure = Figure {
     gain: 1.0,
-    cia: Some(gate(0.5, 0.25)),
+    cia: FIG9.cia,
     ..FIG6
 };
 
@@ -102,8 +71,8 @@ pub(crate) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> 
         integrator: Integrator::Euler,
         coupling: true,
         noise: 0.0,
-        rcp: figure.rcp,
-        cia: figure.cia,
+        rcp: figure.rcp.map(gate),
+        cia: figure.cia.map(gate),
     };
     let mut config = settings.build::<f64>().map_err(refused)?;
     let cia = config.cia.take();
@@ -125,7 +94,7 @@ pub(crate) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> 
         if figure.obstacles {
             let sides = contact.iter_mut().zip(&mut filters);
             for ((contact, filter), (angle, at)) in sides.zip(angles.iter().zip(OBSTACLES_DEG)) {
-                let x = (STIFFNESS * (angle - at).max(0.0)).min(1.0);
+                let x = (OVERLAP_GAIN * (angle - at).max(0.0)).min(1.0);
                 *contact = h50.process(filter, x).abs();
             }
         }

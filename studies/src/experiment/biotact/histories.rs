@@ -7,12 +7,12 @@ use super::movement::column;
 use crate::accuracy::chart::{Mark, draw};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
-use crate::experiment::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::experiment::picture::{Curve, FOLDER, linear, panel};
 use crate::experiment::record::head::number;
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
+use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use host_sim::Error;
 

@@ -3,15 +3,12 @@
 
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
-use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
+use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
+use crate::peaks::peaks;
 use crate::rigs::CHANNELS;
-
-/// A dip of θ' between two peaks of a whisk that counts, degrees: θ' is smooth,
-/// and an unmodulated whisk has no dip at all.
-const DIP_DEG: f64 = 0.5;
 
 /// Mean of some visits.
 #[derive(Debug, Default, Clone, Copy)]
@@ -28,27 +25,6 @@ pub(super) struct Movement {
     pub(super) deflection: f64,
     /// Spread of x between whisks at the same time of the whisk, codes.
     pub(super) spread: f64,
-}
-
-/// Peaks of a whisk's angle that are parted by dips of [`DIP_DEG`] or more.
-fn peaks(angles: impl Iterator<Item = f64>) -> usize {
-    // A recording may begin on the way down from a peak that is not its own.
-    let (mut count, mut rising, mut extreme) = (0, false, f64::INFINITY);
-    for angle in angles {
-        if rising {
-            extreme = extreme.max(angle);
-            if angle < extreme - DIP_DEG {
-                count += 1;
-                (rising, extreme) = (false, angle);
-            }
-        } else {
-            extreme = extreme.min(angle);
-            if angle > extreme + DIP_DEG {
-                (rising, extreme) = (true, angle);
-            }
-        }
-    }
-    count
 }
 
 /// Contacts, given whether there is one at each tick; shorter gaps than `least`
@@ -185,7 +161,7 @@ pub(super) fn section(
 
 #[cfg(test)]
 mod tests {
-    use super::{contacts, peaks};
+    use super::contacts;
 
     #[test]
     fn contacts_are_parted_by_long_gaps_only() {
@@ -193,20 +169,5 @@ mod tests {
         assert_eq!(contacts(&touching, 3), 2);
         assert_eq!(contacts(&touching, 1), 3);
         assert_eq!(contacts(&[0.0; 5], 1), 0);
-    }
-
-    #[test]
-    fn peaks_are_counted_by_the_dips_between_them() {
-        let wave = |depth: f64| {
-            (0..1000).map(move |n| {
-                let t = f64::from(n) / 1000.0 * core::f64::consts::TAU;
-                100.0 - 30.0 * t.cos() - depth * (2.0 * t).cos()
-            })
-        };
-        assert_eq!(peaks(wave(0.0)), 1);
-        // Maxima at cos t = −30/(4 depth), the dip at t = π between them is
-        // (4 depth − 30)²/(8 depth): 0.24 degrees for 8.5, 3.4 for 12.
-        assert_eq!(peaks(wave(8.5)), 1);
-        assert_eq!(peaks(wave(12.0)), 2);
     }
 }

@@ -5,20 +5,16 @@
 //! noise.
 
 use crate::accuracy::chart::{Mark, draw};
-use crate::accuracy::misprints::figures::{
-    FIG6, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG, Printed, Row, run,
-};
+use crate::accuracy::misprints::figures::{FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
 use crate::experiment::page::Section;
 use crate::experiment::picture::{Curve, FOLDER, linear, panel};
+use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
 use host_sim::Error;
 
-/// Ticks a second and a whisk.
-const TICK_HZ: f64 = 2_000.0;
-const WHISK: usize = 1_000;
+/// Ticks of a whisk.
+const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 /// Whisks that are measured and shown: the last of a run.
 const WHISKS: usize = 3;
-/// Gains of Fig. 6.
-const GAINS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 const LEFT: usize = 0;
 const RIGHT: usize = 1;
 
@@ -60,7 +56,7 @@ pub(super) fn section(section: &mut Section) -> Result<(), Error> {
 /// Fig. 6.
 fn gains(section: &mut Section) -> Result<(), Error> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
-    for gain in GAINS {
+    for gain in FIG6_GAINS {
         let rows = tail(&Figure { gain, ..FIG6 })?;
         let (low, high) = range(&rows, LEFT);
         said.push(format!("{low:.1} to {high:.1} at g = {gain}"));

@@ -1,14 +1,14 @@
-//! Whisks as the two classifiers of BIOTACT section IV learn and take them.
+//! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
 use classifiers::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
 use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
 use crate::experiment::dataset::Dataset;
-use crate::experiment::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::Request;
+use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
 use host_sim::Error;
@@ -87,7 +87,7 @@ impl Visits {
     pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
         let all = recordings.of(Dataset::Head);
         let ticks = request.rigs.head.whisk_ticks();
-        let mut whisks = vec![vec![Vec::new(); request.scale.whisks()]; STRATEGIES.len()];
+        let mut whisks = vec![vec![Vec::new(); request.extent.whisks()]; STRATEGIES.len()];
         for (strategy, whisks) in whisks.iter_mut().enumerate() {
             for texture in 0..TEXTURES.len() {
                 for distance in 0..DISTANCES_MM.len() {
@@ -118,13 +118,13 @@ impl Visits {
         method: Method,
         task: Task,
         strategy: usize,
-        (learning, validation): (&[usize], &[usize]),
+        (training, validation): (&[usize], &[usize]),
     ) -> Result<f64, Error> {
-        let learning = self.some(strategy, learning);
+        let training = self.some(strategy, training);
         let validation = self.some(strategy, validation);
         match method {
-            Method::Bayes => bayes(task, &ALL, Options::default(), learning, validation),
-            Method::Template => self.template(task, learning, validation),
+            Method::Bayes => bayes(task, &ALL, Options::default(), training, validation),
+            Method::Template => self.template(task, training, validation),
         }
     }
 
@@ -134,12 +134,12 @@ impl Visits {
         axis: usize,
         task: Task,
         strategy: usize,
-        (learning, validation): (&[usize], &[usize]),
+        (training, validation): (&[usize], &[usize]),
     ) -> Result<f64, Error> {
         let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
-        let learning = self.some(strategy, learning);
+        let training = self.some(strategy, training);
         let validation = self.some(strategy, validation);
-        bayes(task, &picked, Options::default(), learning, validation)
+        bayes(task, &picked, Options::default(), training, validation)
     }
 
     /// The same of naive Bayes with histograms smoothed by so many bins.
@@ -148,15 +148,15 @@ impl Visits {
         smooth: f64,
         task: Task,
         strategy: usize,
-        (learning, validation): (&[usize], &[usize]),
+        (training, validation): (&[usize], &[usize]),
     ) -> Result<f64, Error> {
         let options = Options {
             smooth,
             ..Options::default()
         };
-        let learning = self.some(strategy, learning);
+        let training = self.some(strategy, training);
         let validation = self.some(strategy, validation);
-        bayes(task, &ALL, options, learning, validation)
+        bayes(task, &ALL, options, training, validation)
     }
 
     /// The least and most code of a channel over some whisks of a strategy.
@@ -172,11 +172,11 @@ impl Visits {
     fn template<'w>(
         &self,
         task: Task,
-        learning: impl Iterator<Item = &'w Whisk>,
+        training: impl Iterator<Item = &'w Whisk>,
         validation: impl Iterator<Item = &'w Whisk>,
     ) -> Result<f64, Error> {
         let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks).map_err(refused)?;
-        for (texture, distance, samples) in learning {
+        for (texture, distance, samples) in training {
             let class = task.class(*texture, *distance);
             trainer.add(class, samples).map_err(refused)?;
         }
@@ -192,12 +192,12 @@ fn bayes<'w>(
     task: Task,
     picked: &[usize],
     options: Options,
-    learning: impl Iterator<Item = &'w Whisk>,
+    training: impl Iterator<Item = &'w Whisk>,
     validation: impl Iterator<Item = &'w Whisk>,
 ) -> Result<f64, Error> {
     let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
     // Classes are numbered as they first appear: put them in order.
-    let mut sorted: Vec<&Whisk> = learning.collect();
+    let mut sorted: Vec<&Whisk> = training.collect();
     sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
     for (texture, distance, samples) in sorted {
         let name = format!("class {}", task.class(*texture, *distance));

@@ -5,11 +5,11 @@ use super::movement::movement;
 use super::whisks::{Task, Visits};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
-use crate::experiment::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::experiment::record::head::{early, number};
 use crate::experiment::record::on_other_rigs;
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::{Name, Request};
+use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::rigs::WhiskingHead;
 use host_sim::Error;
 
@@ -48,7 +48,7 @@ impl Found {
         smooth: f64,
     ) -> Result<Self, Error> {
         let visits = Visits::new(request, recordings);
-        let order: Vec<usize> = (0..request.scale.whisks()).collect();
+        let order: Vec<usize> = (0..request.extent.whisks()).collect();
         let rates = |count: usize| -> Result<Vec<f64>, Error> {
             let rate = |strategy| {
                 let split = order.split_at(count);
@@ -124,7 +124,7 @@ pub(super) fn section(
         ],
     );
     let visits = Visits::new(request, recordings);
-    let order: Vec<usize> = (0..request.scale.whisks()).collect();
+    let order: Vec<usize> = (0..request.extent.whisks()).collect();
     let (low, high) = visits.range(0, order.get(..most).unwrap_or(&[]), 1);
     let mut axes = Vec::new();
     for axis in [0, 1] {

@@ -9,9 +9,9 @@ use super::groups::{BLOCK, Curves, Group, Point};
 use crate::accuracy::chart::{Axis, Mark, Panel};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::page::Section;
-use crate::experiment::paper::lep10::FLOORS;
-use crate::experiment::paper::lep12::{FIG7, FIG8_THRESHOLDS};
 use crate::experiment::picture::{Curve, linear, panel, percent, place, top};
+use crate::paper::lep10::FLOORS;
+use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -80,7 +80,7 @@ fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Resu
     let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Curve> {
         let mut curves: Vec<Curve> = (0..FLOORS.len())
             .map(|k| {
-                let points = points.iter().map(|p| (x(p), p.tally.percent(k, k)));
+                let points = points.iter().map(|p| (x(p), p.tally.hits()[k]));
                 Curve::new(FLOORS[k], points.collect())
             })
             .collect();

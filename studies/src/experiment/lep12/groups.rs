@@ -4,8 +4,8 @@
 use classifiers::recogniser::Bayes;
 use tactile::{ModelBuf, Threshold};
 
-use crate::experiment::floors::{Floors, Half, Stream, Tally, learn};
-use crate::experiment::paper::lep12::{MOTIONS, TIME_S};
+use crate::experiment::floors::{Floors, Half, Stream, Tally, train};
+use crate::paper::lep12::{MOTIONS, TIME_S};
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
 use host_sim::Error;
@@ -24,10 +24,10 @@ const DOUBTS: [f64; 22] = [
 /// Windows of Fig. 5, samples: 10 ms to 1 s.
 const WINDOWS: [u32; 10] = [20, 40, 60, 100, 140, 200, 300, 400, 1000, 2000];
 
-/// A group of trials that is learnt and validated by itself.
+/// A group of trials that is trained and validated by itself.
 pub(super) struct Group {
     pub(super) name: &'static str,
-    pub(super) learning: Vec<Stream>,
+    pub(super) training: Vec<Stream>,
     pub(super) validation: Vec<Stream>,
     pub(super) model: ModelBuf,
 }
@@ -48,12 +48,12 @@ impl Group {
             &[RobotMotion::Autonomous],
         ];
         let group = |(name, motions): (&&'static str, &[RobotMotion])| {
-            let learning = floors.half(motions, Half::First);
+            let training = floors.half(motions, Half::First);
             Ok(Self {
                 name,
                 validation: floors.half(motions, Half::Second),
-                model: learn(&learning, &BOTH, BLOCK)?,
-                learning,
+                model: train(&training, &BOTH, BLOCK)?,
+                training,
             })
         };
         MOTIONS.iter().zip(motions).map(group).collect()

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 
 use super::groups::Group;
 use crate::experiment::floors::{CHANNELS, Stream, Tally};
-use crate::experiment::paper::lep10::FLOORS;
-use crate::experiment::paper::lep12::SEGMENT_S;
+use crate::paper::lep10::FLOORS;
+use crate::paper::lep12::SEGMENT_S;
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
@@ -33,7 +33,7 @@ pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
     let bins = Bins::between(block as u32, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
     let mut trainer =
         SpectralTrainer::new(CHANNELS, bins, block, Measure::Power).map_err(refused)?;
-    for stream in &group.learning {
+    for stream in &group.training {
         trainer
             .add(stream.floor, &stream.samples)
             .map_err(refused)?;
@@ -44,7 +44,7 @@ pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
         let mut recogniser = templates.recogniser();
         for segment in stream.samples.chunks_exact(block * CHANNELS) {
             for outcome in outcomes(&mut recogniser, segment, CHANNELS) {
-                tally.add(stream.floor, outcome.class, block as u64);
+                tally.add(stream.floor, outcome.class, block as u64)?;
             }
         }
     }
@@ -78,21 +78,21 @@ pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]
         let rows: Result<Vec<_>, Error> = streams.iter().map(|s| rows(s, rate_hz)).collect();
         Ok(rows?.into_iter().flatten().collect())
     };
-    let (learning, validation) = (all(&group.learning)?, all(&group.validation)?);
+    let (training, validation) = (all(&group.training)?, all(&group.validation)?);
     let sessions: Result<Vec<[f64; 4]>, Error> = (0..SESSIONS)
         .into_par_iter()
         .map(|session| {
             let options = Options::spectrum(seed_of(seed, &[12, session]));
-            let inputs = learning.first().map_or(0, |(_, row)| row.len());
+            let inputs = training.first().map_or(0, |(_, row)| row.len());
             let mut trainer = Trainer::new(inputs, options).map_err(refused)?;
-            for (floor, row) in &learning {
+            for (floor, row) in &training {
                 trainer.add(FLOORS[*floor], row).map_err(refused)?;
             }
             let network = trainer.train().map_err(refused)?.network;
             let mut tally = Tally::empty();
             for (floor, row) in &validation {
                 // Floors come in order, so that outputs are numbered as they.
-                tally.add(*floor, network.classify(row).map_err(refused)?, 1);
+                tally.add(*floor, network.classify(row).map_err(refused)?, 1)?;
             }
             Ok(tally.hits())
         })

@@ -2,10 +2,10 @@
 
 use super::groups::{Curves, Group};
 use crate::experiment::floors::{CHANNELS, Floors, Stream};
-use crate::experiment::paper::lep10::FLOORS;
-use crate::experiment::paper::lep12::TIME_S;
 use crate::experiment::record::on_other_rigs;
 use crate::experiment::request::{Name, Request};
+use crate::paper::lep10::FLOORS;
+use crate::paper::lep12::TIME_S;
 use crate::refused::refused;
 use crate::rigs::Floor;
 use host_sim::Error;
@@ -73,7 +73,7 @@ fn alike(streams: &[Stream]) -> ([usize; 2], [f64; 2]) {
 
 /// What the distributions of one group of trials are like.
 pub(super) fn distributions(group: &Group, rate_hz: f64) -> String {
-    let streams = &group.learning;
+    let streams = &group.training;
     let ([a, b], [x, y]) = alike(streams);
     let lags = [0, 1].map(|channel| 1000.0 * correlation(streams, channel) / rate_hz);
     format!(

@@ -4,9 +4,9 @@
 use super::scores::Scores;
 use crate::experiment::matrix::{Matrix, draw};
 use crate::experiment::page::Section;
-use crate::experiment::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};
 use crate::experiment::picture::FOLDER;
 use crate::experiment::record::table::speeds;
+use crate::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};
 use host_sim::Error;
 
 /// The picture; classifiers one below the other.
@@ -23,9 +23,7 @@ pub(super) fn section(section: &mut Section, rows: &[&Scores; 3]) -> Result<(), 
             matrices.push(Matrix {
                 title: format!("{}: {what}", row.what),
                 classes: classes.clone(),
-                counts: (0..classes.len())
-                    .map(|truth| (0..classes.len()).map(|k| score.count(truth, k)).collect())
-                    .collect(),
+                score: score.clone(),
             });
         }
     }

@@ -11,7 +11,7 @@ use tactile::score::Confusion;
 
 use super::scores::Scores;
 use super::sets::{Sets, Signal};
-use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
+use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -26,7 +26,7 @@ fn least(errors: &[f64]) -> usize {
 }
 
 fn length(sets: &Sets) -> usize {
-    sets.learning.first().map_or(0, |(_, x)| x.len())
+    sets.training.first().map_or(0, |(_, x)| x.len())
 }
 
 /// The nearest of all training contacts, by the errors that `errors` gives;
@@ -42,7 +42,7 @@ fn nearest(
         .collect();
     let mut scores = Scores::new();
     for ((truth, _), found) in sets.testing.iter().zip(found?) {
-        if let Some((named, _)) = sets.learning.get(found) {
+        if let Some((named, _)) = sets.training.get(found) {
             scores.add(truth, [named.angle, named.speed, named.texture])?;
         }
     }
@@ -52,7 +52,7 @@ fn nearest(
 /// Sum of squared errors (eq. 1) against every training contact.
 pub(super) fn template(sets: &Sets) -> Result<Scores, Error> {
     let mut trainer = TemplateTrainer::new(1, length(sets)).map_err(refused)?;
-    for (class, (_, x)) in sets.learning.iter().enumerate() {
+    for (class, (_, x)) in sets.training.iter().enumerate() {
         trainer.add(class, x).map_err(refused)?;
     }
     let templates = trainer.train().map_err(refused)?;
@@ -68,7 +68,7 @@ fn spectral_trainer(sets: &Sets) -> Result<SpectralTrainer, Error> {
 /// The same on |DFT| (eq. 2).
 pub(super) fn spectral(sets: &Sets) -> Result<Scores, Error> {
     let mut trainer = spectral_trainer(sets)?;
-    for (class, (_, x)) in sets.learning.iter().enumerate() {
+    for (class, (_, x)) in sets.training.iter().enumerate() {
         trainer.add(class, x).map_err(refused)?;
     }
     let templates = trainer.train().map_err(refused)?;
@@ -78,7 +78,7 @@ pub(super) fn spectral(sets: &Sets) -> Result<Scores, Error> {
 /// κ of texture by one template a texture.
 pub(super) fn template_of_textures(sets: &Sets) -> Result<f64, Error> {
     let mut trainer = TemplateTrainer::new(1, length(sets)).map_err(refused)?;
-    for (contact, x) in &sets.learning {
+    for (contact, x) in &sets.training {
         trainer.add(contact.texture, x).map_err(refused)?;
     }
     let templates = trainer.train().map_err(refused)?;
@@ -88,7 +88,7 @@ pub(super) fn template_of_textures(sets: &Sets) -> Result<f64, Error> {
 /// The same on |DFT|.
 pub(super) fn spectral_of_textures(sets: &Sets) -> Result<f64, Error> {
     let mut trainer = spectral_trainer(sets)?;
-    for (contact, x) in &sets.learning {
+    for (contact, x) in &sets.training {
         trainer.add(contact.texture, x).map_err(refused)?;
     }
     let mut templates = trainer.train().map_err(refused)?;
@@ -125,7 +125,7 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
         let features = signals.iter().map(|(_, x)| extractor.features(x));
         features.map(|found| found.map_err(refused)).collect()
     };
-    let (learning, testing) = (extract(&sets.learning)?, extract(&sets.testing)?);
+    let (training, testing) = (extract(&sets.training)?, extract(&sets.testing)?);
     let estimate = |chosen: &[Feature], degree: u8, property: usize, classes: usize| {
         let truth = |signal: &Signal| {
             let (contact, _) = signal;
@@ -135,9 +135,9 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
             chosen.iter().map(|feature| feature.of(features)).collect()
         };
         let examples: Vec<(Vec<f64>, f64)> = sets
-            .learning
+            .training
             .iter()
-            .zip(&learning)
+            .zip(&training)
             .map(|(signal, features)| (some(features), truth(signal) as f64))
             .collect();
         let regression = Regression::fit(degree, &examples).map_err(refused)?;

@@ -2,8 +2,8 @@
 
 use tactile::score::{Confusion, Statistics};
 
-use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::experiment::record::table::{Contact, speeds};
+use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::refused::refused;
 use host_sim::Error;
 

@@ -1,19 +1,19 @@
 //! The contacts, to train on and to test with.
 
 use crate::experiment::dataset::Dataset;
-use crate::experiment::paper::pose::TEXTURES;
 use crate::experiment::record::table::{Contact, contacts};
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::Request;
+use crate::paper::pose::TEXTURES;
 use crate::rigs::{Chance, seed_of};
 
 /// A contact and x, sample by sample.
 pub(super) type Signal = (Contact, Vec<f64>);
 
-/// Half of the contacts to learn from, the other half to test with: each set
+/// Half of the contacts to train on, the other half to test with: each set
 /// has every pose once.
 pub(super) struct Sets {
-    pub(super) learning: Vec<Signal>,
+    pub(super) training: Vec<Signal>,
     pub(super) testing: Vec<Signal>,
     pub(super) rate_hz: f64,
 }
@@ -21,11 +21,11 @@ pub(super) struct Sets {
 impl Sets {
     pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
         let all = recordings.of(Dataset::Table);
-        let contacts = contacts(request.scale);
+        let contacts = contacts(request.extent);
         let poses = contacts.len() / 2;
         let mut chance = Chance::new(seed_of(request.seed, &[20]));
         let mut sets = Self {
-            learning: Vec::new(),
+            training: Vec::new(),
             testing: Vec::new(),
             rate_hz: request.rigs.table.tick_hz,
         };
@@ -39,7 +39,7 @@ impl Sets {
                 let samples = recording.part(0, recording.len()).iter();
                 let x = samples.step_by(2).map(|x| f64::from(*x)).collect();
                 if time == first {
-                    sets.learning.push((*contact, x));
+                    sets.training.push((*contact, x));
                 } else {
                     sets.testing.push((*contact, x));
                 }
@@ -64,12 +64,12 @@ impl Sets {
         let square = |x: &[f64], mean: &[f64]| -> f64 {
             x.iter().zip(mean).map(|(x, m)| (x - m) * (x - m)).sum()
         };
-        let all: Vec<&Vec<f64>> = self.learning.iter().map(|(_, x)| x).collect();
+        let all: Vec<&Vec<f64>> = self.training.iter().map(|(_, x)| x).collect();
         let grand = mean_of(&all);
         let total: f64 = all.iter().map(|x| square(x, &grand)).sum();
         // Contacts of a pose stand together, its textures one after another.
         let mut within = 0.0;
-        for pose in self.learning.chunks(TEXTURES.len()) {
+        for pose in self.training.chunks(TEXTURES.len()) {
             let signals: Vec<&Vec<f64>> = pose.iter().map(|(_, x)| x).collect();
             let mean = mean_of(&signals);
             within += signals.iter().map(|x| square(x, &mean)).sum::<f64>();

@@ -4,7 +4,7 @@ use tactile::score::{Confusion, Statistics};
 
 use super::scores::Scores;
 use crate::experiment::page::Section;
-use crate::experiment::paper::pose::{Figure, ROWS, TEXTURE_FEATURES, TEXTURES};
+use crate::paper::pose::{Figure, ROWS, TEXTURE_FEATURES, TEXTURES};
 
 /// κ and errors of the three classifiers.
 pub(super) fn main(section: &mut Section, rows: &[&Scores; 3]) {

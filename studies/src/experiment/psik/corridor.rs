@@ -3,13 +3,13 @@
 
 use tactile::score::Confusion;
 
-use super::sweeps::{PENALTIES, Row, learn};
+use super::sweeps::{PENALTIES, Row, train};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::{Section, confusion};
-use crate::experiment::paper::psik::{CORRIDORS, TABLE_3};
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
+use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
@@ -27,33 +27,33 @@ pub(super) fn section(
     recordings: &Recordings,
 ) -> Result<(), Error> {
     let runs = recordings.of(Dataset::Corridor);
-    let (learning, tested, deciding) = request.scale.runs();
-    let taught = learning.saturating_sub(tested);
+    let (training, tested, deciding) = request.extent.runs();
+    let taught = training.saturating_sub(tested);
     let mut rows: Vec<Row> = Vec::new();
     for (job, run) in runs.iter().enumerate() {
-        let (case, number) = place(request.scale, job);
+        let (case, number) = place(request.extent, job);
         if number < taught {
             rows.extend(steps(run).into_iter().map(|row| (case, row)));
         }
     }
-    let network = learn(&rows, seed_of(request.seed, &[66]), PENALTIES[0])?;
+    let network = train(&rows, seed_of(request.seed, &[66]), PENALTIES[0])?;
 
     let (mut by_run, mut by_step) = (Confusion::new(4), Confusion::new(4));
     let (mut off, mut squares, mut count) = (0.0_f64, 0.0, 0.0_f64);
     let mut finished = 0;
     for (job, run) in runs.iter().enumerate() {
-        let (case, number) = place(request.scale, job);
+        let (case, number) = place(request.extent, job);
         let mut votes = [0_u32; 4];
         for row in steps(run) {
             let named = network.classify(&row).map_err(refused)?;
             if let Some(votes) = votes.get_mut(named) {
                 *votes += 1;
             }
-            if (taught..learning).contains(&number) {
+            if (taught..training).contains(&number) {
                 by_step.add(case, Some(named)).map_err(refused)?;
             }
         }
-        if number < learning {
+        if number < training {
             continue;
         }
         let most = (0..4).max_by_key(|k| (votes[*k], 4 - k));
@@ -76,7 +76,7 @@ pub(super) fn section(
     section.page.say(format_args!(
         "**Corridors** (`studies/rigs/corridor.toml`): the robot keeps to the middle by D = (1/N) Σ (1 − \
          V_i) L_i of either side and V_y = (D_left − D_right) · 0.01. {taught} runs of each \
-         corridor and direction to learn from, {tested} to test with (**{:.0} %** of single \
+         corridor and direction to train on, {tested} to test with (**{:.0} %** of single \
          steps right), {deciding} to decide in. Over these {finished} runs the neck is off the \
          middle by **{:.0} mm** in root mean square and {:.0} mm at most; the corridor leaves 50.",
         100.0 * by_step.hit_rate().unwrap_or(0.0),
@@ -87,17 +87,8 @@ pub(super) fn section(
         "**Table 3**: a row is the true corridor and direction, a column what was decided. Mean \
          {paper:.0} % in the paper, **{hit:.0} %** here."
     ));
-    let names = CORRIDORS.map(str::to_owned);
-    confusion(
-        &mut section.page,
-        "true \\ decided",
-        &names,
-        &|row, column| Some(TABLE_3[row][column]),
-        &|row, column| {
-            let sum: u64 = (0..4).map(|k| by_run.count(row, k)).sum();
-            100.0 * by_run.count(row, column) as f64 / sum.max(1) as f64
-        },
-    );
+    let printed = |truth: usize, named: usize| TABLE_3[truth][named];
+    confusion(&mut section.page, &CORRIDORS, &printed, &by_run);
     section.claim(
         "PSIK: the robot tells two corridors and their directions apart on its way, steering by touch",
         format_args!("{paper:.0} %"),

@@ -17,23 +17,23 @@ pub(super) const NAMES: [&str; PAPERS] =
 /// A row of the network's inputs, and its class.
 pub(super) type Row = (usize, Vec<f64>);
 
-/// Penalties λ on weights that are tried; the paper names none. Learnt to the
-/// end with hardly any, 1400 weights learn the scatter of a few hundred sweeps.
+/// Penalties λ on weights that are tried; the paper names none. Trained to the
+/// end with hardly any, 1400 weights fit the scatter of a few hundred sweeps.
 pub(super) const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 
 /// One sweep of so many is held out to choose the penalty.
 const HELD_OUT: usize = 5;
 
-/// Learns a network with the penalty that does best on sweeps that are held out
-/// of the learning ones, the smallest of equals; classes must come in order.
-fn learn_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
+/// Trains a network with the penalty that does best on sweeps that are held out
+/// of the training ones, the smallest of equals; classes must come in order.
+fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
     let mut best = (0, Options::imp(seed).decay);
     let places = || rows.iter().enumerate();
     let kept = places().filter(|(n, _)| n % HELD_OUT != 0);
     let kept: Vec<Row> = kept.map(|(_, row)| row.clone()).collect();
     for penalty in PENALTIES {
         // A start is refused that never names some class: too large a penalty.
-        let Ok(network) = learn(&kept, seed, penalty) else {
+        let Ok(network) = train(&kept, seed, penalty) else {
             continue;
         };
         let mut hits = 0;
@@ -44,11 +44,11 @@ fn learn_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
             best = (hits, penalty);
         }
     }
-    learn(rows, seed, best.1).or_else(|_| learn(rows, seed, PENALTIES[0]))
+    train(rows, seed, best.1).or_else(|_| train(rows, seed, PENALTIES[0]))
 }
 
-/// Learns a network with a penalty on its weights; classes must come in order.
-pub(super) fn learn(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Error> {
+/// Trains a network with a penalty on its weights; classes must come in order.
+pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Error> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
     let mut options = Options::imp(seed);
     options.decay = penalty;
@@ -64,23 +64,23 @@ pub(super) fn learn(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Er
     Ok(trainer.train().map_err(refused)?.network)
 }
 
-/// The sweeps, to learn from and to test with.
+/// The sweeps, to train on and to test with.
 pub(super) struct Sweeps {
-    pub(super) learning: Vec<Row>,
+    pub(super) training: Vec<Row>,
     pub(super) testing: Vec<Row>,
 }
 
 impl Sweeps {
     pub(super) fn new(request: &Request, all: &[&Recording]) -> Self {
         let mut sweeps = Self {
-            learning: Vec::new(),
+            training: Vec::new(),
             testing: Vec::new(),
         };
         for (job, recording) in all.iter().enumerate() {
-            let (paper, sweep) = place(request.scale, job);
+            let (paper, sweep) = place(request.extent, job);
             let row = (paper, recording.segment(0, 1));
-            if sweep < request.scale.sweeps().0 {
-                sweeps.learning.push(row);
+            if sweep < request.extent.sweeps().0 {
+                sweeps.training.push(row);
             } else {
                 sweeps.testing.push(row);
             }
@@ -88,7 +88,7 @@ impl Sweeps {
         sweeps
     }
 
-    /// Learns and tests with the vibrissae from `from` up to `to`.
+    /// Trains and tests with the vibrissae from `from` up to `to`.
     pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion, Error> {
         let cut = |rows: &[Row]| -> Vec<Row> {
             let some = |row: &Vec<f64>| row.get(from..to).unwrap_or(&[]).to_vec();
@@ -96,7 +96,7 @@ impl Sweeps {
                 .map(|(class, row)| (*class, some(row)))
                 .collect()
         };
-        let network = learn_choosing(&cut(&self.learning), seed)?;
+        let network = train_choosing(&cut(&self.training), seed)?;
         let mut score = Confusion::new(PAPERS);
         for (class, row) in cut(&self.testing) {
             let named = network.classify(&row).map_err(refused)?;

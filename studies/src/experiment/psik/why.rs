@@ -5,10 +5,10 @@
 use super::sweeps::{NAMES, Row, Sweeps, hit};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::page::Section;
-use crate::experiment::paper::psik::ARCS;
 use crate::experiment::record::pad::PAPERS;
 use crate::experiment::record::{jobs, record};
 use crate::experiment::request::{Extent, Name, Request};
+use crate::paper::psik::ARCS;
 use crate::rigs::{Pad, seed_of};
 use host_sim::Error;
 use host_sim::progress::Verbosity;
@@ -59,7 +59,7 @@ fn rates(sweeps: &Sweeps, borders: &[usize], seed: u64) -> Result<[f64; 2], Erro
 
 /// The first sweeps of each paper, as many as a quick run has.
 fn few(sweeps: &Sweeps) -> Sweeps {
-    let (learning, testing) = Extent { quick: true }.sweeps();
+    let (training, testing) = Extent::Reduced.sweeps();
     let first = |rows: &[Row], count: usize| -> Vec<Row> {
         let mut seen = [0; PAPERS];
         let fits = |(class, _): &&Row| {
@@ -71,7 +71,7 @@ fn few(sweeps: &Sweeps) -> Sweeps {
         rows.iter().filter(fits).cloned().collect()
     };
     Sweeps {
-        learning: first(&sweeps.learning, learning),
+        training: first(&sweeps.training, training),
         testing: first(&sweeps.testing, testing),
     }
 }
@@ -80,7 +80,7 @@ fn few(sweeps: &Sweeps) -> Sweeps {
 fn swept(request: &Request, change: fn(&mut Pad)) -> Result<Sweeps, Error> {
     let mut other = request.clone();
     other.names = vec![Name::Psikharpax];
-    other.scale = Extent { quick: true };
+    other.extent = Extent::Reduced;
     change(&mut other.rigs.pad);
     let mut jobs = jobs(&other);
     jobs.retain(|job| job.dataset == Dataset::Pad);
@@ -103,7 +103,7 @@ pub(super) fn section(
         let of = |paper| {
             inputs
                 .clone()
-                .map(|n| step(&sweeps.learning, paper, n))
+                .map(|n| step(&sweeps.training, paper, n))
                 .sum::<f64>()
         };
         let line: Vec<f64> = (0..PAPERS - 1).map(|paper| of(paper) / count).collect();
@@ -129,13 +129,13 @@ pub(super) fn section(
         "one vibrissa feels neighbouring papers {least:.1} to {most:.1} of its scatter from sweep \
          to sweep apart, by its arc"
     );
-    if request.scale.quick {
+    if request.extent == Extent::Quick {
         section.page.say(
             "What the choices do that the paper leaves open is measured by the full run alone.",
         );
-        let (learning, _) = request.scale.sweeps();
+        let (training, _) = request.extent.sweeps();
         return Ok(format!(
-            "{apart}; a quick run has {learning} sweeps of each to learn from"
+            "{apart}; a quick run has {training} sweeps of each to train on"
         ));
     }
     let [three, all] = rates(&few(sweeps), borders, request.seed)?;
@@ -144,10 +144,10 @@ pub(super) fn section(
         let found = rates(&swept(request, change)?, borders, request.seed)?;
         rows.push((what, found));
     }
-    let (learning, testing) = Extent { quick: true }.sweeps();
+    let (training, testing) = Extent::Reduced.sweeps();
     section.page.say(format_args!(
-        "**What the paper leaves open** decides. Hit rates in percent with {learning} sweeps of \
-         each paper to learn from and {testing} to test with (standard error 4 to 6 points), one \
+        "**What the paper leaves open** decides. Hit rates in percent with {training} sweeps of \
+         each paper to train on and {testing} to test with (standard error 4 to 6 points), one \
          thing changed at a time. A first run had that sweep, that lean, that distance and a taper \
          ratio of 8, whose tips are of 0.07 to 0.31 mm. The present values were chosen from half a \
          dozen combinations with their hit rates in view, so that the result is no prediction; \
@@ -165,7 +165,7 @@ pub(super) fn section(
         .table("rig | three arcs | all", rows.iter().map(cells));
     let coarse = rows.last().map_or([0.0; 2], |row| row.1);
     Ok(format!(
-        "{apart}. With {learning} sweeps of each to learn from three arcs tell {three:.0} % and all \
+        "{apart}. With {training} sweeps of each to train on three arcs tell {three:.0} % and all \
          {all:.0} %; with readings of 14 bits instead of 8, {:.0} and {:.0} %: a step of a reading \
          is {:.2} mm of the tip's way. Tips that are slower, coarser or lean further do better \
          (table above); the paper says none of these",
@@ -194,11 +194,11 @@ mod tests {
             .map(|n| (n / 50, vec![f64::from(n as u32)]))
             .collect();
         let sweeps = Sweeps {
-            learning: rows.clone(),
+            training: rows.clone(),
             testing: rows,
         };
         let found = few(&sweeps);
-        assert_eq!((found.learning.len(), found.testing.len()), (120, 40));
+        assert_eq!((found.training.len(), found.testing.len()), (120, 40));
         assert_eq!(found.testing[10], (1, vec![50.0]));
     }
 }

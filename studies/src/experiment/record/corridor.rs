@@ -5,9 +5,9 @@ use classifiers::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
 
 use super::pad;
 use super::whiskers;
-use crate::experiment::paper::psik::{CORRIDORS, RATE_HZ, VIBRISSAE};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
+use crate::paper::psik::{CORRIDORS, RATE_HZ, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::{Chance, Robot, Vibrissa, seed_of};
 use host_sim::Error;
@@ -24,19 +24,19 @@ const BITS: u32 = 8;
 const WINDOW: u32 = 58;
 
 /// Runs of one corridor and direction.
-fn runs(scale: Extent) -> usize {
-    let (learning, _, deciding) = scale.runs();
-    learning + deciding
+fn runs(extent: Extent) -> usize {
+    let (training, _, deciding) = extent.runs();
+    training + deciding
 }
 
 /// How many runs there are.
-pub(crate) fn jobs(scale: Extent) -> usize {
-    CORRIDORS.len() * runs(scale)
+pub(crate) fn jobs(extent: Extent) -> usize {
+    CORRIDORS.len() * runs(extent)
 }
 
 /// The corridor and direction of a job, and which of its runs.
-pub(crate) fn place(scale: Extent, job: usize) -> (usize, usize) {
-    let each = runs(scale).max(1);
+pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
+    let each = runs(extent).max(1);
     (job / each, job % each)
 }
 
@@ -120,7 +120,7 @@ impl Side {
 /// Records a run: a sample of [`COLUMNS`] numbers a window.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
     let rig = &request.rigs.corridor;
-    let (case, _) = place(request.scale, job);
+    let (case, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let mut robot = Robot {
         neck_m: [0.0, chance.between(-rig.start_spread_m, rig.start_spread_m)],

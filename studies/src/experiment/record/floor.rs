@@ -2,9 +2,9 @@
 //! natural motion twice as often as either rotation.
 
 use super::whiskers;
-use crate::experiment::paper::lep10::FLOORS;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
+use crate::paper::lep10::FLOORS;
 use crate::refused::refused;
 use crate::rigs::{RobotMotion, seed_of};
 use host_sim::Error;
@@ -21,25 +21,25 @@ pub(crate) const MOTIONS: [RobotMotion; 3] = [
 const LEAD_S: f64 = 0.5;
 
 /// Trials of one floor.
-fn each(scale: Extent) -> usize {
-    (MOTIONS.len() - 1) * scale.trials() + scale.natural_trials()
+fn each(extent: Extent) -> usize {
+    (MOTIONS.len() - 1) * extent.trials() + extent.natural_trials()
 }
 
 /// How many trials there are.
-pub(crate) fn jobs(scale: Extent) -> usize {
-    FLOORS.len() * each(scale)
+pub(crate) fn jobs(extent: Extent) -> usize {
+    FLOORS.len() * each(extent)
 }
 
 /// The job of a trial: trials of a motion together, motions of a floor together.
-pub(crate) fn number(scale: Extent, floor: usize, motion: RobotMotion, trial: usize) -> usize {
+pub(crate) fn number(extent: Extent, floor: usize, motion: RobotMotion, trial: usize) -> usize {
     let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
-    floor * each(scale) + place * scale.trials() + trial
+    floor * each(extent) + place * extent.trials() + trial
 }
 
 /// The floor and motion of a job.
-fn place(scale: Extent, job: usize) -> (usize, RobotMotion) {
-    let each = each(scale).max(1);
-    let motion = job % each / scale.trials().max(1);
+fn place(extent: Extent, job: usize) -> (usize, RobotMotion) {
+    let each = each(extent).max(1);
+    let motion = job % each / extent.trials().max(1);
     let last = MOTIONS.len() - 1;
     let motion = MOTIONS.get(motion.min(last)).copied();
     (job / each, motion.unwrap_or(RobotMotion::Autonomous))
@@ -47,7 +47,7 @@ fn place(scale: Extent, job: usize) -> (usize, RobotMotion) {
 
 /// Records a trial: codes of x and y.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
-    let (floor, motion) = place(request.scale, job);
+    let (floor, motion) = place(request.extent, job);
     let rig = &request.rigs.floor;
     let shaft = Shaft::floor_robot();
     let sensor = whiskers::sensor(rig.full_scale_rad);
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn every_trial_has_a_job_and_natural_motion_has_eight() {
-        let scale = Extent { quick: false };
+        let extent = Extent::Full;
         let mut next = 0;
         for floor in 0..4 {
             for motion in MOTIONS {
@@ -94,12 +94,12 @@ mod tests {
                     4
                 };
                 for trial in 0..trials {
-                    assert_eq!(number(scale, floor, motion, trial), next);
-                    assert_eq!(place(scale, next), (floor, motion));
+                    assert_eq!(number(extent, floor, motion, trial), next);
+                    assert_eq!(place(extent, next), (floor, motion));
                     next += 1;
                 }
             }
         }
-        assert_eq!(jobs(scale), next);
+        assert_eq!(jobs(extent), next);
     }
 }

@@ -3,11 +3,11 @@
 //! they are looked at but not classified.
 
 use super::whiskers;
-use crate::experiment::paper::biotact::{
-    DISTANCES_MM, STRATEGIES, TAU_Z_PERIODS, TEXTURES, WHISKERS,
-};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::Request;
+use crate::paper::biotact::{
+    DISTANCES_MM, OBSTACLES_DEG, STRATEGIES, STRONG, TAU_Z_PERIODS, TEXTURES, WHISKERS,
+};
 use crate::rigs::{CHANNELS, Visit};
 use host_sim::Error;
 use whisking::GateSettings;
@@ -16,12 +16,9 @@ use whisking::GateSettings;
 /// side touches (1) or not (0).
 pub(crate) const COLUMNS: usize = CHANNELS + 4;
 
-/// Strong and fast RCP (BIOTACT Fig. 8): σ_z and τ_z in whisk periods.
-pub(crate) const STRONG: (f64, f64) = (2.0, 0.1);
-
 /// Where the front whisker meets the smooth surface in the early visits,
 /// degrees: the obstacle of BIOTACT Fig. 8.
-pub(crate) const EARLY_DEG: f64 = 100.0;
+pub(crate) const EARLY_DEG: f64 = OBSTACLES_DEG[0];
 
 /// Visits that are classified.
 const CLASSIFIED: usize = STRATEGIES.len() * TEXTURES.len() * DISTANCES_MM.len();
@@ -67,7 +64,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
             gain,
             tau_s: periods / rig.whisk_hz,
         }),
-        whisks: request.scale.whisks(),
+        whisks: request.extent.whisks(),
         seed,
     };
     let felt = rig.visit(

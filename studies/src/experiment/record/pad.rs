@@ -4,13 +4,13 @@
 use classifiers::imp::{Band, Imp, ImpSweep};
 
 use super::whiskers;
-use crate::experiment::paper::psik::{RATE_HZ, VIBRISSAE};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
+use crate::paper::psik::{RATE_HZ, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::{Chance, panned, seed_of};
 use host_sim::Error;
-use physics::Plate;
+use physics::{Plate, sensor_code};
 
 /// Sandpapers.
 pub(crate) const PAPERS: usize = 8;
@@ -18,26 +18,26 @@ pub(crate) const PAPERS: usize = 8;
 pub(crate) const WINDOW: u32 = 100;
 
 /// Sweeps of one paper.
-fn sweeps(scale: Extent) -> usize {
-    let (learning, testing) = scale.sweeps();
-    learning + testing
+fn sweeps(extent: Extent) -> usize {
+    let (training, testing) = extent.sweeps();
+    training + testing
 }
 
 /// How many sweeps there are.
-pub(crate) fn jobs(scale: Extent) -> usize {
-    PAPERS * sweeps(scale)
+pub(crate) fn jobs(extent: Extent) -> usize {
+    PAPERS * sweeps(extent)
 }
 
 /// The sandpaper of a job, and which of its sweeps.
-pub(crate) fn place(scale: Extent, job: usize) -> (usize, usize) {
-    let each = sweeps(scale).max(1);
+pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
+    let each = sweeps(extent).max(1);
     (job / each, job % each)
 }
 
 /// A reading in so many bits, with its sign, 2 to 14.
 pub(crate) fn codes(reading: [f64; 2], bits: u32) -> [i16; 2] {
     let most = f64::from((1_u32 << bits.clamp(2, 14).saturating_sub(1)) - 1);
-    reading.map(|x| (most * x).round().clamp(-most, most) as i16)
+    reading.map(|x| sensor_code(most * x, most))
 }
 
 /// The codes of all vibrissae at a tick, in order.
@@ -51,7 +51,7 @@ pub(crate) fn row(codes: &[Vec<[i16; 2]>], tick: usize) -> [[i16; 2]; VIBRISSAE]
 /// Records a sweep: one sample of 33 numbers.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
     let rig = &request.rigs.pad;
-    let (paper, _) = place(request.scale, job);
+    let (paper, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let sweep = rig.sweep(&mut chance);
     let [along, up] = sweep.origin_m;

@@ -1,9 +1,9 @@
 //! Contacts on the XY table: angles × speeds × textures, twice.
 
 use super::whiskers;
-use crate::experiment::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
+use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 use host_sim::Error;
@@ -29,11 +29,11 @@ pub(crate) fn speeds() -> Vec<f64> {
 }
 
 /// All contacts in the order of the jobs.
-pub(crate) fn contacts(scale: Extent) -> Vec<Contact> {
+pub(crate) fn contacts(extent: Extent) -> Vec<Contact> {
     let mut contacts = Vec::new();
     for time in 0..TIMES {
-        for angle in (0..ANGLES_DEG.len()).step_by(scale.stride()) {
-            for speed in (0..SPEEDS_MM_S.2).step_by(scale.stride()) {
+        for angle in (0..ANGLES_DEG.len()).step_by(extent.stride()) {
+            for speed in (0..SPEEDS_MM_S.2).step_by(extent.stride()) {
                 for texture in 0..TEXTURES.len() {
                     contacts.push(Contact {
                         time,
@@ -49,14 +49,14 @@ pub(crate) fn contacts(scale: Extent) -> Vec<Contact> {
 }
 
 /// How many contacts there are.
-pub(crate) fn jobs(scale: Extent) -> usize {
-    contacts(scale).len()
+pub(crate) fn jobs(extent: Extent) -> usize {
+    contacts(extent).len()
 }
 
 /// Records a contact: codes of x and y about the peak of x, x turned to
 /// positive.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
-    let all = contacts(request.scale);
+    let all = contacts(request.extent);
     let contact = all.get(job).ok_or_else(|| refused("no such contact"))?;
     let rig = &request.rigs.table;
     let speed = speeds().get(contact.speed).copied().unwrap_or(0.0) / 1000.0;
@@ -155,11 +155,11 @@ mod tests {
 
     #[test]
     fn there_are_352_contacts_twice_and_eleven_speeds_from_6_to_106() {
-        assert_eq!(contacts(Extent { quick: false }).len(), 2 * 352);
-        assert_eq!(contacts(Extent { quick: true }).len(), 2 * 4 * 6 * 4);
+        assert_eq!(contacts(Extent::Full).len(), 2 * 352);
+        assert_eq!(contacts(Extent::Quick).len(), 2 * 4 * 6 * 4);
         let speeds = speeds();
         assert_eq!((speeds.len(), speeds[0], speeds[10]), (11, 6.0, 106.0));
-        let last = contacts(Extent { quick: false }).pop();
+        let last = contacts(Extent::Full).pop();
         let expected = Contact {
             time: 1,
             angle: 7,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::experiment::paper::psik::ARCS;
+use crate::paper::psik::ARCS;
 use crate::refused::refused;
 use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
@@ -116,7 +116,7 @@ pub(crate) fn vibrissa(
 
 /// The four walls of relief plexiglass, by number: their periods differ.
 pub(crate) fn wall(number: usize) -> Surface {
-    /// Periods, tenths of a millimetre (chosen; PSIK Fig. 8 has no scale).
+    /// Periods, tenths of a millimetre (chosen; PSIK Fig. 8 has no extent).
     const PERIODS: [u16; 4] = [30, 60, 100, 160];
     let period = PERIODS.get(number).copied().unwrap_or(30);
     Surface::of(Material::Relief(period))

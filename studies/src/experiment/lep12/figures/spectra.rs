@@ -6,9 +6,9 @@ use crate::accuracy::chart::Mark;
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::lep12::groups::Group;
 use crate::experiment::page::Section;
-use crate::experiment::paper::lep10::FLOORS;
-use crate::experiment::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
 use crate::experiment::picture::{Curve, linear, panel, place, top};
+use crate::paper::lep10::FLOORS;
+use crate::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -24,7 +24,7 @@ pub(super) fn figure_9(section: &mut Section, group: &Group, rate_hz: f64) -> Re
         for (floor, name) in FLOORS.iter().enumerate() {
             let mut sum = vec![0.0; bins.count];
             let mut count = 0.0;
-            for stream in group.learning.iter().filter(|stream| stream.floor == floor) {
+            for stream in group.training.iter().filter(|stream| stream.floor == floor) {
                 for segment in stream.samples.chunks_exact(block * CHANNELS) {
                     let line = segment.iter().skip(channel).step_by(CHANNELS).copied();
                     let line: Vec<f64> = line.collect();

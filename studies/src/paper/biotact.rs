@@ -14,6 +14,52 @@ pub const DISTANCES_MM: [f64; 3] = [5.0, 10.0, 15.0];
 /// Whisking strategies and their RCP gain σ_z (section IV-B).
 pub const STRATEGIES: [(&str, f64); 3] = [("unmodulated", 0.0), ("RCP7", 0.7), ("RCP9", 0.9)];
 
+/// What Figs. 6 to 9 set: forward Euler, 2 kHz, 2 Hz, no noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// Nominal gain g of every whisker.
+    pub gain: f64,
+    /// RCP: σ_z, and τ_z as a share of the whisk period.
+    pub rcp: Option<(f64, f64)>,
+    /// CIA: σ_g, and τ_g as a share of the whisk period.
+    pub cia: Option<(f64, f64)>,
+    /// Whether there are obstacles at [`OBSTACLES_DEG`].
+    pub obstacles: bool,
+}
+
+/// Free whisking; the paper's gains are [`FIG6_GAINS`].
+pub const FIG6: Figure = Figure {
+    gain: 2.0,
+    rcp: None,
+    cia: None,
+    obstacles: false,
+};
+/// RCP.
+pub const FIG7: Figure = Figure {
+    gain: 1.0,
+    rcp: Some((0.7, 0.25)),
+    cia: None,
+    obstacles: true,
+};
+/// Strong and fast RCP.
+pub const FIG8: Figure = Figure {
+    rcp: Some(STRONG),
+    ..FIG7
+};
+/// RCP and CIA.
+pub const FIG9: Figure = Figure {
+    cia: Some((0.5, 0.25)),
+    ..FIG7
+};
+/// Gains of Fig. 6.
+pub const FIG6_GAINS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+/// σ_z and τ_z, as a share of the whisk period, of strong and fast RCP (Fig. 8).
+pub const STRONG: (f64, f64) = (2.0, 0.1);
+/// Obstacles of Figs. 7 to 9 beside the head, left and right, θ' in degrees.
+pub const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
+/// σ_x of the obstacles: deflection a degree of overlap (eq. 11).
+pub const OVERLAP_GAIN: f64 = 0.1;
+
 /// τ_z of the experiments as a share of the whisk period (section III-C).
 pub const TAU_Z_PERIODS: f64 = 0.25;
 

@@ -16,8 +16,6 @@ pub const ARCS: [(usize, f64); 8] = [
 pub const VIBRISSAE: usize = 33;
 /// Sampling rate, Hz, of two 8-bit numbers a vibrissa.
 pub const RATE_HZ: f64 = 1157.0;
-/// Sweeps of each texture to learn from and to test with (section 3.2.1).
-pub const SWEEPS: (usize, usize) = (300, 100);
 
 /// Table 2: percent, `[true][decided]`.
 pub const TABLE_2: [[f64; 8]; 8] = [
@@ -44,6 +42,3 @@ pub const CORRIDORS: [&str; 4] = ["1-1", "1-2", "2-1", "2-2"];
 
 /// Fig. 6 as the text tells it: the hit rate with three arcs or more, percent.
 pub const FIG6_THREE_ARCS: (f64, f64) = (90.0, 95.0);
-/// Runs of each corridor and direction: to learn from (and of these to test
-/// with), and to decide in (section 3.3).
-pub const RUNS: (usize, usize, usize) = (10, 3, 20);

@@ -109,6 +109,3 @@ pub const TEXTURE_FEATURES: [TextureFeature; 4] = [
         error: (-0.09, 0.97),
     },
 ];
-
-/// κ of angle by f2 and of speed by f1, each alone.
-pub const FEATURES_ALONE: (f64, f64) = (0.30, 0.25);

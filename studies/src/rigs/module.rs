@@ -1,0 +1,279 @@
+//! The head's module: the firmware's own tick on six sensors and motors. All
+//! that it knows of its whiskers comes by sensor frames and encoders. A whisker
+//! that is bent pulls back on its motor.
+
+use firmware::design_parameters::{hold_limits, retry, stall};
+use firmware::{
+    Active, ActiveConfig, BusError, Config, Event, FrameSource, Module, Servo, ServoConfig,
+};
+use host_sim::Error;
+use host_sim::bench::NoClock;
+use host_sim::drive::{self, AnyAngle, AnyMotor};
+use host_sim::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
+use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use serde::Deserialize;
+use whisking::motor::Duty;
+use whisking::{State, degrees, filter, pd};
+
+use super::read::{OutOfRange, within};
+use crate::refused::refused;
+
+/// Sides of the head.
+pub(super) const SIDES: usize = 2;
+/// Whiskers of a side, the front one first.
+pub(super) const EACH: usize = 3;
+
+/// Position control; see `studies/rigs/head.toml` for each key.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each key is documented in rigs/head.toml")]
+pub struct PositionControl {
+    pub follows: bool,
+    pub kp: f64,
+    pub kd: f64,
+    pub slew_per_s: f64,
+    pub min_deg: f64,
+    pub max_deg: f64,
+}
+
+/// Full duty is allowed, and half of it counts as driven hard, as in a scene.
+const DUTY_LIMIT: f64 = 1.0;
+
+impl PositionControl {
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        within("kp", self.kp, 0.0, 1e3)?;
+        within("kd", self.kd, 0.0, 1e3)?;
+        within("slew_per_s", self.slew_per_s, 1.0, 1e6)?;
+        within("min_deg", self.min_deg, -180.0, 180.0)?;
+        within("max_deg", self.max_deg, self.min_deg, 360.0)?;
+        Ok(())
+    }
+}
+
+/// The newest frame of a sensor: the tick reads what was measured before it.
+#[derive(Debug)]
+struct Frames([u8; FRAME_LEN]);
+
+impl Frames {
+    /// A sensor at rest.
+    const REST: Self = Self(encode::alpha_beta(
+        Word::MID,
+        Word::MID,
+        Faults::NONE,
+        SumRule::SumB1B6,
+    ));
+
+    /// Codes within ±8191 of mid-scale.
+    fn set(&mut self, codes: [i16; 2]) {
+        let [x, y] = codes.map(|code| Word::new((8192_i16.saturating_add(code) as u16) << 2));
+        self.0 = encode::alpha_beta(x, y, Faults::NONE, SumRule::SumB1B6);
+    }
+}
+
+impl FrameSource for Frames {
+    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
+        Ok(Some(self.0))
+    }
+}
+
+/// What turns a whisker.
+enum Actuator {
+    /// With gear, friction and load.
+    Motor(Box<SimMotor>),
+    /// Is wherever it should be.
+    Ideal(IdealMotor),
+}
+
+/// Motors that whisk: without a perception, all of them the same.
+type Whisking = Active<f64, AnyMotor, AnyAngle, SIDES, EACH>;
+
+/// A module of six whiskers with its motors, left side first, at θ' = 50 degrees.
+pub(super) struct HeadModule {
+    module: Module<f64, Frames, Whisking, (), NoClock, SIDES, EACH>,
+    config: Config<ActiveConfig<f64, whisking::Config<f64>>, (), Option<filter::Config<f64>>>,
+    actuators: Vec<Actuator>,
+}
+
+impl HeadModule {
+    /// A module that has not ticked; `gain` is that of all whiskers.
+    pub(super) fn new(
+        settings: &whisking::Settings,
+        control: &PositionControl,
+        gain: f64,
+        seed: u64,
+    ) -> Result<Self, Error> {
+        let tick_hz = settings.tick_hz;
+        let ticks_per_s = tick_hz.round() as u32;
+        let motor = MotorSettings::DEFAULT;
+        let pd = pd::Settings {
+            kp: control.kp,
+            kd: control.kd,
+            limit: DUTY_LIMIT,
+            slew_per_s: control.slew_per_s,
+            min_deg: control.min_deg,
+            max_deg: control.max_deg,
+            degrees_per_count: motor.degrees_per_count(),
+        };
+        let stall = stall(ticks_per_s, Duty::from_f32(DUTY_LIMIT as f32 / 2.0).q15());
+        let config = Config {
+            decoder: Decoder::new(),
+            hold_limits: hold_limits(ticks_per_s),
+            contact: Some(filter::Config::new(filter::CORNER_HZ, tick_hz).map_err(refused)?),
+            motion: ActiveConfig {
+                whisking: settings.build().map_err(refused)?,
+                servo: ServoConfig {
+                    pd: pd.build(tick_hz).map_err(refused)?,
+                    retry: retry(ticks_per_s),
+                    stall,
+                },
+            },
+            perception: (),
+            period: 0,
+        };
+        // Retracted, so that no whisker begins inside the surface.
+        let start = settings
+            .start([[-1.0, 0.0]; SIDES], [[gain; EACH]; SIDES])
+            .map_err(refused)?;
+
+        let mut actuators = Vec::with_capacity(SIDES * EACH);
+        let mut all_pins = Vec::with_capacity(SIDES * EACH);
+        for _ in 0..SIDES * EACH {
+            let (actuator, pins) = if control.follows {
+                let (motor, pins) = SimMotor::brushed(motor).map_err(refused)?;
+                (Actuator::Motor(Box::new(motor)), Pins::Brushed(pins))
+            } else {
+                let ideal = IdealMotor::new(1.0 / motor.degrees_per_count());
+                (Actuator::Ideal(ideal.clone()), Pins::Ideal(ideal))
+            };
+            actuators.push(actuator);
+            all_pins.push(pins);
+        }
+        let mut servos = all_pins.into_iter().map(|pins| {
+            let (motor, angle) = drive::on(pins, stall);
+            Servo::new(motor, angle)
+        });
+        let mut side = || <[_; EACH]>::try_from(servos.by_ref().take(EACH).collect::<Vec<_>>());
+        let (Ok(left), Ok(right)) = (side(), side()) else {
+            return Err(refused("not a motor for every whisker"));
+        };
+        let sources = [0; SIDES].map(|_| [Frames::REST; EACH]);
+        let motion = Active::new(State::new(&start, seed), [left, right]);
+        Ok(Self {
+            module: Module::new(sources, motion, (), NoClock),
+            config,
+            actuators,
+        })
+    }
+
+    /// What the sensor of whisker `n` has measured, as codes.
+    pub(super) fn feel(&mut self, n: usize, codes: [i16; 2]) {
+        if let Some(sensor) = self.module.sensor_mut(n / EACH, n % EACH) {
+            sensor.source_mut().set(codes);
+        }
+    }
+
+    /// One tick of the module.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if a motor faulted: the recording would be of a whisker
+    /// that rests.
+    pub(super) fn tick(&mut self) -> Result<(), Error> {
+        let mut fault = None;
+        self.module.tick(&self.config, &mut |event| {
+            if let Event::MotorFault(..) = event {
+                fault = Some(format!("{event:?}"));
+            }
+        });
+        fault.map_or(Ok(()), |fault| Err(refused(fault)))
+    }
+
+    /// Lets a tick pass for the motor of whisker `n` against a torque on the
+    /// whisker, N·m, positive towards protraction; the angle θ' after it, degrees.
+    pub(super) fn turn(&mut self, n: usize, load_nm: f64, dt_s: f64) -> f64 {
+        let theta = self.module.motion().state().theta();
+        match self.actuators.get_mut(n) {
+            Some(Actuator::Motor(motor)) => {
+                motor.set_load_nm(load_nm);
+                motor.advance(dt_s);
+                motor.angle_deg()
+            }
+            Some(Actuator::Ideal(motor)) => {
+                let angle = degrees(theta[n / EACH][n % EACH]);
+                motor.set_deg(angle);
+                angle
+            }
+            None => f64::NAN,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{EACH, HeadModule, PositionControl, SIDES};
+    use firmware::{Command, Place};
+    use whisking::{Integrator, Settings, protraction};
+
+    const CONTROL: PositionControl = PositionControl {
+        follows: true,
+        kp: 0.05,
+        kd: 0.0004,
+        slew_per_s: 400.0,
+        min_deg: 30.0,
+        max_deg: 160.0,
+    };
+
+    const WHISKING: Settings = Settings {
+        tick_hz: 2000.0,
+        frequency_hz: 2.0,
+        integrator: Integrator::Exact,
+        coupling: true,
+        noise: 0.0,
+        rcp: None,
+        cia: None,
+    };
+
+    /// At rest the duty k_p e balances load and friction: the drive is
+    /// k U/R · k_p e at the rotor, so that a load of τ leaves an error between
+    /// (τ/G ± τ_c)/(k_p k U/R).
+    #[test]
+    fn a_load_leaves_the_error_that_the_gain_allows() {
+        let mut module = HeadModule::new(&WHISKING, &CONTROL, 1.0, 1).unwrap();
+        let front = Place {
+            side: 0,
+            whisker: 0,
+        };
+        let setpoint = Command::Setpoint(Some(protraction(100.0)));
+        module.module.command(front, setpoint).unwrap();
+        let load = -2e-3_f64;
+        let mut angle = 0.0;
+        for _ in 0..4000 {
+            module.tick().unwrap();
+            angle = module.turn(0, load, 5e-4);
+            for n in 1..SIDES * EACH {
+                module.turn(n, 0.0, 5e-4);
+            }
+        }
+        let full = 2.5e-3 * 6.0 / 25.0 * CONTROL.kp;
+        let [least, most] = [-3e-5, 3e-5].map(|friction| (-load / 11.0 + friction) / full);
+        let error = 100.0 - angle;
+        assert!(
+            (least - 0.1..most + 0.1).contains(&error),
+            "{error}: {least} to {most}"
+        );
+    }
+
+    #[test]
+    fn position_control_with_a_setting_out_of_range_is_refused() {
+        let wrong = PositionControl {
+            kp: f64::NAN,
+            ..CONTROL
+        };
+        assert!(HeadModule::new(&WHISKING, &wrong, 1.0, 1).is_err());
+        assert!(CONTROL.check().is_ok());
+        let wrong = PositionControl {
+            max_deg: 0.0,
+            ..CONTROL
+        };
+        assert!(wrong.check().is_err());
+    }
+}
