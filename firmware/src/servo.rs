@@ -76,6 +76,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         &self.state
     }
 
+    /// The setpoint that was commanded, if any.
+    pub const fn setpoint(&self) -> Option<R> {
+        self.setpoint
+    }
+
     /// A setpoint that takes the place of the pattern generator's; `None`: the
     /// pattern generator's again.
     pub const fn set_setpoint(&mut self, setpoint: Option<R>) {

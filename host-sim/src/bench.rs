@@ -3,8 +3,8 @@
 
 use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
-    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Config, Event, Module, Polled,
-    SampleClassifier, Servo, ServoConfig,
+    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
+    NoActiveWhisker, Place, Polled, SampleClassifier, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
@@ -65,6 +65,12 @@ pub trait HostModule: Bench + Send {
     /// [`Error::Work`] if there are not as many as whiskers.
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error>;
 
+    /// Carries out `command` for whisker `n`, counted from 0, left side first.
+    ///
+    /// # Errors
+    /// [`NoActiveWhisker`].
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker>;
+
     /// What the classifier of the first whisker gets.
     fn tap(&mut self) -> Option<&mut Tap>;
 }
@@ -102,8 +108,12 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
         };
         let state = active.state();
         let theta = state.theta();
-        for (place, theta) in snapshot.theta_deg.iter_mut().zip(theta.iter().flatten()) {
-            *place = whisking::degrees(theta.to_f64());
+        let servos = active.servos().iter().flatten();
+        let setpoints = theta.iter().flatten().zip(servos);
+        for (place, (theta, servo)) in snapshot.theta_deg.iter_mut().zip(setpoints) {
+            let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
+            let commanded = pd.and_then(|pd| Some(pd.clamp(servo.setpoint()?)));
+            *place = whisking::degrees(commanded.unwrap_or(*theta).to_f64());
         }
         for (place, z) in snapshot.z.iter_mut().zip(state.z) {
             *place = z.value.to_f64();
@@ -141,6 +151,21 @@ where
         }
         self.module = Module::new(sensors()?, motors, perception, NoClock);
         Ok(())
+    }
+
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker> {
+        if n >= S * N {
+            return Err(NoActiveWhisker);
+        }
+        let place = Place {
+            side: (n / N) as u8,
+            whisker: (n % N) as u8,
+        };
+        let command = match command {
+            Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
+            Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
+        };
+        self.module.command(place, command)
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {

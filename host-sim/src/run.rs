@@ -1,6 +1,6 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
-use firmware::Event;
+use firmware::{Command, Event};
 use mlx90333::Word;
 use scene::{PlantKind, Scene, Texture};
 
@@ -100,7 +100,8 @@ impl Run {
 
     /// Starts anew with another seed, or the same: from here on as a new run of
     /// the scene with that seed, without parsing, checking or solving anything
-    /// again. What was done to sensors and motors is undone.
+    /// again. What was done to sensors and motors, and every gain and setpoint
+    /// that was set, is undone.
     ///
     /// # Errors
     /// None that a run which could be made once has; see [`Run::new`].
@@ -113,12 +114,48 @@ impl Run {
         Ok(())
     }
 
+    /// Sets the nominal gain g of whisker `n`, counted from 0, left side first,
+    /// from the next tick on; limited to 0 to 2.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if there is no such active whisker, or for a gain that is
+    /// not finite.
+    pub fn set_gain(&mut self, n: usize, gain: f64) -> Result<(), Error> {
+        self.command(n, Command::Gain(finite("gain", gain)?))
+    }
+
+    /// Sets a setpoint θ′ of whisker `n`, degrees, in place of the pattern
+    /// generator's, from the next tick on, limited to the scene's `motor.min_deg`
+    /// and `motor.max_deg`; `None`: the pattern generator's again.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if there is no such active whisker, or for a setpoint that
+    /// is not finite.
+    pub fn set_setpoint_deg(&mut self, n: usize, setpoint_deg: Option<f64>) -> Result<(), Error> {
+        let degrees = setpoint_deg.map(|degrees| finite("setpoint", degrees));
+        let theta = degrees.transpose()?.map(whisking::protraction);
+        self.command(n, Command::Setpoint(theta))
+    }
+
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), Error> {
+        let done = self.bench.command(n, command);
+        done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))
+    }
+
     /// The codes x and y that the classifier got in the last tick, or would have
     /// got: none without contact, where the scene asks for it, and none while
     /// the sensor has a fault.
     pub fn sample(&mut self) -> Option<[u16; 2]> {
         self.bench.tap()?.sample
     }
+}
+
+fn finite(name: &str, value: f64) -> Result<f64, Error> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let fault = format!("{name}: found {value}, allowed: a finite number");
+    Err(Error::Input(fault))
 }
 
 impl<B: Bench + ?Sized> Run<B> {

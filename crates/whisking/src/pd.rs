@@ -106,6 +106,12 @@ impl Settings {
 }
 
 impl<R: Real> Config<R> {
+    /// The nearest setpoint within the range.
+    #[inline]
+    pub fn clamp(&self, setpoint: R) -> R {
+        setpoint.clamp(self.min, self.max)
+    }
+
     /// One tick, from the setpoint as a protraction, the measured angle in encoder
     /// counts from θ = 0, and the counts `moved` since the last tick (0 in the
     /// first). The duty is within ±`limit` and differs from the last one by at
@@ -115,7 +121,7 @@ impl<R: Real> Config<R> {
         let measured = R::from_counts(counts, self.theta_per_count);
         let moved = R::from_counts(moved, self.theta_per_count);
         state.velocity = state.velocity + (moved - state.velocity).times(self.smooth);
-        let error = setpoint.clamp(self.min, self.max) - measured;
+        let error = self.clamp(setpoint) - measured;
         state.p = error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
         let wanted = (state.p + state.d).to_q24().clamp(-self.limit, self.limit);

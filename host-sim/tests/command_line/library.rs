@@ -106,6 +106,53 @@ fn a_run_that_is_reset_equals_a_new_one() {
 }
 
 #[test]
+fn gains_and_setpoints_are_taken_between_ticks() {
+    let free = IDEAL.replace("[80.0, 90.0]", "[170.0, 170.0]");
+    let mut run = run(&scene(&free, 1));
+    let undisturbed = see(&mut run).rows;
+    run.reset(1).unwrap();
+    let mut theta_deg = |set: fn(&mut Run)| {
+        set(&mut run);
+        run.tick().theta_deg
+    };
+    // Limited as position control limits it; the other side goes on.
+    let found = theta_deg(|run| run.set_setpoint_deg(0, Some(70.0)).unwrap());
+    assert!((found[0] - 70.0).abs() < 1e-5, "{found:?}");
+    let found = theta_deg(|run| run.set_setpoint_deg(0, Some(1e9)).unwrap());
+    assert!((found[0] - 160.0).abs() < 1e-4, "{found:?}");
+    let found = theta_deg(|run| run.set_setpoint_deg(0, None).unwrap());
+    assert_eq!(found.map(f64::to_bits), undisturbed[2][1..3]);
+    // Both whiskers of the left side, the last of which is number 1.
+    let gain = |run: &mut Run| (0..2).for_each(|n| run.set_gain(n, 0.5).unwrap());
+    theta_deg(gain);
+    for (n, value) in [
+        (4, 1.0),
+        (usize::MAX, 1.0),
+        (0, f64::NAN),
+        (0, f64::INFINITY),
+    ] {
+        assert_eq!(run.set_gain(n, value).unwrap_err().exit_status(), 2);
+        assert_eq!(
+            run.set_setpoint_deg(n, Some(value))
+                .unwrap_err()
+                .exit_status(),
+            2
+        );
+    }
+    // What was set is forgotten.
+    run.reset(1).unwrap();
+    assert!(see(&mut run).rows == undisturbed);
+}
+
+#[test]
+fn a_motor_follows_its_setpoint() {
+    let mut run = run(&scene(TEXTURED, 1));
+    run.set_setpoint_deg(0, Some(70.0)).unwrap();
+    let last = (0..1000).map(|_| run.tick()).last().unwrap();
+    assert!((last.angle_deg[0] - 70.0).abs() < 1.0, "{last:?}");
+}
+
+#[test]
 fn runs_on_other_threads_agree() {
     let text = format!("{TEXTURED}{SEQUENTIAL}");
     let here = see(&mut run(&scene(&text, 5)));
