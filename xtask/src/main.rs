@@ -11,6 +11,7 @@ mod firmware;
 mod nightly;
 mod run;
 mod size;
+mod speed;
 mod steps;
 
 use std::path::PathBuf;
@@ -83,6 +84,9 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Measures the time that host-sim takes for a tick of an elastic whisker, free
+    /// and in lasting contact, beside another host-sim if there is one
+    Speed(speed::Choice),
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -169,6 +173,7 @@ fn main() -> ExitCode {
         Command::Cost { csv, check, .. } => cost::all(csv.as_deref(), check),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
+        Command::Speed(choice) => speed::speed(&choice),
         Command::Docs { check } => docs::all(check),
     };
     match done {
