@@ -12,12 +12,12 @@ use crate::{arrows, cost, count, docs, emulate, size};
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
-/// Everything.
+/// Everything, or the steps whose names contain one of `only`.
 ///
 /// # Errors
 /// The first check that fails.
-pub(crate) fn all() -> Result<(), Fault> {
-    let mut steps = Steps::default();
+pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
+    let mut steps = Steps::new(only);
     steps.run("format", || run(&mut cargo(&["fmt", "--all", "--check"])))?;
     steps.run("arrows", || arrows::all(&[]))?;
     steps.run("core for WebAssembly", web)?;

@@ -30,10 +30,10 @@ struct Arguments {
 enum Command {
     /// All that CI checks: format, arrows, lints, all tests, the main job and the
     /// generated documents, firmware, and short forms of the long runs
-    Ci,
+    Ci(Only),
     /// The long runs in full: every scene on every board, every count, experiments,
     /// mutations (takes hours)
-    Nightly,
+    Nightly(Only),
     /// Fails on a dependency against the order of the crates, on a circle of files
     /// within a crate, and on a type name that is public in two
     Arrows {
@@ -93,6 +93,12 @@ enum Command {
         #[arg(long)]
         check: bool,
     },
+}
+
+#[derive(clap::Args)]
+struct Only {
+    /// Only the steps with one of these in their name
+    steps: Vec<String>,
 }
 
 #[derive(clap::Args)]
@@ -159,8 +165,8 @@ impl Emulate {
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
-        Command::Ci => ci::all(),
-        Command::Nightly => nightly::all(),
+        Command::Ci(Only { steps }) => ci::all(steps),
+        Command::Nightly(Only { steps }) => nightly::all(steps),
         Command::Arrows { packages } => arrows::all(&packages),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),

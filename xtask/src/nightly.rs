@@ -14,12 +14,12 @@ use crate::{cost, emulate, size};
 /// In how many nights every mutation is tried once.
 const NIGHTS: u64 = 7;
 
-/// Everything.
+/// Everything, or the steps whose names contain one of `only`.
 ///
 /// # Errors
 /// All checks that fail.
-pub(crate) fn all() -> Result<(), Fault> {
-    let mut steps = Steps::default();
+pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
+    let mut steps = Steps::new(only);
     steps.try_run("lints of every board", lints);
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)

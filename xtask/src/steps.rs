@@ -7,12 +7,22 @@ use crate::run::Fault;
 /// Steps run so far.
 #[derive(Default)]
 pub(crate) struct Steps {
+    /// Parts of the names of the steps that are wanted; none: all are.
+    wanted: Vec<String>,
     done: Vec<(&'static str, Duration)>,
     faults: Vec<String>,
 }
 
 impl Steps {
-    /// Runs a step and notes its time.
+    /// Of all steps those whose name contains one of `wanted`, or all.
+    pub(crate) fn new(wanted: Vec<String>) -> Self {
+        Self {
+            wanted,
+            ..Self::default()
+        }
+    }
+
+    /// Runs a step, if it is wanted, and notes its time.
     ///
     /// # Errors
     /// The step's, after the table of times.
@@ -21,6 +31,9 @@ impl Steps {
         name: &'static str,
         step: impl FnOnce() -> Result<(), Fault>,
     ) -> Result<(), Fault> {
+        if !self.wanted.is_empty() && !self.wanted.iter().any(|part| name.contains(part)) {
+            return Ok(());
+        }
         println!("== {name}");
         let begun = Instant::now();
         let result = step();
