@@ -7,7 +7,7 @@ use crate::emulate::Task;
 use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
-use crate::{arrows, cost, count, docs, emulate, size};
+use crate::{arrows, cost, count, docs, emulate, readme, size};
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -26,6 +26,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     // output and files are what the generated documents must hold.
     steps.run("tests", tests)?;
     steps.run("main job and documents", || docs::all(true))?;
+    steps.run("README's commands", readme::all)?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, two scenes", size::short)?;
     steps.run("emulated board, one scene", board)?;

@@ -9,6 +9,7 @@ mod emulate;
 mod figures;
 mod firmware;
 mod nightly;
+mod readme;
 mod run;
 mod size;
 mod speed;
