@@ -3,6 +3,8 @@
 use std::fmt;
 use std::io::{self, Write};
 
+use tactile::score::Confusion;
+
 /// One decision and what it should have been.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided {
@@ -37,61 +39,53 @@ pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
     table.flush()
 }
 
-/// How often each class was taken for each other.
+/// How good some decisions are.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Confusion {
-    classes: Vec<String>,
-    /// Row: true class; column: decision.
-    counts: Vec<Vec<u64>>,
+pub struct Score {
+    /// The model's classes, and below them labels that it does not know.
+    names: Vec<String>,
+    /// How many the model has.
+    classes: usize,
+    confusion: Confusion,
     samples: u64,
 }
 
-impl Confusion {
+impl Score {
     /// Counts `decisions` among `classes`; labels that the model does not know
     /// get a row of their own below.
     pub fn new(classes: &[String], decisions: &[Decided]) -> Self {
-        let mut rows = classes.to_vec();
+        let mut names = classes.to_vec();
         for d in decisions {
-            if !rows.contains(&d.label) {
-                rows.push(d.label.clone());
+            if !names.contains(&d.label) {
+                names.push(d.label.clone());
             }
         }
-        let place = |name: &String| rows.iter().position(|row| row == name);
-        let mut counts = vec![vec![0; classes.len()]; rows.len()];
+        let place = |name: &String| names.iter().position(|other| other == name);
+        let mut confusion = Confusion::new(names.len());
         for d in decisions {
-            if let (Some(row), Some(column)) = (place(&d.label), place(&d.decision))
-                && let Some(count) = counts.get_mut(row).and_then(|row| row.get_mut(column))
-            {
-                *count += 1;
+            if let (Some(truth), Some(named)) = (place(&d.label), place(&d.decision)) {
+                // Both are among the names.
+                let _ = confusion.add(truth, Some(named));
             }
         }
         let samples = decisions.iter().map(|d| u64::from(d.samples)).sum();
         Self {
-            classes: rows,
-            counts,
+            names,
+            classes: classes.len(),
+            confusion,
             samples,
         }
     }
 
     /// Decisions in all.
     pub fn decisions(&self) -> u64 {
-        self.counts.iter().flatten().sum()
+        self.confusion.named()
     }
 
     /// Share of right decisions for each class that was presented, averaged
     /// over those classes; `None` without a decision.
     pub fn hit_rate(&self) -> Option<f64> {
-        let rates: Vec<f64> = self
-            .counts
-            .iter()
-            .enumerate()
-            .filter_map(|(class, row)| {
-                let total: u64 = row.iter().sum();
-                let right = row.get(class).copied().unwrap_or(0);
-                (total > 0).then(|| right as f64 / total as f64)
-            })
-            .collect();
-        (!rates.is_empty()).then(|| rates.iter().sum::<f64>() / rates.len() as f64)
+        self.confusion.mean_hit_rate()
     }
 
     /// Mean decision time in samples; `None` without a decision.
@@ -101,35 +95,16 @@ impl Confusion {
     }
 }
 
-impl fmt::Display for Confusion {
+/// The confusion matrix.
+impl fmt::Display for Score {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let columns = self.counts.first().map_or(0, Vec::len);
-        let width = self
-            .classes
-            .iter()
-            .map(|name| name.chars().count())
-            .max()
-            .unwrap_or(0)
-            .max(7);
-        write!(f, "{:>width$} |", "true")?;
-        for name in self.classes.iter().take(columns) {
-            write!(f, " {name:>width$}")?;
-        }
-        writeln!(f, "   <- decided")?;
-        for (name, row) in self.classes.iter().zip(&self.counts) {
-            write!(f, "{name:>width$} |")?;
-            for count in row {
-                write!(f, " {count:>width$}")?;
-            }
-            writeln!(f)?;
-        }
-        Ok(())
+        write!(f, "{}", self.confusion.table(&self.names, self.classes))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Confusion, Decided, write};
+    use super::{Decided, Score, write};
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
         Decided {
@@ -147,19 +122,19 @@ mod tests {
         let mut decisions = vec![decided("ice", "ice", 20); 3];
         decisions.push(decided("ice", "loam", 40));
         decisions.push(decided("loam", "loam", 60));
-        let confusion = Confusion::new(&names, &decisions);
-        assert_eq!(confusion.hit_rate(), Some(0.875));
-        assert_eq!(confusion.mean_samples(), Some(32.0));
-        let text = confusion.to_string();
+        let score = Score::new(&names, &decisions);
+        assert_eq!(score.hit_rate(), Some(0.875));
+        assert_eq!(score.mean_samples(), Some(32.0));
+        let text = score.to_string();
         assert!(text.contains("    ice |       3       1"), "{text}");
     }
 
     #[test]
     fn a_label_that_the_model_does_not_know_is_never_a_hit() {
         let names = ["ice".to_owned()];
-        let confusion = Confusion::new(&names, &[decided("mud", "ice", 20)]);
-        assert_eq!(confusion.hit_rate(), Some(0.0));
-        assert_eq!(Confusion::new(&names, &[]).hit_rate(), None);
+        let score = Score::new(&names, &[decided("mud", "ice", 20)]);
+        assert_eq!(score.hit_rate(), Some(0.0));
+        assert_eq!(Score::new(&names, &[]).hit_rate(), None);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use firmware::Event;
 
-use crate::decisions::{Confusion, Decided};
+use crate::decisions::{Decided, Score};
 
 /// A line on standard output. A reader that has gone away does not stop the
 /// work: what counts is in the files.
@@ -57,21 +57,21 @@ pub fn decision(t_s: f64, decided: &Decided) {
 
 /// A score for people: confusion matrix, hit rate, decision time.
 #[derive(Debug)]
-pub struct Summary<'a>(pub &'a Confusion, pub u32);
+pub struct Summary<'a>(pub &'a Score, pub u32);
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(confusion, tick_hz) = self;
-        let (Some(hits), Some(samples)) = (confusion.hit_rate(), confusion.mean_samples()) else {
+        let Self(score, tick_hz) = self;
+        let (Some(hits), Some(samples)) = (score.hit_rate(), score.mean_samples()) else {
             return write!(f, "no decision");
         };
         let milliseconds = samples * 1000.0 / f64::from(*tick_hz);
-        write!(f, "{confusion}")?;
+        write!(f, "{score}")?;
         write!(
             f,
             "{} decisions, hit rate {:.1} % (mean over classes), mean decision time {samples:.0} \
              samples ({milliseconds:.0} ms)",
-            confusion.decisions(),
+            score.decisions(),
             100.0 * hits,
         )
     }

@@ -8,7 +8,7 @@
 //!   [`Quantiser`]; for a model trained on integer sensor codes, that code.
 //! - **bin**: one of the equal cells that a channel's range is cut into.
 //! - **class**: what is to be told apart (a texture, a distance, a terrain).
-//! - **likelihood**: the probability of a bin given a class, learnt from a
+//! - **likelihood**: the probability of a bin given a class, trained on a
 //!   recording (LEP10; LEP12 eq. 3; BIOTACT section IV).
 //! - **block**: the run of samples whose mean log-likelihood is one step of
 //!   evidence (LEP12: m = 20).

@@ -53,9 +53,9 @@ pub struct ReferenceStream<'r> {
 }
 
 impl Reference {
-    /// Learns from a trainer's samples (not from its tables). None without
+    /// Trains on a trainer's samples (not from its tables). None without
     /// samples of two classes.
-    pub fn learn(trainer: &Trainer) -> Option<Self> {
+    pub fn train(trainer: &Trainer) -> Option<Self> {
         let options = trainer.options();
         let classes = trainer.names().len();
         if classes < 2 {

@@ -1,4 +1,4 @@
-//! Learning a likelihood model from a recording, in double precision.
+//! Training a likelihood model from a recording, in double precision.
 //!
 //! For each class and channel: a histogram over equal bins of the channel's
 //! range in the training data (upper edge included), convolved with a Gaussian
@@ -23,7 +23,7 @@ use crate::model_buf::{ModelBuf, ModelParts};
 use crate::quantiser::{Binner, Quantiser};
 pub use crate::train_error::TrainError;
 
-/// How to learn.
+/// How to train.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Bins a channel, 1 to 4096.
@@ -139,7 +139,7 @@ impl Trainer {
             .zip(self.values.chunks_exact(self.channels))
     }
 
-    /// Learns the model.
+    /// Trains the model.
     ///
     /// # Errors
     ///

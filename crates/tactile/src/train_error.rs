@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::ModelError;
 use crate::format::{MAX_CLASSES, MAX_NAME_BYTES};
 
-/// Why no model can be learnt.
+/// Why no model can be trained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum TrainError {

@@ -54,7 +54,7 @@ fn classify<R: DecisionRule>(
 ) -> Vec<Pair> {
     let model = terrain.model.view();
     let mut fixed = NaiveBayes::<R, _>::new(model, settings).unwrap();
-    let reference = Reference::learn(&terrain.trainer).unwrap();
+    let reference = Reference::train(&terrain.trainer).unwrap();
     let mut exact = reference.stream(rule);
     let quantisers = [0, 1].map(|c| model.quantiser(c).unwrap());
     let mut pairs = Vec::new();

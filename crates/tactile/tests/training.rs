@@ -1,4 +1,4 @@
-//! Learning against probabilities worked out by hand, and what it refuses.
+//! Training against probabilities worked out by hand, and what it refuses.
 
 use approx::assert_relative_eq;
 use proptest::prelude::*;
@@ -239,7 +239,7 @@ proptest! {
         prop_assume!(trainer.names().len() == classes);
         let buf = trainer.train().unwrap();
         let model = buf.view();
-        let reference = Reference::learn(&trainer).unwrap();
+        let reference = Reference::train(&trainer).unwrap();
         let mut exact = reference.stream(ReferenceRule::Window(15));
         let mut fixed = Window::new(model, 15).unwrap();
         for (_, sample) in trainer.samples() {

@@ -7,7 +7,7 @@ use tactile::{AnyRule, AnyRuleSettings, Model, NaiveBayes, Quantiser, Threshold}
 
 use crate::Error;
 use crate::classifier::{self, Fault};
-use crate::decisions::{Confusion, Decided};
+use crate::decisions::{Decided, Score};
 use crate::files;
 use crate::progress::{Progress, Verbosity};
 use crate::recording::Stream;
@@ -39,11 +39,11 @@ pub fn classify(
     }
     drop(progress);
     files::write_decisions(out, &decided)?;
-    let confusion = Confusion::new(&classifier::names(&model), &decided);
-    Ok(match (confusion.hit_rate(), confusion.mean_samples()) {
+    let score = Score::new(&classifier::names(&model), &decided);
+    Ok(match (score.hit_rate(), score.mean_samples()) {
         (Some(hits), Some(samples)) => format!(
-            "{confusion}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
-            confusion.decisions(),
+            "{score}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
+            score.decisions(),
             100.0 * hits
         ),
         _ => "no decision".to_owned(),

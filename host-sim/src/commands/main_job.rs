@@ -7,7 +7,7 @@ use tactile::ModelBuf;
 use tactile::train::{Options, Trainer};
 
 use crate::classifier::Classifier;
-use crate::decisions::Confusion;
+use crate::decisions::Score;
 use crate::files::{self, TraceFile};
 use crate::output::write_whole;
 use crate::plot::{self, Mark, Picture, Presented};
@@ -60,8 +60,8 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         plot::left_whisker(&picture).map_err(|error| Error::Work(format!("plot: {error}")))?;
     write_whole(&out.join("textures.svg"), svg.as_bytes())?;
 
-    let confusion = Confusion::new(&deciding.classes, &decided);
-    let summary = report::Summary(&confusion, scene.tick_hz);
+    let score = Score::new(&deciding.classes, &decided);
+    let summary = report::Summary(&score, scene.tick_hz);
     report::say(format_args!(
         "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg"
     ));

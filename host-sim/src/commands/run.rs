@@ -7,7 +7,7 @@ use tactile::ModelBuf;
 
 use crate::bench::Bench;
 use crate::classifier::{Classifier, Fault};
-use crate::decisions::{Confusion, Decided};
+use crate::decisions::{Decided, Score};
 use crate::files::{self, TraceFile};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
@@ -126,8 +126,8 @@ pub fn play<B: Bench + ?Sized>(
     }
     trace.finish()?;
     Ok(scene.classifier.as_ref().map(|_| {
-        let confusion = Confusion::new(run.classes(), &decided);
-        report::Summary(&confusion, scene.tick_hz).to_string()
+        let score = Score::new(run.classes(), &decided);
+        report::Summary(&score, scene.tick_hz).to_string()
     }))
 }
 

@@ -10,7 +10,7 @@
 //!
 //! The rules are [`tactile::Sequential`], [`crate::Window`] and
 //! [`crate::Stationary`] for all of these: what differs is the training data,
-//! which [`learn`] arranges. For the stream see [`crate::recogniser`]: a
+//! which [`train`] arranges. For the stream see [`crate::recogniser`]: a
 //! [`crate::recogniser::Picked`] with the same channels.
 
 use std::vec::Vec;
@@ -18,7 +18,7 @@ use std::vec::Vec;
 use tactile::ModelBuf;
 use tactile::train::{Options, TrainError, Trainer};
 
-/// Which of a whisker's channels are heard.
+/// Which of a whisker's channels are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
     /// Along the whisk.
@@ -79,7 +79,7 @@ impl Pairs {
     }
 }
 
-/// Learns a model by some channels of segments. Its classes are numbered as
+/// Trains a model on some channels of segments. Its classes are numbered as
 /// `names` are, whatever the order of the segments; give it
 /// `pairs.texture(class)` for a class and it is a separate model of textures.
 ///
@@ -87,7 +87,7 @@ impl Pairs {
 ///
 /// As [`Trainer::add`] and [`Trainer::train`]; a class without a name or
 /// without a segment; or a picked channel that there is not.
-pub fn learn<'s>(
+pub fn train<'s>(
     names: &[&str],
     channels: usize,
     picked: &[usize],
@@ -100,20 +100,20 @@ pub fn learn<'s>(
         let there = by_class.get_mut(class);
         there.ok_or(TrainError::ClassUnnamed(class))?.push(segment);
     }
-    let mut heard = Vec::with_capacity(picked.len());
+    let mut taken = Vec::with_capacity(picked.len());
     for (class, (name, segments)) in names.iter().zip(&by_class).enumerate() {
         for segment in segments {
             for sample in segment.chunks(channels.max(1)) {
                 let found = sample.len();
-                heard.clear();
-                heard.extend(picked.iter().filter_map(|&c| sample.get(c)));
-                if found != channels || heard.len() != picked.len() {
+                taken.clear();
+                taken.extend(picked.iter().filter_map(|&c| sample.get(c)));
+                if found != channels || taken.len() != picked.len() {
                     return Err(TrainError::Channels {
                         expected: channels,
                         found,
                     });
                 }
-                trainer.add(name, &heard)?;
+                trainer.add(name, &taken)?;
             }
         }
         // Fewer names: this class had no sample, or another's name.
@@ -167,13 +167,13 @@ mod tests {
             .map(|n| (3 - n % 4, segment(3 - n % 4, 7 + n as u32)))
             .collect();
         let segments = training.iter().map(|(class, s)| (*class, s.as_slice()));
-        let buf = learn(&NAMES, 2, &picked, segments, OPTIONS).unwrap();
+        let buf = train(&NAMES, 2, &picked, segments, OPTIONS).unwrap();
         assert!(buf.names().eq(NAMES));
         let mut recogniser = Picked::new(Bayes::stationary(buf.view()).unwrap(), &picked);
         let mut confusion = Confusion::new(4);
         for n in 0..80 {
-            let heard = segment(n % 4, 1000 + n as u32);
-            let outcome = first_outcome(&mut recogniser, &heard, 2);
+            let taken = segment(n % 4, 1000 + n as u32);
+            let outcome = first_outcome(&mut recogniser, &taken, 2);
             confusion.add(n % 4, outcome.map(|o| o.class)).unwrap();
         }
         confusion
@@ -200,7 +200,7 @@ mod tests {
         let textures = training
             .iter()
             .map(|(class, s)| (PAIRS.texture(*class), s.as_slice()));
-        let buf = learn(&["a", "b"], 2, &[0, 1], textures, OPTIONS).unwrap();
+        let buf = train(&["a", "b"], 2, &[0, 1], textures, OPTIONS).unwrap();
         let mut by_hand = Trainer::new(2, OPTIONS).unwrap();
         for (class, s) in &training {
             let name = ["a", "b"][PAIRS.texture(*class)];
@@ -230,26 +230,26 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         let (a, b) = (vec![0.0, 1.0], vec![5.0, 900.0]);
-        let learn = |names: &[&str], picked: &[usize], classes: [usize; 2], channels| {
+        let train = |names: &[&str], picked: &[usize], classes: [usize; 2], channels| {
             let segments = classes.into_iter().zip([a.as_slice(), b.as_slice()]);
-            learn(names, channels, picked, segments, OPTIONS).err()
+            train(names, channels, picked, segments, OPTIONS).err()
         };
-        assert_eq!(learn(&["a", "b"], &[0], [0, 1], 2), None);
+        assert_eq!(train(&["a", "b"], &[0], [0, 1], 2), None);
         let unnamed = Some(TrainError::ClassUnnamed(2));
-        assert_eq!(learn(&["a", "b"], &[0], [0, 2], 2), unnamed);
+        assert_eq!(train(&["a", "b"], &[0], [0, 2], 2), unnamed);
         let empty = |class| Some(TrainError::ClassEmpty(class));
-        assert_eq!(learn(&["a", "b"], &[0], [1, 1], 2), empty(0));
-        assert_eq!(learn(&["a", "a"], &[0], [0, 1], 2), empty(1));
+        assert_eq!(train(&["a", "b"], &[0], [1, 1], 2), empty(0));
+        assert_eq!(train(&["a", "a"], &[0], [0, 1], 2), empty(1));
         let missing = TrainError::Channels {
             expected: 2,
             found: 2,
         };
-        assert_eq!(learn(&["a", "b"], &[2], [0, 1], 2), Some(missing));
+        assert_eq!(train(&["a", "b"], &[2], [0, 1], 2), Some(missing));
         let ragged = TrainError::Channels {
             expected: 3,
             found: 2,
         };
-        assert_eq!(learn(&["a", "b"], &[0], [0, 1], 3), Some(ragged));
-        assert!(learn(&["a", "b"], &[], [0, 1], 2).is_some());
+        assert_eq!(train(&["a", "b"], &[0], [0, 1], 3), Some(ragged));
+        assert!(train(&["a", "b"], &[], [0, 1], 2).is_some());
     }
 }

@@ -1,4 +1,4 @@
-//! Learning a polynomial of features in double precision, and estimating on a
+//! Training a polynomial of features in double precision, and estimating on a
 //! PC. Written from the definitions and not from the streaming code, so that
 //! the two can be compared.
 //!
@@ -184,7 +184,7 @@ impl FeatureTrainer {
     }
 }
 
-/// Features and the polynomial of them, as learnt.
+/// Features and the polynomial of them, as trained.
 #[derive(Debug, Clone)]
 pub struct FeatureRegression {
     extractor: Extractor,
@@ -226,7 +226,7 @@ impl FeatureRegression {
     /// A recogniser in double precision.
     pub fn recogniser(&self) -> FeatureRecogniser {
         FeatureRecogniser {
-            learnt: self.clone(),
+            trained: self.clone(),
             open: Vec::with_capacity(self.extractor.settings.block),
         }
     }
@@ -235,7 +235,7 @@ impl FeatureRegression {
 /// Estimates block by block.
 #[derive(Debug, Clone)]
 pub struct FeatureRecogniser {
-    learnt: FeatureRegression,
+    trained: FeatureRegression,
     open: Vec<f64>,
 }
 
@@ -243,11 +243,11 @@ impl Recogniser for FeatureRecogniser {
     fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
         let &[x] = sample else { return None };
         self.open.push(x);
-        let block = self.learnt.extractor.settings.block;
+        let block = self.trained.extractor.settings.block;
         if self.open.len() < block {
             return None;
         }
-        let estimate = self.learnt.estimate(&self.open);
+        let estimate = self.trained.estimate(&self.open);
         self.open.clear();
         let (class, value) = estimate.ok()?;
         Some(Outcome {

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::spectrum::SpectrumError;
 
-/// Why a template, spectrum or regression cannot be learnt.
+/// Why a template, spectrum or regression cannot be trained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FitError {

@@ -1,4 +1,4 @@
-//! Mean vectors of classes: what both kinds of template are learnt as.
+//! Mean vectors of classes: what both kinds of template are trained as.
 
 use std::vec;
 use std::vec::Vec;

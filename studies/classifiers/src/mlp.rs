@@ -1,4 +1,4 @@
-//! A feed-forward network with one hidden layer: learning it on a PC, running
+//! A feed-forward network with one hidden layer: training it on a PC, running
 //! it on a module.
 //!
 //! # Glossary
@@ -24,7 +24,7 @@
 //!
 //! | form | numbers | for |
 //! |---|---|---|
-//! | `Network` (feature `train`) | f64 | learning, experiments |
+//! | `Network` (feature `train`) | f64 | training, experiments |
 //! | [`Mlp`] | f32 | parts with an FPU |
 //! | [`FixedMlp`] | 16-bit weights, 32-bit sums | parts without |
 //!

@@ -222,33 +222,33 @@ impl Recogniser for Bayes<'_> {
     }
 }
 
-/// A recogniser that hears some channels of a sample: trained on x alone it
+/// A recogniser that takes some channels of a sample: trained on x alone it
 /// can be asked with x and y. See [`pick`] for training.
 #[derive(Debug, Clone)]
 pub struct Picked<R> {
     recogniser: R,
     channels: Vec<usize>,
-    heard: Vec<f64>,
+    taken: Vec<f64>,
 }
 
 impl<R> Picked<R> {
-    /// Of each sample, the recogniser hears these channels, in this order.
+    /// Of each sample, the recogniser takes these channels, in this order.
     pub fn new(recogniser: R, channels: &[usize]) -> Self {
         Self {
             recogniser,
             channels: channels.to_vec(),
-            heard: Vec::with_capacity(channels.len()),
+            taken: Vec::with_capacity(channels.len()),
         }
     }
 }
 
 impl<R: Recogniser> Recogniser for Picked<R> {
     fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
-        self.heard.clear();
-        let heard = self.channels.iter().filter_map(|&c| sample.get(c));
-        self.heard.extend(heard);
+        self.taken.clear();
+        let taken = self.channels.iter().filter_map(|&c| sample.get(c));
+        self.taken.extend(taken);
         // Where a channel is missing the recogniser refuses the sample.
-        self.recogniser.push(&self.heard)
+        self.recogniser.push(&self.taken)
     }
 
     fn finish(&mut self) -> Option<Outcome> {

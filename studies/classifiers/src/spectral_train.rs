@@ -1,4 +1,4 @@
-//! Learning spectral templates in double precision, and matching them on a PC.
+//! Training spectral templates in double precision, and matching them on a PC.
 //!
 //! See [`crate::spectral_template`] for the rule.
 
@@ -73,7 +73,7 @@ impl SpectralTrainer {
         Ok(())
     }
 
-    /// Learns the templates.
+    /// Trains the templates.
     ///
     /// # Errors
     ///
@@ -88,7 +88,7 @@ impl SpectralTrainer {
     }
 }
 
-/// Spectral templates as learnt.
+/// Spectral templates as trained.
 #[derive(Debug, Clone)]
 pub struct SpectralTemplates {
     channels: usize,

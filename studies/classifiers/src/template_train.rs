@@ -1,4 +1,4 @@
-//! Learning templates in double precision, and matching them on a PC.
+//! Training templates in double precision, and matching them on a PC.
 //!
 //! See [`crate::template`] for the rule and the words.
 
@@ -62,7 +62,7 @@ impl TemplateTrainer {
         Ok(())
     }
 
-    /// Learns the templates.
+    /// Trains the templates.
     ///
     /// # Errors
     ///
@@ -131,7 +131,7 @@ fn code(quantiser: &Quantiser, x: f64) -> i16 {
     code.clamp(quantiser.low, quantiser.high) as i16
 }
 
-/// Templates as learnt.
+/// Templates as trained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Templates {
     channels: usize,

@@ -142,7 +142,7 @@ fn what_the_examples_do_not_say_is_not_made_up() {
 
 /// Speed by peak deflection, as in POSE.
 #[test]
-fn classes_are_learnt_and_the_board_names_the_same() {
+fn classes_are_trained_and_the_board_names_the_same() {
     let mut trainer = FeatureTrainer::new(settings(), &[Feature::Peak], 2).unwrap();
     // Peaks that grow with the root of the class: a second-degree relation.
     let peak = |class: usize| (1.0 + class as f64).sqrt();
@@ -153,14 +153,14 @@ fn classes_are_learnt_and_the_board_names_the_same() {
                 .unwrap();
         }
     }
-    let learnt = trainer.train().unwrap();
-    let mut pc = learnt.recogniser();
+    let trained = trainer.train().unwrap();
+    let mut pc = trained.recogniser();
     let features = settings().features::<498>().unwrap();
-    let terms = learnt.regression().single_terms::<1>().unwrap();
+    let terms = trained.regression().single_terms::<1>().unwrap();
     let rule = FeatureRule {
         chosen: [Feature::Peak],
-        polynomial: learnt.regression().polynomial(&terms).unwrap(),
-        classes: learnt.classes(),
+        polynomial: trained.regression().polynomial(&terms).unwrap(),
+        classes: trained.classes(),
     };
     let mut state = features.state();
     for class in 0..5 {
@@ -176,10 +176,10 @@ fn classes_are_learnt_and_the_board_names_the_same() {
         assert_eq!(estimate.class, class);
         assert!((f64::from(estimate.value) - value).abs() < 1e-4);
     }
-    let named = |peak| first_outcome(&mut learnt.recogniser(), &contact(peak, 0.01), 1).unwrap();
+    let named = |peak| first_outcome(&mut trained.recogniser(), &contact(peak, 0.01), 1).unwrap();
     assert_eq!(named(9.0).class, 4, "beyond the last");
     assert_eq!(pc.push(&[0.0; 2]), None);
-    assert_eq!(learnt.chosen(), [Feature::Peak]);
+    assert_eq!(trained.chosen(), [Feature::Peak]);
 }
 
 #[test]

@@ -1,9 +1,9 @@
-//! Networks against numpy, and learning against what is known beforehand.
+//! Networks against numpy, and training against what is known beforehand.
 
 #[path = "common/rows.rs"]
 mod rows;
 
-use classifiers::mlp::train::{Options, TrainError, Trained, Trainer};
+use classifiers::mlp::train::{NetworkTrainError, NetworkTrainer, Options, Trained};
 use classifiers::mlp::{MlpError, Network, Shape};
 use rows::Random;
 
@@ -20,8 +20,8 @@ fn options(hidden: usize) -> Options {
     }
 }
 
-fn learnt(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, TrainError> {
-    let mut trainer = Trainer::new(rows[0].1.len(), options)?;
+fn train(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, NetworkTrainError> {
+    let mut trainer = NetworkTrainer::new(rows[0].1.len(), options)?;
     for (label, row) in rows {
         trainer.add(label, row)?;
     }
@@ -69,11 +69,11 @@ fn outputs_are_those_of_numpy() {
 
 /// No network without a hidden layer can.
 #[test]
-fn exclusive_or_is_learnt() {
+fn exclusive_or_is_trained() {
     let rows: Vec<(&str, Vec<f64>)> = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)]
         .map(|(a, b)| (if a == b { "equal" } else { "different" }, vec![a, b]))
         .into();
-    let trained = learnt(
+    let trained = train(
         Options {
             reliable: 0.9,
             ..options(3)
@@ -106,7 +106,7 @@ fn two_normal_classes_are_told_as_well_as_can_be() {
     let rows: Vec<(&str, Vec<f64>)> = (0..4000)
         .map(|n| (["a", "b"][n % 2], draw(n % 2, &mut random)))
         .collect();
-    let trained = learnt(
+    let trained = train(
         Options {
             held_out: 0.15,
             patience: 6,
@@ -120,7 +120,7 @@ fn two_normal_classes_are_told_as_well_as_can_be() {
         .filter(|n| trained.network.classify(&draw(n % 2, &mut random)).unwrap() == n % 2)
         .count();
     let rate = hits as f64 / f64::from(trials as u32);
-    // Standard error 0.26 %; learning from 4000 rows costs some tenths.
+    // Standard error 0.26 %; training on 4000 rows costs some tenths.
     assert!((0.828..0.850).contains(&rate), "{rate}");
 }
 
@@ -130,13 +130,13 @@ fn the_same_seed_gives_the_same_bits_and_another_another() {
     let rows: Vec<(&str, Vec<f64>)> = (0..60)
         .map(|n| (["a", "b", "c"][n % 3], rows::imp(n % 3, 6, &mut random)))
         .collect();
-    let once = learnt(options(4), &rows).unwrap();
-    assert_eq!(once, learnt(options(4), &rows).unwrap());
+    let once = train(options(4), &rows).unwrap();
+    assert_eq!(once, train(options(4), &rows).unwrap());
     let other = Options {
         seed: 2,
         ..options(4)
     };
-    assert_ne!(once.network, learnt(other, &rows).unwrap().network);
+    assert_ne!(once.network, train(other, &rows).unwrap().network);
 }
 
 #[test]
@@ -150,17 +150,17 @@ fn a_penalty_shrinks_weights() {
             decay,
             ..options(4)
         };
-        let weights = learnt(with, &rows).unwrap().network.weights().to_vec();
+        let weights = train(with, &rows).unwrap().network.weights().to_vec();
         weights.iter().map(|w| w * w).sum::<f64>()
     };
     let (free, held) = (size(0.0), size(1e-3));
     assert!(held < 0.25 * free, "{free} {held}");
 }
 
-/// Labels that say nothing: with samples held out, learning ends soon, and the
-/// training set is not learnt by heart; without, it is.
+/// Labels that say nothing: with samples held out, training ends soon, and the
+/// training set is not memorised; without, it is.
 #[test]
-fn holding_out_stops_learning_by_heart() {
+fn holding_out_stops_memorising() {
     let mut random = Random(11);
     let rows: Vec<(&str, Vec<f64>)> = (0..120)
         .map(|n| {
@@ -171,7 +171,7 @@ fn holding_out_stops_learning_by_heart() {
         })
         .collect();
     let mean = |options| {
-        let rates = learnt(options, &rows).unwrap().hit_rates;
+        let rates = train(options, &rows).unwrap().hit_rates;
         rates.iter().sum::<f64>() / rates.len() as f64
     };
     let stopped = Options {
@@ -194,15 +194,15 @@ fn an_input_that_is_constant_in_training_is_left_out() {
             )
         })
         .collect();
-    let trained = learnt(options(3), &rows).unwrap();
+    let trained = train(options(3), &rows).unwrap();
     assert_eq!(trained.network.gain()[1], 0.0);
     let y = |constant| trained.network.outputs(&[0.5, constant]).unwrap();
     assert_eq!(y(0.1), y(1e6));
 }
 
 #[test]
-fn what_cannot_be_learnt_is_refused_by_name() {
-    let made = |options| Trainer::new(2, options).map(|_| ());
+fn what_cannot_be_trained_is_refused_by_name() {
+    let made = |options| NetworkTrainer::new(2, options).map(|_| ());
     let base = options(3);
     let refused = |change: fn(&mut Options)| {
         let mut options = base;
@@ -210,28 +210,34 @@ fn what_cannot_be_learnt_is_refused_by_name() {
         made(options).unwrap_err()
     };
     assert_eq!(made(base), Ok(()));
-    assert_eq!(refused(|o| o.decay = -0.1), TrainError::Decay(-0.1));
+    assert_eq!(refused(|o| o.decay = -0.1), NetworkTrainError::Decay(-0.1));
     assert!(matches!(
         refused(|o| o.held_out = f64::NAN),
-        TrainError::HeldOut(_)
+        NetworkTrainError::HeldOut(_)
     ));
-    assert_eq!(refused(|o| o.held_out = 0.6), TrainError::HeldOut(0.6));
-    assert_eq!(refused(|o| o.reliable = 1.0), TrainError::Reliable(1.0));
-    assert_eq!(refused(|o| o.attempts = 0), TrainError::NoAttempts);
+    assert_eq!(
+        refused(|o| o.held_out = 0.6),
+        NetworkTrainError::HeldOut(0.6)
+    );
+    assert_eq!(
+        refused(|o| o.reliable = 1.0),
+        NetworkTrainError::Reliable(1.0)
+    );
+    assert_eq!(refused(|o| o.attempts = 0), NetworkTrainError::NoAttempts);
     assert_eq!(
         refused(|o| o.hidden = 0),
-        TrainError::Network(MlpError::Hidden(0))
+        NetworkTrainError::Network(MlpError::Hidden(0))
     );
     assert_eq!(
-        Trainer::new(0, base).map(|_| ()),
-        Err(TrainError::Network(MlpError::Inputs(0)))
+        NetworkTrainer::new(0, base).map(|_| ()),
+        Err(NetworkTrainError::Network(MlpError::Inputs(0)))
     );
 
-    let mut trainer = Trainer::new(2, base).unwrap();
-    assert_eq!(trainer.train(), Err(TrainError::NoSamples));
+    let mut trainer = NetworkTrainer::new(2, base).unwrap();
+    assert_eq!(trainer.train(), Err(NetworkTrainError::NoSamples));
     assert_eq!(
         trainer.add("a", &[1.0]),
-        Err(TrainError::Inputs {
+        Err(NetworkTrainError::Inputs {
             expected: 2,
             found: 1
         })
@@ -239,23 +245,26 @@ fn what_cannot_be_learnt_is_refused_by_name() {
     for x in [f64::NAN, f64::INFINITY, 1e39] {
         assert_eq!(
             trainer.add("a", &[1.0, x]),
-            Err(TrainError::NotFinite { input: 1 })
+            Err(NetworkTrainError::NotFinite { input: 1 })
         );
     }
-    assert_eq!(trainer.add("", &[1.0, 1.0]), Err(TrainError::NameEmpty));
+    assert_eq!(
+        trainer.add("", &[1.0, 1.0]),
+        Err(NetworkTrainError::NameEmpty)
+    );
     assert_eq!(trainer.rows(), 0);
     trainer.add("a", &[1.0, 1.0]).unwrap();
-    assert_eq!(trainer.train(), Err(TrainError::OneClass));
+    assert_eq!(trainer.train(), Err(NetworkTrainError::OneClass));
     // Both rows alike: no start can hit both classes.
     trainer.add("b", &[1.0, 1.0]).unwrap();
     assert_eq!(
         trainer.train(),
-        Err(TrainError::NotReliable { attempts: 10 })
+        Err(NetworkTrainError::NotReliable { attempts: 10 })
     );
     // Deviation 1e-40: one over it is no f32.
     trainer.add("b", &[1.0, 1.0]).unwrap();
-    let mut narrow = Trainer::new(1, base).unwrap();
+    let mut narrow = NetworkTrainer::new(1, base).unwrap();
     narrow.add("a", &[0.0]).unwrap();
     narrow.add("b", &[2e-40]).unwrap();
-    assert_eq!(narrow.train(), Err(TrainError::Range { input: 0 }));
+    assert_eq!(narrow.train(), Err(NetworkTrainError::Range { input: 0 }));
 }

@@ -3,14 +3,14 @@
 #[path = "common/rows.rs"]
 mod rows;
 
-use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::train::{NetworkTrainer, Options};
 use classifiers::mlp::{FixedInput, FixedMlp, Mlp, MlpError, MlpInput, Network, Shape};
 use proptest::prelude::*;
 use rows::Random;
 use tactile::Aligned;
 
-/// Learns to tell made-up rows, and yields as many new ones.
-fn learnt(
+/// Trains to tell made-up rows, and yields as many new ones.
+fn train(
     options: Options,
     classes: usize,
     make: impl Fn(usize, &mut Random) -> Vec<f64>,
@@ -22,7 +22,7 @@ fn learnt(
             .collect()
     };
     let training = rows(&mut random);
-    let mut trainer = Trainer::new(training[0].1.len(), options).unwrap();
+    let mut trainer = NetworkTrainer::new(training[0].1.len(), options).unwrap();
     for (class, row) in &training {
         trainer.add(&format!("{class}"), row).unwrap();
     }
@@ -30,13 +30,13 @@ fn learnt(
 }
 
 fn spectra() -> (Network, Vec<(usize, Vec<f64>)>) {
-    learnt(Options::spectrum(1), 4, |class, random| {
+    train(Options::spectrum(1), 4, |class, random| {
         rows::spectrum(class, 120, random)
     })
 }
 
 fn imps() -> (Network, Vec<(usize, Vec<f64>)>) {
-    learnt(Options::imp(1), 8, |class, random| {
+    train(Options::imp(1), 8, |class, random| {
         rows::imp(class, 33, random)
     })
 }
@@ -93,7 +93,7 @@ fn the_single_precision_form_is_within_its_bound() {
     let (network, rows) = imps();
     let imp = off::<33, 33, 8>(&network, &rows);
     for (off, name) in [(&spectrum, "spectrum"), (&imp, "imp")] {
-        // Learnt in earnest: a network that knows nothing would be easy.
+        // Trained in earnest: a network that knows nothing would be easy.
         assert!(off.hits > 0.8, "{name}: {}", off.hits);
         assert!(
             (5e-8..2e-6).contains(&off.single),

@@ -7,7 +7,7 @@ mod rows;
 use std::f64::consts::TAU;
 
 use classifiers::imp::{Band, ImpError, ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
-use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::train::{NetworkTrainer, Options};
 use classifiers::mlp::{MlpError, Network, Shape, SpectrumInputs, SpectrumRecogniser};
 use classifiers::recogniser::{Recogniser, first_outcome, outcomes};
 use rows::Random;
@@ -32,7 +32,7 @@ fn block(floor: usize, random: &mut Random) -> Vec<f64> {
 
 fn floors(inputs: &mut SpectrumInputs) -> Network {
     let mut random = Random(1);
-    let mut trainer = Trainer::new(inputs.inputs(), Options::spectrum(4)).unwrap();
+    let mut trainer = NetworkTrainer::new(inputs.inputs(), Options::spectrum(4)).unwrap();
     for n in 0..160 {
         let row = inputs.row(&block(n % 4, &mut random)).unwrap();
         trainer.add(&format!("floor {}", n % 4), &row).unwrap();
@@ -117,7 +117,7 @@ fn features() -> ImpFeatures {
 fn papers_are_told_by_the_imp_of_a_sweep() {
     let mut random = Random(5);
     let mut features = features();
-    let mut trainer = Trainer::new(6, Options::imp(2)).unwrap();
+    let mut trainer = NetworkTrainer::new(6, Options::imp(2)).unwrap();
     for n in 0..90 {
         let row = features.sweep(&sweep(n % 3, 1000, &mut random));
         trainer.add(&format!("P{}", n % 3), &row).unwrap();
@@ -137,12 +137,12 @@ fn papers_are_told_by_the_imp_of_a_sweep() {
     assert_eq!(recogniser.finish(), None, "no sample, no class");
 }
 
-/// Learnt from single windows, used by votes.
+/// Trained on single windows, used by votes.
 #[test]
 fn corridors_are_told_by_votes() {
     let mut random = Random(6);
     let mut features = features();
-    let mut trainer = Trainer::new(6, Options::imp(3)).unwrap();
+    let mut trainer = NetworkTrainer::new(6, Options::imp(3)).unwrap();
     for n in 0..90 {
         for sample in sweep(n % 3, 400, &mut random).chunks(12) {
             if let Some(row) = features.push(sample) {

@@ -102,7 +102,7 @@ proptest! {
         }
         prop_assume!(trainer.names().len() == classes);
         let buf = trainer.train().unwrap();
-        let reference = Reference::learn(&trainer).unwrap();
+        let reference = Reference::train(&trainer).unwrap();
         let mut fixed = Stationary::new(buf.view(), ()).unwrap();
         let mut exact = reference.stream(ReferenceRule::Stationary);
         for (_, sample) in trainer.samples().take(20) {

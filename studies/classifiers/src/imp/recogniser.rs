@@ -89,7 +89,7 @@ impl ImpFeatures {
     }
 
     /// The IMP of each vibrissa summed over the windows of a whole sweep, its
-    /// samples one after the other: a row to learn from.
+    /// samples one after the other: a row to train on.
     pub fn sweep(&mut self, segment: &[f64]) -> Vec<f64> {
         self.reset();
         let mut sums = vec![0.0; self.vibrissae.len()];
@@ -131,7 +131,7 @@ pub struct ImpSweepRecogniser<'n> {
 }
 
 impl<'n> ImpSweepRecogniser<'n> {
-    /// Of the features that the network was learnt from
+    /// Of the features that the network was trained on
     /// ([`ImpFeatures::sweep`]).
     ///
     /// # Errors
@@ -198,7 +198,7 @@ pub struct ImpVoteRecogniser<'n> {
 }
 
 impl<'n> ImpVoteRecogniser<'n> {
-    /// Of the features that the network was learnt from ([`ImpFeatures::push`]).
+    /// Of the features that the network was trained on ([`ImpFeatures::push`]).
     /// `smoothing` is the low-pass's time constant, windows; nought is none.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 //!
 //! The products are written out rather than left to a matrix library: those
 //! choose their instructions by the processor they meet, fuse or do not fuse
-//! multiplication and addition, and so learn another network on another
+//! multiplication and addition, and so train another network on another
 //! machine. Here the same seed gives the same bits everywhere.
 
 use std::vec;

@@ -1,11 +1,10 @@
-//! A network of any shape in f64: what learning yields, what experiments run,
+//! A network of any shape in f64: what training yields, what experiments run,
 //! and what the embedded forms are made from.
 
 use std::vec;
 use std::vec::Vec;
 
 use super::error::MlpError;
-use super::fixed::FixedMlp;
 use super::format::{check_shape, write};
 use super::limits::{MAX_SCALED, MAX_WEIGHT};
 use super::single::Mlp;
@@ -204,17 +203,6 @@ impl Network {
     ) -> Result<Mlp<I, H, O>, MlpError> {
         Mlp::copied(&self.to_bytes())
     }
-
-    /// The network in fixed point, for integer inputs.
-    ///
-    /// # Errors
-    ///
-    /// Its shape is another, or an input's scale cannot be held.
-    pub fn fixed<const I: usize, const H: usize, const O: usize>(
-        &self,
-    ) -> Result<FixedMlp<I, H, O>, MlpError> {
-        FixedMlp::from_network(self)
-    }
 }
 
 /// Index of the largest, the first of equals; of none, nought.
@@ -263,7 +251,7 @@ pub(super) fn forward(
 }
 
 /// σ(u). By libm's exp rather than the system's, which may differ in its last
-/// bit from machine to machine: what is learnt must not.
+/// bit from machine to machine: what is trained must not.
 pub(super) fn logistic(u: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-u))
 }

@@ -70,7 +70,7 @@ impl SpectrumInputs {
         self.spectrum.block()
     }
 
-    /// The row of a block, its samples one after the other: to learn from, or
+    /// The row of a block, its samples one after the other: to train on, or
     /// to classify.
     ///
     /// # Errors
@@ -95,7 +95,7 @@ pub struct SpectrumRecogniser<'n> {
 }
 
 impl<'n> SpectrumRecogniser<'n> {
-    /// Of the inputs that the network was learnt from.
+    /// Of the inputs that the network was trained on.
     ///
     /// # Errors
     ///

@@ -1,7 +1,7 @@
-//! Learning a network from labelled rows of inputs, in double precision.
+//! Training a network from labelled rows of inputs, in double precision.
 //!
 //! Back-propagation of the mean squared error of the outputs, minimised over
-//! the whole training set at once (batch learning) by L-BFGS with the line
+//! the whole training set at once (batch training) by L-BFGS with the line
 //! search of Moré and Thuente. LEP12 section 5.2 minimises the same error by
 //! scaled conjugate gradients, PSIK section 3.2.1 by iRPROP; all three are
 //! batch methods that find a minimum near their random start.
@@ -11,7 +11,7 @@
 //!
 //! A start can end in a poor minimum. So LEP12 used a network only if it told
 //! every class better than chance (all hit rates above 25 %) and averaged ten;
-//! a [`Trainer`] likewise starts anew, up to [`Options::attempts`] times, and
+//! a [`NetworkTrainer`] likewise starts anew, up to [`Options::attempts`] times, and
 //! averaging is left to the caller, who has the seed.
 //!
 //! The same samples, options and seed give the same network, to the last bit,
@@ -31,7 +31,7 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::gradient::Samples;
 use super::network::{Network, Shape, scaled};
-pub use error::TrainError;
+pub use error::NetworkTrainError;
 pub use options::Options;
 use session::{Found, session};
 
@@ -54,7 +54,7 @@ pub struct Trained {
 
 /// Collects rows of inputs and their classes.
 #[derive(Debug, Clone)]
-pub struct Trainer {
+pub struct NetworkTrainer {
     options: Options,
     inputs: usize,
     names: Vec<String>,
@@ -62,13 +62,13 @@ pub struct Trainer {
     values: Vec<f64>,
 }
 
-impl Trainer {
+impl NetworkTrainer {
     /// A trainer for rows of so many inputs.
     ///
     /// # Errors
     ///
     /// An option or the number of inputs is out of range.
-    pub fn new(inputs: usize, options: Options) -> Result<Self, TrainError> {
+    pub fn new(inputs: usize, options: Options) -> Result<Self, NetworkTrainError> {
         options.check()?;
         let (hidden, outputs) = (options.hidden, 2);
         Shape {
@@ -91,25 +91,25 @@ impl Trainer {
     /// # Errors
     ///
     /// The row or the name is unusable; it is then not added.
-    pub fn add(&mut self, label: &str, row: &[f64]) -> Result<(), TrainError> {
+    pub fn add(&mut self, label: &str, row: &[f64]) -> Result<(), NetworkTrainError> {
         if row.len() != self.inputs {
-            return Err(TrainError::Inputs {
+            return Err(NetworkTrainError::Inputs {
                 expected: self.inputs,
                 found: row.len(),
             });
         }
         // As f32, which a module's network reads.
         if let Some(input) = row.iter().position(|x| !(*x as f32).is_finite()) {
-            return Err(TrainError::NotFinite { input });
+            return Err(NetworkTrainError::NotFinite { input });
         }
         if label.is_empty() {
-            return Err(TrainError::NameEmpty);
+            return Err(NetworkTrainError::NameEmpty);
         }
         let class = if let Some(class) = self.names.iter().position(|n| n == label) {
             class
         } else {
             if self.names.len() == super::MAX_OUTPUTS {
-                return Err(TrainError::TooManyClasses);
+                return Err(NetworkTrainError::TooManyClasses);
             }
             self.names.push(label.to_owned());
             self.names.len() - 1
@@ -130,16 +130,16 @@ impl Trainer {
         self.classes.len()
     }
 
-    /// Learns a network.
+    /// Trains a network.
     ///
     /// # Errors
     ///
     /// Fewer than two classes, an input that spans more than an f32 can scale,
     /// or no start that was reliable.
-    pub fn train(&self) -> Result<Trained, TrainError> {
+    pub fn train(&self) -> Result<Trained, NetworkTrainError> {
         match self.names.len() {
-            0 => return Err(TrainError::NoSamples),
-            1 => return Err(TrainError::OneClass),
+            0 => return Err(NetworkTrainError::NoSamples),
+            1 => return Err(NetworkTrainError::OneClass),
             _ => {}
         }
         let shape = Shape {
@@ -150,9 +150,9 @@ impl Trainer {
         let (offset, gain) = self.scale()?;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.options.seed);
         for attempt in 1..=self.options.attempts {
-            let [learnt, held_out] = self.split(&offset, &gain, &mut random);
+            let [training, held_out] = self.split(&offset, &gain, &mut random);
             let start = start(shape, &mut random);
-            let Some(found) = session(shape, &self.options, start, &learnt, &held_out) else {
+            let Some(found) = session(shape, &self.options, start, &training, &held_out) else {
                 continue;
             };
             let Found {
@@ -175,13 +175,13 @@ impl Trainer {
                 });
             }
         }
-        Err(TrainError::NotReliable {
+        Err(NetworkTrainError::NotReliable {
             attempts: self.options.attempts,
         })
     }
 
     /// Mean and one over the standard deviation of each input.
-    fn scale(&self) -> Result<(Vec<f64>, Vec<f64>), TrainError> {
+    fn scale(&self) -> Result<(Vec<f64>, Vec<f64>), NetworkTrainError> {
         let rows = self.rows() as f64;
         let mut offset = vec![0.0; self.inputs];
         let mut gain = vec![0.0; self.inputs];
@@ -194,13 +194,13 @@ impl Trainer {
             let spread = deviation > mean.abs() * 1e-12 && deviation > 0.0;
             (offset[input], gain[input]) = (mean, if spread { 1.0 / deviation } else { 0.0 });
             if !(gain[input] as f32).is_finite() {
-                return Err(TrainError::Range { input });
+                return Err(NetworkTrainError::Range { input });
             }
         }
         Ok((offset, gain))
     }
 
-    /// Samples to learn from and samples held out, scaled, of each class the
+    /// Samples to train on and samples held out, scaled, of each class the
     /// same part.
     fn split(&self, offset: &[f64], gain: &[f64], random: &mut Xoshiro256PlusPlus) -> [Samples; 2] {
         let mut parts = [Samples::default(), Samples::default()];
@@ -226,7 +226,7 @@ impl Trainer {
         parts
     }
 
-    fn hit_rates(&self, network: &Network) -> Result<Vec<f64>, TrainError> {
+    fn hit_rates(&self, network: &Network) -> Result<Vec<f64>, NetworkTrainError> {
         let mut hits = vec![0_u32; self.names.len()];
         let mut trials = vec![0_u32; self.names.len()];
         for (row, &class) in self.values.chunks_exact(self.inputs).zip(&self.classes) {

@@ -8,7 +8,7 @@
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).
 
-use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::train::{NetworkTrainer, Options};
 use classifiers::recogniser::outcomes;
 use classifiers::spectral_train::SpectralTrainer;
 use classifiers::spectrum::{Bins, Measure, Spectrum};
@@ -84,7 +84,7 @@ pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]
         .map(|session| {
             let options = Options::spectrum(seed_of(seed, &[12, session]));
             let inputs = training.first().map_or(0, |(_, row)| row.len());
-            let mut trainer = Trainer::new(inputs, options).map_err(refused)?;
+            let mut trainer = NetworkTrainer::new(inputs, options).map_err(refused)?;
             for (floor, row) in &training {
                 trainer.add(FLOORS[*floor], row).map_err(refused)?;
             }

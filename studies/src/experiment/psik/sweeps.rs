@@ -1,7 +1,7 @@
 //! The sweeps over the sandpapers, and the networks that are trained on them.
 
 use classifiers::mlp::Network;
-use classifiers::mlp::train::{Options, Trainer};
+use classifiers::mlp::train::{NetworkTrainer, Options};
 use tactile::score::Confusion;
 
 use crate::experiment::record::pad::{PAPERS, place};
@@ -55,7 +55,7 @@ pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Er
     options.hidden = inputs.max(1);
     // The paper sets no bar, and few vibrissae cannot tell every paper.
     options.reliable = 0.0;
-    let mut trainer = Trainer::new(inputs, options).map_err(refused)?;
+    let mut trainer = NetworkTrainer::new(inputs, options).map_err(refused)?;
     for (class, row) in rows {
         trainer
             .add(&format!("class {class}"), row)

@@ -3,9 +3,22 @@
 use super::{FixedInput, FixedMlp, MAX_BITS, OUTPUT_BITS, SCALED_BITS, hidden_fits, output_fits};
 use crate::mlp::{MlpError, Network};
 
+impl Network {
+    /// The network in fixed point, for integer inputs.
+    ///
+    /// # Errors
+    ///
+    /// Its shape is another, or an input's scale cannot be held.
+    pub fn fixed<const I: usize, const H: usize, const O: usize>(
+        &self,
+    ) -> Result<FixedMlp<I, H, O>, MlpError> {
+        FixedMlp::from_network(self)
+    }
+}
+
 impl<const I: usize, const H: usize, const O: usize> FixedMlp<I, H, O> {
     /// Rounds a network, with as many fraction bits as its sums can bear.
-    pub(in crate::mlp) fn from_network(network: &Network) -> Result<Self, MlpError> {
+    fn from_network(network: &Network) -> Result<Self, MlpError> {
         let shape = network.shape();
         if (shape.inputs, shape.hidden, shape.outputs) != (I, H, O) {
             return Err(MlpError::Shape {

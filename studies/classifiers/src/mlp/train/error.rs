@@ -1,13 +1,13 @@
-//! What can be wrong with the samples or the options of learning a network.
+//! What can be wrong with the samples or the options of training a network.
 
 use core::fmt;
 
 use crate::mlp::{MAX_OUTPUTS, MlpError};
 
-/// Why no network can be learnt.
+/// Why no network can be trained.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum TrainError {
+pub enum NetworkTrainError {
     /// A row with another number of inputs.
     Inputs {
         /// As the trainer was made.
@@ -50,7 +50,7 @@ pub enum TrainError {
     Network(MlpError),
 }
 
-impl fmt::Display for TrainError {
+impl fmt::Display for NetworkTrainError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Inputs { expected, found } => {
@@ -79,9 +79,9 @@ impl fmt::Display for TrainError {
     }
 }
 
-impl core::error::Error for TrainError {}
+impl core::error::Error for NetworkTrainError {}
 
-impl From<MlpError> for TrainError {
+impl From<MlpError> for NetworkTrainError {
     fn from(e: MlpError) -> Self {
         Self::Network(e)
     }

@@ -1,8 +1,8 @@
-//! How to learn a network, and the papers' ways.
+//! How to train a network, and the papers' ways.
 
-use super::TrainError;
+use super::NetworkTrainError;
 
-/// How to learn.
+/// How to train.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Hidden units, 1 to 1024.
@@ -11,7 +11,7 @@ pub struct Options {
     pub iterations: u64,
     /// λ of the penalty λ/2 Σ w² on all weights but biases; 0 is none.
     pub decay: f64,
-    /// Part of each class's samples that is held out of the learning, 0 (none)
+    /// Part of each class's samples that is held out of the training, 0 (none)
     /// to 0.5, to stop it in time: the network is the one with the lowest error
     /// on them.
     pub held_out: f64,
@@ -29,10 +29,10 @@ pub struct Options {
 
 impl Options {
     /// LEP12 section 5.2: 20 hidden units, ten starts, reliable above 25 %.
-    /// The paper does not say when its learning stopped. Here 15 % are held
+    /// The paper does not say when its training stopped. Here 15 % are held
     /// out and six failures end it, which were the defaults of the toolboxes
     /// with scaled conjugate gradients of the time: 2500 weights on 960 rows
-    /// would else learn the noise.
+    /// would else fit the noise.
     pub fn spectrum(seed: u64) -> Self {
         Self {
             hidden: 20,
@@ -63,18 +63,18 @@ impl Options {
     }
 
     /// Refuses what is out of range.
-    pub(super) fn check(self) -> Result<(), TrainError> {
+    pub(super) fn check(self) -> Result<(), NetworkTrainError> {
         if !(0.0..=1.0).contains(&self.decay) {
-            return Err(TrainError::Decay(self.decay));
+            return Err(NetworkTrainError::Decay(self.decay));
         }
         if !(0.0..=0.5).contains(&self.held_out) {
-            return Err(TrainError::HeldOut(self.held_out));
+            return Err(NetworkTrainError::HeldOut(self.held_out));
         }
         if !(0.0..1.0).contains(&self.reliable) {
-            return Err(TrainError::Reliable(self.reliable));
+            return Err(NetworkTrainError::Reliable(self.reliable));
         }
         if self.attempts == 0 {
-            return Err(TrainError::NoAttempts);
+            return Err(NetworkTrainError::NoAttempts);
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! One start of learning: from first weights to the best ones on the way.
+//! One start of training: from first weights to the best ones on the way.
 
 use std::cell::RefCell;
 use std::vec;
@@ -21,17 +21,17 @@ const MEMORY: usize = 10;
 /// What a start found.
 pub(super) struct Found {
     pub(super) weights: Vec<f64>,
-    /// Mean over the samples learnt from of Σ_k (y_k − t_k)².
+    /// Mean over the training samples of Σ_k (y_k − t_k)².
     pub(super) mean_square: f64,
     pub(super) iterations: u64,
 }
 
-/// Learns from a start; None if no finite error was met.
+/// Trains from a start; None if no finite error was met.
 pub(super) fn session(
     shape: Shape,
     options: &Options,
     start: Vec<f64>,
-    learnt: &Samples,
+    training: &Samples,
     held_out: &Samples,
 ) -> Option<Found> {
     let best = RefCell::new(Best {
@@ -49,7 +49,7 @@ pub(super) fn session(
     };
     let batch = Batch {
         shape,
-        samples: learnt,
+        samples: training,
         decay: options.decay,
         last: RefCell::new(Last::default()),
     };
@@ -68,7 +68,7 @@ pub(super) fn session(
         return None;
     }
     Some(Found {
-        mean_square: 2.0 * cost(shape, &weights, learnt, 0.0),
+        mean_square: 2.0 * cost(shape, &weights, training, 0.0),
         weights,
         iterations,
     })
