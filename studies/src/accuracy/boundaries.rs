@@ -7,7 +7,7 @@ use whisking::muscle::MuscleIntegrator;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Config, Fix, Integrator, Real, muscle, oscillator};
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::page::{Page, short};
 use super::schemes::{Format, Pace};
 use crate::refused::refused;
@@ -203,13 +203,6 @@ fn picture() -> Result<String, Error> {
         }
     }
     let [euler, exact] = measured;
-    let series = |name: &str, colour: usize, mark, joined, points| Series {
-        name: name.to_owned(),
-        colour: COLOURS.get(colour).copied().unwrap_or(COLOURS[0]),
-        mark,
-        joined,
-        points,
-    };
     draw(&[Panel {
         title: "radius of the limit cycle".to_owned(),
         x: Axis::decades("f_W T", [1e-4, 0.1].into_iter()),
@@ -220,15 +213,14 @@ fn picture() -> Result<String, Error> {
             log: false,
         },
         series: vec![
-            series(
+            Series::new(
                 "euler, predicted up to the limit",
                 0,
                 Mark::Nothing,
-                true,
                 predicted,
             ),
-            series("euler, measured", 2, Mark::Ring, false, euler),
-            series("exact, measured", 1, Mark::Dot, false, exact),
+            Series::new("euler, measured", 2, Mark::Ring, euler).unjoined(),
+            Series::new("exact, measured", 1, Mark::Dot, exact).unjoined(),
         ],
     }])
 }

@@ -112,6 +112,27 @@ pub(crate) struct Series {
     pub(crate) points: Vec<(f64, f64)>,
 }
 
+impl Series {
+    /// Joined points in the colour of a number; grey beyond the last.
+    pub(crate) fn new(name: &str, colour: usize, mark: Mark, points: Vec<(f64, f64)>) -> Self {
+        Self {
+            name: name.to_owned(),
+            colour: COLOURS.get(colour).copied().unwrap_or(COLOURS[0]),
+            mark,
+            joined: true,
+            points,
+        }
+    }
+
+    /// The points alone.
+    pub(crate) fn unjoined(self) -> Self {
+        Self {
+            joined: false,
+            ..self
+        }
+    }
+}
+
 /// One diagram.
 #[derive(Debug, Clone)]
 pub(crate) struct Panel {

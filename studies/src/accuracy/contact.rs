@@ -13,7 +13,7 @@ mod runs;
 
 use std::fmt::Write;
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::page::{Page, short};
 use host_sim::Error;
 use runs::{Measured, TICKS_HZ};
@@ -132,21 +132,11 @@ fn csv(measured: &[Against]) -> String {
 }
 
 /// Curves of all surfaces: x and y of each tick.
-fn curves(
-    measured: &[Against],
-    point: impl Fn(usize, &Against, &Measured, u32) -> (f64, f64),
-) -> Vec<Series> {
-    let curve = |(n, against): (usize, &Against)| Series {
-        name: against.name.to_owned(),
-        colour: COLOURS.get(n).copied().unwrap_or(COLOURS[0]),
-        mark: Mark::Dot,
-        joined: true,
-        points: against
-            .ticks
-            .iter()
-            .zip(TICKS_HZ)
-            .map(|(m, hz)| point(n, against, m, hz))
-            .collect(),
+fn curves(measured: &[Against], point: impl Fn(&Measured, u32) -> (f64, f64)) -> Vec<Series> {
+    let curve = |(n, against): (usize, &Against)| {
+        let points = against.ticks.iter().zip(TICKS_HZ);
+        let points = points.map(|(m, hz)| point(m, hz)).collect();
+        Series::new(against.name, n, Mark::Dot, points)
     };
     measured.iter().enumerate().map(curve).collect()
 }
@@ -163,13 +153,11 @@ fn panel(title: &str, names: [&'static str; 2], series: Vec<Series>) -> Panel {
 }
 
 fn picture(measured: &[Against]) -> Result<String, Error> {
-    let error = curves(measured, |_, _, m, hz| {
+    let error = curves(measured, |m, hz| {
         let steps = 1.0 - m.share + m.share * m.parts;
         (steps * f64::from(hz), m.rms)
     });
-    let change = curves(measured, |_, _, m, hz| {
-        (f64::from(hz), (m.change - 1.0).abs())
-    });
+    let change = curves(measured, |m, hz| (f64::from(hz), (m.change - 1.0).abs()));
     draw(&[
         panel(
             "error of the rotation",

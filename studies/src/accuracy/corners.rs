@@ -6,6 +6,7 @@ use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};
 
 use super::page::{Page, short};
+use super::schemes::{PAPERS, Pace};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -154,14 +155,14 @@ fn combinations() -> Vec<Settings> {
                     for integrator in [Integrator::Exact, Integrator::Euler] {
                         let tau_s = in_ticks / tick_hz + in_whisks / frequency_hz;
                         let gate = Some(GateSettings { gain, tau_s });
-                        list.push(Settings {
-                            tick_hz,
+                        let pace = Pace {
                             frequency_hz,
-                            integrator,
-                            coupling: true,
-                            noise: 0.0,
+                            tick_hz,
+                        };
+                        list.push(Settings {
                             rcp: gate,
                             cia: gate,
+                            ..pace.settings(integrator)
                         });
                     }
                 }
@@ -180,13 +181,9 @@ fn recovery<R: Real>(integrator: Integrator) -> Result<f64, Error> {
     for gain in [0.7, 100.0] {
         let gate = Some(GateSettings { gain, tau_s: 0.125 });
         let settings = Settings {
-            tick_hz: 2_000.0,
-            frequency_hz: 2.0,
-            integrator,
-            coupling: true,
-            noise: 0.0,
             rcp: gate,
             cia: gate,
+            ..PAPERS.settings(integrator)
         };
         for psi in STARTS {
             for input in INPUTS {

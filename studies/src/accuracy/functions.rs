@@ -3,7 +3,7 @@
 
 use whisking::{Fix, Real};
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::counts::{Counts, Target, cell};
 use super::page::{Page, short, verdict};
 use host_sim::Error;
@@ -262,15 +262,9 @@ fn picture(page: &mut Page, panels: Vec<(Function, Points)>) -> Result<(), Error
             y: Axis::decades("largest error", y),
             series: points
                 .iter()
-                .map(|(maker, (x, y))| Series {
-                    name: maker.name().to_owned(),
-                    colour: COLOURS.get(*maker as usize).copied().unwrap_or(COLOURS[0]),
-                    mark: Mark::Dot,
-                    joined: false,
-                    points: vec![(*x, *y)]
-                        .into_iter()
-                        .filter(|(_, y)| *y > 0.0)
-                        .collect(),
+                .map(|(maker, (x, y))| {
+                    let points = if *y > 0.0 { vec![(*x, *y)] } else { Vec::new() };
+                    Series::new(maker.name(), *maker as usize, Mark::Dot, points).unjoined()
                 })
                 .collect(),
         }

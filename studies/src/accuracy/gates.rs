@@ -4,7 +4,7 @@
 use whisking::gate::Gate;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State};
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::page::{Page, short};
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, name};
@@ -192,16 +192,10 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
                 points.push((1e3 / tick_hz, error));
             }
             rows.push(row);
-            panel.series.push(Series {
-                name,
-                colour: COLOURS
-                    .get(panel.series.len())
-                    .copied()
-                    .unwrap_or(COLOURS[0]),
-                mark: Mark::Dot,
-                joined: true,
-                points,
-            });
+            let colour = panel.series.len();
+            panel
+                .series
+                .push(Series::new(&name, colour, Mark::Dot, points));
         }
     }
     page.table(

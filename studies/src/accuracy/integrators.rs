@@ -2,7 +2,7 @@
 
 use whisking::Integrator;
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::counts::{Counts, Target, cell};
 use super::page::{Page, short, verdict};
 use super::reference::{Case, Truth};
@@ -83,15 +83,12 @@ pub(super) fn diagram(
         series: measured
             .iter()
             .enumerate()
-            .map(|(n, errors)| Series {
-                name: errors.scheme.name(),
-                colour: COLOURS.get(n).copied().unwrap_or(COLOURS[0]),
-                mark: match errors.scheme {
+            .map(|(n, errors)| {
+                let mark = match errors.scheme {
                     Scheme::Product(Integrator::Exact, _) => Mark::Dot,
                     _ => Mark::Ring,
-                },
-                joined: true,
-                points: points(errors, f),
+                };
+                Series::new(&errors.scheme.name(), n, mark, points(errors, f))
             })
             .filter(|series| !series.points.is_empty())
             .collect(),

@@ -14,23 +14,18 @@ use std::time::Duration;
 
 use whisking::{Fix, Real};
 
-use super::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
+use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::page::{Page, short, verdict};
-use super::schemes::{Format, Pace};
+use super::schemes::{Format, PAPERS, Pace};
 use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 use whisk::{Length, MINUTE_TICKS, Row};
 
-/// 2 Hz at 2 kHz.
-const PACE: Pace = Pace {
-    frequency_hz: 2.0,
-    tick_hz: 2_000.0,
-};
 /// A frequency that no number of ticks is whole whisks of: at 2 Hz a whisk is
 /// 1000 ticks, and rounding holds the phase to the orbit that closes.
 const ODD: Pace = Pace {
     frequency_hz: std::f64::consts::E,
-    ..PACE
+    ..PAPERS
 };
 /// Largest |r − 1| that is allowed.
 const ROUND: f64 = 1e-3;
@@ -132,7 +127,7 @@ impl Row {
 
 /// The whole run at 2 Hz, then one stretch of it at the odd frequency.
 fn both<R: Real>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>, Error> {
-    let mut rows = whisk::run::<R>(format, PACE, length, done)?;
+    let mut rows = whisk::run::<R>(format, PAPERS, length, done)?;
     let stretch = Length {
         stretches: 1,
         ..length
@@ -167,7 +162,7 @@ pub(super) fn section(page: &mut Page, table: Option<&Table>, quick: bool) -> Re
         "A day takes too long for every run of the report. `studies report --long` runs it and \
          writes `docs/measured/accuracy/long-run.csv`; what stands here is read from there."
     });
-    let cells = [PACE, ODD].map(|pace| Format::ALL.map(|format| summary(rows, format, pace)));
+    let cells = [PAPERS, ODD].map(|pace| Format::ALL.map(|format| summary(rows, format, pace)));
     page.table(
         "run | largest deviation of r from 1 | goal 1e-3 | phase at the end, degrees | \
          frequency, ppm | drift of the range of θ', degrees",
@@ -229,18 +224,13 @@ fn picture(rows: &[Row]) -> Result<String, Error> {
     let shown = || {
         Format::ALL
             .into_iter()
-            .flat_map(|format| own(rows, format, PACE))
+            .flat_map(|format| own(rows, format, PAPERS))
     };
     let most = shown().map(|row| degrees(row).abs());
     let most = 1.1 * most.fold(1e-9, f64::max);
-    let series = |(n, format): (usize, Format)| Series {
-        name: format.name().to_owned(),
-        colour: COLOURS.get(n + 1).copied().unwrap_or(COLOURS[0]),
-        mark: Mark::Dot,
-        joined: true,
-        points: own(rows, format, PACE)
-            .map(|row| (hours(row), degrees(row)))
-            .collect(),
+    let series = |(n, format): (usize, Format)| {
+        let points = own(rows, format, PAPERS).map(|row| (hours(row), degrees(row)));
+        Series::new(format.name(), n + 1, Mark::Dot, points.collect())
     };
     let end = shown().map(hours).fold(0.0, f64::max);
     draw(&[Panel {

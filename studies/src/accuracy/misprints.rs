@@ -10,10 +10,10 @@ pub(crate) mod figures;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, State};
 
-use figures::{FREE, FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
+use figures::{FREE, Printed, Row, run};
 
 use super::page::Page;
-use super::schemes::Pace;
+use super::schemes::PAPERS;
 use crate::paper::biotact::{FIG6, FIG7, FIG8, FIG9, Figure};
 use crate::peaks::peaks;
 use crate::refused::refused;
@@ -197,11 +197,7 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
 /// Time constant of the phase difference of the sides in whisks, from 0.2 rad
 /// over two whisks, by the exact integrator in f64.
 fn locking() -> Result<f64, Error> {
-    let pace = Pace {
-        frequency_hz: FREQUENCY_HZ,
-        tick_hz: TICK_HZ,
-    };
-    let settings = pace.settings(Integrator::Exact);
+    let settings = PAPERS.settings(Integrator::Exact);
     let config = settings.build::<f64>().map_err(refused)?;
     let start = settings.start(apart(), [[1.0]; 2]).map_err(refused)?;
     let mut state = State::<f64, 2, 1>::new(&start, 1);

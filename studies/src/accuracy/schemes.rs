@@ -98,6 +98,12 @@ pub(super) struct Pace {
     pub(super) tick_hz: f64,
 }
 
+/// 2 Hz at 2 kHz, as in all of BIOTACT.
+pub(super) const PAPERS: Pace = Pace {
+    frequency_hz: 2.0,
+    tick_hz: 2_000.0,
+};
+
 impl Pace {
     /// Coupled, without noise and gates.
     pub(super) fn settings(self, integrator: Integrator) -> Settings {

@@ -55,19 +55,15 @@ pub(super) fn percent(name: &'static str) -> Axis {
 
 /// A diagram of joined points.
 pub(super) fn panel(title: &str, x: Axis, y: Axis, curves: &[Curve], mark: Mark) -> Panel {
-    let series = curves.iter().zip(COLOURS.into_iter().skip(1).cycle());
+    // Grey is for what is beside the point.
+    let colours = (1..COLOURS.len()).cycle();
+    let series = curves.iter().zip(colours);
     Panel {
         title: title.to_owned(),
         x,
         y,
         series: series
-            .map(|(curve, colour)| Series {
-                name: curve.name.clone(),
-                colour,
-                mark,
-                joined: true,
-                points: curve.points.clone(),
-            })
+            .map(|(curve, colour)| Series::new(&curve.name, colour, mark, curve.points.clone()))
             .collect(),
     }
 }

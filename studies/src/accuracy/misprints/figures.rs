@@ -5,14 +5,15 @@ use whisking::{
     GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter, muscle,
 };
 
+use crate::accuracy::schemes::PAPERS;
 use crate::paper::biotact::{FIG6, FIG9, Figure, OBSTACLES_DEG, OVERLAP_GAIN};
 use crate::refused::refused;
 use host_sim::Error;
 
 /// Of all runs, Hz.
-pub(crate) const TICK_HZ: f64 = 2_000.0;
+pub(crate) const TICK_HZ: f64 = PAPERS.tick_hz;
 /// Whisk frequency of all runs, Hz.
-pub(crate) const FREQUENCY_HZ: f64 = 2.0;
+pub(crate) const FREQUENCY_HZ: f64 = PAPERS.frequency_hz;
 const RUN_TICKS: usize = 20_000;
 /// One formula as printed; the others as read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,13 +67,9 @@ fn excite(cia: &Cia<f64>, lift: &mut Gate<f64>, nominal: f64, zeta: f64, printed
 /// Ten seconds of `figure`.
 pub(crate) fn run(figure: &Figure, printed: Printed) -> Result<Vec<Row>, Error> {
     let settings = Settings {
-        tick_hz: TICK_HZ,
-        frequency_hz: FREQUENCY_HZ,
-        integrator: Integrator::Euler,
-        coupling: true,
-        noise: 0.0,
         rcp: figure.rcp.map(gate),
         cia: figure.cia.map(gate),
+        ..PAPERS.settings(Integrator::Euler)
     };
     let mut config = settings.build::<f64>().map_err(refused)?;
     let cia = config.cia.take();
