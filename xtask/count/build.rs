@@ -7,9 +7,9 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::{env, fs};
 
-use databake::{Bake, CrateEnv};
+use databake::{Bake, CrateEnv, TokenStream, quote};
 use tactile::train::{Options, Trainer};
-use whisking::{GateSettings, Integrator, Real, Settings, filter, pd};
+use whisking::{GateSettings, Integrator, Real, Settings, filter, muscle, oscillator, pd};
 
 /// Ticks a second: BIOTACT's.
 const TICK_HZ: f64 = 2000.0;
@@ -94,6 +94,16 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
     let exact = settings(Integrator::Exact);
     let [papers, whisking] = [euler.build::<R>()?, exact.build::<R>()?];
     let none = "settings without a part";
+    let (oscillator::Config::Euler(papers_oscillators), muscle::Config::Euler(papers_muscle)) =
+        (papers.oscillators, papers.muscle)
+    else {
+        return Err("not the papers' integrator".into());
+    };
+    let (oscillator::Config::Exact(oscillators), muscle::Config::Exact(muscle)) =
+        (whisking.oscillators, whisking.muscle)
+    else {
+        return Err("not the exact integrator".into());
+    };
     let left = [0.6, -0.8];
     let psi = [left, [0.0, -1.0]];
     let pd = pd::Settings {
@@ -109,19 +119,34 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
     let parts = [
         part(
             "H50",
-            "filter::Config<Self>",
+            "&'static filter::Config<Self>",
             &filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?,
         ),
-        part("RCP", "gate::Rcp<Self>", &whisking.rcp.ok_or(none)?),
-        part("CIA", "gate::Cia<Self>", &whisking.cia.ok_or(none)?),
-        part("NOISE", "noise::Config<Self>", &whisking.noise.ok_or(none)?),
-        part("PEAK_GAIN", "Self", &whisking.peak_gain),
+        part(
+            "RCP",
+            "&'static gate::Rcp<Self>",
+            &whisking.rcp.ok_or(none)?,
+        ),
+        part(
+            "CIA",
+            "&'static gate::Cia<Self>",
+            &whisking.cia.ok_or(none)?,
+        ),
+        part(
+            "NOISE",
+            "&'static noise::Config<Self>",
+            &whisking.noise.ok_or(none)?,
+        ),
         part(
             "EULER_OSCILLATORS",
-            "oscillator::Config<Self>",
-            &papers.oscillators,
+            "&'static oscillator::Euler<Self>",
+            &papers_oscillators,
         ),
-        part("EULER_MUSCLE", "muscle::Config<Self>", &papers.muscle),
+        part(
+            "EULER_MUSCLE",
+            "&'static muscle::Euler<Self>",
+            &papers_muscle,
+        ),
         part(
             "EULER_START",
             "Start<Self, 2, 1>",
@@ -129,10 +154,10 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         ),
         part(
             "OSCILLATORS",
-            "oscillator::Config<Self>",
-            &whisking.oscillators,
+            "&'static oscillator::Exact<Self>",
+            &oscillators,
         ),
-        part("MUSCLE", "muscle::Config<Self>", &whisking.muscle),
+        part("MUSCLE", "&'static muscle::Exact<Self>", &muscle),
         part(
             "START_1",
             "Start<Self, 1, 1>",
@@ -148,7 +173,9 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
             "Start<Self, 2, 12>",
             &exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?,
         ),
-        part("PD", "pd::Config<Self>", &pd.build::<R>(TICK_HZ)?),
+        generator("WHISKING", "Exact", whisking),
+        generator("EULER_WHISKING", "Euler", papers),
+        part("PD", "&'static pd::Config<Self>", &pd.build::<R>(TICK_HZ)?),
     ];
     Ok(format!(
         "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{}}}\n",
@@ -157,10 +184,27 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-/// `const NAME: TYPE = VALUE;`.
+/// `const NAME: TYPE = VALUE;`; of a reference the value is that of its target.
 fn part(name: &str, of_type: &str, value: &impl Bake) -> String {
-    let value = value.bake(&CrateEnv::default());
-    format!("    const {name}: {of_type} = {value};\n")
+    line(name, of_type, &value.bake(&CrateEnv::default()))
+}
+
+fn line(name: &str, of_type: &str, value: &TokenStream) -> String {
+    let by_reference = if of_type.starts_with('&') { "&" } else { "" };
+    format!("    const {name}: {of_type} = {by_reference}{value};\n")
+}
+
+/// A pattern generator without noise.
+fn generator<R: Real>(name: &str, integrator: &str, config: whisking::Config<R>) -> String {
+    let quiet = whisking::Config {
+        noise: None,
+        ..config
+    };
+    let of_type = format!(
+        "&'static Generator<Self, oscillator::{integrator}<Self>, muscle::{integrator}<Self>>"
+    );
+    let source = quiet.source(&quote!(Self), &CrateEnv::default());
+    line(name, &of_type, &source.value)
 }
 
 /// H50 as two second-order sections b0, b1, b2, a1, a2 (denominator

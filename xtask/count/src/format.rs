@@ -1,12 +1,13 @@
 //! Number formats and the constants that their kernels need, made by the build
-//! script: constants, so that the optimiser sees them as in the firmware.
+//! script. A kernel takes them by [`in_memory`], as the tick of a board reads
+//! them from its settings.
 
-use whisking::{Real, Start, filter, gate, muscle, noise, oscillator, pd};
+use whisking::{Absent, Present, Real, Start, filter, gate, muscle, noise, oscillator, pd};
 
 /// Made by the build script.
 #[allow(clippy::unreadable_literal, reason = "numbers as they print")]
 mod constants {
-    use super::Format;
+    use super::{Format, Generator};
     use whisking::{Fix, Start, filter, gate, muscle, noise, oscillator, pd};
 
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
@@ -20,25 +21,23 @@ pub trait Format: Real {
     /// Its name in the table.
     const NAME: &'static str;
     /// The contact filter.
-    const H50: filter::Config<Self>;
+    const H50: &'static filter::Config<Self>;
     /// Suppression.
-    const RCP: gate::Rcp<Self>;
+    const RCP: &'static gate::Rcp<Self>;
     /// Excitation.
-    const CIA: gate::Cia<Self>;
+    const CIA: &'static gate::Cia<Self>;
     /// Noise of the oscillators.
-    const NOISE: noise::Config<Self>;
-    /// 1.45.
-    const PEAK_GAIN: Self;
+    const NOISE: &'static noise::Config<Self>;
     /// The papers' oscillators.
-    const EULER_OSCILLATORS: oscillator::Config<Self>;
+    const EULER_OSCILLATORS: &'static oscillator::Euler<Self>;
     /// The papers' muscle.
-    const EULER_MUSCLE: muscle::Config<Self>;
+    const EULER_MUSCLE: &'static muscle::Euler<Self>;
     /// Where both sides of the papers' start.
     const EULER_START: Start<Self, 2, 1>;
     /// The structure-preserving oscillators.
-    const OSCILLATORS: oscillator::Config<Self>;
+    const OSCILLATORS: &'static oscillator::Exact<Self>;
     /// The fourth-order muscle.
-    const MUSCLE: muscle::Config<Self>;
+    const MUSCLE: &'static muscle::Exact<Self>;
     /// One side with a whisker.
     const START_1: Start<Self, 1, 1>;
     /// Two sides with a whisker each.
@@ -46,21 +45,20 @@ pub trait Format: Real {
     /// Two sides with twelve whiskers each.
     const START_24: Start<Self, 2, 12>;
     /// Position control.
-    const PD: pd::Config<Self>;
+    const PD: &'static pd::Config<Self>;
 
     /// A whole pattern generator with the structure-preserving integrators.
-    const WHISKING: whisking::Config<Self> = whisking::Config {
-        oscillators: Self::OSCILLATORS,
-        muscle: Self::MUSCLE,
-        peak_gain: Self::PEAK_GAIN,
-        rcp: Some(Self::RCP),
-        cia: Some(Self::CIA),
-        noise: None,
-    };
+    const WHISKING: &'static Generator<Self, oscillator::Exact<Self>, muscle::Exact<Self>>;
     /// The same with the papers' integrators.
-    const EULER_WHISKING: whisking::Config<Self> = whisking::Config {
-        oscillators: Self::EULER_OSCILLATORS,
-        muscle: Self::EULER_MUSCLE,
-        ..Self::WHISKING
-    };
+    const EULER_WHISKING: &'static Generator<Self, oscillator::Euler<Self>, muscle::Euler<Self>>;
+}
+
+/// A pattern generator with RCP and CIA, without noise, which few scenes have.
+pub type Generator<R, Oscillators, Muscle> =
+    whisking::Config<R, Oscillators, Muscle, Present<gate::Rcp<R>>, Present<gate::Cia<R>>, Absent>;
+
+/// A constant that the compiler must read from memory.
+#[inline]
+pub fn in_memory<T>(constant: &T) -> &T {
+    core::hint::black_box(constant)
 }

@@ -13,9 +13,9 @@ use firmware::{
 use mlx90333::{Decoder, FRAME_LEN};
 use tactile::{Model, Sequential, SequentialRule};
 use whisking::motor::{HBridge, StallConfig};
-use whisking::{Absent, Present, Start, State, filter};
+use whisking::{Absent, Present, Start, State, filter, muscle, oscillator};
 
-use crate::format::Format;
+use crate::format::{Format, Generator};
 use crate::listener::{THRESHOLD, open_9};
 use crate::samples::frame;
 
@@ -111,27 +111,29 @@ type Motor = HBridge<Compare, Pin>;
 type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
 type Perception = Classifying<CodeClassifier<SequentialRule>>;
 
+type Whisking<R> = Generator<R, oscillator::Exact<R>, muscle::Exact<R>>;
 type Settings<R> =
-    Config<ActiveConfig<R>, ClassifyingConfig<Absent, ()>, Present<filter::Config<R>>>;
+    Config<ActiveConfig<R, Whisking<R>>, ClassifyingConfig<Absent, ()>, Present<filter::Config<R>>>;
 
 /// A module and the last event that it told.
 #[derive(Debug)]
 pub struct Whole<R: Format, const S: usize, const N: usize> {
     module: Module<R, Frames, Motion<R, S, N>, Perception, Counter, S, N>,
+    settings: Settings<R>,
     told: Option<Event>,
 }
 
 impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     /// Frame, contact filter, RCP, CIA, oscillators, muscles, position control
     /// and a classifier of nine classes; no noise, which few scenes have.
-    const CONFIG: Settings<R> = Config {
+    const SETTINGS: Settings<R> = Config {
         decoder: Decoder::new(),
         hold_limits: hold_limits(TICK_HZ),
-        contact: Present(R::H50),
+        contact: Present(*R::H50),
         motion: ActiveConfig {
-            whisking: R::WHISKING,
+            whisking: *R::WHISKING,
             servo: ServoConfig {
-                pd: R::PD,
+                pd: *R::PD,
                 retry: retry(TICK_HZ),
                 stall: STALL,
             },
@@ -165,6 +167,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
         let motion = Active::new(State::new(start, 1), servos);
         Self {
             module: Module::new(sources, motion, Classifying::new(stream), Counter(0)),
+            settings: Self::SETTINGS,
             told: None,
         }
     }
@@ -174,7 +177,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     pub fn tick(&mut self) {
         let told = &mut self.told;
         self.module
-            .tick(&Self::CONFIG, &mut |event| *told = Some(event));
+            .tick(&self.settings, &mut |event| *told = Some(event));
     }
 }
 

@@ -5,7 +5,7 @@
 use mlx90333::Decoder;
 use whisking::{PatternGenerator, Start, State, filter, pd};
 
-use crate::format::Format;
+use crate::format::{Format, in_memory};
 use crate::listener::{Listener, open_9};
 use crate::samples::frame;
 
@@ -29,7 +29,10 @@ impl<R: Format> Channel<R> {
         let words = [frame.first(), frame.second()];
         let [x, y] = words.map(|word| R::from_code(word.signed14().max(-8191)));
         let [on_x, on_y] = &mut self.filters;
-        let felt = [R::H50.process(on_x, x), R::H50.process(on_y, y)];
+        let felt = [
+            in_memory(R::H50).process(on_x, x),
+            in_memory(R::H50).process(on_y, y),
+        ];
         let strongest = felt
             .into_iter()
             .fold(strongest, |most, one| one.abs().max(most));
@@ -101,7 +104,7 @@ pub fn whisk<R: Format, const S: usize, const N: usize>(
     state: &mut State<R, S, N>,
     contact: [R; S],
 ) {
-    R::WHISKING.step(state, contact);
+    in_memory(R::WHISKING).step(state, contact);
 }
 
 /// Lets the motors follow; the sum of the duties.
@@ -114,7 +117,8 @@ pub fn follow<R: Format, const S: usize, const N: usize>(
     for (channels, whiskers) in channels.iter_mut().zip(&state.whiskers) {
         for (channel, whisker) in channels.iter_mut().zip(whiskers) {
             channel.counts += 2;
-            let duty = R::PD.step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
+            let duty =
+                in_memory(R::PD).step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
             said = said.wrapping_add(duty.magnitude().into());
         }
     }

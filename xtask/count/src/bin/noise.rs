@@ -1,7 +1,7 @@
 //! The noise of the oscillators.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
+use count::format::{Format, in_memory};
 use count::{each_format, kernel, program};
 use whisking::noise;
 
@@ -15,7 +15,7 @@ fn kernels() {
 fn both_sides<R: Format>() {
     kernel!(R: "noise of 2 sides",
         (_: u32, (state, out): &mut (noise::State<R, 2>, [[R; 2]; 2])) {
-            *out = R::NOISE.step(state);
+            *out = in_memory(R::NOISE).step(state);
         },
         |call| call, (noise::State::new(1), [[R::ZERO; 2]; 2]));
 }

@@ -1,7 +1,7 @@
 //! The whole pattern generator of one side with a whisker.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
+use count::format::{Format, in_memory};
 use count::samples::number;
 use count::{each_format, kernel, program};
 use whisking::{PatternGenerator, State};
@@ -16,7 +16,7 @@ fn kernels() {
 fn whisking<R: Format>() {
     kernel!(R: "whisking 1 side 1 whisker",
         (contact: R, state: &mut State<R, 1, 1>) {
-            R::WHISKING.step(state, [contact]);
+            in_memory(R::WHISKING).step(state, [contact]);
         },
         number::<R>(0.0, 1.0), State::new(&R::START_1, 1));
 }

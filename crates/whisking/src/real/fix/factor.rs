@@ -14,7 +14,7 @@ pub(super) const SATURATED: i32 = 4 << FRACTION;
 pub struct Factor {
     /// Magnitude 2^14 to 2^15 − 1, or zero.
     pub mantissa: i16,
-    /// −30 to 46.
+    /// −30 to 30.
     pub shift: i32,
 }
 
