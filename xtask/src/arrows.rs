@@ -9,7 +9,8 @@
 //! item stands where its `impl` stands. `mod` is no arrow, nor is a re-export
 //! (`pub use`, also `pub(crate) use`), through which a name is looked up to the file
 //! that defines it. Code under `cfg(test)` and the files of `tests/` have none.
-//! A method called without a path is not seen, nor is what a build script writes.
+//! Of what a macro writes, the items named after `pub` in its call are known. A method
+//! called without a path is not seen, nor is what a build script writes.
 //!
 //! **Names of public types** occur in one library only, so that a search finds one
 //! thing (those of the programs above all others apart); [`SHARED`] names are understood within their module.

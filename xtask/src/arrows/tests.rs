@@ -175,6 +175,24 @@ fn macros_and_their_arguments_draw_arrows() {
 }
 
 #[test]
+fn items_that_a_macro_writes_are_known() {
+    let files = [
+        ("lib.rs", "mod a; mod b; mod keys;"),
+        ("a.rs", "crate::keys::keys! { pub struct A { x: u8 } }"),
+        (
+            "b.rs",
+            "crate::keys::keys! { pub(crate) B fills u8 } use crate::a::A;",
+        ),
+        (
+            "keys.rs",
+            "macro_rules! keys { () => {} } pub(crate) use keys; fn f(_: crate::b::B) {}",
+        ),
+    ];
+    assert!(drawn(&files).contains(&"b.rs a.rs A".to_owned()));
+    assert_eq!(sizes(&files), [3]);
+}
+
+#[test]
 fn tests_draw_none() {
     let files = [
         (

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use proc_macro2::{TokenStream, TokenTree};
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Ident, Item, Meta, Token, UseTree, Visibility};
 
@@ -68,6 +69,10 @@ pub(super) struct Definition {
     pub(super) associated: BTreeSet<String>,
     is_public: bool,
 }
+
+/// Keywords before the name of a type and of a value.
+const TYPES: [&str; 5] = ["enum", "struct", "trait", "type", "union"];
+const VALUES: [&str; 3] = ["const", "fn", "static"];
 
 impl Tree {
     /// Reads the modules that begin in the file `root`.
@@ -139,6 +144,7 @@ impl Tree {
             }
             Item::Macro(definition) => {
                 let Some(ident) = &definition.ident else {
+                    self.name_written(module, &definition.mac.tokens);
                     return Ok(());
                 };
                 (ident, &Visibility::Inherited, Sort::Macro)
@@ -165,24 +171,60 @@ impl Tree {
             _ => return Ok(()),
         };
         let file = self.modules[module].file.clone();
-        let id = self.items.len();
-        self.items.push(Definition {
-            name: ident.to_string(),
+        let name = ident.to_string();
+        let definition = Definition {
+            name: name.clone(),
             sort,
             alias,
             associated,
             is_public: matches!(visibility, Visibility::Public(_)),
             file,
-        });
-        self.mean(module, ident.to_string(), Meaning::Item(id));
+        };
+        let id = self.define(module, definition);
         if sort == Sort::Macro
             && attributes(item)
                 .iter()
                 .any(|a| a.path().is_ident("macro_export"))
         {
-            self.mean(0, ident.to_string(), Meaning::Item(id));
+            self.mean(0, name, Meaning::Item(id));
         }
         Ok(())
+    }
+
+    /// Enters the items that a macro writes, as far as its `tokens` name them: after
+    /// `pub`, with a keyword between or without.
+    fn name_written(&mut self, module: ModuleId, tokens: &TokenStream) {
+        let mut tokens = tokens.clone().into_iter().peekable();
+        while let Some(token) = tokens.next() {
+            if !matches!(&token, TokenTree::Ident(ident) if ident == "pub") {
+                continue;
+            }
+            let restricted = tokens.next_if(|token| matches!(token, TokenTree::Group(_)));
+            let keyword = tokens.next_if(|token| {
+                let text = token.to_string();
+                TYPES.contains(&text.as_str()) || VALUES.contains(&text.as_str())
+            });
+            let Some(TokenTree::Ident(name)) = tokens.next() else {
+                continue;
+            };
+            let is_value = keyword.is_some_and(|word| VALUES.contains(&word.to_string().as_str()));
+            let definition = Definition {
+                name: name.to_string(),
+                file: self.modules[module].file.clone(),
+                sort: if is_value { Sort::Value } else { Sort::Type },
+                alias: None,
+                associated: BTreeSet::new(),
+                is_public: restricted.is_none(),
+            };
+            self.define(module, definition);
+        }
+    }
+
+    fn define(&mut self, module: ModuleId, definition: Definition) -> ItemId {
+        let id = self.items.len();
+        self.mean(module, definition.name.clone(), Meaning::Item(id));
+        self.items.push(definition);
+        id
     }
 
     fn read_child(
