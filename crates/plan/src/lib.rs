@@ -16,7 +16,7 @@ use whisking::{Error, Real, filter, pd};
 
 /// Constants of an active module of `S` sides with `N` whiskers each.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion<R: Real, const S: usize, const N: usize> {
+pub struct MotionPlan<R: Real, const S: usize, const N: usize> {
     /// Oscillators, muscles and gates.
     pub whisking: whisking::Config<R>,
     /// Where they start.
@@ -100,7 +100,7 @@ pub fn cautions(scene: &Scene) -> Option<Unstable> {
 /// [`Mismatch::Unstable`] if its integrator cannot carry it.
 pub fn motion<R: Real, const S: usize, const N: usize>(
     scene: &Scene,
-) -> Result<Option<Motion<R, S, N>>, Mismatch> {
+) -> Result<Option<MotionPlan<R, S, N>>, Mismatch> {
     let (Some(settings), Some(whisking), Some(motor)) =
         (settings(scene), &scene.whisking, &scene.motor)
     else {
@@ -121,7 +121,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
     }
     let tick_hz = f64::from(scene.tick_hz);
     let degrees_per_count = 360.0 / (f64::from(motor.counts_per_rev) * motor.gear);
-    Ok(Some(Motion {
+    Ok(Some(MotionPlan {
         whisking: settings.build()?,
         start: settings.start(start, gain)?,
         pd: pd::Settings {

@@ -60,7 +60,11 @@ pub(super) const ALL: [Part; 19] = [
     },
     Part {
         name: "any motor",
-        code: &["whisking::motor::", "firmware::active::"],
+        code: &[
+            "whisking::motor::",
+            "firmware::active::",
+            "firmware::servo::",
+        ],
         named: |scene, _| scene.motor.is_some(),
     },
     Part {
@@ -93,7 +97,7 @@ pub(super) const ALL: [Part; 19] = [
     },
     Part {
         name: "classifier",
-        code: &["tactile::", "board::touch::"],
+        code: &["tactile::"],
         named: |scene, _| scene.classifier.is_some(),
     },
     Part {
