@@ -28,8 +28,8 @@ impl Clock for NoClock {
     }
 }
 
-/// What a module shows of itself after a tick. Values of a side that is not
-/// there are not a number.
+/// What a module shows of itself after a tick. Values of a side that does
+/// not exist are NaN.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// θ' of every whisker, left side first, degrees.
@@ -59,7 +59,7 @@ pub trait Bench {
 
 /// The firmware's module on this machine.
 pub trait HostModule: Bench + Send {
-    /// Starts anew with another seed, on these ends of the motors' wires.
+    /// Starts again with another seed, on these ends of the motors' wires.
     ///
     /// # Errors
     /// [`Error::Work`] if there are not as many as whiskers.

@@ -5,7 +5,8 @@ use std::fmt::Display;
 use firmware::{CodeClassifier, SampleClassifier};
 use scene::Rule;
 use tactile::{
-    AnyRule, AnyRuleSettings, Decision, Model, ModelBuf, NaiveBayes, Posteriors, Threshold,
+    AnyRule, AnyRuleSettings, Decision, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
+    Threshold,
 };
 
 /// The classifier that a board runs, with its model.
@@ -23,18 +24,9 @@ impl Classifier {
     /// trained on sensor codes, [`Fault::Rule`] for a window that is no multiple
     /// of the model's block or a threshold too near to 1.
     pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
-        if model.channels() != 2 {
-            let fault = format!("the model has {} channels, not x and y", model.channels());
-            return Err(Fault::Model(fault));
-        }
-        let settings = match rule {
-            Rule::Sequential { threshold } => {
-                AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
-            }
-            Rule::Window { samples } => AnyRuleSettings::Window(samples),
-        };
+        quantisers(&model)?;
         let classes = names(&model);
-        let bayes = NaiveBayes::new(model, settings).map_err(of_rule)?;
+        let bayes = bayes(model, rule)?;
         Ok(Self {
             codes: CodeClassifier::new(bayes).map_err(of_model)?,
             classes,
@@ -68,6 +60,11 @@ impl Tap {
         }
     }
 
+    /// Posteriors of the classifier, if there is one.
+    pub(crate) fn posteriors(&self) -> Option<Posteriors> {
+        self.classifier.as_ref().map(Classifier::posteriors)
+    }
+
     /// As before the first tick.
     pub(crate) fn restart(&mut self) {
         self.sample = None;
@@ -86,6 +83,27 @@ impl SampleClassifier for Tap {
             classifier.codes.reset();
         }
     }
+}
+
+/// How the two channels of a whisker are quantised.
+pub(crate) fn quantisers(model: &ModelBuf) -> Result<[Quantiser; 2], Fault> {
+    match (model.quantiser(0), model.quantiser(1), model.channels()) {
+        (Some(x), Some(y), 2) => Ok([x, y]),
+        (_, _, count) => Err(Fault::Model(format!(
+            "the model has {count} channels, not x and y"
+        ))),
+    }
+}
+
+/// A model under a rule.
+pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, Box<[u32]>>, Fault> {
+    let settings = match rule {
+        Rule::Sequential { threshold } => {
+            AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
+        }
+        Rule::Window { samples } => AnyRuleSettings::Window(samples),
+    };
+    NaiveBayes::new(model, settings).map_err(of_rule)
 }
 
 /// The class names of a model.

@@ -1,4 +1,4 @@
-//! What the command line can do, one file a command.
+//! The commands of the command line, one file for each.
 
 pub mod classify;
 pub mod main_job;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use tactile::score::Confusion;
 
-/// One decision and what it should have been.
+/// One decision and the true class.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided {
     /// True class.
@@ -23,7 +23,7 @@ pub struct Decided {
 /// Writes `decisions.csv`.
 ///
 /// # Errors
-/// What writing brings.
+/// Any error of the writer.
 pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
     table.write_record(["label", "trial", "decision", "samples", "posterior"])?;

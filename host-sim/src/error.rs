@@ -22,8 +22,8 @@ pub enum Error {
 }
 
 impl Error {
-    /// A file that was given is wrong or cannot be read; every line of `fault`
-    /// is told with the file's name.
+    /// A given file is wrong or cannot be read; every line of `fault` is prefixed
+    /// with the file's name.
     pub fn file(path: &Path, fault: impl std::fmt::Display) -> Self {
         let fault = fault.to_string();
         let lines = fault

@@ -20,7 +20,7 @@ pub fn read_recording(path: &Path) -> Result<Vec<Stream>, Error> {
     recording::read(bytes.as_slice()).map_err(|fault| Error::file(path, fault))
 }
 
-/// Writes a recording, whole or not at all.
+/// Writes a recording, completely or not at all.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -28,7 +28,7 @@ pub fn write_recording(path: &Path, streams: &[Stream]) -> Result<(), Error> {
     write(path, |output| recording::write(output, streams))
 }
 
-/// Writes `decisions.csv`, whole or not at all.
+/// Writes `decisions.csv`, completely or not at all.
 ///
 /// # Errors
 /// [`Error::Write`].
@@ -52,7 +52,7 @@ pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
     Ok((path.to_owned(), model))
 }
 
-/// A trace on its way to a file; nothing is left of one that is not finished.
+/// A trace that is written to a file; it leaves nothing behind unless finished.
 #[derive(Debug)]
 pub struct TraceFile {
     path: PathBuf,
@@ -60,7 +60,7 @@ pub struct TraceFile {
 }
 
 impl TraceFile {
-    /// Begins a trace.
+    /// Opens a trace and writes its header.
     ///
     /// # Errors
     /// [`Error::Write`].
@@ -81,7 +81,7 @@ impl TraceFile {
         written.map_err(|source| Error::write(&self.path, source))
     }
 
-    /// Puts the trace in its place.
+    /// Renames the complete trace to its path.
     ///
     /// # Errors
     /// [`Error::Write`].

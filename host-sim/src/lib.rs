@@ -54,8 +54,10 @@ mod error;
 pub mod motor;
 pub mod plant;
 pub mod recording;
+pub mod replay;
 pub mod run;
 pub mod trace;
+pub mod training;
 pub mod world;
 
 #[cfg(feature = "cli")]

@@ -122,8 +122,8 @@ impl SimMotor {
         })
     }
 
-    /// As newly made, without load and with every wire whole. Returns the pins
-    /// anew; those handed out before are connected to nothing.
+    /// Starts again as newly made, without load and with every wire intact. Returns
+    /// new pins; the old ones are no longer connected.
     pub fn restart(&mut self) -> Pins {
         self.rotor = Rotor::default();
         self.wires = Arc::new(self.wires.renewed());

@@ -1,5 +1,5 @@
-//! Files that are either whole or not there: written beside their place and
-//! moved there when done.
+//! Files that are written completely or not at all: to a temporary file in the
+//! same folder, which is renamed when it is complete.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 
-/// A file in the making. Dropped before [`Output::finish`], it leaves nothing.
+/// A file being written. Dropped before [`Output::finish`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Output {
     target: PathBuf,
@@ -16,12 +16,12 @@ pub struct Output {
 }
 
 impl Output {
-    /// Begins `path`, making its folder if need be.
+    /// Opens a file for `path`, and creates its folder if necessary.
     ///
     /// # Errors
-    /// [`Error::Input`] if `path` cannot be that of a file: it is a folder, or
-    /// lies below a file. [`Error::Write`] if the folder or the file cannot be
-    /// made for another reason.
+    /// [`Error::Input`] if `path` cannot name a file: it is a folder, or
+    /// one of its parents is a file. [`Error::Write`] if the folder or the file
+    /// cannot be created for another reason.
     pub fn create(path: &Path) -> Result<Self, Error> {
         use io::ErrorKind::{AlreadyExists, InvalidFilename, NotADirectory};
         let wrong = |source: io::Error| match source.kind() {
@@ -54,7 +54,7 @@ impl Output {
         })
     }
 
-    /// Moves the whole file to its place.
+    /// Renames the complete file to its path.
     ///
     /// # Errors
     /// [`Error::Write`] if what was written did not reach the disk.
@@ -92,14 +92,14 @@ impl Write for Output {
 
 impl Drop for Output {
     fn drop(&mut self) {
-        // After a successful move there is nothing to remove, and an unfinished
-        // file that cannot be removed is beyond help here.
+        // After a successful rename there is nothing to remove; nothing can be
+        // done here about a temporary file that cannot be removed.
         drop(self.writer.take());
         let _ = fs::remove_file(&self.partial);
     }
 }
 
-/// Writes `bytes` to `path`, whole or not at all.
+/// Writes `bytes` to `path`, completely or not at all.
 ///
 /// # Errors
 /// [`Error::Write`].

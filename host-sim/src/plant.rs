@@ -1,4 +1,4 @@
-//! What the whiskers meet: from their angles to what their sensors feel.
+//! What the whiskers touch: from their angles to the deflections at their sensors.
 //!
 //! Glossary:
 //!
@@ -23,7 +23,7 @@ pub use whisker::{Elastic, ElasticSettings};
 
 use physics::BadSetting;
 
-/// How many whiskers there are, and where their obstacles.
+/// How many whiskers there are, and where their obstacles stand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Head {
     /// Whiskers on each side.
@@ -36,7 +36,7 @@ pub struct Head {
 }
 
 impl Head {
-    /// Whiskers that meet nothing.
+    /// Whiskers that touch nothing.
     pub fn free(sides: usize, whiskers_per_side: usize) -> Self {
         Self {
             whiskers_per_side,
@@ -69,18 +69,18 @@ impl Head {
     }
 }
 
-/// Something for whiskers to meet.
+/// What whiskers touch.
 pub trait Plant {
     /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
     /// that is not there.
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];
 
-    /// Moves on by `dt_s` seconds to the given angles θ′, one a whisker, left
+    /// Advances by `dt_s` seconds to the given angles θ′, one a whisker, left
     /// side first. A whisker whose angle is missing or not finite keeps its
     /// last one. Nothing happens unless `dt_s` is positive and finite.
     fn advance(&mut self, angles_deg: &[f64], dt_s: f64);
 
-    /// Starts anew, as newly made with this seed.
+    /// Starts again, as newly made with this seed.
     fn restart(&mut self, seed: u64);
 }
 

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use crate::decisions::Decided;
 use crate::trace::Row;
 
-/// A decision and when it fell, s.
+/// A decision and its time, s.
 #[derive(Debug, Clone)]
 pub struct Mark {
     /// When.
@@ -23,16 +23,16 @@ pub struct Presented {
     pub label: String,
 }
 
-/// What the picture is made of.
+/// What the picture shows.
 #[derive(Debug)]
 pub struct Picture<'a> {
-    /// Above it.
+    /// Its title.
     pub title: &'a str,
     /// The ticks it shows.
     pub rows: &'a [Row],
     /// Names of the classes, from below.
     pub classes: &'a [String],
-    /// What was there to be felt.
+    /// The classes that were presented.
     pub presented: &'a [Presented],
     /// The decisions.
     pub marks: &'a [Mark],
@@ -50,7 +50,7 @@ const WRONG: RGBColor = RGBColor(190, 20, 20);
 const TRUTH: RGBColor = RGBColor(220, 225, 230);
 
 /// The left whisker as an SVG document: setpoint and measured angle, what the
-/// sensor felt, contact and suppression, and each decision beside the truth.
+/// sensor felt, contact and suppression, and each decision against the true class.
 ///
 /// # Errors
 /// If the drawing library fails.
@@ -138,7 +138,7 @@ fn curves(
     Ok(())
 }
 
-/// A row a class: grey where it was presented, a dot where it was decided for.
+/// A row for each class: grey where it was presented, a dot for each decision.
 fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> Result<(), Fault> {
     let count = picture.classes.len();
     let mut chart = ChartBuilder::on(area)
@@ -161,7 +161,7 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
         .disable_mesh()
         .y_labels(count.max(1))
         .y_label_formatter(&name)
-        .x_desc("s; grey: presented, green: decided rightly, red: wrongly")
+        .x_desc("s; grey: presented, green: right decision, red: wrong one")
         .draw()?;
     let row = |label: &String| picture.classes.iter().position(|class| class == label);
     for Presented {

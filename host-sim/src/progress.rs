@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Whether and how to tell how far the work is.
+/// Whether to show progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verbosity {
     /// A bar on a terminal, nothing elsewhere.
@@ -57,7 +57,7 @@ impl Progress {
         }
     }
 
-    /// Runs `print` without the bar in its way.
+    /// Runs `print` with the bar hidden.
     pub fn pause(&self, print: impl FnOnce()) {
         match &self.bar {
             Some(bar) => bar.suspend(print),

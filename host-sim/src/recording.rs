@@ -17,8 +17,8 @@ pub struct Stream {
     pub samples: Vec<[f64; 2]>,
 }
 
-/// Collects what the classifier of a run gets, tick by tick: a stream a
-/// presentation. It needs no classifier.
+/// Collects the samples that the classifier of a run gets, tick by tick, one
+/// stream for each presentation. The run needs no classifier for it.
 #[derive(Debug, Default)]
 pub struct Recorder {
     streams: Vec<Stream>,
@@ -44,7 +44,7 @@ impl Recorder {
         }
     }
 
-    /// What was recorded.
+    /// The recorded streams.
     pub fn into_streams(self) -> Vec<Stream> {
         self.streams
     }
@@ -61,7 +61,7 @@ pub fn read(table: impl Read) -> Result<Vec<Stream>, Error> {
 /// Writes a recording.
 ///
 /// # Errors
-/// What writing brings.
+/// Any error of the writer.
 pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
     table.write_record(["label", "trial", "x", "y"])?;

@@ -1,4 +1,4 @@
-//! What is said on the terminal.
+//! Output on the terminal.
 
 use std::fmt::{self, Display};
 use std::io::{self, Write};
@@ -7,8 +7,8 @@ use firmware::Event;
 
 use crate::decisions::{Decided, Score};
 
-/// A line on standard output. A reader that has gone away does not stop the
-/// work: what counts is in the files.
+/// A line on standard output. A closed pipe does not stop the work: what
+/// counts is in the files.
 pub fn say(line: impl Display) {
     let _ = writeln!(io::stdout().lock(), "{line}");
 }
@@ -18,7 +18,7 @@ pub fn warn(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// Tells faults and recoveries on standard error; decisions are told elsewhere.
+/// Reports faults and recoveries on standard error; for decisions see [`decision`].
 pub fn limits_and_faults(t_s: f64, event: &Event) {
     let place = |place: &firmware::Place| {
         let side = if place.side == 0 { "left" } else { "right" };
@@ -39,7 +39,7 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
     }
 }
 
-/// Tells a decision as it falls.
+/// Reports a decision on standard output.
 pub fn decision(t_s: f64, decided: &Decided) {
     let Decided {
         label,

@@ -3,6 +3,7 @@
 use firmware::{Command, Event};
 use mlx90333::Word;
 use scene::{PlantKind, Scene, Texture};
+use tactile::Posteriors;
 
 use crate::Error;
 use crate::bench::{self, Bench, HostModule, Snapshot};
@@ -98,8 +99,8 @@ impl Run {
         Ok(Self::of(scene, bench, classes, world))
     }
 
-    /// Starts anew with another seed, or the same: from here on as a new run of
-    /// the scene with that seed, without parsing, checking or solving anything
+    /// Starts again with the same or another seed: from here on the run equals a
+    /// new one of the scene with that seed. Nothing is parsed, checked or solved
     /// again. What was done to sensors and motors, and every gain and setpoint
     /// that was set, is undone.
     ///
@@ -147,6 +148,12 @@ impl Run {
     /// the sensor has a fault.
     pub fn sample(&mut self) -> Option<[u16; 2]> {
         self.bench.tap()?.sample
+    }
+
+    /// The posterior of each class after the classifier's last full block; equal
+    /// before it and after a decision. None without a classifier.
+    pub fn posteriors(&mut self) -> Option<Posteriors> {
+        self.bench.tap()?.posteriors()
     }
 }
 

@@ -1,10 +1,10 @@
-//! `trace.csv`: what a module did, a row a tick.
+//! `trace.csv`: what a module did, one row for each tick.
 
 mod decimals;
 
 use std::io::{self, Write};
 
-/// One tick of a module. Values of a side that is not there are not a number.
+/// One tick of a module. Values of a side that does not exist are NaN.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Row {
     /// End of the tick, s; the first row is at 1/tick_hz.
@@ -29,7 +29,7 @@ pub struct Row {
 pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
 contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right";
 
-/// Writes rows to `W`, which had better have a buffer.
+/// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
 pub struct TraceWriter<W> {
     table: W,
@@ -40,7 +40,7 @@ impl<W: Write> TraceWriter<W> {
     /// Writes the header.
     ///
     /// # Errors
-    /// What writing brings.
+    /// Any error of the writer.
     pub fn new(mut table: W) -> io::Result<Self> {
         writeln!(table, "{HEADER}")?;
         Ok(Self {
@@ -50,10 +50,10 @@ impl<W: Write> TraceWriter<W> {
     }
 
     /// One row. Nine decimals show the error of the integrators; the cells of
-    /// a side that is not there are empty.
+    /// a side that does not exist are empty.
     ///
     /// # Errors
-    /// What writing brings.
+    /// Any error of the writer.
     pub fn row(&mut self, row: &Row) -> io::Result<()> {
         let line = &mut self.line;
         line.clear();
@@ -69,7 +69,7 @@ impl<W: Write> TraceWriter<W> {
         self.table.write_all(line)
     }
 
-    /// Gives back what it has written to.
+    /// The writer.
     pub fn into_inner(self) -> W {
         self.table
     }

@@ -77,8 +77,8 @@ impl World {
         ))
     }
 
-    /// Starts anew with another seed, as [`World::wired`] does. Returns the
-    /// wires of its motors anew; those of before are connected to nothing.
+    /// Starts again with another seed, as newly made. Returns new ends of the
+    /// motors' wires; the old ones are no longer connected.
     pub fn restart(&mut self, seed: u64) -> Vec<Pins> {
         self.plant().restart(seed);
         self.angles_deg.fill(whisking::REST_DEG);
@@ -112,7 +112,7 @@ impl World {
         }
     }
 
-    /// What the sensor of a whisker feels now: x and y, each within ±1.
+    /// Deflection at the sensor of a whisker now: x and y, each within ±1.
     pub fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         match &self.surface {
             Surface::Ideal(ideal) => ideal.deflection(side, whisker),
@@ -121,12 +121,12 @@ impl World {
         }
     }
 
-    /// Where the whiskers are, left side first, degrees.
+    /// The whiskers' angles, left side first, degrees.
     pub fn angles_deg(&self) -> &[f64] {
         &self.angles_deg
     }
 
-    /// Moves on by `dt_s`; `theta_deg` is where the module wants its whiskers.
+    /// Advances by `dt_s`; `theta_deg` are the module's setpoints, used by ideal motors.
     pub fn advance(&mut self, theta_deg: &[f64], dt_s: f64) {
         match &mut self.motors {
             Motors::None => {}
@@ -149,7 +149,7 @@ impl World {
     }
 }
 
-/// The physics' shaft for a scene's; its default where it has none.
+/// The physical shaft of a scene; the default where the scene names none.
 fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {
     let middle = Shaft::biotact(Biotact::Middle);
     let Some(scene::ShaftChoice { shaft, own }) = of else {

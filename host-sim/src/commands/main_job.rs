@@ -15,7 +15,7 @@ use crate::progress::{Progress, Verbosity};
 use crate::recording::Stream;
 use crate::run::Run;
 use crate::trace::Row;
-use crate::{Error, report};
+use crate::{Error, report, training};
 
 /// The scene, so that the program runs wherever it stands.
 const SCENE: &str = include_str!("../../../scenes/textures.toml");
@@ -24,7 +24,7 @@ const OUT: &str = "out/textures";
 /// How much of the run the plot shows, s: a presentation of each texture.
 const PLOTTED_S: f64 = 10.0;
 
-/// Trains on some whisks, decides on others, prints and writes what came out.
+/// Trains on some whisks, decides on others, prints and writes the results.
 ///
 /// # Errors
 /// [`Error::Work`] or [`Error::Write`].
@@ -42,7 +42,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     write_whole(&out.join("textures.model"), model.as_bytes())?;
 
     report::say(format_args!(
-        "deciding: {} s of other whisks, as decisions fall",
+        "deciding: {} s of another run, decisions as they are made",
         scene.duration_s
     ));
     let deciding = decide(&scene, model, out, verbosity)?;
@@ -88,7 +88,7 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
 pub fn train(streams: &[Stream]) -> Result<ModelBuf, Error> {
     let wrong = |error| Error::Work(format!("training: {error}"));
     let trainer = Trainer::new(2, Options::default()).map_err(wrong)?;
-    super::train::model(trainer, streams).map_err(wrong)
+    training::train(trainer, streams).map_err(wrong)
 }
 
 /// A run with decisions.

@@ -18,7 +18,7 @@ use crate::{Error, report};
 /// are any to score.
 ///
 /// # Errors
-/// [`Error::Input`] for a scene or model that is wrong, otherwise what writing brings.
+/// [`Error::Input`] for a scene or model that is wrong, [`Error::Write`].
 pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<String>, Error> {
     let loaded = Loaded::new(path)?;
     let run = Run::new(&loaded.scene, loaded.classifier()?)?;
@@ -92,11 +92,11 @@ impl Loaded {
     }
 }
 
-/// Plays a scene to its end and its files, as [`run`] does. `after` each tick
-/// the module's own troubles can be told.
+/// Plays a scene to its end and writes its files, as [`run`] does. `after` is
+/// called after each tick and can end the run with an error.
 ///
 /// # Errors
-/// What writing brings, and what `after` says.
+/// [`Error::Write`], and what `after` returns.
 pub fn play<B: Bench + ?Sized>(
     mut run: Run<B>,
     scene: &Scene,
@@ -131,7 +131,7 @@ pub fn play<B: Bench + ?Sized>(
     }))
 }
 
-/// A model that knows none of the textures presented is another scene's.
+/// A model with none of the presented textures belongs to another scene.
 fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
     let Some(textured) = &scene.plant.textured else {
         return Ok(());

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
+use tactile::ModelError;
 use tactile::train::{Options, TrainError, Trainer};
-use tactile::{ModelBuf, ModelError};
 
 use crate::Error;
 use crate::files;
 use crate::output::write_whole;
-use crate::recording::Stream;
+use crate::training;
 
 /// Trains a model from the recording `data` and writes it to `out`.
 /// Returns what it was made of.
@@ -32,7 +32,7 @@ pub fn train(
     )
     .map_err(|error| Error::Input(format!("{}{error}", option(&error))))?;
     let streams = files::read_recording(data)?;
-    let model = model(trainer, &streams).map_err(|error| Error::file(data, error))?;
+    let model = training::train(trainer, &streams).map_err(|error| Error::file(data, error))?;
     write_whole(out, model.as_bytes())?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
     Ok(format!(
@@ -51,17 +51,4 @@ fn option(error: &TrainError) -> &'static str {
         TrainError::Model(ModelError::Block(_) | ModelError::BlockTimesChannels(_)) => "--block: ",
         _ => "",
     }
-}
-
-/// The model of `streams`; classes in the order in which they first appear.
-///
-/// # Errors
-/// What the trainer refuses.
-pub fn model(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
-    for stream in streams {
-        for sample in &stream.samples {
-            trainer.add(&stream.label, sample)?;
-        }
-    }
-    trainer.train()
 }

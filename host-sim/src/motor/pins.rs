@@ -73,7 +73,7 @@ impl Wires {
         }
     }
 
-    /// Wires of the same motor, whole and at rest.
+    /// Wires of the same motor, intact and at rest.
     pub(super) fn renewed(&self) -> Self {
         Self::new(self.counts_per_rad)
     }

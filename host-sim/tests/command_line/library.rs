@@ -177,6 +177,26 @@ fn runs_on_other_threads_agree() {
 }
 
 #[test]
+fn posteriors_are_seen_between_decisions() {
+    assert_eq!(run(&scene(TEXTURED, 1)).posteriors(), None);
+    let mut run = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
+    let mut highest = |ticks| {
+        for _ in 0..ticks {
+            run.tick();
+        }
+        let posteriors: Vec<f64> = run.posteriors().unwrap().to_f64().collect();
+        assert_eq!(posteriors.len(), run.classes().len());
+        assert!((posteriors.iter().sum::<f64>() - 1.0).abs() < 1e-4);
+        (run.decision(), posteriors.into_iter().fold(0.0, f64::max))
+    };
+    // Equal before the end of the first block, of 20 samples, and after a decision.
+    assert_eq!(highest(19), (None, 0.5));
+    let mut after = (0..900).map(|_| highest(1));
+    let (_, posterior) = after.find(|(decision, _)| decision.is_some()).unwrap();
+    assert_eq!(posterior, 0.5);
+}
+
+#[test]
 fn a_recording_is_what_a_classifier_gets() {
     let classifying = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
     let recording = run(&scene(TEXTURED, 1));
