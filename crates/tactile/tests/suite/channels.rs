@@ -1,8 +1,6 @@
 //! Any number of channels and classes gives the same bits.
 
-mod common;
-
-use common::model;
+use crate::common::model;
 use proptest::prelude::*;
 use tactile::{
     Decision, DecisionRule, NaiveBayes, Posteriors, SequentialRule, Threshold, WindowRule,

@@ -71,7 +71,7 @@ fn numpy_gives_the_same() {
     // abs(numpy.fft.rfft(x, 12))[:7] of x = [1, -2, 3.5, 0, 4, -1, 0.25, 7]:
     // see fit/spectrum.py.
     let x = [1.0, -2.0, 3.5, 0.0, 4.0, -1.0, 0.25, 7.0];
-    let known: Vec<f64> = include_str!("reference/spectrum.csv")
+    let known: Vec<f64> = include_str!("../reference/spectrum.csv")
         .lines()
         .map(|line| line.parse().unwrap())
         .collect();

@@ -1,5 +1,4 @@
 //! Made-up rows of inputs of known classes, from one seed.
-#![allow(dead_code, reason = "each test binary uses its part")]
 
 /// Random numbers enough for a test: SplitMix64.
 pub(crate) struct Random(pub(crate) u64);

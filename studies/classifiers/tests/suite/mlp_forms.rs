@@ -1,12 +1,9 @@
 //! The embedded forms of a network against the f64 one, and its file.
 
-#[path = "common/rows.rs"]
-mod rows;
-
+use crate::rows::{self, Random};
 use classifiers::mlp::train::{NetworkTrainer, Options};
 use classifiers::mlp::{FixedInput, FixedMlp, Mlp, MlpError, MlpInput, Network, Shape};
 use proptest::prelude::*;
-use rows::Random;
 use tactile::Aligned;
 
 /// Trains to tell made-up rows, and yields as many new ones.

@@ -1,8 +1,7 @@
 //! A model file is read back as it was written, and refused for the right
 //! reason when anything is wrong with it.
 
-mod common;
-
+use crate::common;
 use proptest::prelude::*;
 use tactile::{Aligned, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError};
 
@@ -137,7 +136,7 @@ fn misaligned_bytes_are_refused_not_misread() {
 fn aligned_wrapper_aligns_included_bytes() {
     assert_eq!(align_of::<Aligned<[u8; 3]>>(), 4);
     // Any file will do: what matters is where it is put.
-    let bytes = tactile::include_model!("common/mod.rs");
+    let bytes = tactile::include_model!("common.rs");
     assert_eq!(bytes.as_ptr().align_offset(4), 0);
     assert_eq!(Model::parse(bytes).unwrap_err(), ModelError::BadMagic);
 }

@@ -109,8 +109,8 @@ proptest! {
 #[test]
 fn numpy_fits_the_same() {
     for (degree, file) in [
-        (2, include_str!("reference/regression_2.csv")),
-        (4, include_str!("reference/regression_4.csv")),
+        (2, include_str!("../reference/regression_2.csv")),
+        (4, include_str!("../reference/regression_4.csv")),
     ] {
         let rows: Vec<Vec<f64>> = file
             .lines()

@@ -1,11 +1,8 @@
 //! The stationary rule against closed forms, at its limits and against double
 //! precision.
 
-#[path = "../../../crates/tactile/tests/common/mod.rs"]
-mod common;
-
+use crate::common::model;
 use classifiers::Stationary;
-use common::model;
 use proptest::prelude::*;
 use tactile::ModelBuf;
 use tactile::reference::{Reference, ReferenceRule};

@@ -1,5 +1,4 @@
 //! Shared by the tests: models made to measure.
-#![allow(dead_code, reason = "each test binary uses its part")]
 
 use tactile::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser};
 

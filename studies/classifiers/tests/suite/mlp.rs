@@ -1,11 +1,8 @@
 //! Networks against numpy, and training against what is known beforehand.
 
-#[path = "common/rows.rs"]
-mod rows;
-
+use crate::rows::{self, Random};
 use classifiers::mlp::train::{NetworkTrainError, NetworkTrainer, Options, Trained};
 use classifiers::mlp::{MlpError, Network, Shape};
-use rows::Random;
 
 fn options(hidden: usize) -> Options {
     Options {

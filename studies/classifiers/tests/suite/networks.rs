@@ -1,16 +1,13 @@
 //! Networks as recognisers: on spectra of blocks, on the IMP of sweeps and of
 //! corridors.
 
-#[path = "common/rows.rs"]
-mod rows;
-
 use std::f64::consts::TAU;
 
+use crate::rows::Random;
 use classifiers::imp::{Band, ImpError, ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
 use classifiers::mlp::train::{NetworkTrainer, Options};
 use classifiers::mlp::{MlpError, Network, Shape, SpectrumInputs, SpectrumRecogniser};
 use classifiers::recogniser::{Recogniser, first_outcome, outcomes};
-use rows::Random;
 
 const RATE_HZ: f64 = 2000.0;
 

@@ -1,8 +1,6 @@
 //! The rules against closed forms, at their limits and on ties.
 
-mod common;
-
-use common::{code, model};
+use crate::common::{code, model};
 use tactile::{
     AnyRule, AnyRuleSettings, Decision, DecisionRule, Model, ModelBuf, NaiveBayes, Sequential,
     SequentialRule, SetupError, Threshold, Window, WindowRule, WrongChannels,
