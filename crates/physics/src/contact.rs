@@ -5,20 +5,20 @@
 //! - *response* W: displacement of the tip at the end of the part for a force of
 //!   1 N that acts all through it;
 //! - *springs* 1/k: how much further a force displaces it, without inertia;
-//! - *stretch* ξ: way of the tip along the ground from where it is held, without
-//!   the force; *gap* g: its distance to the ground, likewise.
+//! - *stretch* ξ: displacement of the tip along the ground from where it is held,
+//!   without the force; *gap* g: its distance to the ground, likewise.
 //!
 //! Sought is a force that is constant during the part, with
 //!
 //! N ≥ 0, g + (W + 1/k) F = 0 along the normal, |T| ≤ μ N,
 //!
 //! and ξ + (W + 1/k) F = slip along the ground. Where T would pass the cone, the
-//! tip slips against it: T · slip ≤ 0, so that friction takes energy. What modes
-//! and springs exchange is in the law that sets the problem.
+//! tip slips against it: T · slip ≤ 0, so that friction takes energy. The energy
+//! that modes and springs exchange is in the law that sets the problem.
 
 use crate::vector::{V3, add, dot, length2, scale};
 
-/// Rounds by which the direction of sliding is found, at most; mostly three.
+/// Most rounds of Newton's method for the direction of sliding; mostly three.
 const ROUNDS: usize = 24;
 
 /// A contact problem in a frame (normal, first tangent, second tangent).
@@ -28,18 +28,18 @@ pub(crate) struct Problem {
     pub(crate) gap: f64,
     /// Stretch without slip and without the force, m.
     pub(crate) stretch: [f64; 2],
-    /// W, m/N; symmetric and positive. What of the springs is not the same in all
-    /// directions may be part of it.
+    /// W, m/N; symmetric and positive. What differs between directions in the
+    /// springs may be part of it.
     pub(crate) response: [[f64; 3]; 3],
     /// 1/k_n and 1/k_t, m/N; positive.
     pub(crate) springs: [f64; 2],
     /// Coefficient of friction μ.
     pub(crate) friction: f64,
-    /// Where T may point if it slides: where it did before, or zero.
+    /// First guess of the direction of T if the tip slides: the last one, or zero.
     pub(crate) near: [f64; 2],
 }
 
-/// What a contact does during a step.
+/// The force of a contact during a part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Force {
     /// N and the two components of T, N.
@@ -129,7 +129,7 @@ impl Problem {
             let [x, y] = e;
             let own = nn + mu * (na * x + nb * y);
             if own <= 0.01 * nn {
-                // The harder it slides, the harder it is pressed on: it jams.
+                // The harder it slides, the harder it is pressed: it jams.
                 if held[0] > 0.0 {
                     found.local = held;
                     found.stuck = true;
@@ -148,12 +148,12 @@ impl Problem {
                     return found;
                 }
             } else if off.abs() <= -1e-3 * opposed {
-                // A root where it would be drawn along.
+                // A root at which friction would drive the tip.
                 (low, high) = (None, None);
                 e = [-x, -y];
                 continue;
             }
-            // By how much r·e⊥ changes as e turns.
+            // Change of r·e⊥ as e turns.
             let steep = nb * x - na * y;
             let less = pull * steep / own * (steep + mu * (along[1] * x - along[0] * y));
             let turned = bb * x * x + aa * y * y - 2.0 * ab * x * y;
@@ -176,7 +176,7 @@ impl Problem {
                 _ => next,
             };
         }
-        // The last that takes energy, or no friction.
+        // The last force that takes energy, or no friction.
         found
     }
 }

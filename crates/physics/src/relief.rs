@@ -2,9 +2,10 @@
 //!
 //! A height is the sum of up to three octaves of value noise: independent random
 //! heights at the points of a lattice, smoothly interpolated. A hash of the
-//! lattice point and the seed gives each one, so that a place that is visited
-//! again has its height again and nothing is stored, at any speed and in both
-//! directions; an Ornstein–Uhlenbeck profile along the tip's path has neither.
+//! lattice point and the seed gives each one, so that a place has the
+//! same height whenever, however fast and from wherever it is visited, and nothing
+//! is stored but the last cell of each octave, which is only to save time. An
+//! Ornstein–Uhlenbeck profile along the tip's path has no such memory.
 //!
 //! A tip of radius R does not reach the ground between two crests λ apart: it
 //! sinks by λ²/(8 R), the sagitta of the arc. Where grains of the spread h are
@@ -57,7 +58,7 @@ struct Octave {
     /// Direction of the lattice.
     turn: [f64; 2],
     seed: u64,
-    /// Where the last place was: the next one mostly lies in the same cell.
+    /// The cell of the last place: the next one mostly lies in it too.
     cell: Cell,
 }
 
@@ -167,7 +168,7 @@ impl Relief {
             relief.used = n + 1;
             relief.finest_m = spacing;
             relief.top_m += UNIT * SMOOTHING * height;
-            // What follows is a quarter of this and less.
+            // What would follow is a quarter of this or less.
             if height < first * share {
                 break;
             }

@@ -50,7 +50,7 @@ impl SensorSettings {
     }
 }
 
-/// A sensor at work.
+/// A sensor: its settings, noise and last measurement.
 #[derive(Debug, Clone)]
 pub(crate) struct Sensor {
     settings: SensorSettings,
@@ -72,7 +72,7 @@ impl Sensor {
     }
 
     /// The settings it was made with.
-    pub(super) const fn settings(&self) -> SensorSettings {
+    pub(crate) const fn settings(&self) -> SensorSettings {
         self.settings
     }
 

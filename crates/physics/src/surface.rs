@@ -179,7 +179,7 @@ impl Surface {
     pub(crate) fn friction_at(&self, sliding_m_s: f64) -> f64 {
         let change = self.hold - self.friction;
         let speeds = sliding_m_s / CREEP_M_S;
-        // e^−40 of it is less than what rounding leaves of the sum.
+        // e^−40 of the change is lost in the rounding of the sum.
         if change == 0.0 || (speeds > 40.0 && change <= self.friction) {
             return self.friction;
         }
@@ -206,7 +206,7 @@ impl Surface {
 
 #[cfg(test)]
 mod tests {
-    use super::{Grit, Material, Surface};
+    use super::{CREEP_M_S, Grit, Material, Surface};
 
     #[test]
     fn every_material_is_within_the_ranges_and_stays_as_it_is() {
@@ -250,5 +250,23 @@ mod tests {
         assert!((of(Grit::P600) - 0.45).abs() < 1e-12);
         assert!((of(Grit::P50) - 0.70).abs() < 2e-3);
         assert!(of(Grit::P180) < of(Grit::P80));
+    }
+
+    #[test]
+    fn friction_goes_from_resting_to_sliding_and_no_shortcut_shows() {
+        let bent = |surface: Surface, speed: f64| {
+            surface.friction + (surface.hold - surface.friction) * libm::exp(-speed / CREEP_M_S)
+        };
+        for material in [Material::Tarmac, Material::Flat, Material::SmoothCarpet] {
+            let surface = Surface::of(material);
+            assert_eq!(
+                surface.friction_at(0.0),
+                surface.friction + (surface.hold - surface.friction)
+            );
+            for n in 0..1000 {
+                let speed = 1e-4 * f64::from(n);
+                assert_eq!(surface.friction_at(speed), bent(surface, speed));
+            }
+        }
     }
 }

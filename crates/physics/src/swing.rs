@@ -70,7 +70,7 @@ mod tests {
     use crate::{Material, Surface};
 
     #[test]
-    fn the_sensor_s_x_is_against_protraction_and_the_shaft_is_x_cross_y() {
+    fn the_x_of_the_sensor_is_against_protraction_and_the_shaft_is_x_cross_y() {
         let (theta, ahead) = (0.7, 0.7 + 1e-6);
         let moved = sub(Pose::swung(ahead).z(), Pose::swung(theta).z());
         assert!((dot(moved, Pose::swung(theta).x) + 1e-6).abs() < 1e-12);

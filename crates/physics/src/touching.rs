@@ -12,22 +12,21 @@
 //! q̈ + 2 ζ ω q̇ + ω² q = φ(L) F − (p a + r α) in each axis, with the force F of the
 //! contact, the acceleration a of the base and its angular acceleration α. The
 //! tip is at base + (L − κ|u|²/2) z + u_x x + u_y y. Between poses the base moves
-//! uniformly; changes of its velocity are kicks at the begin of a step. Left
+//! uniformly; changes of its velocity are kicks at the start of a step. Left
 //! out: forces that grow with the square of the base's angular velocity (2 % of
-//! ω² at 20 rad/s for the slowest whisker) and contact elsewhere than at the tip.
+//! ω² at 20 rad/s for the slowest whisker) and contact anywhere but at the tip.
 //!
 //! # Method
 //!
 //! Modes are propagated exactly, free or under the force of the contact, which
-//! is constant during a part and found implicitly, with friction and the
-//! contact's own damping, to the second order where parts resolve what rings
-//! ([`law`]). Where the tip goes meanwhile and how high the ground is there are
-//! found together ([`part`]). The sum of modal and elastic energy never grows
+//! is constant during a part and solved for implicitly, with friction and the
+//! contact's own damping, to second order where parts resolve the highest mode
+//! ([`law`]). Where the tip goes and how high the ground is there are found
+//! together ([`part`]). The sum of modal and elastic energy never grows
 //! while the base rests, on any ground, at any stiffness and step.
 //!
 //! A step is cut in parts by how far the tip travels over the grains and how fast
-//! the highest mode rings; one that stays clear of the plate is not cut and knows
-//! nothing of contact.
+//! the highest mode rings; one that stays clear of the plate is not cut.
 
 mod body;
 mod law;
@@ -61,7 +60,7 @@ pub struct TouchingWhisker {
     /// Point and directions of the last plate, and its axes.
     plate: ([V3; 3], Option<PlateFrame>),
     sensor: Sensor,
-    /// Of the last step.
+    /// Of the last step: how many parts it was cut into.
     parts: u32,
 }
 
@@ -116,7 +115,7 @@ impl TouchingWhisker {
         }
     }
 
-    /// Starts anew, as newly made with this seed for the sensor's noise.
+    /// Starts again, as if newly made with this seed for the sensor's noise.
     pub fn restart(&mut self, seed: u64) {
         let shaft = self.body.shaft.clone();
         *self = Self::at_rest(shaft, self.sensor.settings(), seed).finer(self.body.finer);
@@ -188,7 +187,7 @@ impl TouchingWhisker {
         }
     }
 
-    /// The base goes to a new pose: kicks by the change of its velocity.
+    /// Moves the base to a new pose: the change of its velocity kicks the modes.
     fn carry(&mut self, pose: &Pose, dt_s: f64) {
         let Some(before) = self.pose.replace(*pose) else {
             return;
@@ -205,7 +204,8 @@ impl TouchingWhisker {
         self.body.state.kick(&self.body.shaft, shift, turn);
     }
 
-    /// A step before a plate; one whose point or directions are not finite is none.
+    /// A step before a plate. One whose point or directions are not finite is not
+    /// there.
     fn step_before(&mut self, pose: &Pose, plate: &Plate) {
         let placed = [plate.point_m, plate.normal, plate.along];
         if self.plate.0 != placed {

@@ -1,7 +1,7 @@
 //! The whiskers of the papers.
 //!
 //! Lengths, taper and frequencies are the papers'; moduli and follicles are
-//! fitted to the frequencies, damping is a choice. Known and not met: with one
+//! fitted to the frequencies, damping is a choice. A known misfit: with one
 //! modulus, one follicle and hubs of 2 mm, the three whiskers of BIOTACT come out
 //! at 87.0, 45.2 and 23.0 Hz for 86, 50 and 21 measured. No modulus and no
 //! follicle does better than ±8 %: shafts that differ in length alone have
@@ -70,7 +70,7 @@ impl Biotact {
 
 impl Shaft {
     /// A whisker of the BIOTACT sensor: taper ratio 8 to a tip near 0.25 mm
-    /// (section II-C), hub as the measured frequency wants it.
+    /// (section II-C), hub fitted to the measured frequency.
     pub const fn biotact(whisker: Biotact) -> Self {
         Self::printed(whisker.length_m(), whisker.hub_m())
     }
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn biotact_s_whiskers_have_their_frequencies() {
+    fn whiskers_of_biotact_have_their_frequencies() {
         for whisker in Biotact::ALL {
             let shaft = Shaft::biotact(whisker);
             assert_eq!(shaft.hub_diameter_m / shaft.tip_diameter_m, 8.0);
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn the_floor_robot_s_whisker_rings_on_the_floor_as_measured() {
+    fn the_whisker_of_the_floor_robot_rings_on_the_floor_as_measured() {
         let modes = Shaft::floor_robot().modes(8).unwrap();
         let hz = pinned_hz(&modes);
         assert!((34.0..36.0).contains(&hz), "{hz}");

@@ -60,7 +60,7 @@ fn uniform_cantilever_has_its_first_three_frequencies() {
 }
 
 #[test]
-fn cone_has_kirchhoff_s_frequencies() {
+fn a_cone_has_the_frequencies_of_kirchhoff() {
     for (found, truth) in numbers(&tapered(1e3))
         .into_iter()
         .zip([8.719, 21.146, 38.454])
@@ -97,7 +97,7 @@ fn shape_at_the_tip_of_a_uniform_cantilever_is_two() {
 }
 
 #[test]
-fn static_response_is_the_textbook_s() {
+fn static_response_is_that_of_the_textbooks() {
     let (rigidity, _) = hub(&CLAMPED);
     let cantilever = 0.2_f64.powi(3) / (3.0 * rigidity);
     let modes = CLAMPED.modes(4).unwrap();
@@ -139,7 +139,7 @@ fn a_hinge_goes_from_pendulum_to_clamp() {
 }
 
 #[test]
-fn the_tip_s_response_is_the_sum_of_all_modes() {
+fn the_response_of_the_tip_is_the_sum_of_all_modes() {
     let shaft = hinged(0.05);
     let modes = shaft.modes(12).unwrap();
     assert!(modes.residual_tip_m_n / modes.tip_m_n < 1e-4);

@@ -18,7 +18,7 @@ fn places() -> impl Iterator<Item = [f64; 2]> {
 }
 
 #[test]
-fn spread_is_the_surface_s_and_top_is_never_passed() {
+fn spread_is_that_of_the_surface_and_top_is_never_passed() {
     let mut relief = Relief::new(&ROUGH, 1e-6);
     let (mut sum, mut square, mut top) = (0.0, 0.0, 0.0_f64);
     for place in places() {
@@ -73,4 +73,15 @@ fn a_blunt_tip_does_not_feel_fine_grains() {
     let mut flat = Relief::new(&Surface::of(Material::Flat), 1e-3);
     assert_eq!(flat.at([0.1, 0.2]), [0.0; 3]);
     assert_eq!((flat.top_m, flat.finest_m), (0.0, f64::INFINITY));
+}
+
+#[test]
+fn a_height_does_not_depend_on_where_the_last_place_was() {
+    let mut travelled = Relief::new(&ROUGH, 1e-6);
+    for n in 0..2000 {
+        // Within a cell, into the next, far away, and onto lattice points.
+        let step = [1e-6, 1e-3, 0.7, 5e-3][n % 4] * (n % 7) as f64;
+        let place = [step - 0.01, 0.3 - 2.0 * step];
+        assert_eq!(travelled.at(place), Relief::new(&ROUGH, 1e-6).at(place));
+    }
 }

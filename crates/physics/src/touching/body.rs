@@ -1,4 +1,4 @@
-//! A whisker before a plate: its modes, the ground, and what they are to each other.
+//! A whisker before a plate: its modes, the ground, and the state of their contact.
 
 use crate::compliance::Compliance;
 use crate::modal::{ModalShaft, ModalState, ModalStep};
@@ -20,7 +20,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Takes another state of the modes, away from any plate.
+    /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
         self.touch = Touch::default();
@@ -113,7 +113,7 @@ pub(super) struct Touch {
     pub(super) slip_m_s: f64,
     /// Height and slopes under the foot, if known.
     pub(super) ground: Option<[f64; 3]>,
-    /// How much lower than it is the ground counts, m.
+    /// By how much the ground is taken as lower than it is, m.
     pub(super) lowered_m: f64,
 }
 

@@ -1,27 +1,28 @@
-//! The law of a part: what the force is that acts during it.
+//! The law of a part: the force that acts during it.
 //!
 //! The force F is constant during a part of the length h and is that of the
-//! stretches ξ at its begin and end, weighed, and of a damper beside the spring:
+//! stretches ξ at its start and end, weighted, and of a damper beside the spring:
 //!
 //! −C F = w ξ₁ + (1 − w) ξ₀ + τ (ξ₁ − ξ₀)/h,  ½ ≤ w < 1
 //!
 //! with the compliance C and the lag τ of [`crate::compliance`]. With s = w + τ/h that is
-//! −C F = s ξ₁ + (1 − s) ξ₀. The end is ξ₁ = ξ₀ + Δ + W F − slip, with the way Δ
+//! −C F = s ξ₁ + (1 − s) ξ₀. The end is ξ₁ = ξ₀ + Δ + W F − slip, with the displacement Δ
 //! of the tip without a force and the response W of the modes, and so
 //!
-//! (W + C/s) F + ξ₀/s + Δ = slip:
+//! (W + C/s) F + ξ₀/s + Δ = slip,
 //!
-//! what [`crate::contact`] solves. A foot that touches down late, for a
+//! which [`crate::contact`] solves. A foot that touches down late, for a
 //! share l of the part, has ξ₀ = 0, a gap to close first, and s = l w + τ/h; for
 //! w = ½ this is the mean of a force that grows evenly from then on. A foot in
 //! the air has F = 0, and so ξ₁ = (1 − 1/s) ξ₀; zero where s < 1.
 //!
 //! # Energy
 //!
-//! The spring gains ½ (ξ₁ + ξ₀)·C⁻¹(ξ₁ − ξ₀), the force does F·(ξ₁ − ξ₀ + slip).
+//! The spring gains ½ (ξ₁ + ξ₀)·C⁻¹(ξ₁ − ξ₀), the force does the work
+//! F·(ξ₁ − ξ₀ + slip).
 //! The sum is −(s − ½) (ξ₁ − ξ₀)·C⁻¹(ξ₁ − ξ₀) + F·slip, and neither is positive.
-//! Of a foot that touches down, friction might still give energy; it then has
-//! none in that part.
+//! Friction on a foot that touches down might still give energy; that part is then
+//! solved without friction.
 
 use super::body::Body;
 use crate::compliance::Compliance;
@@ -33,29 +34,30 @@ use crate::vector::{V3, dot, length2};
 /// Least share of a part after touching down: keeps quotients finite.
 const LATEST: f64 = 1e-9;
 
-/// A part without its force.
+/// What is known of a part before its force is.
 pub(super) struct Part<'a> {
     /// The pose at its end.
     pub(super) pose: &'a PlatePose,
     pub(super) step: &'a ModalStep,
     pub(super) dt_s: f64,
     pub(super) law: Law,
-    /// In contact at the begin; sliding friction then is that of the last part.
+    /// In contact at the start; `friction` is the coefficient that then holds, from
+    /// the sliding speed of the last part.
     pub(super) touching: bool,
     pub(super) friction: f64,
-    /// Deflections at the begin, and at the end without a force.
+    /// Deflections at the start, and at the end without a force.
     pub(super) start: [f64; 2],
     pub(super) free: [f64; 2],
-    /// Stretch at the begin, turned with the base.
+    /// Stretch at the start, turned with the base.
     pub(super) stretch: V3,
-    /// The foot at the begin and the ground there.
+    /// The foot at the start and the ground there.
     pub(super) foot: V3,
     pub(super) ground: [f64; 3],
     /// How the base carries the modal tip away from the foot.
     pub(super) carried: V3,
 }
 
-/// A part with a force on a plane.
+/// A part that has been solved on a plane.
 pub(super) struct Solved {
     pub(super) frame: Frame,
     pub(super) problem: Problem,
@@ -64,7 +66,7 @@ pub(super) struct Solved {
     pub(super) pushed: [f64; 2],
     /// At the end, plate coordinates, m.
     pub(super) stretch: V3,
-    /// Energy of the spring at the begin less the work on the tip, J.
+    /// Energy of the spring at the start less the work on the tip, J.
     pub(super) left_j: f64,
 }
 
@@ -118,7 +120,7 @@ impl Body {
         let ways = self.shaft.ways(middle, part.pose);
         let local = ways.map(|way| frame.local(way));
         let [u, v] = [0, 1].map(|i| part.free[i] - part.start[i]);
-        // The tip's way without a force.
+        // The tip's displacement without a force.
         let carried = frame.local(part.carried);
         let moved: V3 = core::array::from_fn(|i| carried[i] + u * local[0][i] + v * local[1][i]);
         let begin = frame.local(part.stretch);
@@ -166,8 +168,8 @@ impl Body {
         let mut pushed = on_axes(&force);
         let mut left_j = left(&force, pushed);
         if left_j < 0.0 {
-            // What slides before it touches down can do this; without friction,
-            // nothing does.
+            // A tip that slides before it touches down can end up here; without
+            // friction it cannot.
             problem.friction = 0.0;
             force = problem.solve();
             pushed = on_axes(&force);

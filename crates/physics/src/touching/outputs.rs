@@ -4,7 +4,7 @@ use super::TouchingWhisker;
 use crate::vector::dot;
 
 impl TouchingWhisker {
-    /// What the sensor says, x and y, each within ±1: rotation of the base over
+    /// The sensor's reading, x and y, each within ±1: rotation of the base over
     /// full scale, as last measured. A tip that is pushed towards +x reads
     /// positive.
     pub fn reading(&self) -> [f64; 2] {
@@ -27,7 +27,7 @@ impl TouchingWhisker {
         self.parts
     }
 
-    /// Whether it is held there by friction.
+    /// Whether friction holds the tip where it is.
     pub fn sticking(&self) -> bool {
         self.contact() && self.body.touch.stuck
     }
@@ -39,8 +39,8 @@ impl TouchingWhisker {
         [normal, square.max(0.0).sqrt()]
     }
 
-    /// How much lower than it is the ground counts, m, as contact had no energy
-    /// to press its spring: an error of the method, not of the energy.
+    /// By how much the ground was taken as lower than it is, m, where contact had no
+    /// energy to press its spring: an error of the method, not of the energy.
     pub fn lowered_m(&self) -> f64 {
         self.body.touch.lowered_m
     }
@@ -52,7 +52,7 @@ impl TouchingWhisker {
             .deflection(&self.body.state, self.body.touch.pull)
     }
 
-    /// Rotation of the base in x and y as it is, rad.
+    /// Rotation of the base in x and y, rad, unlimited and without noise.
     pub fn rotation_rad(&self) -> [f64; 2] {
         self.body
             .shaft

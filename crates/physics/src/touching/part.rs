@@ -3,21 +3,21 @@
 //! Glossary:
 //!
 //! - *modal tip*: where the modes that are kept bring the tip;
-//! - *stretch*: of what has no inertia here, shaft and ground in series;
+//! - *stretch*: of the massless spring, shaft and ground in series;
 //! - *foot*: where the tip stands on the ground, the modal tip less the stretch.
 //!
-//! A foot that slides moves along a plane through the grounds at both ends of
-//! its way, so that the plane leads as high as the ground does. The far end is
-//! found by rounds: the force on a plane ([`super::law`]), where it brings the
+//! A foot that slides moves along a plane through the ground at both ends of its
+//! path, so that the plane rises as far as the ground does. The far end is
+//! found by iteration: the force on a plane ([`super::law`]), where it brings the
 //! foot, the plane to there. Steep ground throws the foot about from round to
-//! round; it is then moved by a share of that only (Aitken's, for vectors: Irons
-//! and Tuck 1969).
+//! round; it is then moved by only a share of that (Aitken's method for vectors:
+//! Irons and Tuck 1969).
 //!
 //! # Energy on any ground
 //!
-//! The stretch's energy does not depend on how the ground slopes, and takes no
-//! more than the force works ([`super::law`]). Where rounds have not quite found
-//! the end, the foot is off the ground. It is brought there as far as the part
+//! The stretch's energy does not depend on how the ground slopes, and it gains no
+//! more than the work of the force ([`super::law`]). Where the iteration has not
+//! quite found the end, the foot is off the ground. It is brought there as far as the part
 //! has dissipated the energy for it, and the rest waits for later parts. So at the
 //! end of a part
 //!
@@ -33,11 +33,11 @@ use crate::modal::ModalStep;
 use crate::pose::PlatePose;
 use crate::vector::{V3, dot, length2, scale, sub};
 
-/// Rounds by which the end of a part is found, at most; mostly one.
+/// Most rounds of the iteration for the end of a part; mostly one or two.
 const ROUNDS: usize = 8;
 
-/// They are enough once the foot moves by less than this share of the distance
-/// of the finest octave, and the way of the tip turns by less than this, rad.
+/// The iteration ends once the foot moves by less than this share of the distance
+/// of the finest octave, and the path of the tip turns by less than this, rad.
 const NEAR: f64 = 0.1;
 const NEAR_RAD: f64 = 1e-4;
 
@@ -127,8 +127,8 @@ impl Body {
     }
 }
 
-/// The share of the next round, from what two rounds with `share` between them
-/// have missed by.
+/// The share of the next round, from the misses of two rounds with `share`
+/// between them.
 fn relaxed(share: f64, old: [f64; 2], new: [f64; 2]) -> f64 {
     let change = [new[0] - old[0], new[1] - old[1]];
     let square = change[0] * change[0] + change[1] * change[1];
@@ -140,7 +140,7 @@ fn relaxed(share: f64, old: [f64; 2], new: [f64; 2]) -> f64 {
     }
 }
 
-/// Brings the foot to the ground, as far as there is the energy.
+/// Brings the foot to the ground, as far as the energy allows.
 fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], foot: V3) -> Touch {
     let Solved { frame, force, .. } = solved;
     // Straight up or down: the ground is known there.

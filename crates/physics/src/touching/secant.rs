@@ -1,11 +1,11 @@
 //! Slopes between two places of the ground.
 
-/// Ways below this have no direction, m: heights are rounded.
+/// Distances below this have no direction, m: heights are rounded.
 const NO_WAY_M: f64 = 1e-12;
 
-/// Slopes of a plane through the grounds (height, slopes) at two places: the mean
-/// of the slopes there, corrected along the way (the mean-value discrete gradient
-/// of Gonzalez 1996), so that slopes · way is the difference of the heights.
+/// Slopes of a plane through the ground (height, slopes) at two places: the mean
+/// of the slopes there, corrected along the line between them (the mean-value discrete gradient
+/// of Gonzalez 1996), so that slopes · distance is the difference of the heights.
 #[inline]
 pub(super) fn secant(from: [f64; 2], start: [f64; 3], to: [f64; 2], end: [f64; 3]) -> [f64; 2] {
     let way = [to[0] - from[0], to[1] - from[1]];

@@ -4,8 +4,8 @@ use super::body::{Body, Last, POWERS, Steps, Touch};
 use crate::pose::PlatePose;
 use crate::vector::{dot, length, sub};
 
-/// Longest way of the tip in a part, in distances of the finest octave: heights
-/// change from hill to valley over one.
+/// Longest travel of the tip in a part, in lattice distances of the finest octave:
+/// heights change from hill to valley over one.
 const TRAVEL: f64 = 0.25;
 
 /// Largest phase of the highest mode in a part, rad.
@@ -44,8 +44,8 @@ impl Body {
         parts
     }
 
-    /// Moves on freely, if the tip is above every height of the ground at the begin
-    /// and at the end, with its travel to spare.
+    /// Moves on freely, if the tip is above every height of the ground at the start
+    /// and at the end, with its travel to spare; says whether it did.
     fn stays_clear(&mut self, pose: &PlatePose, steps: &Steps) -> bool {
         let mut free = self.state;
         free.free(&steps.parts[0]);
@@ -63,9 +63,9 @@ impl Body {
         clear
     }
 
-    /// Where a plate that was not there holds the tip below its surface, bends
-    /// the shaft statically out of it: the contact would throw it out. What is
-    /// left presses the ground in.
+    /// If a plate that was not there before has the tip below its surface, bends
+    /// the shaft statically out of it, as the contact would throw it out. What
+    /// depth is left presses the ground in.
     fn bend_clear(&mut self, pose: &PlatePose) {
         for _ in 0..4 {
             let tip = self.shaft.tip(self.shaft.deflections(&self.state), pose);
@@ -92,7 +92,7 @@ impl Body {
         }
     }
 
-    /// How often a step is halved in which the base carries the tip this far.
+    /// How many times a step is halved in which the base carries the tip this far.
     fn power(&self, way_m: f64, dt_s: f64) -> usize {
         let own = self.state.speed(&self.shaft) * dt_s;
         let grains = (way_m + own) / (TRAVEL * self.ground.relief.finest_m);
