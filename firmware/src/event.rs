@@ -1,5 +1,5 @@
-//! What a tick has to say. Events are small values; formatting them is the
-//! business of whoever drains the queue.
+//! What a tick reports. Events are small values; whoever drains the queue
+//! formats them.
 
 use mlx90333::FrameError;
 use tactile::Decision;

@@ -1,8 +1,8 @@
 //! From a scene to the constants of the tick.
 //!
 //! The simulator computes them when it starts, a board's build script computes
-//! them when it builds and writes them into the firmware (they print as Rust
-//! expressions): by this same code, so that both run the same numbers.
+//! them when it builds and writes them into the firmware as Rust source: by this
+//! same code, so that both run the same numbers.
 
 mod numbers;
 mod stability;

@@ -1,8 +1,6 @@
-//! When nothing else helps: motor off, last words, reset.
-//!
-//! All ways into here end alike. The motor's outputs go off first, then the
-//! log gets a line, then the watchdog resets the chip; waiting for it gives
-//! the probe time to fetch the line.
+//! Fatal faults: the motor's outputs go off first, then the log gets a line,
+//! then the watchdog resets the chip. Waiting for it gives the probe time to
+//! fetch the line.
 
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -11,19 +9,19 @@ use cortex_m_rt::{ExceptionFrame, exception};
 
 use super::{outputs, watchdog};
 
-/// Set by the first fault, so that one within the last words says no more.
+/// Set by the first fault, so that a fault while its line is written adds none.
 static DYING: AtomicBool = AtomicBool::new(false);
 
-/// Motor off, `last_words`, reset.
-pub(crate) fn die(last_words: impl FnOnce()) -> ! {
+/// Motor off, `last_line` to the log, reset.
+pub(crate) fn die(last_line: impl FnOnce()) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
-    // Not in one step, which a Cortex-M0+ has not; only a fault within a fault
-    // can come between.
+    // A load and a store, because a Cortex-M0+ has no swap; only a fault within
+    // a fault can come between.
     let first = !DYING.load(Ordering::Relaxed);
     DYING.store(true, Ordering::Relaxed);
     if first {
-        last_words();
+        last_line();
     }
     watchdog::wait_for_reset()
 }

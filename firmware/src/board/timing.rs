@@ -145,7 +145,7 @@ impl Clocks {
 
     /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is
     /// left on for as long, or for the longest over the spread of the watchdog's
-    /// oscillator, does no harm: a stalled one is borne for 200 ms.
+    /// oscillator, does no harm: a stall is tolerated for 200 ms.
     pub(crate) const fn watchdog_counts(&self) -> u16 {
         (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
     }

@@ -1,4 +1,4 @@
-//! The independent watchdog: resets the chip, and with it takes the motor's
+//! The independent watchdog: resets the chip, which switches the motor's
 //! outputs off, when tick or idle stand still.
 
 use stm32_metapac::IWDG;
@@ -25,7 +25,7 @@ impl Watchdog {
         dog
     }
 
-    /// Lets it begin its count anew.
+    /// Restarts its count.
     #[inline]
     pub(crate) fn feed(&mut self) {
         key(Key::RESET);
@@ -37,17 +37,17 @@ fn key(key: Key) {
     IWDG.kr().write(|w| w.set_key(key));
 }
 
-/// How often a fault handler feeds before the reset, every quarter of a
+/// Feeds of a fault handler before the reset, one every quarter of a
 /// millisecond: a quarter of a second and more, for the probe to fetch the log.
-const LAST_WORDS: u32 = 1_000;
+const LAST_FEEDS: u32 = 1_000;
 
-/// Gives the probe time to fetch the last words, then waits for the watchdog,
+/// Gives the probe time to fetch the last line, then waits for the watchdog,
 /// started now if it was not: some ten milliseconds more if it runs, up to a
 /// second otherwise.
 pub(crate) fn wait_for_reset() -> ! {
-    for _ in 0..LAST_WORDS {
+    for _ in 0..LAST_FEEDS {
         key(Key::RESET);
-        // At a tenth of the clock, should the PLL have gone, this is in time too.
+        // In time even at a tenth of the clock, should the PLL have failed.
         cortex_m::asm::delay(CLOCKS.core_hz / 4_000);
     }
     key(Key::START);
