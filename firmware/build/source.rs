@@ -24,7 +24,7 @@ pub(crate) fn source<R: Real>(
         &CrateEnv::default(),
     );
     let motion = motion::<R>(scene)?;
-    let perception = perception::<R>(scene, model)?;
+    let perception = perception::<R>(scene, model);
 
     let (contact_type, contact_value) = (contact.of_type, contact.value);
     let (motion_type, motion_value) = (motion.config.of_type, motion.config.value);
@@ -52,7 +52,8 @@ pub(crate) fn source<R: Real>(
         .into_iter()
         .chain(motion.items)
         .chain(perception.items);
-    Ok(items.map(|item| format!("{item}\n")).collect())
+    let lines: Vec<String> = items.map(|item| item.to_string()).collect();
+    Ok(lines.join("\n"))
 }
 
 /// The types, constants and start of motion or perception, and its settings.
@@ -127,7 +128,7 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
 }
 
 /// The classifier and its model.
-fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Result<Part, Box<dyn Error>> {
+fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Part {
     let (Some(classifier), Some(model)) = (&scene.classifier, model) else {
         let items = vec![
             quote! { pub(crate) const CLASS_NAMES: &[&str] = &[]; },
@@ -139,7 +140,7 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Result<Part, 
             },
         ];
         let config = nothing();
-        return Ok(Part { items, config });
+        return Part { items, config };
     };
     let names = model.names();
     let (rule, rule_type, rule_value) = match classifier.rule {
@@ -183,5 +184,5 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Result<Part, 
             firmware::ClassifyingConfig { contact_min: #contact_min, rule: #rule_value }
         },
     };
-    Ok(Part { items, config })
+    Part { items, config }
 }
