@@ -18,7 +18,7 @@ fn request(name: Name, seed: u64) -> Request {
 
 /// The first jobs of every data set.
 fn some(request: &Request, count: usize) -> Vec<Job> {
-    let mut jobs = jobs(&request);
+    let mut jobs = jobs(request);
     jobs.retain(|job| job.number < count);
     jobs
 }
