@@ -95,8 +95,7 @@ impl fmt::Display for ModelError {
             Self::UnknownVersion(found) => {
                 write!(
                     f,
-                    "model format version {found}; version {} is understood",
-                    VERSION
+                    "model format version {found}; version {VERSION} is understood"
                 )
             }
             Self::TrailingBytes => f.write_str("bytes follow the end of the model"),
