@@ -119,24 +119,21 @@ impl<W: AsRef<[u32]>> Model<W> {
         if channel >= self.channels() || bin >= self.bins() || class >= self.classes() {
             return None;
         }
-        let word = *self.row(bin, channel).get(class / 2)?;
-        let entry = (word >> (class % 2 * 16)) as u16;
+        let entry = *self.row(bin, channel).get(class)?;
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
-    /// What a channel in a bin says of each class: a table entry a class, two a
-    /// word, the even class below. Empty outside the table.
+    /// What a channel in a bin says of each class: a table entry a class.
+    /// Empty outside the table.
     #[inline]
-    pub(crate) fn row(&self, bin: usize, channel: usize) -> &[u32] {
-        let Layout {
-            classes,
-            channels,
-            table,
-            ..
-        } = self.layout;
-        let words = row_words(classes);
-        let first = table + (bin * channels + channel) * words;
-        self.part(first, first + words)
+    pub(crate) fn row(&self, bin: usize, channel: usize) -> &[u16] {
+        let words = row_words(self.layout.classes);
+        let row = bin * self.layout.channels + channel;
+        let first = 2 * (self.layout.table + row * words);
+        // Words have whole halves, little-endian.
+        let entries = <[u16]>::ref_from_bytes(self.as_bytes()).unwrap_or_default();
+        let row = entries.get(first..first + self.layout.classes);
+        row.unwrap_or_default()
     }
 
     #[inline]

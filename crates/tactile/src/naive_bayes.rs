@@ -105,23 +105,21 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     }
 
     fn add(&mut self, codes: &[i32]) {
-        let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
         for (channel, (binner, &code)) in self.binners.iter().zip(codes).enumerate() {
             let bin = binner.bin(code, self.model.bins());
-            for ([even, odd], word) in pairs.iter_mut().zip(self.model.row(bin, channel)) {
+            for (sum, &entry) in self.state.sums.iter_mut().zip(self.model.row(bin, channel)) {
                 // See `MAX_SAMPLES_TIMES_CHANNELS`: no sum wraps.
-                *even = even.wrapping_add(word & 0xffff);
-                *odd = odd.wrapping_add(word >> 16);
+                *sum = sum.wrapping_add(u32::from(entry));
             }
         }
     }
 
     fn end_of_block(&mut self) -> Option<Decision> {
         let State { sums, evidence, .. } = &mut self.state;
-        let classes = sums.get(..self.model.classes()).unwrap_or_default();
-        let decision = self.rule.end_of_block(classes, evidence);
+        let sums = sums.get_mut(..self.model.classes()).unwrap_or_default();
+        let decision = self.rule.end_of_block(sums, evidence);
+        sums.fill(0);
         self.state.left = self.rule.interval();
-        self.state.sums = [0; MAX_CLASSES];
         decision
     }
 

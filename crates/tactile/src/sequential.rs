@@ -123,8 +123,8 @@ impl DecisionRule for SequentialRule {
     /// here fits an i32.
     fn end_of_block(&self, sums: &[u32], evidence: &mut SequentialEvidence) -> Option<Decision> {
         let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
-        let levels = sums.iter().zip(evidence.deficits);
-        let lead = levels.map(|(&sum, deficit)| level(sum, deficit)).max()?;
+        let levels = sums.iter().zip(&evidence.deficits);
+        let lead = levels.map(|(&sum, &deficit)| level(sum, deficit)).max()?;
         let mut near = 0;
         for (deficit, &sum) in evidence.deficits.iter_mut().zip(sums) {
             let behind = (lead - level(sum, *deficit)) as u32;
@@ -142,8 +142,8 @@ impl DecisionRule for SequentialRule {
     }
 
     fn deficits(&self, evidence: &SequentialEvidence, deficits: &mut [u32]) {
-        for (to, from) in deficits.iter_mut().zip(evidence.deficits) {
-            *to = from;
+        for (to, from) in deficits.iter_mut().zip(&evidence.deficits) {
+            *to = *from;
         }
     }
 
