@@ -1,31 +1,14 @@
 //! Commands between ticks: the nominal gain and the setpoint of a whisker.
 
 use firmware::{
-    Active, ActiveConfig, AngleInput, BusError, Clock, Command, Config, FrameSource, HoldLimits,
-    Module, NoActiveWhisker, Passive, Place, Servo, ServoConfig, ServoState,
+    Active, ActiveConfig, AngleInput, Command, Config, HoldLimits, Module, NoActiveWhisker,
+    Passive, Place, Servo, ServoConfig, ServoState,
 };
-use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use mlx90333::Decoder;
 use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
 use whisking::{Absent, Fix, GateSettings, Integrator, Real, Settings, State, filter, pd};
 
-/// A sensor that is always bent as far.
-struct Bent;
-
-impl FrameSource for Bent {
-    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        let x = Word::new(0xC000);
-        let frame = encode::alpha_beta(x, Word::MID, Faults::NONE, SumRule::SumB1B6);
-        Ok(Some(frame))
-    }
-}
-
-struct NoClock;
-
-impl Clock for NoClock {
-    fn now(&mut self) -> u32 {
-        0
-    }
-}
+use crate::hardware::{Bent, NoClock};
 
 /// A motor that keeps what it is driven with.
 #[derive(Default)]
@@ -107,7 +90,7 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     let start = SETTINGS.start([[1.0, 0.0]], [[1.0; 2]]).unwrap();
     let servo = || Servo::new(Kept::default(), Still);
     let active = Active::new(State::new(&start, 1), [[servo(), servo()]]);
-    let module = Module::new([[Bent, Bent]], active, (), NoClock);
+    let module = Module::new([[Bent(0xC000), Bent(0xC000)]], active, (), NoClock);
     (module, config)
 }
 
@@ -185,7 +168,7 @@ fn whiskers_that_are_not_there_or_passive_are_refused() {
             assert_eq!(module.command(place, command), Err(NoActiveWhisker));
         }
     }
-    let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent]], Passive, (), NoClock);
+    let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
     let refused = passive.command(
         Place {
             side: 0,

@@ -1,32 +1,11 @@
 //! Contact of a side (BIOTACT eq. 9): the largest |H50(x)| of its whiskers,
 //! whichever of them is bent and whichever way.
 
-use firmware::{BusError, Clock, Config, FrameSource, HoldLimits, Module, Passive};
-use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use firmware::{Config, HoldLimits, Module, Passive};
+use mlx90333::Decoder;
 use whisking::{Present, filter};
 
-/// A sensor that always sends the same word.
-struct Bent(u16);
-
-impl FrameSource for Bent {
-    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        let x = Word::new(self.0);
-        Ok(Some(encode::alpha_beta(
-            x,
-            Word::MID,
-            Faults::NONE,
-            SumRule::SumB1B6,
-        )))
-    }
-}
-
-struct NoClock;
-
-impl Clock for NoClock {
-    fn now(&mut self) -> u32 {
-        0
-    }
-}
+use crate::hardware::{Bent, NoClock};
 
 const REST: u16 = 0x8000;
 

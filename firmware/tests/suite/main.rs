@@ -1,5 +1,6 @@
-//! Tests of the module from outside: its loop, and contact.
+//! Tests of the module from outside: its loop, contact, commands between ticks.
 
 mod command;
 mod contact;
 mod control_loop;
+mod hardware;
