@@ -1,7 +1,7 @@
 //! The whisking head of BIOTACT: two rows of three whiskers before a flat
-//! surface, moved by the pattern generator that runs on a module, in a closed
-//! loop: what the whiskers feel goes through H50 and RCP back to the muscles,
-//! and motors follow those as their position control, friction and load let them.
+//! surface, moved by the firmware's own tick in a closed loop: what the whiskers
+//! feel goes by sensor frames through H50 and RCP back to the muscles, and motors
+//! follow those as their position control, friction and load let them.
 //!
 //! Head frame, from above: x forward along the axis of the cone, y to the
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A

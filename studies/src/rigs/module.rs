@@ -84,7 +84,7 @@ enum Actuator {
     Ideal(IdealMotor),
 }
 
-/// Motors that whisk: without a perception, all of them the same.
+/// How the head moves: a pattern generator and six servos.
 type Whisking = Active<f64, AnyMotor, AnyAngle, SIDES, EACH>;
 
 /// A module of six whiskers with its motors, left side first, at θ' = 50 degrees.
