@@ -1,6 +1,7 @@
 //! What can be wrong with a model file or with the settings of a rule.
 //!
-//! All checks happen before the first sample; the streaming step cannot fail.
+//! All checks happen before the first sample; the streaming step can only
+//! refuse a sample of another number of channels.
 
 use core::fmt;
 
