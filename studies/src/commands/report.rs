@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::accuracy::{LongRun, report as measure};
+use crate::refused::within;
 use host_sim::Error;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -19,7 +20,8 @@ pub fn report(
     check: bool,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let files = measure(out, long_run, verbosity)?;
+    let files = measure(out, long_run, verbosity);
+    let files = files.map_err(|error| within("the accuracy report", error))?;
     if check {
         let differs = |(name, text): &&(String, String)| {
             std::fs::read(out.join(name)).map_or(true, |found| found != text.as_bytes())

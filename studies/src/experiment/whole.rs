@@ -5,6 +5,7 @@ use super::recording::Recordings;
 use super::request::{Extent, Name, Request};
 use super::{biotact, costs, lep10, lep12, pose, psik};
 use crate::accuracy::page::Page;
+use crate::refused::within;
 use host_sim::Error;
 
 /// The name of the page.
@@ -18,13 +19,14 @@ const PAGE: &str = "experiments.md";
 pub fn report(request: &Request, recordings: &Recordings) -> Result<Vec<(String, String)>, Error> {
     let mut sections = Vec::new();
     for name in &request.names {
-        sections.push(match name {
-            Name::Lep10 => lep10::evaluate(request, recordings)?,
-            Name::Lep12 => lep12::evaluate(request, recordings)?,
-            Name::Biotact => biotact::evaluate(request, recordings)?,
-            Name::Pose => pose::evaluate(request, recordings)?,
-            Name::Psikharpax => psik::evaluate(request, recordings)?,
-        });
+        let section = match name {
+            Name::Lep10 => lep10::evaluate(request, recordings),
+            Name::Lep12 => lep12::evaluate(request, recordings),
+            Name::Biotact => biotact::evaluate(request, recordings),
+            Name::Pose => pose::evaluate(request, recordings),
+            Name::Psikharpax => psik::evaluate(request, recordings),
+        };
+        sections.push(section.map_err(|error| within(name.text(), error))?);
     }
     let mut page = Page::default();
     introduction(&mut page, request, &sections);
