@@ -27,10 +27,6 @@ pub enum TrainError {
     OneClass,
     /// More than 32 classes.
     TooManyClasses,
-    /// A class, by its number, that has no name.
-    ClassUnnamed(usize),
-    /// A class, by its number, that has no sample or the name of another.
-    ClassEmpty(usize),
     /// A class without a name.
     NameEmpty,
     /// A class name of more than 255 bytes.
@@ -62,10 +58,6 @@ impl fmt::Display for TrainError {
             Self::NoSamples => f.write_str("there are no samples"),
             Self::OneClass => f.write_str("all samples are of one class; two are needed"),
             Self::TooManyClasses => write!(f, "more than {MAX_CLASSES} classes"),
-            Self::ClassUnnamed(class) => write!(f, "class {class} has no name"),
-            Self::ClassEmpty(class) => {
-                write!(f, "class {class} has no sample, or the name of another")
-            }
             Self::NameEmpty => f.write_str("a class has an empty name"),
             Self::NameTooLong { bytes } => {
                 write!(

@@ -46,7 +46,6 @@ impl From<Choice> for crate::recogniser::Outcome {
         Self {
             class: choice.class(),
             samples: choice.samples(),
-            value: None,
         }
     }
 }

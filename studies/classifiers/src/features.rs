@@ -25,7 +25,7 @@
 //! POSE notched the whisker's resonance out before taking X; use a bank without
 //! the bins about it, or filter the samples first.
 //!
-//! Training, and the same for a PC: `feature_train` (feature `study`).
+//! Training, and the same for a PC: `feature_train` (feature `train`).
 
 use crate::polynomial::{Polynomial, nearest};
 use crate::spectrum::{Bank, BankState, Measure};

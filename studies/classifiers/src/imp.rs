@@ -41,14 +41,10 @@
 
 mod pad;
 mod peaks;
-#[cfg(feature = "train")]
-mod recogniser;
 mod steering;
 
-pub use pad::{Imp, ImpError, ImpState, ImpSweep};
+pub use pad::{Imp, ImpState, ImpSweep};
 pub use peaks::{Band, Peaks, deflection};
-#[cfg(feature = "train")]
-pub use recogniser::{ImpFeatures, ImpSweepRecogniser, ImpVoteRecogniser};
 pub use steering::{
     ARC_LENGTHS_MM, ARC_SIZES, STEERING_GAIN, VIBRISSAE, arc_means, distance, steering,
 };

@@ -11,15 +11,14 @@
 //! | [`mlp`] | by a network with one hidden layer, an input at a time | LEP12 section 5.2, PSIK section 3.2.1 |
 //! | [`imp`] | by the vibrations of a whisker pad | PSIK section 3.1 |
 //!
-//! Templates and vibrations are integers, spectra single precision, networks
-//! either.
+//! Templates and vibrations are integers, spectra and networks single precision.
 //!
 //! # Features
 //!
 //! - `train`: training them (`template_train`, `spectral_train`,
-//!   `feature_train`, `regression`, `mlp::train`), naive Bayes in the forms that
-//!   the papers compare (`bayes`), and one way to ask any classifier
-//!   (`recogniser`). It brings std, FFT, linear algebra and an optimiser.
+//!   `feature_train`, `regression`, `mlp::train`), and one way to ask a stream
+//!   classifier (`recogniser`). It brings std, FFT, linear algebra and an
+//!   optimiser.
 //!
 //! Without it the crate is `no_std`: what a board would run, and what is counted.
 #![cfg_attr(not(test), no_std)]
@@ -27,14 +26,13 @@
 #[cfg(feature = "train")]
 extern crate std;
 
-#[cfg(feature = "train")]
-pub mod bayes;
 mod choice;
+mod error;
 #[cfg(feature = "train")]
 pub mod feature_train;
 pub mod features;
-mod fit_error;
 pub mod imp;
+mod limits;
 #[cfg(feature = "train")]
 mod means;
 pub mod mlp;
@@ -53,5 +51,6 @@ pub mod template;
 pub mod template_train;
 
 pub use choice::Choice;
-pub use fit_error::FitError;
+pub use error::Error;
+pub use limits::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_POINTS, MAX_SCALED, MAX_WEIGHT};
 pub use stationary::{Stationary, StationaryRule};

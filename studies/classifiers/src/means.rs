@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use crate::fit_error::FitError;
+use crate::error::Error;
 
 /// Classes that a `u16` can name.
 const MAX_CLASSES: usize = 1 << 16;
@@ -29,9 +29,9 @@ impl Means {
         &mut self,
         class: usize,
         vector: impl IntoIterator<Item = f64>,
-    ) -> Result<(), FitError> {
+    ) -> Result<(), Error> {
         if class >= MAX_CLASSES {
-            return Err(FitError::Class(class));
+            return Err(Error::Class(class));
         }
         if class >= self.sums.len() {
             self.sums.resize(class + 1, (Vec::new(), 0));
@@ -49,13 +49,13 @@ impl Means {
     }
 
     /// The mean of each class.
-    pub(crate) fn means(&self) -> Result<Vec<Vec<f64>>, FitError> {
+    pub(crate) fn means(&self) -> Result<Vec<Vec<f64>>, Error> {
         if self.sums.is_empty() {
-            return Err(FitError::NoSegments);
+            return Err(Error::NoSamples);
         }
         let mean = |(class, (sum, number)): (usize, &(Vec<f64>, u64))| {
             if *number == 0 {
-                return Err(FitError::Empty { class });
+                return Err(Error::Empty { class });
             }
             Ok(sum.iter().map(|x| x / *number as f64).collect())
         };
@@ -64,23 +64,19 @@ impl Means {
 }
 
 /// Checks that a segment has whole samples, all finite, `needed` of them or more.
-pub(crate) fn check_segment(
-    segment: &[f64],
-    channels: usize,
-    needed: usize,
-) -> Result<(), FitError> {
+pub(crate) fn check_segment(segment: &[f64], channels: usize, needed: usize) -> Result<(), Error> {
     let values = segment.len();
     if channels == 0 || !values.is_multiple_of(channels) {
-        return Err(FitError::Ragged { values, channels });
+        return Err(Error::Ragged { values, channels });
     }
     if values / channels < needed {
-        return Err(FitError::Short {
+        return Err(Error::Short {
             found: values / channels,
             needed,
         });
     }
     match segment.iter().position(|x| !x.is_finite()) {
-        Some(at) => Err(FitError::NotFinite {
+        Some(at) => Err(Error::NotFinite {
             sample: at / channels,
             channel: at % channels,
         }),
@@ -89,12 +85,12 @@ pub(crate) fn check_segment(
 }
 
 /// Checks the shape of a window.
-pub(crate) fn check_window(channels: usize, window: usize) -> Result<(), FitError> {
+pub(crate) fn check_window(channels: usize, window: usize) -> Result<(), Error> {
     if channels == 0 {
-        return Err(FitError::Channels);
+        return Err(Error::Channels);
     }
     match window.checked_mul(channels) {
         Some(1..=0x0100_0000) => Ok(()),
-        _ => Err(FitError::Window(window)),
+        _ => Err(Error::Window(window)),
     }
 }

@@ -1,5 +1,5 @@
-//! A feed-forward network with one hidden layer: training it on a PC, running
-//! it on a module.
+//! A feed-forward network with one hidden layer: trained on a PC, run on
+//! a module.
 //!
 //! # Glossary
 //!
@@ -20,48 +20,33 @@
 //! for the O outputs, and the class is the k of the largest y_k, the first of
 //! equals.
 //!
-//! # Three forms of one network
+//! # Two forms of one network
 //!
 //! | form | numbers | for |
 //! |---|---|---|
 //! | `Network` (feature `train`) | f64 | training, experiments |
-//! | [`Mlp`] | f32 | parts with an FPU |
-//! | [`FixedMlp`] | 16-bit weights, 32-bit sums | parts without |
+//! | [`Mlp`] | f32 | a board with an FPU |
 //!
-//! The embedded forms take the inputs one by one, as a bank of filters or a row
+//! The embedded form takes the inputs one by one, as a bank of filters or a row
 //! of vibrissae yields them: the weights of an input lie together, a
 //! [`Mlp::push`] costs H multiplications, and nothing but the H sums is kept.
 //! So a network need not be run in one tick.
 //!
-//! # Errors against f64
-//!
-//! | form | output y | held by |
-//! |---|---|---|
-//! | [`Mlp`] | 2e-6 | the test `the_single_precision_form_is_within_its_bound` |
-//! | [`FixedMlp`] | 3e-3 | the test `the_fixed_form_is_within_its_bound` |
-//!
-//! Both for trained networks of 120–20–4 and 33–33–8 units.
+//! An output y of [`Mlp`] is within 2e-6 of the f64 form's for trained networks
+//! of 120–20–4 and 33–33–8 units (the test
+//! `the_single_precision_form_is_within_its_bound`).
 
-mod error;
-mod fixed;
-mod format;
 #[cfg(feature = "train")]
 mod gradient;
-mod limits;
 mod logistic;
 #[cfg(feature = "train")]
 mod network;
-#[cfg(feature = "train")]
-mod recogniser;
+mod shape;
 mod single;
 #[cfg(feature = "train")]
 pub mod train;
 
-pub use error::MlpError;
-pub use fixed::{FixedInput, FixedMlp, FixedMlpState};
-pub use limits::{MAX_HIDDEN, MAX_INPUTS, MAX_OUTPUTS, MAX_SCALED, MAX_WEIGHT, MLP_VERSION};
 #[cfg(feature = "train")]
-pub use network::{Network, Shape};
-#[cfg(feature = "train")]
-pub use recogniser::{SPECTRUM_BINS, SpectrumInputs, SpectrumRecogniser};
+pub use network::Network;
+pub use shape::Shape;
 pub use single::{Mlp, MlpInput, MlpState};

@@ -4,7 +4,7 @@
 //! Features differ in size by orders of magnitude (volts, hertz), so they are
 //! centred and scaled first; powers of them then keep their precision.
 //!
-//! Fitting: `regression` (feature `study`).
+//! Fitting: `regression` (feature `train`).
 
 /// One product of powers of F features: 4 + F bytes, rounded up to words.
 #[derive(Debug, Clone, Copy, PartialEq)]

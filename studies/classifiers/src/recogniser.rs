@@ -10,7 +10,6 @@
 //! [`Bayes`] wraps naive Bayes under three rules; [`Picked`] lets a recogniser
 //! take only some channels (x alone, y alone, one whisker).
 
-use std::boxed::Box;
 use std::vec::Vec;
 
 use tactile::{
@@ -20,14 +19,12 @@ use tactile::{
 use crate::stationary::Stationary;
 
 /// What a recogniser found.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outcome {
     /// The class, from zero, in the order of training.
     pub class: usize,
     /// Samples that it took since the last outcome (or the start).
     pub samples: u32,
-    /// For a regression, the real number that `class` is rounded from.
-    pub value: Option<f64>,
 }
 
 /// Anything that names a class from a stream of samples.
@@ -43,20 +40,6 @@ pub trait Recogniser {
     fn reset(&mut self);
 }
 
-impl<R: Recogniser + ?Sized> Recogniser for Box<R> {
-    fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
-        (**self).push(sample)
-    }
-
-    fn finish(&mut self) -> Option<Outcome> {
-        (**self).finish()
-    }
-
-    fn reset(&mut self) {
-        (**self).reset();
-    }
-}
-
 /// The first outcome of a segment, its samples one after another, each of
 /// `channels` values; starts and ends as new. `None` if no outcome falls, not
 /// even at the end, or there are no channels.
@@ -70,7 +53,7 @@ impl<R: Recogniser + ?Sized> Recogniser for Box<R> {
 /// impl Recogniser for Third {
 ///     fn push(&mut self, _: &[f64]) -> Option<Outcome> {
 ///         self.0 += 1;
-///         (self.0 == 3).then_some(Outcome { class: 0, samples: 3, value: None })
+///         (self.0 == 3).then_some(Outcome { class: 0, samples: 3 })
 ///     }
 ///     fn finish(&mut self) -> Option<Outcome> {
 ///         None
@@ -196,7 +179,6 @@ impl From<Decision> for Outcome {
         Self {
             class: decision.class(),
             samples: decision.samples(),
-            value: None,
         }
     }
 }

@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-use crate::fit_error::FitError;
+use crate::error::Error;
 use crate::polynomial::{Polynomial, Term};
 
 /// Highest degree.
@@ -72,25 +72,25 @@ impl Regression {
     ///
     /// No examples or features, examples of unlike numbers of features, a
     /// number that is not finite, or a degree out of range.
-    pub fn fit(degree: u8, examples: &[(Vec<f64>, f64)]) -> Result<Self, FitError> {
-        let (first, _) = examples.first().ok_or(FitError::NoSegments)?;
+    pub fn fit(degree: u8, examples: &[(Vec<f64>, f64)]) -> Result<Self, Error> {
+        let (first, _) = examples.first().ok_or(Error::NoSamples)?;
         let features = first.len();
         if features == 0 {
-            return Err(FitError::Feature(0));
+            return Err(Error::Feature(0));
         }
         for (sample, (row, target)) in examples.iter().enumerate() {
             if row.len() != features {
-                return Err(FitError::Feature(row.len()));
+                return Err(Error::Feature(row.len()));
             }
             let mut numbers = row.iter().chain([target]);
             if let Some(channel) = numbers.position(|x| !x.is_finite()) {
-                return Err(FitError::NotFinite { sample, channel });
+                return Err(Error::NotFinite { sample, channel });
             }
         }
         if !(1..=MAX_DEGREE).contains(&degree) {
-            return Err(FitError::Degree(degree));
+            return Err(Error::Degree(degree));
         }
-        let powers = powers(features, degree).ok_or(FitError::Degree(degree))?;
+        let powers = powers(features, degree).ok_or(Error::Degree(degree))?;
 
         let n = examples.len() as f64;
         let mut centre = vec![0.0; features];
@@ -102,7 +102,7 @@ impl Regression {
             let sd = square.sqrt();
             let most = column().fold(0.0_f64, |most, x| most.max(x.abs()));
             if !(centre.is_finite() && sd.is_finite()) {
-                return Err(FitError::Range);
+                return Err(Error::Range);
             }
             // A feature that is the same in all examples, but for the rounding
             // of its mean, says nothing.
@@ -110,7 +110,7 @@ impl Regression {
         }
         let finite = |x: &f64| x.is_finite();
         if !scale.iter().all(finite) {
-            return Err(FitError::Range);
+            return Err(Error::Range);
         }
         let mut fitted = Self {
             centre,
@@ -126,13 +126,13 @@ impl Regression {
         }
         let targets = DVector::from_iterator(examples.len(), examples.iter().map(|(_, y)| *y));
         let svd =
-            SVD::try_new(design, true, true, f64::EPSILON, MAX_STEPS).ok_or(FitError::Singular)?;
+            SVD::try_new(design, true, true, f64::EPSILON, MAX_STEPS).ok_or(Error::Singular)?;
         let most = svd.singular_values.iter().copied().fold(0.0, f64::max);
         let coefficients = svd
             .solve(&targets, RANK * most)
-            .map_err(|_| FitError::Singular)?;
+            .map_err(|_| Error::Singular)?;
         if !coefficients.iter().all(finite) {
-            return Err(FitError::Singular);
+            return Err(Error::Singular);
         }
         fitted.terms = powers
             .into_iter()

@@ -14,7 +14,7 @@
 //! what the bank's bins do (see [`crate::spectrum`]) and, from adding C B
 //! squares, at most C B · 6e-8 of itself.
 //!
-//! Training, and the same for a PC: `spectral_train` (feature `study`).
+//! Training, and the same for a PC: `spectral_train` (feature `train`).
 
 use crate::choice::Choice;
 use crate::spectrum::{Bank, BankState, Measure};

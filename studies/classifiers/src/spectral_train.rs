@@ -5,7 +5,7 @@
 use std::vec::Vec;
 
 use crate::choice::Choice;
-use crate::fit_error::FitError;
+use crate::error::Error;
 use crate::means::{Means, check_segment, check_window};
 use crate::recogniser::{Outcome, Recogniser};
 use crate::spectrum::{Bins, Measure, Spectrum};
@@ -25,7 +25,7 @@ fn spectra(
     measure: Measure,
     channels: usize,
     block: &[f64],
-) -> Result<Vec<f64>, FitError> {
+) -> Result<Vec<f64>, Error> {
     let mut all = Vec::with_capacity(channels * spectrum.bins().count);
     for channel in 0..channels {
         let samples = block.iter().skip(channel).step_by(channels).copied();
@@ -40,12 +40,7 @@ impl SpectralTrainer {
     /// # Errors
     ///
     /// No channels, or bins or block are out of range.
-    pub fn new(
-        channels: usize,
-        bins: Bins,
-        block: usize,
-        measure: Measure,
-    ) -> Result<Self, FitError> {
+    pub fn new(channels: usize, bins: Bins, block: usize, measure: Measure) -> Result<Self, Error> {
         check_window(channels, block)?;
         let spectrum = Spectrum::new(bins, block)?;
         Ok(Self {
@@ -63,7 +58,7 @@ impl SpectralTrainer {
     ///
     /// It is shorter than a block, or a number is not finite; it is then not
     /// added.
-    pub fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), FitError> {
+    pub fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), Error> {
         let block = self.spectrum.block();
         check_segment(segment, self.channels, block)?;
         for block in segment.chunks_exact(block * self.channels) {
@@ -78,7 +73,7 @@ impl SpectralTrainer {
     /// # Errors
     ///
     /// A class has no signal.
-    pub fn train(&self) -> Result<SpectralTemplates, FitError> {
+    pub fn train(&self) -> Result<SpectralTemplates, Error> {
         Ok(SpectralTemplates {
             channels: self.channels,
             measure: self.measure,
@@ -99,11 +94,6 @@ pub struct SpectralTemplates {
 }
 
 impl SpectralTemplates {
-    /// Number of channels C.
-    pub fn channels(&self) -> usize {
-        self.channels
-    }
-
     /// Number of classes K.
     pub fn classes(&self) -> usize {
         self.means.len()
@@ -117,11 +107,6 @@ impl SpectralTemplates {
     /// Samples in a block.
     pub fn block(&self) -> usize {
         self.spectrum.block()
-    }
-
-    /// What bins are measured by.
-    pub fn measure(&self) -> Measure {
-        self.measure
     }
 
     /// The mean spectra of a class, channel by channel.
@@ -151,7 +136,7 @@ impl SpectralTemplates {
     /// # Errors
     ///
     /// It is no block.
-    pub fn errors(&mut self, block: &[f64]) -> Result<Vec<f64>, FitError> {
+    pub fn errors(&mut self, block: &[f64]) -> Result<Vec<f64>, Error> {
         check_segment(block, self.channels, self.block())?;
         let found = spectra(&mut self.spectrum, self.measure, self.channels, block)?;
         let error = |mean: &Vec<f64>| {

@@ -11,7 +11,7 @@
 //!
 //! # Two ways, one result
 //!
-//! `Spectrum` (feature `study`) is a planned FFT in double precision. [`Bank`]
+//! `Spectrum` (feature `train`) is a planned FFT in double precision. [`Bank`]
 //! is for the board: a second-order resonator a bin, stepped with every sample.
 //!
 //! Why not an FFT on the board: counted on a Cortex-M4F (`docs/measured/instructions.csv`),
@@ -29,18 +29,19 @@
 //! # Error
 //!
 //! For blocks to 12000 samples, a bin of the bank is within 3e-6 of the FFT's
-//! largest possible magnitude Σ_j |x(j)| (measured: 1.1e-6; see `tests/spectrum.rs`).
+//! largest possible magnitude Σ_j |x(j)| (measured: 1.1e-6; see `tests/suite/spectrum.rs`).
 //! The mean of the block counts in that bound: subtract the rest position first.
 
 mod bank;
 #[cfg(feature = "train")]
 mod fft;
 
-use core::fmt;
-
 pub use bank::{Bank, BankState};
 #[cfg(feature = "train")]
 pub use fft::Spectrum;
+
+use crate::error::Error;
+use crate::limits::MAX_POINTS;
 
 /// Which bins of which transform: k = first, first + step, …, `count` of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,33 +65,6 @@ pub enum Measure {
     Power,
 }
 
-/// Why there is no spectrum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SpectrumError {
-    /// The points are not 1 to 2²⁴.
-    Points(u32),
-    /// No bins, a step of zero, or a bin above half the points.
-    Bins,
-    /// The block is empty or longer than the points.
-    Block {
-        /// Samples in the block.
-        block: usize,
-        /// Points of the transform.
-        points: u32,
-    },
-    /// Another number of bins than the bank has.
-    Count {
-        /// Asked for.
-        bins: usize,
-        /// In the bank.
-        bank: usize,
-    },
-}
-
-/// Largest number of points.
-const MAX_POINTS: u32 = 1 << 24;
-
 impl Bins {
     /// Every bin of a transform of so many points, from 0 to N / 2.
     pub const fn all(points: u32) -> Self {
@@ -109,19 +83,14 @@ impl Bins {
     ///
     /// There are none, they lie above half the rate, or a number is not
     /// positive and finite (`low_hz` may be zero).
-    pub fn between(
-        points: u32,
-        rate_hz: f64,
-        low_hz: f64,
-        high_hz: f64,
-    ) -> Result<Self, SpectrumError> {
+    pub fn between(points: u32, rate_hz: f64, low_hz: f64, high_hz: f64) -> Result<Self, Error> {
         let k = |hz: f64| hz * f64::from(points) / rate_hz;
         let first = libm::ceil(k(low_hz) - 1e-6);
         let last = libm::floor(k(high_hz) + 1e-6);
         // Not a number compares false.
         let fit = rate_hz > 0.0 && first >= 0.0 && last >= first && last <= f64::from(points) / 2.0;
         if !fit {
-            return Err(SpectrumError::Bins);
+            return Err(Error::Bins);
         }
         let bins = Self {
             points,
@@ -138,9 +107,9 @@ impl Bins {
     /// # Errors
     ///
     /// The first that is wrong.
-    pub fn check(&self) -> Result<(), SpectrumError> {
+    pub fn check(&self) -> Result<(), Error> {
         if !(1..=MAX_POINTS).contains(&self.points) {
-            return Err(SpectrumError::Points(self.points));
+            return Err(Error::Points(self.points));
         }
         let last = u64::try_from(self.count)
             .ok()
@@ -149,7 +118,7 @@ impl Bins {
             .and_then(|reach| reach.checked_add(u64::from(self.first)));
         match last {
             Some(last) if self.step > 0 && last <= u64::from(self.points / 2) => Ok(()),
-            _ => Err(SpectrumError::Bins),
+            _ => Err(Error::Bins),
         }
     }
 
@@ -168,10 +137,10 @@ impl Bins {
         k * rate_hz / f64::from(self.points)
     }
 
-    fn check_block(&self, block: usize) -> Result<(), SpectrumError> {
+    fn check_block(&self, block: usize) -> Result<(), Error> {
         self.check()?;
         if block == 0 || block > self.points as usize {
-            return Err(SpectrumError::Block {
+            return Err(Error::Block {
                 block,
                 points: self.points,
             });
@@ -179,21 +148,3 @@ impl Bins {
         Ok(())
     }
 }
-
-impl fmt::Display for SpectrumError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Points(n) => write!(f, "{n} points; 1 to {MAX_POINTS} are allowed"),
-            Self::Bins => f.write_str("no bins, or one above half the points"),
-            Self::Block { block, points } => {
-                write!(
-                    f,
-                    "a block of {block} samples; 1 to the {points} points are allowed"
-                )
-            }
-            Self::Count { bins, bank } => write!(f, "{bins} bins in a bank of {bank}"),
-        }
-    }
-}
-
-impl core::error::Error for SpectrumError {}

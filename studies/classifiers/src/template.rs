@@ -17,9 +17,10 @@
 //! a code: e differs from that of the real mean by at most
 //! Σ (|d| + 1/4), d being the differences in codes.
 //!
-//! Training, and the same for a PC: `template_train` (feature `study`).
+//! Training, and the same for a PC: `template_train` (feature `train`).
 
 use crate::choice::Choice;
+use crate::error::Error;
 
 /// K templates of C channels, read in place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,36 +37,14 @@ pub struct TemplateState<const K: usize> {
     errors: [u64; K],
 }
 
-/// The words of a table are not a whole number of samples, at least one, of C
-/// channels and K classes, at least one each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WrongShape {
-    /// Words found.
-    pub words: usize,
-    /// Words a sample.
-    pub a_sample: usize,
-}
-
-impl core::fmt::Display for WrongShape {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { words, a_sample } = self;
-        write!(
-            f,
-            "a table of {words} words, for samples of {a_sample} words each"
-        )
-    }
-}
-
-impl core::error::Error for WrongShape {}
-
 impl<'a, const C: usize, const K: usize> Template<'a, C, K> {
     /// From a table as it stands in flash: `[sample][class][channel]`.
     ///
     /// # Errors
     ///
     /// Not a whole number of samples.
-    pub const fn new(table: &'a [i16]) -> Result<Self, WrongShape> {
-        let wrong = WrongShape {
+    pub const fn new(table: &'a [i16]) -> Result<Self, Error> {
+        let wrong = Error::Table {
             words: table.len(),
             a_sample: C * K,
         };

@@ -6,7 +6,7 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::choice::Choice;
-use crate::fit_error::FitError;
+use crate::error::Error;
 use crate::means::{Means, check_segment, check_window};
 use crate::recogniser::{Outcome, Recogniser};
 use crate::template::add_squares;
@@ -30,7 +30,7 @@ impl TemplateTrainer {
     /// # Errors
     ///
     /// No channels, or the window is out of range.
-    pub fn new(channels: usize, window: usize) -> Result<Self, FitError> {
+    pub fn new(channels: usize, window: usize) -> Result<Self, Error> {
         check_window(channels, window)?;
         Ok(Self {
             channels,
@@ -48,7 +48,7 @@ impl TemplateTrainer {
     ///
     /// It is shorter than the window, or a number is not finite; it is then
     /// not added.
-    pub fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), FitError> {
+    pub fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), Error> {
         check_segment(segment, self.channels, self.window)?;
         let length = self.channels * self.window;
         self.means
@@ -67,9 +67,9 @@ impl TemplateTrainer {
     /// # Errors
     ///
     /// A class has no signal, or a range cannot be scaled.
-    pub fn train(&self) -> Result<Templates, FitError> {
+    pub fn train(&self) -> Result<Templates, Error> {
         let means = self.means.means()?;
-        let quantisers = quantisers(&self.ranges, self.whole).ok_or(FitError::Range)?;
+        let quantisers = quantisers(&self.ranges, self.whole).ok_or(Error::Range)?;
         let classes = means.len();
         let mut table = vec![0; self.window * classes * self.channels];
         let samples = table.chunks_exact_mut(classes * self.channels);
@@ -144,16 +144,6 @@ pub struct Templates {
 }
 
 impl Templates {
-    /// Number of channels C.
-    pub fn channels(&self) -> usize {
-        self.channels
-    }
-
-    /// Samples in the window.
-    pub fn window(&self) -> usize {
-        self.window
-    }
-
     /// Number of classes K.
     pub fn classes(&self) -> usize {
         self.means.len()

@@ -1,7 +1,7 @@
 //! Networks of the papers' shapes, with weights of no meaning: how many
 //! instructions they take does not depend on them.
 
-use classifiers::mlp::{FixedInput, FixedMlp, FixedMlpState, Mlp, MlpInput, MlpState};
+use classifiers::mlp::{Mlp, MlpInput, MlpState};
 
 /// A number from −1 to 1 without any order.
 const fn weight(at: usize) -> f32 {
@@ -14,16 +14,6 @@ const fn row<const H: usize>(from: usize) -> [f32; H] {
     let mut j = 0;
     while j < H {
         row[j] = weight(from + j);
-        j += 1;
-    }
-    row
-}
-
-const fn fixed_row<const H: usize>(from: usize) -> [i16; H] {
-    let mut row = [0; H];
-    let mut j = 0;
-    while j < H {
-        row[j] = (weight(from + j) * 500.0) as i16;
         j += 1;
     }
     row
@@ -56,35 +46,6 @@ pub const fn single<const I: usize, const H: usize, const O: usize>() -> Mlp<I, 
     }
 }
 
-/// The same in fixed point.
-///
-/// # Panics
-/// If there can be none of this shape.
-pub const fn fixed<const I: usize, const H: usize, const O: usize>() -> FixedMlp<I, H, O> {
-    let mut inputs = [FixedInput {
-        offset: 500,
-        // 2¹⁰ / 500, nearly.
-        gain: 33_554,
-        shift: 14,
-        weights: [0; H],
-    }; I];
-    let mut i = 0;
-    while i < I {
-        inputs[i].weights = fixed_row(i * H);
-        i += 1;
-    }
-    let mut output = [[0; H]; O];
-    let mut k = 0;
-    while k < O {
-        output[k] = fixed_row(k * H + 7);
-        k += 1;
-    }
-    match FixedMlp::new(inputs, [1; H], output, [1; O], [9, 9]) {
-        Ok(network) => network,
-        Err(_) => panic!("a shape of a network"),
-    }
-}
-
 /// A network in single precision, and its inputs so far.
 #[derive(Debug)]
 pub struct Single<const I: usize, const H: usize, const O: usize> {
@@ -102,28 +63,6 @@ impl<const I: usize, const H: usize, const O: usize> Single<I, H, O> {
     /// The class, after the last input of a row; 0 after others.
     #[inline]
     pub fn push(&mut self, input: f32) -> u32 {
-        let class = self.network.push(&mut self.state, input);
-        class.map_or(0, |class| class as u32)
-    }
-}
-
-/// A network in fixed point, and its inputs so far.
-#[derive(Debug)]
-pub struct Fixed<const I: usize, const H: usize, const O: usize> {
-    network: &'static FixedMlp<I, H, O>,
-    state: FixedMlpState<H>,
-}
-
-impl<const I: usize, const H: usize, const O: usize> Fixed<I, H, O> {
-    /// Before the first input.
-    pub fn new(network: &'static FixedMlp<I, H, O>) -> Self {
-        let state = network.state();
-        Self { network, state }
-    }
-
-    /// The class, after the last input of a row; 0 after others.
-    #[inline]
-    pub fn push(&mut self, input: i32) -> u32 {
         let class = self.network.push(&mut self.state, input);
         class.map_or(0, |class| class as u32)
     }

@@ -1,29 +1,7 @@
 //! The IMP of all vibrissae of a pad, window by window, and over a sweep.
 
-use core::fmt;
-
 use super::peaks::{Band, Peaks};
-
-/// Why an IMP is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ImpError {
-    /// A window of no samples.
-    Window,
-    /// No vibrissae.
-    Vibrissae,
-}
-
-impl fmt::Display for ImpError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Window => f.write_str("a window of no samples; one is needed"),
-            Self::Vibrissae => f.write_str("no vibrissae; one is needed"),
-        }
-    }
-}
-
-impl core::error::Error for ImpError {}
+use crate::error::Error;
 
 /// The IMP of N vibrissae: an immutable configuration. PSIK's pad has N = 33.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,12 +24,12 @@ impl<const N: usize> Imp<N> {
     /// # Errors
     ///
     /// The window or N is zero.
-    pub const fn new(window: u32, band: Band) -> Result<Self, ImpError> {
+    pub const fn new(window: u32, band: Band) -> Result<Self, Error> {
         if window == 0 {
-            return Err(ImpError::Window);
+            return Err(Error::Window(0));
         }
         if N == 0 {
-            return Err(ImpError::Vibrissae);
+            return Err(Error::Channels);
         }
         Ok(Self { window, band })
     }
@@ -121,8 +99,8 @@ impl<const N: usize> ImpSweep<N> {
         }
     }
 
-    /// The sums, in units of 2⁻¹⁶ code a sample: the inputs of a
-    /// [`crate::mlp::FixedMlp`], or as f32 of a [`crate::mlp::Mlp`].
+    /// The sums, in units of 2⁻¹⁶ code a sample: as f32 the
+    /// inputs of a [`crate::mlp::Mlp`].
     pub fn sums(&self) -> &[i32; N] {
         &self.sums
     }

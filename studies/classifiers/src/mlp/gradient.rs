@@ -9,7 +9,8 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::network::{Shape, forward};
+use super::network::forward;
+use super::shape::Shape;
 
 /// Scaled inputs and classes of some samples.
 #[derive(Debug, Clone, Default)]
@@ -42,6 +43,13 @@ impl Units {
             blame: vec![0.0; shape.hidden],
         }
     }
+
+    fn compute(&mut self, shape: Shape, weights: &[f64], inputs: &[f64]) {
+        let Self {
+            hidden, outputs, ..
+        } = self;
+        forward(shape, weights, inputs, hidden, outputs);
+    }
 }
 
 /// E = 1/(2 N) Σ_n Σ_k (y_k − t_k)² + λ/2 Σ w², t_k being one for the sample's
@@ -51,13 +59,7 @@ pub(super) fn cost(shape: Shape, weights: &[f64], samples: &Samples, decay: f64)
     let mut units = Units::new(shape);
     let mut sum = 0.0;
     for (inputs, class) in samples.rows(shape) {
-        forward(
-            shape,
-            weights,
-            inputs,
-            &mut units.hidden,
-            &mut units.outputs,
-        );
+        units.compute(shape, weights, inputs);
         for (k, y) in units.outputs.iter().enumerate() {
             let error = y - if k == class { 1.0 } else { 0.0 };
             sum += error * error;
@@ -83,13 +85,7 @@ pub(super) fn cost_and_gradient(
     let (to_hidden_bias, rest) = rest.split_at_mut(shape.hidden);
     let (to_output, to_output_bias) = rest.split_at_mut(shape.outputs * shape.hidden);
     for (inputs, class) in samples.rows(shape) {
-        forward(
-            shape,
-            weights,
-            inputs,
-            &mut units.hidden,
-            &mut units.outputs,
-        );
+        units.compute(shape, weights, inputs);
         units.blame.fill(0.0);
         for (k, y) in units.outputs.iter().enumerate() {
             let error = y - if k == class { 1.0 } else { 0.0 };

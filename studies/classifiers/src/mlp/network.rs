@@ -1,64 +1,13 @@
 //! A network of any shape in f64: what training yields, what experiments run,
-//! and what the embedded forms are made from.
+//! and what the embedded form is made from.
 
 use std::vec;
 use std::vec::Vec;
 
-use super::error::MlpError;
-use super::format::{check_shape, write};
-use super::limits::{MAX_SCALED, MAX_WEIGHT};
-use super::single::Mlp;
-
-/// Units of a network.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shape {
-    /// Inputs I, 1 to 4096.
-    pub inputs: usize,
-    /// Hidden units H, 1 to 1024.
-    pub hidden: usize,
-    /// Outputs O, that is classes, 2 to 256.
-    pub outputs: usize,
-}
-
-impl Shape {
-    /// Refuses a shape outside the limits.
-    pub(super) fn check(self) -> Result<(), MlpError> {
-        check_shape(self.inputs, self.hidden, self.outputs)
-    }
-
-    /// Weights and biases: I H + H + O H + O. They stand in this order: for
-    /// each input its H weights, the H biases, for each output its H weights,
-    /// the O biases.
-    pub fn weights(self) -> usize {
-        (self.inputs + 1) * self.hidden + (self.hidden + 1) * self.outputs
-    }
-
-    /// The four groups of a slice of all weights.
-    pub(super) fn parts(self, weights: &[f64]) -> Parts<'_> {
-        let (input, rest) = weights.split_at(self.inputs * self.hidden);
-        let (hidden_bias, rest) = rest.split_at(self.hidden);
-        let (output, output_bias) = rest.split_at(self.outputs * self.hidden);
-        Parts {
-            input,
-            hidden_bias,
-            output,
-            output_bias,
-        }
-    }
-}
-
-/// Weights by what they belong to.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Parts<'w> {
-    /// `[input][hidden]`.
-    pub(super) input: &'w [f64],
-    /// `[hidden]`.
-    pub(super) hidden_bias: &'w [f64],
-    /// `[output][hidden]`.
-    pub(super) output: &'w [f64],
-    /// `[output]`.
-    pub(super) output_bias: &'w [f64],
-}
+use super::shape::Shape;
+use super::single::{Mlp, MlpInput};
+use crate::error::Error;
+use crate::limits::{MAX_SCALED, MAX_WEIGHT};
 
 /// A network in f64.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,12 +25,7 @@ impl Network {
     /// # Errors
     ///
     /// The shape or a number is outside its limits, or a slice of another length.
-    pub fn new(
-        shape: Shape,
-        offset: &[f64],
-        gain: &[f64],
-        weights: &[f64],
-    ) -> Result<Self, MlpError> {
+    pub fn new(shape: Shape, offset: &[f64], gain: &[f64], weights: &[f64]) -> Result<Self, Error> {
         shape.check()?;
         for (expected, found) in [
             (shape.inputs, offset.len()),
@@ -89,17 +33,17 @@ impl Network {
             (shape.weights(), weights.len()),
         ] {
             if expected != found {
-                return Err(MlpError::Length { expected, found });
+                return Err(Error::Length { expected, found });
             }
         }
         // As f32 they must be finite too.
         let usable = |x: &f64| (*x as f32).is_finite();
         let scales = offset.iter().zip(gain);
         if let Some(input) = scales.clone().position(|(o, g)| !usable(o) || !usable(g)) {
-            return Err(MlpError::Scale { input });
+            return Err(Error::Scale { input });
         }
         if !weights.iter().all(|w| w.abs() <= f64::from(MAX_WEIGHT)) {
-            return Err(MlpError::Weight);
+            return Err(Error::Weight);
         }
         Ok(Self {
             shape,
@@ -109,19 +53,9 @@ impl Network {
         })
     }
 
-    /// Its units.
-    pub fn shape(&self) -> Shape {
-        self.shape
-    }
-
     /// The weights, in the order of [`Shape::weights`].
     pub fn weights(&self) -> &[f64] {
         &self.weights
-    }
-
-    /// What is subtracted from each input.
-    pub fn offset(&self) -> &[f64] {
-        &self.offset
     }
 
     /// What each input is then multiplied with.
@@ -134,9 +68,9 @@ impl Network {
     /// # Errors
     ///
     /// There are more or fewer inputs than the network has.
-    pub fn outputs(&self, inputs: &[f64]) -> Result<Vec<f64>, MlpError> {
+    pub fn outputs(&self, inputs: &[f64]) -> Result<Vec<f64>, Error> {
         if inputs.len() != self.shape.inputs {
-            return Err(MlpError::Length {
+            return Err(Error::Length {
                 expected: self.shape.inputs,
                 found: inputs.len(),
             });
@@ -164,33 +98,8 @@ impl Network {
     /// # Errors
     ///
     /// There are more or fewer inputs than the network has.
-    pub fn classify(&self, inputs: &[f64]) -> Result<usize, MlpError> {
+    pub fn classify(&self, inputs: &[f64]) -> Result<usize, Error> {
         Ok(largest(&self.outputs(inputs)?))
-    }
-
-    /// The file of the network, with its numbers as f32: read it with
-    /// [`Mlp::parse`] on a module.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let Shape {
-            inputs,
-            hidden,
-            outputs,
-        } = self.shape;
-        write(inputs, hidden, outputs, self.numbers())
-    }
-
-    /// All numbers as the file and [`Mlp`] order them.
-    fn numbers(&self) -> impl Iterator<Item = f32> {
-        let parts = self.shape.parts(&self.weights);
-        let scale = self.offset.iter().zip(&self.gain);
-        let rows = parts.input.chunks(self.shape.hidden);
-        scale
-            .zip(rows)
-            .flat_map(|((offset, gain), row)| [offset, gain].into_iter().chain(row))
-            .chain(parts.hidden_bias)
-            .chain(parts.output)
-            .chain(parts.output_bias)
-            .map(|x| *x as f32)
     }
 
     /// The network in single precision.
@@ -200,8 +109,29 @@ impl Network {
     /// Its shape is another.
     pub fn single<const I: usize, const H: usize, const O: usize>(
         &self,
-    ) -> Result<Mlp<I, H, O>, MlpError> {
-        Mlp::copied(&self.to_bytes())
+    ) -> Result<Mlp<I, H, O>, Error> {
+        let Shape {
+            inputs,
+            hidden,
+            outputs,
+        } = self.shape;
+        for (expected, found) in [(I, inputs), (H, hidden), (O, outputs)] {
+            if expected != found {
+                return Err(Error::Length { expected, found });
+            }
+        }
+        let parts = self.shape.parts(&self.weights);
+        let row = |row: &[f64]| core::array::from_fn(|j| row[j] as f32);
+        Mlp::new(
+            core::array::from_fn(|i| MlpInput {
+                offset: self.offset[i] as f32,
+                gain: self.gain[i] as f32,
+                weights: row(&parts.input[i * H..]),
+            }),
+            row(parts.hidden_bias),
+            core::array::from_fn(|k| row(&parts.output[k * H..])),
+            core::array::from_fn(|k| parts.output_bias[k] as f32),
+        )
     }
 }
 

@@ -1,16 +1,13 @@
-//! A network in single precision, read in place from flash, input by input.
+//! A network in single precision, input by input.
 
-use zerocopy::{FromBytes, Immutable, KnownLayout};
-
-use super::error::MlpError;
-use super::format::{body, check_shape};
-use super::limits::{MAX_SCALED, MAX_WEIGHT};
 use super::logistic::logistic;
+use super::shape::Shape;
+use crate::error::Error;
+use crate::limits::{MAX_SCALED, MAX_WEIGHT};
 
 /// One input: its scale, and its weight in each of H hidden units. They lie
 /// together so that one walk through memory serves a push.
-#[derive(Debug, Clone, Copy, PartialEq, FromBytes, Immutable, KnownLayout)]
-#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MlpInput<const H: usize> {
     /// Subtracted from the input, in the input's unit: its mean in training.
     pub offset: f32,
@@ -26,8 +23,7 @@ pub struct MlpInput<const H: usize> {
 ///
 /// Outputs are within 2e-6 of the f64 network's for trained networks of the
 /// papers' sizes (LEP12 section 5.2: 120–20–4; PSIK section 3.2.1: 33–33–8).
-#[derive(Debug, Clone, PartialEq, FromBytes, Immutable, KnownLayout)]
-#[repr(C)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mlp<const I: usize, const H: usize, const O: usize> {
     inputs: [MlpInput<H>; I],
     hidden_bias: [f32; H],
@@ -43,17 +39,23 @@ pub struct MlpState<const H: usize> {
 }
 
 impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
+    const SHAPE: Shape = Shape {
+        inputs: I,
+        hidden: H,
+        outputs: O,
+    };
+
     /// A network of its numbers; `const`, so it can be a `static`.
     ///
     /// # Errors
     ///
-    /// The shape is outside the limits, or a number is: see [`MlpError`].
+    /// The shape is outside the limits, or a number is: see [`Error`].
     pub const fn new(
         inputs: [MlpInput<H>; I],
         hidden_bias: [f32; H],
         output: [[f32; H]; O],
         output_bias: [f32; O],
-    ) -> Result<Self, MlpError> {
+    ) -> Result<Self, Error> {
         let network = Self {
             inputs,
             hidden_bias,
@@ -66,46 +68,8 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
         }
     }
 
-    /// Reads a network in place. `bytes` must be the file and no more, on a
-    /// four-byte boundary: [`tactile::include_model`] sees to that.
-    ///
-    /// # Errors
-    ///
-    /// The file is none, damaged, of another shape or misaligned.
-    pub fn parse(bytes: &[u8]) -> Result<&Self, MlpError> {
-        let numbers = Self::body(bytes)?;
-        // The length is right, so only the place can be wrong.
-        let network = Self::ref_from_bytes(numbers).map_err(|_| MlpError::Misaligned)?;
-        network.check()?;
-        Ok(network)
-    }
-
-    /// Copies a network out of its file, wherever that lies.
-    ///
-    /// # Errors
-    ///
-    /// The file is none, damaged or of another shape.
-    pub fn copied(bytes: &[u8]) -> Result<Self, MlpError> {
-        let numbers = Self::body(bytes)?;
-        let network = Self::read_from_bytes(numbers).map_err(|_| MlpError::Misaligned)?;
-        network.check()?;
-        Ok(network)
-    }
-
-    fn body(bytes: &[u8]) -> Result<&[u8], MlpError> {
-        check_shape(I, H, O)?;
-        let numbers = body(bytes, I, H, O)?;
-        if numbers.len() != size_of::<Self>() {
-            return Err(MlpError::Length {
-                expected: size_of::<Self>(),
-                found: numbers.len(),
-            });
-        }
-        Ok(numbers)
-    }
-
-    const fn check(&self) -> Result<(), MlpError> {
-        if let Err(error) = check_shape(I, H, O) {
+    const fn check(&self) -> Result<(), Error> {
+        if let Err(error) = Self::SHAPE.check() {
             return Err(error);
         }
         let mut weights = allowed(&self.hidden_bias) && allowed(&self.output_bias);
@@ -113,7 +77,7 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
         while i < I {
             let MlpInput { offset, gain, .. } = self.inputs[i];
             if !offset.is_finite() || !gain.is_finite() {
-                return Err(MlpError::Scale { input: i });
+                return Err(Error::Scale { input: i });
             }
             weights = weights && allowed(&self.inputs[i].weights);
             i += 1;
@@ -123,11 +87,7 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
             weights = weights && allowed(&self.output[k]);
             k += 1;
         }
-        if weights {
-            Ok(())
-        } else {
-            Err(MlpError::Weight)
-        }
+        if weights { Ok(()) } else { Err(Error::Weight) }
     }
 
     /// The state before the first input.
@@ -168,38 +128,6 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
         self.take(state, input).map(|drives| drives.map(logistic))
     }
 
-    /// Forgets the inputs so far.
-    #[inline]
-    pub fn reset(&self, state: &mut MlpState<H>) {
-        *state = self.state();
-    }
-
-    /// Classifies a whole row of inputs at once.
-    pub fn classify(&self, inputs: &[f32; I]) -> usize {
-        let mut state = self.state();
-        let mut class = 0;
-        for &x in inputs {
-            // It comes with the last input alone.
-            if let Some(found) = self.push(&mut state, x) {
-                class = found;
-            }
-        }
-        class
-    }
-
-    /// The outputs y for a whole row of inputs.
-    pub fn outputs(&self, inputs: &[f32; I]) -> [f32; O] {
-        let mut state = self.state();
-        let mut outputs = [0.0; O];
-        for &x in inputs {
-            // They come with the last input alone.
-            if let Some(found) = self.push_for_outputs(&mut state, x) {
-                outputs = found;
-            }
-        }
-        outputs
-    }
-
     /// The drives of the outputs, after the last input.
     #[inline]
     fn take(&self, state: &mut MlpState<H>, x: f32) -> Option<[f32; O]> {
@@ -221,7 +149,7 @@ impl<const I: usize, const H: usize, const O: usize> Mlp<I, H, O> {
     #[inline(never)]
     fn end(&self, state: &mut MlpState<H>) -> [f32; O] {
         let hidden = state.drives.map(logistic);
-        self.reset(state);
+        *state = self.state();
         let mut drives = self.output_bias;
         for (drive, weights) in drives.iter_mut().zip(&self.output) {
             for (&weight, &h) in weights.iter().zip(&hidden) {

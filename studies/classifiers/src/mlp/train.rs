@@ -17,7 +17,6 @@
 //! The same samples, options and seed give the same network, to the last bit,
 //! on every machine.
 
-mod error;
 mod options;
 mod session;
 
@@ -30,8 +29,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::gradient::Samples;
-use super::network::{Network, Shape, scaled};
-pub use error::NetworkTrainError;
+use super::network::{Network, scaled};
+use super::shape::Shape;
+use crate::error::Error;
+use crate::limits::MAX_OUTPUTS;
 pub use options::Options;
 use session::{Found, session};
 
@@ -46,10 +47,6 @@ pub struct Trained {
     pub hit_rates: Vec<f64>,
     /// Root of the mean over samples of Σ_k (y_k − t_k)², over what was not held out.
     pub error: f64,
-    /// Starts it took.
-    pub attempts: u32,
-    /// Iterations of the last.
-    pub iterations: u64,
 }
 
 /// Collects rows of inputs and their classes.
@@ -68,7 +65,7 @@ impl NetworkTrainer {
     /// # Errors
     ///
     /// An option or the number of inputs is out of range.
-    pub fn new(inputs: usize, options: Options) -> Result<Self, NetworkTrainError> {
+    pub fn new(inputs: usize, options: Options) -> Result<Self, Error> {
         options.check()?;
         let (hidden, outputs) = (options.hidden, 2);
         Shape {
@@ -91,25 +88,28 @@ impl NetworkTrainer {
     /// # Errors
     ///
     /// The row or the name is unusable; it is then not added.
-    pub fn add(&mut self, label: &str, row: &[f64]) -> Result<(), NetworkTrainError> {
+    pub fn add(&mut self, label: &str, row: &[f64]) -> Result<(), Error> {
         if row.len() != self.inputs {
-            return Err(NetworkTrainError::Inputs {
+            return Err(Error::Length {
                 expected: self.inputs,
                 found: row.len(),
             });
         }
         // As f32, which a module's network reads.
-        if let Some(input) = row.iter().position(|x| !(*x as f32).is_finite()) {
-            return Err(NetworkTrainError::NotFinite { input });
+        if let Some(channel) = row.iter().position(|x| !(*x as f32).is_finite()) {
+            return Err(Error::NotFinite {
+                sample: self.rows(),
+                channel,
+            });
         }
         if label.is_empty() {
-            return Err(NetworkTrainError::NameEmpty);
+            return Err(Error::NameEmpty);
         }
         let class = if let Some(class) = self.names.iter().position(|n| n == label) {
             class
         } else {
-            if self.names.len() == super::MAX_OUTPUTS {
-                return Err(NetworkTrainError::TooManyClasses);
+            if self.names.len() == MAX_OUTPUTS {
+                return Err(Error::Outputs(MAX_OUTPUTS + 1));
             }
             self.names.push(label.to_owned());
             self.names.len() - 1
@@ -136,10 +136,10 @@ impl NetworkTrainer {
     ///
     /// Fewer than two classes, an input that spans more than an f32 can scale,
     /// or no start that was reliable.
-    pub fn train(&self) -> Result<Trained, NetworkTrainError> {
+    pub fn train(&self) -> Result<Trained, Error> {
         match self.names.len() {
-            0 => return Err(NetworkTrainError::NoSamples),
-            1 => return Err(NetworkTrainError::OneClass),
+            0 => return Err(Error::NoSamples),
+            1 => return Err(Error::OneClass),
             _ => {}
         }
         let shape = Shape {
@@ -149,7 +149,7 @@ impl NetworkTrainer {
         };
         let (offset, gain) = self.scale()?;
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.options.seed);
-        for attempt in 1..=self.options.attempts {
+        for _ in 0..self.options.attempts {
             let [training, held_out] = self.split(&offset, &gain, &mut random);
             let start = start(shape, &mut random);
             let Some(found) = session(shape, &self.options, start, &training, &held_out) else {
@@ -158,7 +158,6 @@ impl NetworkTrainer {
             let Found {
                 weights,
                 mean_square,
-                iterations,
             } = found;
             let Ok(network) = Network::new(shape, &offset, &gain, &weights) else {
                 continue;
@@ -170,18 +169,16 @@ impl NetworkTrainer {
                     names: self.names.clone(),
                     hit_rates,
                     error: mean_square.sqrt(),
-                    attempts: attempt,
-                    iterations,
                 });
             }
         }
-        Err(NetworkTrainError::NotReliable {
+        Err(Error::NotReliable {
             attempts: self.options.attempts,
         })
     }
 
     /// Mean and one over the standard deviation of each input.
-    fn scale(&self) -> Result<(Vec<f64>, Vec<f64>), NetworkTrainError> {
+    fn scale(&self) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let rows = self.rows() as f64;
         let mut offset = vec![0.0; self.inputs];
         let mut gain = vec![0.0; self.inputs];
@@ -194,7 +191,7 @@ impl NetworkTrainer {
             let spread = deviation > mean.abs() * 1e-12 && deviation > 0.0;
             (offset[input], gain[input]) = (mean, if spread { 1.0 / deviation } else { 0.0 });
             if !(gain[input] as f32).is_finite() {
-                return Err(NetworkTrainError::Range { input });
+                return Err(Error::Scale { input });
             }
         }
         Ok((offset, gain))
@@ -226,7 +223,7 @@ impl NetworkTrainer {
         parts
     }
 
-    fn hit_rates(&self, network: &Network) -> Result<Vec<f64>, NetworkTrainError> {
+    fn hit_rates(&self, network: &Network) -> Result<Vec<f64>, Error> {
         let mut hits = vec![0_u32; self.names.len()];
         let mut trials = vec![0_u32; self.names.len()];
         for (row, &class) in self.values.chunks_exact(self.inputs).zip(&self.classes) {

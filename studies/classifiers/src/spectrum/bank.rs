@@ -12,7 +12,8 @@
 //! a = 2 cos θ + 2 = 4 cos²(θ/2): d ← −d + a s + x, s ← −s + d,
 //! |X|² = d² + a s (s − d).
 
-use super::{Bins, Measure, SpectrumError};
+use super::{Bins, Measure};
+use crate::error::Error;
 
 /// B bins of a block: immutable, can be a constant in flash (`4 B + 8` bytes).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,10 +41,10 @@ impl<const B: usize> Bank<B> {
     /// # Errors
     ///
     /// Bins or block are out of range, or the bins are not B.
-    pub fn new(bins: &Bins, block: u32) -> Result<Self, SpectrumError> {
+    pub fn new(bins: &Bins, block: u32) -> Result<Self, Error> {
         bins.check_block(block as usize)?;
         if bins.count != B {
-            return Err(SpectrumError::Count {
+            return Err(Error::Count {
                 bins: bins.count,
                 bank: B,
             });

@@ -7,7 +7,8 @@ use std::vec::Vec;
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 
-use super::{Bins, Measure, SpectrumError};
+use super::{Bins, Measure};
+use crate::error::Error;
 
 /// Some bins of blocks of one length: a plan, which is worth keeping, and its
 /// memory.
@@ -34,7 +35,7 @@ impl Spectrum {
     /// # Errors
     ///
     /// Bins or block are out of range.
-    pub fn new(bins: Bins, block: usize) -> Result<Self, SpectrumError> {
+    pub fn new(bins: Bins, block: usize) -> Result<Self, Error> {
         bins.check_block(block)?;
         let plan = RealFftPlanner::new().plan_fft_forward(bins.points as usize);
         Ok(Self {
@@ -62,7 +63,7 @@ impl Spectrum {
     /// # Errors
     ///
     /// It has another number of samples.
-    pub fn of(&mut self, block: &[f64], measure: Measure) -> Result<Vec<f64>, SpectrumError> {
+    pub fn of(&mut self, block: &[f64], measure: Measure) -> Result<Vec<f64>, Error> {
         self.of_samples(block.iter().copied(), measure)
     }
 
@@ -76,8 +77,8 @@ impl Spectrum {
         &mut self,
         block: impl IntoIterator<Item = f64>,
         measure: Measure,
-    ) -> Result<Vec<f64>, SpectrumError> {
-        let wrong = SpectrumError::Block {
+    ) -> Result<Vec<f64>, Error> {
+        let wrong = Error::Block {
             block: 0,
             points: self.bins.points,
         };
@@ -92,7 +93,7 @@ impl Spectrum {
             }
         }
         if found != self.block {
-            return Err(SpectrumError::Block {
+            return Err(Error::Block {
                 block: found,
                 points: self.bins.points,
             });

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Outputs of two small networks by numpy, for tests/mlp.rs.
+"""Outputs of two small networks by numpy, for tests/suite/mlp.rs.
 
 Run: python3 mlp.py      (needs numpy; prints what the test holds)
 

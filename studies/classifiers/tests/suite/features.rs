@@ -3,10 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use classifiers::FitError;
-use classifiers::feature_train::{Extractor, FeatureSettings, FeatureTrainer};
+use classifiers::Error;
+use classifiers::feature_train::{Extractor, FeatureSettings};
 use classifiers::features::{Feature, FeatureRule};
-use classifiers::recogniser::{Recogniser, first_outcome};
 use classifiers::regression::Regression;
 use proptest::prelude::*;
 
@@ -143,43 +142,41 @@ fn what_the_examples_do_not_say_is_not_made_up() {
 /// Speed by peak deflection, as in POSE.
 #[test]
 fn classes_are_trained_and_the_board_names_the_same() {
-    let mut trainer = FeatureTrainer::new(settings(), &[Feature::Peak], 2).unwrap();
+    let mut extractor = Extractor::new(settings()).unwrap();
+    let mut peak_of = |signal: &[f64]| vec![Feature::Peak.of(&extractor.features(signal).unwrap())];
     // Peaks that grow with the root of the class: a second-degree relation.
     let peak = |class: usize| (1.0 + class as f64).sqrt();
+    let mut examples = Vec::new();
     for class in 0..5 {
         for vibration in [0.01, 0.02] {
-            trainer
-                .add(class, &contact(peak(class), vibration))
-                .unwrap();
+            let features = peak_of(&contact(peak(class), vibration));
+            examples.push((features, class as f64));
         }
     }
-    let trained = trainer.train().unwrap();
-    let mut pc = trained.recogniser();
+    let trained = Regression::fit(2, &examples).unwrap();
     let features = settings().features::<498>().unwrap();
-    let terms = trained.regression().single_terms::<1>().unwrap();
+    let terms = trained.single_terms::<1>().unwrap();
     let rule = FeatureRule {
         chosen: [Feature::Peak],
-        polynomial: trained.regression().polynomial(&terms).unwrap(),
-        classes: trained.classes(),
+        polynomial: trained.polynomial(&terms).unwrap(),
+        classes: 5,
     };
-    let mut state = features.state();
-    for class in 0..5 {
-        let heard = contact(peak(class) + 0.02, 0.012);
-        let outcome = first_outcome(&mut pc, &heard, 1).unwrap();
-        assert_eq!((outcome.class, outcome.samples), (class, BLOCK as u32));
-        let value = outcome.value.unwrap();
-        assert!((value - class as f64).abs() < 0.2, "{value}");
-        let found = heard
+    let named = |signal: &[f64]| {
+        let mut state = features.state();
+        let found = signal
             .iter()
             .find_map(|&x| features.push(&mut state, x as f32));
-        let estimate = rule.estimate(&found.unwrap());
+        rule.estimate(&found.unwrap())
+    };
+    for class in 0..5 {
+        let signal = contact(peak(class) + 0.02, 0.012);
+        let value = trained.value(&peak_of(&signal));
+        assert!((value - class as f64).abs() < 0.2, "{value}");
+        let estimate = named(&signal);
         assert_eq!(estimate.class, class);
         assert!((f64::from(estimate.value) - value).abs() < 1e-4);
     }
-    let named = |peak| first_outcome(&mut trained.recogniser(), &contact(peak, 0.01), 1).unwrap();
-    assert_eq!(named(9.0).class, 4, "beyond the last");
-    assert_eq!(pc.push(&[0.0; 2]), None);
-    assert_eq!(trained.chosen(), [Feature::Peak]);
+    assert_eq!(named(&contact(9.0, 0.01)).class, 4, "beyond the last");
 }
 
 #[test]
@@ -194,34 +191,31 @@ fn what_is_wrong_is_named() {
         rate_hz: 0.0,
         ..settings()
     };
-    assert_eq!(Extractor::new(wrong).err(), Some(FitError::Setting));
+    assert_eq!(Extractor::new(wrong).err(), Some(Error::Setting));
     let wrong = FeatureSettings {
         rest: f64::NAN,
         ..settings()
     };
-    assert_eq!(Extractor::new(wrong).err(), Some(FitError::Setting));
+    assert_eq!(Extractor::new(wrong).err(), Some(Error::Setting));
     assert!(FeatureSettings::pose(0.0, 0.1, 1500.0, BLOCK).is_err());
     assert!(settings().features::<497>().is_err());
-    let mut trainer = FeatureTrainer::new(settings(), &[], 2).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::NoSegments));
-    let short = FitError::Short {
+    assert_eq!(Regression::fit(2, &[]).err(), Some(Error::NoSamples));
+    let short = Error::Short {
         found: 1,
         needed: BLOCK,
     };
-    assert_eq!(trainer.add(0, &[0.0]), Err(short));
-    trainer.add(0, &[0.0; BLOCK]).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::Feature(0)));
+    let mut extractor = Extractor::new(settings()).unwrap();
+    assert_eq!(extractor.features(&[0.0]), Err(short));
+    let none = Regression::fit(2, &[(Vec::new(), 0.0)]);
+    assert_eq!(none.err(), Some(Error::Feature(0)));
     let one = [(vec![1.0], 1.0)];
-    assert_eq!(Regression::fit(0, &one).err(), Some(FitError::Degree(0)));
-    assert_eq!(Regression::fit(9, &one).err(), Some(FitError::Degree(9)));
+    assert_eq!(Regression::fit(0, &one).err(), Some(Error::Degree(0)));
+    assert_eq!(Regression::fit(9, &one).err(), Some(Error::Degree(9)));
     let wide = [(vec![1.0; 64], 1.0)];
-    assert_eq!(Regression::fit(8, &wide).err(), Some(FitError::Degree(8)));
+    assert_eq!(Regression::fit(8, &wide).err(), Some(Error::Degree(8)));
     let unlike = [(vec![1.0], 1.0), (vec![1.0, 2.0], 1.0)];
-    assert_eq!(
-        Regression::fit(2, &unlike).err(),
-        Some(FitError::Feature(2))
-    );
-    let bad = FitError::NotFinite {
+    assert_eq!(Regression::fit(2, &unlike).err(), Some(Error::Feature(2)));
+    let bad = Error::NotFinite {
         sample: 0,
         channel: 1,
     };
@@ -230,5 +224,5 @@ fn what_is_wrong_is_named() {
         Some(bad)
     );
     let far = [(vec![f64::MAX], 1.0), (vec![-f64::MAX], 2.0)];
-    assert!(Regression::fit(2, &far).is_err_and(|e| matches!(e, FitError::Range)));
+    assert!(Regression::fit(2, &far).is_err_and(|e| matches!(e, Error::Range)));
 }

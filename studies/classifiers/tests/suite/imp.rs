@@ -3,7 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use classifiers::imp::{Band, Imp, ImpError, ImpSweep, Peaks, deflection};
+use classifiers::Error;
+use classifiers::imp::{Band, Imp, ImpSweep, Peaks, deflection};
 use proptest::prelude::*;
 
 /// Codes a sample of one vibrissa's x and y, no window but the whole.
@@ -112,7 +113,7 @@ fn without_peaks_it_is_nought() {
     }
 }
 
-/// On a slow sine of noise ±6 codes, band nought hears the noise, a band of 20
+/// On a slow sine of noise ±6 codes, band nought finds the noise, a band of 20
 /// the sine.
 #[test]
 fn a_band_keeps_noise_out() {
@@ -171,9 +172,9 @@ fn windows_share_peaks_out_and_lose_none() {
 #[test]
 fn nothing_to_measure_is_refused() {
     let none = Imp::<0>::new(10, Band::default());
-    assert_eq!(none, Err(ImpError::Vibrissae));
+    assert_eq!(none, Err(Error::Channels));
     let none = Imp::<33>::new(0, Band::default());
-    assert_eq!(none, Err(ImpError::Window));
+    assert_eq!(none, Err(Error::Window(0)));
 }
 
 /// The definition, in double precision and with all deflections in hand: runs

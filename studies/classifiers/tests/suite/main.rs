@@ -12,8 +12,6 @@ mod mlp;
 #[cfg(feature = "train")]
 mod mlp_forms;
 #[cfg(feature = "train")]
-mod networks;
-#[cfg(feature = "train")]
 mod recogniser;
 #[cfg(feature = "train")]
 mod rows;

@@ -1,8 +1,9 @@
 //! Networks against numpy, and training against what is known beforehand.
 
 use crate::rows::{self, Random};
-use classifiers::mlp::train::{NetworkTrainError, NetworkTrainer, Options, Trained};
-use classifiers::mlp::{MlpError, Network, Shape};
+use classifiers::Error;
+use classifiers::mlp::train::{NetworkTrainer, Options, Trained};
+use classifiers::mlp::{Network, Shape};
 
 fn options(hidden: usize) -> Options {
     Options {
@@ -17,7 +18,7 @@ fn options(hidden: usize) -> Options {
     }
 }
 
-fn train(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, NetworkTrainError> {
+fn train(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, Error> {
     let mut trainer = NetworkTrainer::new(rows[0].1.len(), options)?;
     for (label, row) in rows {
         trainer.add(label, row)?;
@@ -207,34 +208,25 @@ fn what_cannot_be_trained_is_refused_by_name() {
         made(options).unwrap_err()
     };
     assert_eq!(made(base), Ok(()));
-    assert_eq!(refused(|o| o.decay = -0.1), NetworkTrainError::Decay(-0.1));
+    assert_eq!(refused(|o| o.decay = -0.1), Error::Decay(-0.1));
     assert!(matches!(
         refused(|o| o.held_out = f64::NAN),
-        NetworkTrainError::HeldOut(_)
+        Error::HeldOut(_)
     ));
-    assert_eq!(
-        refused(|o| o.held_out = 0.6),
-        NetworkTrainError::HeldOut(0.6)
-    );
-    assert_eq!(
-        refused(|o| o.reliable = 1.0),
-        NetworkTrainError::Reliable(1.0)
-    );
-    assert_eq!(refused(|o| o.attempts = 0), NetworkTrainError::NoAttempts);
-    assert_eq!(
-        refused(|o| o.hidden = 0),
-        NetworkTrainError::Network(MlpError::Hidden(0))
-    );
+    assert_eq!(refused(|o| o.held_out = 0.6), Error::HeldOut(0.6));
+    assert_eq!(refused(|o| o.reliable = 1.0), Error::Reliable(1.0));
+    assert_eq!(refused(|o| o.attempts = 0), Error::NoAttempts);
+    assert_eq!(refused(|o| o.hidden = 0), Error::Hidden(0));
     assert_eq!(
         NetworkTrainer::new(0, base).map(|_| ()),
-        Err(NetworkTrainError::Network(MlpError::Inputs(0)))
+        Err(Error::Inputs(0))
     );
 
     let mut trainer = NetworkTrainer::new(2, base).unwrap();
-    assert_eq!(trainer.train(), Err(NetworkTrainError::NoSamples));
+    assert_eq!(trainer.train(), Err(Error::NoSamples));
     assert_eq!(
         trainer.add("a", &[1.0]),
-        Err(NetworkTrainError::Inputs {
+        Err(Error::Length {
             expected: 2,
             found: 1
         })
@@ -242,26 +234,23 @@ fn what_cannot_be_trained_is_refused_by_name() {
     for x in [f64::NAN, f64::INFINITY, 1e39] {
         assert_eq!(
             trainer.add("a", &[1.0, x]),
-            Err(NetworkTrainError::NotFinite { input: 1 })
+            Err(Error::NotFinite {
+                sample: 0,
+                channel: 1
+            })
         );
     }
-    assert_eq!(
-        trainer.add("", &[1.0, 1.0]),
-        Err(NetworkTrainError::NameEmpty)
-    );
+    assert_eq!(trainer.add("", &[1.0, 1.0]), Err(Error::NameEmpty));
     assert_eq!(trainer.rows(), 0);
     trainer.add("a", &[1.0, 1.0]).unwrap();
-    assert_eq!(trainer.train(), Err(NetworkTrainError::OneClass));
+    assert_eq!(trainer.train(), Err(Error::OneClass));
     // Both rows alike: no start can hit both classes.
     trainer.add("b", &[1.0, 1.0]).unwrap();
-    assert_eq!(
-        trainer.train(),
-        Err(NetworkTrainError::NotReliable { attempts: 10 })
-    );
+    assert_eq!(trainer.train(), Err(Error::NotReliable { attempts: 10 }));
     // Deviation 1e-40: one over it is no f32.
     trainer.add("b", &[1.0, 1.0]).unwrap();
     let mut narrow = NetworkTrainer::new(1, base).unwrap();
     narrow.add("a", &[0.0]).unwrap();
     narrow.add("b", &[2e-40]).unwrap();
-    assert_eq!(narrow.train(), Err(NetworkTrainError::Range { input: 0 }));
+    assert_eq!(narrow.train(), Err(Error::Scale { input: 0 }));
 }

@@ -55,7 +55,6 @@ fn rules_answer_as_they_do_without_a_wrapper() {
         let whole = Some(Outcome {
             class,
             samples: 600,
-            value: None,
         });
         let mut stationary = Bayes::stationary(model).unwrap();
         assert_eq!(first_outcome(&mut stationary, &segment, 2), whole);

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use classifiers::FitError;
+use classifiers::Error;
 use classifiers::recogniser::{Recogniser, first_outcome, outcomes};
 use classifiers::spectral_template::SpectralTemplate;
 use classifiers::spectral_train::{SpectralTemplates, SpectralTrainer};
-use classifiers::spectrum::{Bank, Bins, Measure, SpectrumError};
+use classifiers::spectrum::{Bank, Bins, Measure};
 
 /// 40 bins of 2.5 Hz at 2 kHz, as LEP12's.
 const BLOCK: usize = 800;
@@ -128,16 +128,13 @@ fn only_whole_blocks_decide() {
 #[test]
 fn what_is_wrong_is_named() {
     let new = |channels, bins, block| SpectralTrainer::new(channels, bins, block, Measure::Power);
-    assert_eq!(new(0, BINS, BLOCK).err(), Some(FitError::Channels));
-    assert_eq!(new(2, BINS, 0).err(), Some(FitError::Window(0)));
+    assert_eq!(new(0, BINS, BLOCK).err(), Some(Error::Channels));
+    assert_eq!(new(2, BINS, 0).err(), Some(Error::Window(0)));
     let bins = Bins { count: 900, ..BINS };
-    assert_eq!(
-        new(2, bins, BLOCK).err(),
-        Some(FitError::Spectrum(SpectrumError::Bins))
-    );
+    assert_eq!(new(2, bins, BLOCK).err(), Some(Error::Bins));
     let mut trainer = new(2, BINS, BLOCK).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::NoSegments));
-    let short = FitError::Short {
+    assert_eq!(trainer.train().err(), Some(Error::NoSamples));
+    let short = Error::Short {
         found: 1,
         needed: BLOCK,
     };

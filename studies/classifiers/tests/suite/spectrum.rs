@@ -1,6 +1,7 @@
 //! The spectrum against closed forms and NumPy, and the board's against the PC's.
 
-use classifiers::spectrum::{Bank, Bins, Measure, Spectrum, SpectrumError};
+use classifiers::Error;
+use classifiers::spectrum::{Bank, Bins, Measure, Spectrum};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -191,10 +192,7 @@ fn a_new_block_begins_by_itself_and_a_constant_bank_is_the_same() {
 #[test]
 fn what_is_wrong_is_named() {
     let all = Bins::all(8);
-    assert_eq!(
-        Bins { points: 0, ..all }.check(),
-        Err(SpectrumError::Points(0))
-    );
+    assert_eq!(Bins { points: 0, ..all }.check(), Err(Error::Points(0)));
     for bins in [
         Bins { count: 6, ..all },
         Bins { count: 0, ..all },
@@ -206,18 +204,18 @@ fn what_is_wrong_is_named() {
             ..all
         },
     ] {
-        assert_eq!(bins.check(), Err(SpectrumError::Bins), "{bins:?}");
+        assert_eq!(bins.check(), Err(Error::Bins), "{bins:?}");
     }
     assert!(Bins::between(800, 2000.0, 10.0, 5.0).is_err());
     assert!(Bins::between(800, 2000.0, 10.0, 1003.0).is_err());
     assert!(Bins::between(800, f64::NAN, 10.0, 100.0).is_err());
     assert!(Bins::between(800, 2000.0, -10.0, 100.0).is_err());
-    let block = |block| SpectrumError::Block { block, points: 8 };
+    let block = |block| Error::Block { block, points: 8 };
     assert_eq!(Spectrum::new(all, 9).err(), Some(block(9)));
     assert_eq!(Spectrum::new(all, 0).err(), Some(block(0)));
     let mut spectrum = Spectrum::new(all, 8).unwrap();
     assert_eq!(spectrum.of(&[0.0; 7], Measure::Power), Err(block(7)));
     assert_eq!(spectrum.of(&[0.0; 9], Measure::Power), Err(block(9)));
-    let count = SpectrumError::Count { bins: 5, bank: 4 };
+    let count = Error::Count { bins: 5, bank: 4 };
     assert_eq!(Bank::<4>::new(&all, 8).err(), Some(count));
 }

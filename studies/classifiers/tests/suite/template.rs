@@ -1,8 +1,8 @@
 //! Templates against the sum of the definition, and the board's against the PC's.
 
-use classifiers::FitError;
+use classifiers::Error;
 use classifiers::recogniser::{Recogniser, first_outcome};
-use classifiers::template::{Template, WrongShape};
+use classifiers::template::Template;
 use classifiers::template_train::{TemplateTrainer, Templates};
 use proptest::prelude::*;
 
@@ -147,35 +147,32 @@ fn the_widest_window_of_codes_adds_up() {
 
 #[test]
 fn what_is_wrong_is_named() {
-    assert_eq!(TemplateTrainer::new(0, 5).err(), Some(FitError::Channels));
-    assert_eq!(TemplateTrainer::new(2, 0).err(), Some(FitError::Window(0)));
+    assert_eq!(TemplateTrainer::new(0, 5).err(), Some(Error::Channels));
+    assert_eq!(TemplateTrainer::new(2, 0).err(), Some(Error::Window(0)));
     assert!(TemplateTrainer::new(2, usize::MAX).is_err());
     let mut trainer = TemplateTrainer::new(2, 2).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::NoSegments));
-    let short = FitError::Short {
+    assert_eq!(trainer.train().err(), Some(Error::NoSamples));
+    let short = Error::Short {
         found: 1,
         needed: 2,
     };
     assert_eq!(trainer.add(0, &[0.0; 2]), Err(short));
-    let ragged = FitError::Ragged {
+    let ragged = Error::Ragged {
         values: 5,
         channels: 2,
     };
     assert_eq!(trainer.add(0, &[0.0; 5]), Err(ragged));
-    let bad = FitError::NotFinite {
+    let bad = Error::NotFinite {
         sample: 1,
         channel: 0,
     };
     assert_eq!(trainer.add(0, &[0.0, 0.0, f64::NAN, 0.0]), Err(bad));
-    assert_eq!(
-        trainer.add(1 << 16, &[0.0; 4]),
-        Err(FitError::Class(1 << 16))
-    );
+    assert_eq!(trainer.add(1 << 16, &[0.0; 4]), Err(Error::Class(1 << 16)));
     trainer.add(1, &[0.0; 4]).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::Empty { class: 0 }));
+    assert_eq!(trainer.train().err(), Some(Error::Empty { class: 0 }));
     trainer.add(0, &[f64::MAX, 0.0, -f64::MAX, 0.0]).unwrap();
-    assert_eq!(trainer.train().err(), Some(FitError::Range));
-    let shape = WrongShape {
+    assert_eq!(trainer.train().err(), Some(Error::Range));
+    let shape = Error::Table {
         words: 5,
         a_sample: 4,
     };

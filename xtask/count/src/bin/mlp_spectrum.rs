@@ -2,21 +2,17 @@
 //! mean is over all inputs of a row; the worst is the last, which decides.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use classifiers::mlp::{FixedMlp, Mlp};
-use count::networks::{Fixed, Single, fixed, single};
+use classifiers::mlp::Mlp;
+use count::networks::{Single, single};
 use count::samples::spread;
 use count::{kernel, program};
 
 program!(kernels);
 
 static SINGLE: Mlp<120, 20, 4> = single();
-static FIXED: FixedMlp<120, 20, 4> = fixed();
 
 fn kernels() {
     kernel!("f32": "network push 120-20-4",
         (input: f32, network: &mut Single<120, 20, 4>) -> u32 { network.push(input) },
         |call| spread(call, 0.0, 1000.0) as f32, Single::new(&SINGLE));
-    kernel!("fix": "network push 120-20-4",
-        (input: i32, network: &mut Fixed<120, 20, 4>) -> u32 { network.push(input) },
-        |call| spread(call, 0.0, 1000.0) as i32, Fixed::new(&FIXED));
 }

@@ -1,6 +1,6 @@
 //! How to train a network, and the papers' ways.
 
-use super::NetworkTrainError;
+use crate::error::Error;
 
 /// How to train.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,18 +63,18 @@ impl Options {
     }
 
     /// Refuses what is out of range.
-    pub(super) fn check(self) -> Result<(), NetworkTrainError> {
+    pub(super) fn check(self) -> Result<(), Error> {
         if !(0.0..=1.0).contains(&self.decay) {
-            return Err(NetworkTrainError::Decay(self.decay));
+            return Err(Error::Decay(self.decay));
         }
         if !(0.0..=0.5).contains(&self.held_out) {
-            return Err(NetworkTrainError::HeldOut(self.held_out));
+            return Err(Error::HeldOut(self.held_out));
         }
         if !(0.0..1.0).contains(&self.reliable) {
-            return Err(NetworkTrainError::Reliable(self.reliable));
+            return Err(Error::Reliable(self.reliable));
         }
         if self.attempts == 0 {
-            return Err(NetworkTrainError::NoAttempts);
+            return Err(Error::NoAttempts);
         }
         Ok(())
     }

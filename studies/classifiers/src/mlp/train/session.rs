@@ -13,7 +13,7 @@ use argmin::solver::quasinewton::LBFGS;
 
 use super::Options;
 use crate::mlp::gradient::{Samples, cost, cost_and_gradient};
-use crate::mlp::network::Shape;
+use crate::mlp::shape::Shape;
 
 /// Differences of weights and slopes that L-BFGS remembers.
 const MEMORY: usize = 10;
@@ -23,7 +23,6 @@ pub(super) struct Found {
     pub(super) weights: Vec<f64>,
     /// Mean over the training samples of Σ_k (y_k − t_k)².
     pub(super) mean_square: f64,
-    pub(super) iterations: u64,
 }
 
 /// Trains from a start; None if no finite error was met.
@@ -38,7 +37,6 @@ pub(super) fn session(
         error: f64::INFINITY,
         weights: Vec::new(),
         misses: 0,
-        iterations: 0,
     });
     let solver = Stopping {
         inner: LBFGS::new(MoreThuenteLineSearch::new(), MEMORY),
@@ -59,18 +57,13 @@ pub(super) fn session(
         .configure(|state| state.param(start).max_iters(options.iterations))
         .ctrlc(false)
         .run();
-    let Best {
-        weights,
-        iterations,
-        ..
-    } = best.into_inner();
+    let Best { weights, .. } = best.into_inner();
     if weights.is_empty() {
         return None;
     }
     Some(Found {
         mean_square: 2.0 * cost(shape, &weights, training, 0.0),
         weights,
-        iterations,
     })
 }
 
@@ -129,7 +122,6 @@ struct Best {
     weights: Vec<f64>,
     /// Iterations since.
     misses: u32,
-    iterations: u64,
 }
 
 /// L-BFGS that keeps the best weights, and ends when the samples held out are
@@ -179,7 +171,6 @@ impl<'s> Solver<Batch<'s>, Weights> for Stopping<'_> {
             state.get_cost()
         };
         let mut best = self.best.borrow_mut();
-        best.iterations = state.get_iter();
         if error < best.error {
             best.error = error;
             best.weights.clone_from(weights);

@@ -1,8 +1,7 @@
-//! The limits that all forms of a network keep to.
+//! The largest classifiers that there can be.
 
-/// Version of the file that this code writes and reads.
-pub const MLP_VERSION: u16 = 1;
-
+/// Most points of a spectrum's transform.
+pub const MAX_POINTS: u32 = 1 << 24;
 /// Most inputs of a network.
 pub const MAX_INPUTS: usize = 4096;
 /// Most hidden units.
