@@ -68,24 +68,18 @@ impl SumRule {
     /// The B7 that the rule wants after B0..B6; `None` if it takes any.
     #[inline]
     pub const fn expected(self, bytes: &[u8; FRAME_LEN]) -> Option<u8> {
-        let [b0, ..] = *bytes;
-        match self.sum(b0, words(bytes)) {
-            Some(sum) => Some(sum as u8),
-            None => None,
-        }
-    }
-
-    /// The same of B0 and the words B1..B6, in the low byte: what stands above
-    /// it is of no use, and cutting it off can wait.
-    #[inline]
-    const fn sum(self, b0: u8, [first, second, last]: [u16; 3]) -> Option<u32> {
-        // At most 1021 · 257.
-        let inner = byte_sum(first) + byte_sum(second) + byte_sum(last);
+        let [b0, b1, b2, b3, b4, b5, b6, _] = *bytes;
+        let inner = b1
+            .wrapping_add(b2)
+            .wrapping_add(b3)
+            .wrapping_add(b4)
+            .wrapping_add(b5)
+            .wrapping_add(b6);
         match self {
             SumRule::SumB1B6 => Some(inner),
-            SumRule::SumB0B6 => Some(inner + b0 as u32),
+            SumRule::SumB0B6 => Some(inner.wrapping_add(b0)),
             SumRule::ComplementB1B6 => Some(!inner),
-            SumRule::ComplementB0B6 => Some(!(inner + b0 as u32)),
+            SumRule::ComplementB0B6 => Some(!inner.wrapping_add(b0)),
             SumRule::Ignore => None,
         }
     }
@@ -218,88 +212,39 @@ impl Decoder {
 
     /// Decodes a frame. Any eight bytes give an answer.
     ///
-    /// With constant settings and the default rule a valid frame in alpha-beta
-    /// mode costs 20 instructions on a Cortex-M4, call and return included, and
-    /// 35 on a Cortex-M0 (rustc 1.95, optimised).
-    ///
     /// # Errors
     ///
     /// The first [`FrameError`] that applies, in the order they are listed.
     #[inline]
     pub const fn decode(&self, bytes: &[u8; FRAME_LEN]) -> Result<Frame, FrameError> {
-        let [b0, .., found] = *bytes;
-        let [first, second, last] = words(bytes);
-        let alpha_beta = matches!(self.mode, Mode::AlphaBeta);
-        // A frame with faults does not pass anyhow, and those without are
-        // shorter to sum.
-        let (faults, z) = if alpha_beta { (last, 0) } else { (0, last) };
-        let wrong_sum = match self.sum_rule.sum(b0, [first, second, z]) {
-            Some(sum) => sum.wrapping_sub(found as u32),
-            // All-0xFF is no frame. The four sums of it are 0xFA, 0xF9, 0x05
-            // and 0x06, so that no other rule lets it pass.
-            None => (u64::from_le_bytes(*bytes) == u64::MAX) as u32,
-        };
-        // All that can be wrong in one word, for one branch: zero where nothing
-        // is. The order of the reports is `reject`'s affair.
-        if (b0 ^ START_BYTE) as u32 | faults as u32 | wrong_sum << 24 != 0 {
-            return Err(self.reject(u64::from_le_bytes(*bytes)));
-        }
-        Ok(if alpha_beta {
-            Frame::AlphaBeta {
-                alpha: Word::new(first),
-                beta: Word::new(second),
-            }
-        } else {
-            Frame::Xyz {
-                x: Word::new(first),
-                y: Word::new(second),
-                z: Word::new(last),
-            }
-        })
-    }
-
-    /// Names what is wrong with a frame that did not pass. It comes as a
-    /// number: a reference would hold it in memory on the good path too.
-    #[cold]
-    #[inline(never)]
-    const fn reject(self, bits: u64) -> FrameError {
-        match bits {
-            u64::MAX => return FrameError::NoSensor,
-            0 => return FrameError::LineLow,
+        match u64::from_le_bytes(*bytes) {
+            u64::MAX => return Err(FrameError::NoSensor),
+            0 => return Err(FrameError::LineLow),
             _ => {}
         }
-        let bytes = bits.to_le_bytes();
-        let [start, .., error_low, error_high, found] = bytes;
+        let [start, b1, b2, b3, b4, b5, b6, found] = *bytes;
         if start != START_BYTE {
-            return FrameError::BadStart(start);
+            return Err(FrameError::BadStart(start));
         }
-        match self.sum_rule.expected(&bytes) {
-            Some(expected) if expected != found => FrameError::BadSum { expected, found },
-            _ => FrameError::Sensor(Faults::new(u16::from_le_bytes([error_low, error_high]))),
+        if let Some(expected) = self.sum_rule.expected(bytes)
+            && expected != found
+        {
+            return Err(FrameError::BadSum { expected, found });
+        }
+        let first = Word::new(u16::from_le_bytes([b1, b2]));
+        let second = Word::new(u16::from_le_bytes([b3, b4]));
+        let last = u16::from_le_bytes([b5, b6]);
+        match self.mode {
+            Mode::AlphaBeta if last != 0 => Err(FrameError::Sensor(Faults::new(last))),
+            Mode::AlphaBeta => Ok(Frame::AlphaBeta {
+                alpha: first,
+                beta: second,
+            }),
+            Mode::Xyz => Ok(Frame::Xyz {
+                x: first,
+                y: second,
+                z: Word::new(last),
+            }),
         }
     }
-}
-
-/// The three words, each taken from memory whole: put together from bytes they
-/// would cost the good path a third more instructions.
-#[inline]
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "a copy hides that the words lie in memory"
-)]
-const fn words(bytes: &[u8; FRAME_LEN]) -> [u16; 3] {
-    let [_, first @ .., _, _, _, _, _] = bytes;
-    let [_, _, _, second @ .., _, _, _] = bytes;
-    let [_, _, _, _, _, last @ .., _] = bytes;
-    [
-        u16::from_le_bytes(*first),
-        u16::from_le_bytes(*second),
-        u16::from_le_bytes(*last),
-    ]
-}
-
-/// The sum of a word's two bytes modulo 256, in the low byte.
-#[inline]
-const fn byte_sum(word: u16) -> u32 {
-    word as u32 + (word >> 8) as u32
 }
