@@ -9,7 +9,7 @@
 //! - *watch*: the module's variables, read from RAM by their names in the
 //!   debug information, as a debugger does.
 //!
-//! What runs is the ELF file that is flashed. `docs/emulator.md` says what is
+//! What runs is the ELF file that is flashed. `docs/boards.md` says what is
 //! modelled and what is not.
 
 mod board;
