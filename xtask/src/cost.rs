@@ -3,21 +3,21 @@
 //! committed and shown in docs/measured/cost.md.
 
 mod page;
-mod reasons;
 mod stages;
 
-use std::fs;
 use std::path::Path;
 
-use crate::figures::{Figure, Table, columns};
-use crate::run::{Fault, top};
+use crate::figures::{Figure, INSTRUCTIONS, Table, columns};
+use crate::run::{Fault, document, read, top, write};
 use crate::{count, emulate, firmware};
-use stages::{BOARD_STAGES, BoardStage, STAGES, Source};
+use stages::{Stage, stages};
 
 /// The committed table.
 const TABLE: Table = Table {
     file: "docs/measured/cost.csv",
     header: "stage,target,mean,worst",
+    decimals: INSTRUCTIONS,
+    slack: 0.05,
     command: "cargo xtask cost",
 };
 
@@ -39,15 +39,17 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     if check {
         count::all(None, true)?;
     }
-    let mut found = computed()?;
-    for stage in BOARD_STAGES {
-        found.extend(on_board(stage)?);
+    let stages = stages()?;
+    let mut found = Vec::new();
+    for group in stages.chunk_by(|one, next| one.from == next.from) {
+        found.extend(measured(group)?);
     }
+    let shown = columns(&found, |figure| page::note(&stages, figure));
     if check {
-        print!("{}", columns(&found, page::note));
+        print!("{shown}");
         return TABLE.compare(&TABLE.read(csv)?, &found, true);
     }
-    TABLE.write(&found, csv, page::note)?;
+    TABLE.write(&found, csv, &shown)?;
     match csv {
         Some(_) => Ok(()),
         None => write_page(false),
@@ -59,8 +61,11 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 /// # Errors
 /// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
-    let found = on_board(&BOARD_STAGES[0])?;
-    print!("{}", columns(&found, page::note));
+    let stages = stages()?;
+    let mut scenes = stages.chunk_by(|one, next| one.from == next.from);
+    let first = scenes.find(|group| group[0].is_on_board());
+    let found = measured(first.unwrap_or_default())?;
+    print!("{}", columns(&found, |figure| page::note(&stages, figure)));
     TABLE.compare(&TABLE.read(None)?, &found, false)
 }
 
@@ -72,9 +77,7 @@ pub(crate) fn short() -> Result<(), Fault> {
 pub(crate) fn deadlines() -> Result<(), Fault> {
     let board = firmware::Board::named("nucleo-f446re")?;
     let said = emulate::deadlines(board, Path::new("scenes/full.toml"), 10.0)?;
-    let path = top().join(DEADLINES);
-    fs::write(&path, format!("what,mean,worst\n{said}"))
-        .map_err(|error| format!("{}: {error}", path.display()))?;
+    write(&top().join(DEADLINES), format!("what,mean,worst\n{said}"))?;
     print!("{said}");
     write_page(false)
 }
@@ -85,45 +88,38 @@ pub(crate) fn deadlines() -> Result<(), Fault> {
 /// # Errors
 /// If a table is missing or, checking, the page differs.
 pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
-    let text = |name: &str| {
-        fs::read_to_string(top().join(name)).map_err(|error| format!("{name}: {error}"))
-    };
-    let sizes = text("docs/measured/sizes.csv")?;
+    let text = |name: &str| read(&top().join(name));
+    let sizes = text(crate::size::TABLE.file)?;
     let page = page::page(&TABLE.read(None)?, &text(DEADLINES)?, &sizes)?;
-    if !check {
-        return fs::write(top().join(PAGE), page).map_err(|error| format!("{PAGE}: {error}"));
-    }
-    if text(PAGE)? == page {
-        Ok(())
-    } else {
-        Err(format!("{PAGE} is out of date: cargo xtask docs"))
-    }
+    document(PAGE, page.as_bytes(), check)
 }
 
-/// What the committed counts of kernels add up to.
-fn computed() -> Result<Vec<Figure>, Fault> {
-    let counted = count::TABLE.read(None)?;
-    let mut figures = Vec::new();
-    for stage in STAGES {
-        let (mut mean, mut worst) = (0.0, 0.0);
-        for Source { kernel, sign } in stage.sources {
-            let key = [kernel, stage.format, stage.processor];
-            let found = counted.iter().find(|figure| figure.key == key);
-            let found = found.ok_or_else(|| format!("{} is not counted", key.join(",")))?;
-            mean += sign * found.mean;
-            worst += sign * found.worst;
-        }
-        figures.push(Figure::new(&[stage.name, stage.target], mean, worst));
-    }
-    Ok(figures)
-}
-
-fn on_board(stage: &BoardStage) -> Result<Vec<Figure>, Fault> {
-    let board = firmware::Board::named("nucleo-f446re")?;
-    let said = emulate::deadlines(board, Path::new(stage.scene), MINUTES)?;
-    let figure = |&(what, name): &(&str, &str)| {
-        let [mean, worst] = page::figures(&said, what)?;
-        Ok(Figure::new(&[name, board.name], mean, worst))
+/// The stages of one processor, which the committed counts of kernels add up to, or of
+/// one scene on the board.
+fn measured(stages: &[Stage]) -> Result<Vec<Figure>, Fault> {
+    let Some(first) = stages.first() else {
+        return Ok(Vec::new());
     };
-    stage.parts.iter().map(figure).collect()
+    if first.is_on_board() {
+        let board = firmware::Board::named(&first.target)?;
+        let said = emulate::deadlines(board, Path::new(&first.from), MINUTES)?;
+        let figure = |stage: &Stage| {
+            let [mean, worst] = page::figures(&said, &stage.counts)?;
+            Ok(Figure::new(&[&stage.name, &stage.target], mean, worst))
+        };
+        return stages.iter().map(figure).collect();
+    }
+    let counted = count::TABLE.read(None)?;
+    let figure = |stage: &Stage| {
+        let (mut mean, mut worst) = (0.0, 0.0);
+        for (kernel, sign) in stage.kernels() {
+            let key = [kernel, &stage.format, &stage.from];
+            let found = counted.iter().find(|figure| *figure.key == key);
+            let found = found.ok_or_else(|| format!("{} is not counted", key.join(",")))?;
+            mean += sign * found.numbers[0];
+            worst += sign * found.numbers[1];
+        }
+        Ok(Figure::new(&[&stage.name, &stage.target], mean, worst))
+    };
+    stages.iter().map(figure).collect()
 }

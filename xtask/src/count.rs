@@ -1,17 +1,18 @@
 //! Instructions of every kernel, counted on emulated processors: see
 //! `xtask/count` for how.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::figures::{Figure, Table, columns};
-use crate::run::{Fault, cargo, output, run, target, top};
+use crate::figures::{Figure, INSTRUCTIONS, Table, columns};
+use crate::run::{Fault, cargo, listing, output, run, target, top};
 
 /// The committed table.
 pub(crate) const TABLE: Table = Table {
     file: "docs/measured/instructions.csv",
     header: "kernel,format,target,mean,worst",
+    decimals: INSTRUCTIONS,
+    slack: 0.05,
     command: "cargo xtask count",
 };
 
@@ -47,11 +48,14 @@ const PROCESSORS: [Processor; 2] = [
 /// # Errors
 /// If something cannot be built or run, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
-    let found = count(&PROCESSORS, &programs()?)?;
+    let files = listing(&top().join("xtask/count/src/bin"), "rs")?;
+    let names = files.iter().filter_map(|file| file.file_stem()?.to_str());
+    let found = count(&PROCESSORS, &names.collect::<Vec<_>>())?;
+    let shown = columns(&found, |_| String::new());
     if !check {
-        return TABLE.write(&found, csv, |_| String::new());
+        return TABLE.write(&found, csv, &shown);
     }
-    print!("{}", columns(&found, |_| String::new()));
+    print!("{shown}");
     TABLE.compare(&TABLE.read(csv)?, &found, true)
 }
 
@@ -60,12 +64,12 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 /// # Errors
 /// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
-    let found = count(&PROCESSORS[..1], &SHORT.map(str::to_owned))?;
+    let found = count(&PROCESSORS[..1], &SHORT)?;
     print!("{}", columns(&found, |_| String::new()));
     TABLE.compare(&TABLE.read(None)?, &found, false)
 }
 
-fn count(processors: &[Processor], programs: &[String]) -> Result<Vec<Figure>, Fault> {
+fn count(processors: &[Processor], programs: &[&str]) -> Result<Vec<Figure>, Fault> {
     Command::new(EMULATOR)
         .arg("--version")
         .output()
@@ -86,7 +90,7 @@ fn count(processors: &[Processor], programs: &[String]) -> Result<Vec<Figure>, F
 }
 
 /// Builds counting programs; gives where they are.
-fn build(processor: &Processor, programs: &[String]) -> Result<PathBuf, Fault> {
+fn build(processor: &Processor, programs: &[&str]) -> Result<PathBuf, Fault> {
     let build = ["build", "--locked", "--profile", "firmware", "-p", "count"];
     let bins = programs.iter().flat_map(|name| ["--bin", name]);
     run(cargo(&build)
@@ -94,20 +98,6 @@ fn build(processor: &Processor, programs: &[String]) -> Result<PathBuf, Fault> {
         .args(["--target", processor.target])
         .env("RUSTFLAGS", "-D warnings"))?;
     Ok(target().join(processor.target).join("firmware"))
-}
-
-/// Names of the counting programs.
-fn programs() -> Result<Vec<String>, Fault> {
-    let directory = top().join("xtask/count/src/bin");
-    let wrong = |error| format!("{}: {error}", directory.display());
-    let mut names = Vec::new();
-    for entry in fs::read_dir(&directory).map_err(wrong)? {
-        let path = entry.map_err(wrong)?.path();
-        let name = path.file_stem();
-        names.extend(name.map(|name| name.to_string_lossy().into_owned()));
-    }
-    names.sort();
-    Ok(names)
 }
 
 const EMULATOR: &str = "qemu-system-arm";

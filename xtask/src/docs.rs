@@ -1,16 +1,14 @@
 //! Generated documents: written by commands, never by hand.
 
-use std::fs;
-
 use crate::cost;
-use crate::run::{Fault, cargo, output, run, top};
+use crate::run::{Fault, cargo, document, output, read_bytes, run, top};
 
 /// Writes every generated document, or checks that they are up to date.
 ///
 /// # Errors
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
-    document("docs/scenes.md", &scene::reference(), check)?;
+    document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
     cost::write_page(check)?;
     let said = output(&mut cargo(&[
@@ -21,12 +19,14 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
         "host-sim",
     ]))?;
     print!("{said}");
-    document("docs/textures.md", &main_job(&said)?, check)?;
-    let plot = read("out/textures/textures.svg")?;
-    document("docs/textures.svg", &plot, check)?;
-    let model = fs::read(top().join("out/textures/textures.model"));
-    let model = model.map_err(|error| format!("out/textures/textures.model: {error}"))?;
-    write("scenes/models/textures.model", &model, check)?;
+    document("docs/textures.md", main_job(&said)?.as_bytes(), check)?;
+    for (made, name) in [
+        ("textures.svg", "docs/textures.svg"),
+        ("textures.model", "scenes/models/textures.model"),
+    ] {
+        let made = read_bytes(&top().join("out/textures").join(made))?;
+        document(name, &made, check)?;
+    }
     // It shows docs/measured/instructions.csv, which `cargo xtask count` writes. In the
     // profile of the tests, which CI has built all of.
     let report = ["run", "--quiet", "-p", "studies", "--", "report"];
@@ -45,25 +45,4 @@ fn main_job(said: &str) -> Result<String, Fault> {
          ```text\n{score}\n```\n\n\
          ![angle, sensor, contact and decisions over ten seconds](textures.svg)\n"
     ))
-}
-
-fn read(name: &str) -> Result<String, Fault> {
-    fs::read_to_string(top().join(name)).map_err(|error| format!("{name}: {error}"))
-}
-
-fn document(name: &str, text: &str, check: bool) -> Result<(), Fault> {
-    write(name, text.as_bytes(), check)
-}
-
-fn write(name: &str, bytes: &[u8], check: bool) -> Result<(), Fault> {
-    let path = top().join(name);
-    let wrong = |error| format!("{name}: {error}");
-    if !check {
-        return fs::write(&path, bytes).map_err(wrong);
-    }
-    if fs::read(&path).map_err(wrong)? == bytes {
-        Ok(())
-    } else {
-        Err(format!("{name} is out of date: run cargo xtask docs"))
-    }
 }

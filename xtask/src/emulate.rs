@@ -5,7 +5,7 @@ mod variants;
 use std::path::{Path, PathBuf};
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, cargo, output, run, target, top};
+use crate::run::{Fault, absolute, cargo, listing, output, run, target, top};
 
 /// What is done with a scene.
 #[derive(Debug, Clone)]
@@ -32,28 +32,19 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     }
     let program = firmware::build(board, scene)?;
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
-    let scene =
-        std::path::absolute(scene).map_err(|error| format!("{}: {error}", scene.display()))?;
+    let task_name = match task {
+        Task::Run(_) => "run",
+        Task::Compare => "compare",
+        Task::Deadlines(_) => "deadlines",
+        Task::Overload => "overload",
+        Task::SensorLoss => "sensor-loss",
+    };
+    command.arg(task_name).arg(absolute(scene)?);
     match task {
-        Task::Run(out) => {
-            let out =
-                std::path::absolute(out).map_err(|error| format!("{}: {error}", out.display()))?;
-            command.arg("run").arg(scene).arg("--out").arg(out);
-        }
-        Task::Compare => {
-            command.arg("compare").arg(scene);
-        }
-        Task::Deadlines(minutes) => {
-            command.arg("deadlines").arg(scene);
-            command.arg("--minutes").arg(minutes.to_string());
-        }
-        Task::Overload => {
-            command.arg("overload").arg(scene);
-        }
-        Task::SensorLoss => {
-            command.arg("sensor-loss").arg(scene);
-        }
-    }
+        Task::Run(out) => command.arg("--out").arg(absolute(out)?),
+        Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
+        Task::Compare | Task::Overload | Task::SensorLoss => &mut command,
+    };
     run(command.arg("--program").arg(program))
 }
 
@@ -75,18 +66,7 @@ pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<Stri
 /// # Errors
 /// The first scene that differs, or that cannot be built.
 pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
-    let folder = top().join("scenes");
-    let listing = std::fs::read_dir(&folder);
-    let listing = listing.map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut scenes: Vec<_> = listing
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| {
-            path.extension()
-                .is_some_and(|extension| extension == "toml")
-        })
-        .collect();
-    scenes.sort();
-    for scene in scenes {
+    for scene in listing(&top().join("scenes"), "toml")? {
         let taken = variants::half(&scene, &target().join("left"))?.unwrap_or(scene);
         emulate(board, &taken, &Task::Compare)?;
     }

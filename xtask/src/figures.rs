@@ -1,41 +1,49 @@
-//! Tables of measured instructions: as they are committed, for a person to read,
-//! and compared, so that nothing can become dearer unseen.
+//! Tables of measured figures: as they are committed, for a person to read, and
+//! compared, so that nothing can become dearer unseen.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::run::{Fault, top};
-
-/// By how much a mean or a worst may become dearer before a check fails.
-const SLACK: f64 = 0.05;
+use crate::run::{Fault, read, top, write};
 
 /// A line of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Figure {
-    /// What was measured, in as many fields as the table has before `mean`.
+    /// What was measured.
     pub(crate) key: Vec<String>,
-    /// Mean instructions, to a tenth.
-    pub(crate) mean: f64,
-    /// The most instructions.
-    pub(crate) worst: f64,
+    /// How much, in one number for each of the table's decimals.
+    pub(crate) numbers: Vec<f64>,
 }
 
 impl Figure {
+    /// Instructions: the mean, to a tenth, and the most.
     pub(crate) fn new(key: &[&str], mean: f64, worst: f64) -> Self {
         Self {
             key: key.iter().map(|&field| field.to_owned()).collect(),
-            mean: (mean * 10.0).round() / 10.0,
-            worst,
+            numbers: vec![(mean * 10.0).round() / 10.0, worst],
         }
     }
+
+    /// Its numbers with so many decimals each.
+    pub(crate) fn text(&self, decimals: &[usize], separator: &str) -> String {
+        let numbers = self.numbers.iter().zip(decimals);
+        let numbers = numbers.map(|(number, &decimals)| format!("{number:.decimals$}"));
+        numbers.collect::<Vec<_>>().join(separator)
+    }
 }
+
+/// Decimals of mean and worst.
+pub(crate) const INSTRUCTIONS: &[usize] = &[1, 0];
 
 /// A committed table.
 pub(crate) struct Table {
     /// Seen from the top of the workspace.
     pub(crate) file: &'static str,
     pub(crate) header: &'static str,
+    /// Of the numbers, which stand in the last columns.
+    pub(crate) decimals: &'static [usize],
+    /// By how much a number may become dearer before a check fails.
+    pub(crate) slack: f64,
     /// What writes it anew.
     pub(crate) command: &'static str,
 }
@@ -46,13 +54,11 @@ impl Table {
     /// # Errors
     /// If it is missing or is no such table.
     pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
-        let path = self.place(csv);
-        let text = fs::read_to_string(&path);
-        self.parse(&text.map_err(|error| format!("{}: {error}", path.display()))?)
+        self.parse(&read(&self.place(csv))?)
     }
 
-    /// Prints `figures` in columns, each with its note, and writes them, to `csv` or
-    /// to its own file; for a `csv` of `-` prints the table alone.
+    /// Prints `shown`, which is for a person to read, and writes `figures`, to `csv` or to
+    /// its own file; for a `csv` of `-` prints the table alone.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -60,15 +66,14 @@ impl Table {
         &self,
         figures: &[Figure],
         csv: Option<&Path>,
-        note: impl Fn(&Figure) -> String,
+        shown: &str,
     ) -> Result<(), Fault> {
         if csv == Some(Path::new("-")) {
             print!("{}", self.text(figures));
             return Ok(());
         }
-        print!("{}", columns(figures, note));
-        let path = self.place(csv);
-        fs::write(&path, self.text(figures)).map_err(|error| format!("{}: {error}", path.display()))
+        print!("{shown}");
+        write(&self.place(csv), self.text(figures))
     }
 
     fn place(&self, csv: Option<&Path>) -> PathBuf {
@@ -76,27 +81,28 @@ impl Table {
     }
 
     /// The table as it is committed.
-    fn text(&self, figures: &[Figure]) -> String {
+    pub(crate) fn text(&self, figures: &[Figure]) -> String {
         let mut text = format!("{}\n", self.header);
         for figure in figures {
-            let key = figure.key.join(",");
-            let _ = writeln!(text, "{key},{:.1},{:.0}", figure.mean, figure.worst);
+            let numbers = figure.text(self.decimals, ",");
+            let _ = writeln!(text, "{},{numbers}", figure.key.join(","));
         }
         text
     }
 
-    fn parse(&self, text: &str) -> Result<Vec<Figure>, Fault> {
+    pub(crate) fn parse(&self, text: &str) -> Result<Vec<Figure>, Fault> {
         let mut lines = text.lines();
         if lines.next() != Some(self.header) {
             return Err(format!("{} does not begin with {}", self.file, self.header));
         }
+        let width = self.header.split(',').count();
         let figure = |line: &str| {
             let fields: Vec<&str> = line.split(',').collect();
-            let [key @ .., mean, worst] = &fields[..] else {
-                return None;
-            };
-            let is_whole = fields.len() == self.header.split(',').count();
-            is_whole.then_some(Figure::new(key, mean.parse().ok()?, worst.parse().ok()?))
+            let (key, numbers) = fields.split_at_checked(width - self.decimals.len())?;
+            let numbers: Option<Vec<f64>> = numbers.iter().map(|n| n.parse().ok()).collect();
+            let key = key.iter().map(|&field| field.to_owned()).collect();
+            let numbers = numbers?;
+            (fields.len() == width).then_some(Figure { key, numbers })
         };
         lines
             .map(|line| figure(line).ok_or_else(|| format!("{} has a line {line:?}", self.file)))
@@ -122,13 +128,10 @@ impl Table {
                 continue;
             };
             // A count of board and emulator has tenths that depend on the scene's end.
-            let dearer = |now: f64, was: f64| now > was * (1.0 + SLACK) + 0.05;
-            if dearer(now.mean, was.mean) || dearer(now.worst, was.worst) {
-                let _ = writeln!(
-                    faults,
-                    "{name}: mean {:.1} was {:.1}, worst {:.0} was {:.0}",
-                    now.mean, was.mean, now.worst, was.worst
-                );
+            let mut numbers = now.numbers.iter().zip(&was.numbers);
+            if numbers.any(|(now, was)| *now > was * (1.0 + self.slack) + 0.05) {
+                let [now, was] = [now, was].map(|figure| figure.text(self.decimals, ","));
+                let _ = writeln!(faults, "{name}: {now} was {was}");
             }
         }
         for was in known {
@@ -146,7 +149,7 @@ impl Table {
     }
 }
 
-/// `figures` in columns for a person to read, each with its note.
+/// Instructions in columns for a person to read, each with its note.
 pub(crate) fn columns(figures: &[Figure], note: impl Fn(&Figure) -> String) -> String {
     let fields = figures.iter().map(|figure| figure.key.len()).max();
     let width = |field: usize| {
@@ -156,15 +159,14 @@ pub(crate) fn columns(figures: &[Figure], note: impl Fn(&Figure) -> String) -> S
     let widths: Vec<usize> = (0..fields.unwrap_or(0)).map(width).collect();
     let mut text = String::new();
     for figure in figures {
+        let mut line = String::new();
         for (field, width) in figure.key.iter().zip(&widths) {
-            let _ = write!(text, "{field:width$}  ");
+            let _ = write!(line, "{field:width$}  ");
         }
-        let line = format!(
-            "{:>9.1}  {:>7.0}  {}",
-            figure.mean,
-            figure.worst,
-            note(figure)
-        );
+        for (number, &decimals) in figure.numbers.iter().zip(INSTRUCTIONS) {
+            let _ = write!(line, "{number:>9.decimals$}  ");
+        }
+        line += &note(figure);
         let _ = writeln!(text, "{}", line.trim_end());
     }
     text
@@ -172,11 +174,13 @@ pub(crate) fn columns(figures: &[Figure], note: impl Fn(&Figure) -> String) -> S
 
 #[cfg(test)]
 mod tests {
-    use super::{Figure, Table, columns};
+    use super::{Figure, INSTRUCTIONS, Table, columns};
 
     const TABLE: Table = Table {
         file: "a.csv",
         header: "kernel,format,mean,worst",
+        decimals: INSTRUCTIONS,
+        slack: 0.05,
         command: "count",
     };
 
@@ -189,16 +193,10 @@ mod tests {
         let figures = [figure("drive", 21.0, 21.0), figure("unit", 33.5, 40.0)];
         assert_eq!(TABLE.parse(&TABLE.text(&figures)), Ok(figures.to_vec()));
         assert!(TABLE.parse("kernel,mean\n").is_err());
-        assert!(
-            TABLE
-                .parse(&(TABLE.text(&figures) + "drive,f32\n"))
-                .is_err()
-        );
-        assert!(
-            TABLE
-                .parse(&(TABLE.text(&figures) + "drive,1,2\n"))
-                .is_err()
-        );
+        for line in ["drive,f32\n", "drive,1,2\n", "drive,f32,1,x\n"] {
+            let wrong = TABLE.text(&figures) + line;
+            assert!(TABLE.parse(&wrong).is_err(), "{line}");
+        }
         assert_eq!(columns(&figures, |_| String::new()).lines().count(), 2);
     }
 

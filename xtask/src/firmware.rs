@@ -1,12 +1,12 @@
 //! The firmware of a scene: building, measuring and flashing it.
 
-use std::fs;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use object::{Object, ObjectSection};
 
-use crate::run::{Fault, cargo, run, target, top};
+use crate::run::{Fault, cargo, read_bytes, run, target, top};
 
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -173,20 +173,33 @@ impl Size {
     /// # Errors
     /// If it cannot be read or has no code.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
-        let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
-        let bytes = fs::read(elf).map_err(|error| wrong(&error))?;
-        let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
-        let sum = |names: &[&str]| -> u64 {
+        let sum = |file: &object::File<'_>, names: &[&str]| -> u64 {
             file.sections()
                 .filter(|section| section.name().is_ok_and(|name| names.contains(&name)))
                 .map(|section| section.size())
                 .sum()
         };
-        match (sum(&Self::FLASH), sum(&Self::RAM)) {
-            (0, _) => Err(wrong(&"there is no code")),
-            (flash, ram) => Ok(Self { flash, ram }),
-        }
+        with_elf(elf, |file| {
+            match (sum(file, &Self::FLASH), sum(file, &Self::RAM)) {
+                (0, _) => Err("there is no code"),
+                (flash, ram) => Ok(Self { flash, ram }),
+            }
+        })
     }
+}
+
+/// What `ask` says of an ELF file.
+///
+/// # Errors
+/// If it cannot be read, or `ask`'s own.
+pub(crate) fn with_elf<T, E: Display>(
+    elf: &Path,
+    ask: impl FnOnce(&object::File<'_>) -> Result<T, E>,
+) -> Result<T, Fault> {
+    let wrong = |error: &dyn Display| format!("{}: {error}", elf.display());
+    let bytes = read_bytes(elf)?;
+    let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
+    ask(&file).map_err(|error| wrong(&error))
 }
 
 /// Flashes an ELF file and streams its log until interrupted.

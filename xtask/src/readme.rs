@@ -1,8 +1,6 @@
 //! What the README tells a newcomer to run.
 
-use std::fs;
-
-use crate::run::{Fault, cargo, run, top};
+use crate::run::{Fault, cargo, read, run, top};
 
 /// How the simulator's commands begin; those of other programs take longer and have
 /// steps of their own.
@@ -13,8 +11,7 @@ const SIMULATOR: &str = "cargo run --release -p host-sim -- ";
 /// # Errors
 /// The first that fails, or if there are none.
 pub(crate) fn all() -> Result<(), Fault> {
-    let text = fs::read_to_string(top().join("README.md"));
-    let commands = commands(&text.map_err(|error| format!("README.md: {error}"))?);
+    let commands = commands(&read(&top().join("README.md"))?);
     for command in &commands {
         let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
         run(&mut cargo(&arguments))?;

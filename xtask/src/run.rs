@@ -1,5 +1,6 @@
-//! Running other programs from the top of the workspace.
+//! Running other programs from the top of the workspace, and its files.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -15,6 +16,69 @@ pub(crate) fn top() -> PathBuf {
 /// Where cargo builds.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from)
+}
+
+/// `path` from the root, so that a program that runs elsewhere finds it.
+///
+/// # Errors
+/// If there is no such path.
+pub(crate) fn absolute(path: &Path) -> Result<PathBuf, Fault> {
+    std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn read(path: &Path) -> Result<String, Fault> {
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The bytes of a file.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
+    fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Writes a file, and the folder it stands in.
+///
+/// # Errors
+/// If it cannot be written.
+pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault> {
+    let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folder.and_then(|()| fs::write(path, content));
+    written.map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// Writes a document, or checks that it is up to date.
+///
+/// # Errors
+/// If it cannot be written, or, checking, differs.
+pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Fault> {
+    let path = top().join(name);
+    if !check {
+        return write(&path, bytes);
+    }
+    if read_bytes(&path)? == bytes {
+        Ok(())
+    } else {
+        Err(format!("{name} is out of date: run cargo xtask docs"))
+    }
+}
+
+/// The files in `folder` whose names end so, sorted.
+///
+/// # Errors
+/// If it cannot be read.
+pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fault> {
+    let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_wanted = |path: &PathBuf| path.extension().is_some_and(|found| found == extension);
+    let mut paths: Vec<PathBuf> = paths.filter(is_wanted).collect();
+    paths.sort();
+    Ok(paths)
 }
 
 /// `cargo` with `arguments`, to be run at the top.

@@ -9,15 +9,15 @@ mod stack;
 mod table;
 mod thumb;
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use scene::Scene;
 
 use crate::firmware::{self, Board, Size};
-use crate::run::{Fault, top};
+use crate::run::{Fault, listing, read_bytes, top};
 use parts::Seen;
 use table::Row;
+pub(crate) use table::TABLE;
 
 /// Names between them, on one board, what no scene names: not in the table.
 const CONTROL: &str = "xtask/src/size/control.toml";
@@ -35,8 +35,9 @@ const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let quiet = csv == Some(Path::new("-"));
     let mut measured = Measured::default();
-    for path in scenes()? {
-        let scene = Scene::load(top().join(&path)).map_err(|error| error.to_string())?;
+    for path in listing(&top().join("scenes"), "toml")? {
+        let path = Path::new("scenes").join(path.file_name().unwrap_or_default());
+        let scene = load(&path)?;
         let host = Some(host::ns_per_tick(&path, &scene)?);
         for board in Board::ALL {
             match measured.take(board, &path, host)? {
@@ -49,18 +50,13 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
         measured.control(board)?;
     }
     let rows = measured.proven()?;
-    if quiet {
-        print!("{}", table::csv(&rows));
-        return Ok(());
-    }
-    print!("{}", table::columns(&rows));
-    let path = csv.map_or_else(|| top().join(table::FILE), Path::to_owned);
-    let wrong = |error| format!("{}: {error}", path.display());
+    let shown = table::columns(&rows);
     if check {
-        let known = fs::read_to_string(&path).map_err(wrong)?;
-        return table::compare(&table::read(&known)?, &rows, true);
+        print!("{shown}");
+        return table::compare(&TABLE.read(csv)?, &rows, true);
     }
-    fs::write(&path, table::csv(&rows)).map_err(wrong)
+    let figures: Vec<_> = rows.iter().map(Row::figure).collect();
+    TABLE.write(&figures, csv, &shown)
 }
 
 /// Checks [`SHORT`] on every board, and what a program holds.
@@ -79,9 +75,7 @@ pub(crate) fn short() -> Result<(), Fault> {
     measured.control(Board::ALL[0])?;
     let rows = measured.proven()?;
     print!("{}", table::columns(&rows));
-    let path = top().join(table::FILE);
-    let known = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    table::compare(&table::read(&known)?, &rows, false)
+    table::compare(&TABLE.read(None)?, &rows, false)
 }
 
 /// What the programs built so far take and hold.
@@ -101,7 +95,7 @@ impl Measured {
         path: &Path,
         host: Option<u64>,
     ) -> Result<Option<String>, Fault> {
-        let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
+        let scene = load(path)?;
         let elf = match firmware::try_build(board, path)? {
             Ok(elf) => elf,
             Err(reason) => return Ok(Some(reason)),
@@ -115,7 +109,7 @@ impl Measured {
     /// Builds [`CONTROL`], which has no line in the table.
     fn control(&mut self, board: Board) -> Result<(), Fault> {
         let path = Path::new(CONTROL);
-        let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
+        let scene = load(path)?;
         let elf = firmware::build(board, path)?;
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
         self.wrong.extend(misfits);
@@ -125,8 +119,10 @@ impl Measured {
     /// The lines, if every program holds what its scene names and nothing else, and
     /// every part was once there and once absent.
     fn proven(mut self) -> Result<Vec<Row>, Fault> {
-        let unproven = self.seen.unproven().into_iter();
-        let told = unproven.map(|part| format!("{part}: never there, or never absent"));
+        let told = self
+            .seen
+            .unproven()
+            .map(|part| format!("{part}: never there, or never absent"));
         self.wrong.extend(told);
         if self.wrong.is_empty() {
             Ok(self.rows)
@@ -136,22 +132,9 @@ impl Measured {
     }
 }
 
-/// The scenes of the project, seen from its top.
-fn scenes() -> Result<Vec<PathBuf>, Fault> {
-    let directory = top().join("scenes");
-    let wrong = |error| format!("{}: {error}", directory.display());
-    let mut paths = Vec::new();
-    for entry in fs::read_dir(&directory).map_err(wrong)? {
-        let name = PathBuf::from(entry.map_err(wrong)?.file_name());
-        if name
-            .extension()
-            .is_some_and(|extension| extension == "toml")
-        {
-            paths.push(Path::new("scenes").join(name));
-        }
-    }
-    paths.sort();
-    Ok(paths)
+/// A scene, seen from the top of the workspace.
+fn load(path: &Path) -> Result<Scene, Fault> {
+    Scene::load(top().join(path)).map_err(|error| error.to_string())
 }
 
 fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Result<Row, Fault> {
@@ -160,7 +143,7 @@ fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Resul
         scene: scene.name.clone(),
         board: board.name.to_owned(),
         size,
-        stack: Some(stack::worst(board, elf)?),
+        stack: stack::worst(board, elf)?,
         model: model_bytes(scene)?.map_or(0, |model| model.len() as u64),
         is_active: scene.whisking.is_some(),
         host_ns: host,
@@ -169,12 +152,8 @@ fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Resul
 
 /// The model that a scene names.
 fn model_bytes(scene: &Scene) -> Result<Option<Vec<u8>>, Fault> {
-    let Some(path) = scene.model_path(&top().join("scenes")) else {
-        return Ok(None);
-    };
-    let path = top().join(path);
-    let bytes = fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(Some(bytes))
+    let path = scene.model_path(&top().join("scenes"));
+    path.map(|path| read_bytes(&top().join(path))).transpose()
 }
 
 /// What a program holds against its scene, or lacks.
@@ -186,13 +165,14 @@ fn misfits(
     elf: &Path,
 ) -> Result<Vec<String>, Fault> {
     let functions = contents::functions(elf)?;
-    let mut wrong = seen.compare(&functions, scene, board.has_fpu);
+    let mut wrong = seen.compare(&functions, scene, board.has_fpu)?;
     let sides = contents::sides(elf)?;
     if sides != [scene.head.sides.count()] {
         wrong.push(format!("code for {sides:?} sides"));
     }
     let named = model_bytes(scene)?;
-    for (name, model) in models()? {
+    for path in listing(&top().join("scenes/models"), "model")? {
+        let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;
         let expected = usize::from(named.as_ref() == Some(&model));
         if found != expected {
@@ -204,16 +184,4 @@ fn misfits(
         .into_iter()
         .map(|what| format!("{place}: {what}"))
         .collect())
-}
-
-/// Every model of the project, by name.
-fn models() -> Result<Vec<(String, Vec<u8>)>, Fault> {
-    let directory = top().join("scenes/models");
-    let wrong = |error| format!("{}: {error}", directory.display());
-    let mut models = Vec::new();
-    for entry in fs::read_dir(&directory).map_err(wrong)? {
-        let path = entry.map_err(wrong)?.path();
-        models.push((path.display().to_string(), fs::read(&path).map_err(wrong)?));
-    }
-    Ok(models)
 }

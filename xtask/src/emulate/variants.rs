@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use scene::Scene;
 use toml::{Table, Value};
 
-use crate::run::Fault;
+use crate::run::{self, Fault, absolute};
 
 /// Writes the first whisker on the left of `path` as a scene of its own into
 /// `folder` and returns its path; `None` if the scene has no more than that.
@@ -41,25 +41,21 @@ pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Faul
 }
 
 fn read(path: &Path) -> Result<(Scene, Table), Fault> {
-    let told = |fault: &dyn std::fmt::Display| format!("{}: {fault}", path.display());
     let scene = Scene::load(path).map_err(|problems| problems.to_string())?;
-    let text = std::fs::read_to_string(path).map_err(|error| told(&error))?;
-    let table = text.parse().map_err(|error| told(&error))?;
+    let table = run::read(path)?.parse();
+    let table = table.map_err(|error| format!("{}: {error}", path.display()))?;
     Ok((scene, table))
 }
 
 /// Writes `table`, made from `scene` in `path`, under the same name into `folder`.
 fn write(path: &Path, scene: &Scene, mut table: Table, folder: &Path) -> Result<PathBuf, Fault> {
     let written = folder.join(path.file_name().unwrap_or(path.as_os_str()));
-    let told = |error: std::io::Error| format!("{}: {error}", written.display());
     if let Some(model) = scene.model_path(path.parent().unwrap_or(Path::new("."))) {
-        let model = std::path::absolute(model).map_err(told)?;
+        let model = absolute(&model)?;
         let model = model.to_string_lossy().into_owned();
         set(&mut table, "classifier", "model", model.into());
     }
-    std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&written, table.to_string()))
-        .map_err(told)?;
+    run::write(&written, table.to_string())?;
     Ok(written)
 }
 

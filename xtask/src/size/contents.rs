@@ -4,13 +4,13 @@
 //! from, whether its function stands by itself or inside another.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
 use gimli::{AttributeValue, Dwarf, EndianSlice, LittleEndian};
 use object::{Object, ObjectSection};
 
+use crate::firmware::with_elf;
 use crate::run::Fault;
 
 type Bytes<'a> = EndianSlice<'a, LittleEndian>;
@@ -33,7 +33,14 @@ const REFERENCES: usize = 8;
 /// # Errors
 /// If the file cannot be read or has no debug information.
 pub(super) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
-    let names = debug_information(elf, collect)?;
+    let names = names(elf, |dwarf, units, unit, entry| {
+        let is_code = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
+        if is_code.contains(&entry.tag()) && is_in_flash(dwarf, unit, entry)? {
+            name(dwarf, units, unit, entry)
+        } else {
+            Ok(None)
+        }
+    })?;
     if names.is_empty() {
         return Err(format!("{}: no function is named", elf.display()));
     }
@@ -45,7 +52,15 @@ pub(super) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
 /// # Errors
 /// If the file cannot be read.
 pub(super) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
-    let types = debug_information(elf, types)?;
+    let types = names(elf, |dwarf, _, unit, entry| {
+        match (entry.tag(), entry.attr_value(gimli::DW_AT_name)?) {
+            (gimli::DW_TAG_structure_type, Some(name)) => {
+                let name = dwarf.attr_string(unit, name)?;
+                Ok(Some(name.to_string_lossy().into_owned()))
+            }
+            _ => Ok(None),
+        }
+    })?;
     // Module<number, frames, motion, perception, clock, sides, whiskers>
     let sides = types.iter().filter_map(|name| {
         let arguments = name.strip_prefix("Module<")?.strip_suffix('>')?;
@@ -60,71 +75,49 @@ pub(super) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
 /// # Errors
 /// If the file cannot be read.
 pub(super) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
-    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
-    let content = fs::read(elf).map_err(|error| wrong(&error))?;
-    let file = object::File::parse(&*content).map_err(|error| wrong(&error))?;
-    let mut found = 0;
-    for name in SECTIONS {
-        let data = file.section_by_name(name).map(|section| section.data());
-        let data = data.transpose().map_err(|error| wrong(&error))?;
-        let windows = data.unwrap_or_default().windows(bytes.len().max(1));
-        found += windows.filter(|window| *window == bytes).count();
-    }
-    Ok(found)
+    with_elf(elf, |file| {
+        let mut found = 0;
+        for name in SECTIONS {
+            let data = file.section_by_name(name).map(|section| section.data());
+            let data = data.transpose()?.unwrap_or_default();
+            let windows = data.windows(bytes.len().max(1));
+            found += windows.filter(|window| *window == bytes).count();
+        }
+        Ok::<_, object::Error>(found)
+    })
 }
 
-/// What `ask` says of the debug information of `elf`.
-fn debug_information<T>(
+/// What `pick` finds in the entries of the debug information of `elf`.
+fn names(
     elf: &Path,
-    ask: impl Fn(&Dwarf<Bytes<'_>>) -> Result<T, gimli::Error>,
-) -> Result<T, Fault> {
-    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
-    let bytes = fs::read(elf).map_err(|error| wrong(&error))?;
-    let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
-    let section = |id: gimli::SectionId| -> Result<Bytes<'_>, gimli::Error> {
-        let data = file.section_by_name(id.name()).map(|s| s.data());
-        let data = data.and_then(Result::ok).unwrap_or_default();
-        Ok(EndianSlice::new(data, LittleEndian))
-    };
-    let said = Dwarf::load(section).and_then(|dwarf| ask(&dwarf));
-    said.map_err(|error| wrong(&error))
-}
-
-/// Names of all structures.
-fn types(dwarf: &Dwarf<Bytes<'_>>) -> Result<BTreeSet<String>, gimli::Error> {
-    let mut names = BTreeSet::new();
-    let mut headers = dwarf.units();
-    while let Some(header) = headers.next()? {
-        let unit = dwarf.unit(header)?;
-        let mut entries = unit.entries();
-        while let Some((_, entry)) = entries.next_dfs()? {
-            let name = entry.attr_value(gimli::DW_AT_name)?;
-            if let (gimli::DW_TAG_structure_type, Some(name)) = (entry.tag(), name) {
-                let name = dwarf.attr_string(&unit, name)?;
-                names.insert(name.to_string_lossy().into_owned());
+    pick: impl for<'a> Fn(
+        &Dwarf<Bytes<'a>>,
+        &[Unit<'a>],
+        &Unit<'a>,
+        &Entry<'_, 'a>,
+    ) -> Result<Option<String>, gimli::Error>,
+) -> Result<BTreeSet<String>, Fault> {
+    with_elf(elf, |file| {
+        let section = |id: gimli::SectionId| -> Result<Bytes<'_>, gimli::Error> {
+            let data = file.section_by_name(id.name()).map(|s| s.data());
+            let data = data.and_then(Result::ok).unwrap_or_default();
+            Ok(EndianSlice::new(data, LittleEndian))
+        };
+        let dwarf = Dwarf::load(section)?;
+        let mut units = Vec::new();
+        let mut headers = dwarf.units();
+        while let Some(header) = headers.next()? {
+            units.push(dwarf.unit(header)?);
+        }
+        let mut names = BTreeSet::new();
+        for unit in &units {
+            let mut entries = unit.entries();
+            while let Some((_, entry)) = entries.next_dfs()? {
+                names.extend(pick(&dwarf, &units, unit, entry)?);
             }
         }
-    }
-    Ok(names)
-}
-
-fn collect(dwarf: &Dwarf<Bytes<'_>>) -> Result<BTreeSet<String>, gimli::Error> {
-    let mut units = Vec::new();
-    let mut headers = dwarf.units();
-    while let Some(header) = headers.next()? {
-        units.push(dwarf.unit(header)?);
-    }
-    let mut names = BTreeSet::new();
-    for unit in &units {
-        let mut entries = unit.entries();
-        while let Some((_, entry)) = entries.next_dfs()? {
-            let is_code = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
-            if is_code.contains(&entry.tag()) && is_in_flash(dwarf, unit, entry)? {
-                names.extend(name(dwarf, &units, unit, entry)?);
-            }
-        }
-    }
-    Ok(names)
+        Ok::<_, gimli::Error>(names)
+    })
 }
 
 fn is_in_flash<'a>(

@@ -1,14 +1,13 @@
 //! The time that host-sim takes for a tick of a scene: what a scene leaves out
 //! costs nothing there either.
 
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
 use scene::Scene;
 
-use crate::run::{Fault, cargo, output, target, top};
+use crate::run::{Fault, cargo, output, read, target, top, write};
 
 /// Runs of which the quickest counts: others are disturbed.
 const RUNS: usize = 3;
@@ -21,25 +20,12 @@ const TICKS: u32 = 100_000;
 /// # Errors
 /// If host-sim cannot be built or run.
 pub(super) fn ns_per_tick(path: &Path, scene: &Scene) -> Result<u64, Fault> {
-    let build = [
-        "build",
-        "--release",
-        "--quiet",
-        "--locked",
-        "-p",
-        "host-sim",
-    ];
-    output(&mut cargo(&build))?;
+    let build = ["build", "--release", "--quiet", "--locked"];
+    output(cargo(&build).args(["-p", "host-sim"]))?;
     let folder = target().join("size");
-    let wrong = |error| format!("{}: {error}", folder.display());
-    fs::create_dir_all(&folder).map_err(wrong)?;
-    let text = fs::read_to_string(top().join(path)).map_err(|error| error.to_string())?;
+    let duration_s = f64::from(TICKS) / f64::from(scene.tick_hz);
     let long = folder.join("scene.toml");
-    fs::write(
-        &long,
-        lengthened(&text, f64::from(TICKS) / f64::from(scene.tick_hz)),
-    )
-    .map_err(wrong)?;
+    write(&long, lengthened(&read(&top().join(path))?, duration_s))?;
     let mut best = u128::MAX;
     for _ in 0..RUNS {
         let mut command = Command::new(target().join("release/host-sim"));

@@ -1,211 +1,90 @@
-//! What a scene names is linked, and nothing else: each part of the firmware,
-//! how its code is called, and which scenes have it.
+//! What a scene names is linked, and nothing else: each part of the firmware, how its
+//! code is called (parts.toml), and which scenes have it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use plan::NumberFormat;
 use scene::{Driver, Integrator, Rule, Scene};
 
-/// A part that a scene names or leaves out.
-pub(super) struct Part {
-    /// What messages call it.
-    pub(super) name: &'static str,
-    /// Its functions have one of these in their name.
-    code: &'static [&'static str],
-    /// Whether a scene on a board, with an FPU or without, has it.
-    named: fn(&Scene, bool) -> bool,
+use crate::run::Fault;
+
+/// Every part, with what stands in the names of its functions.
+fn parts() -> Result<BTreeMap<String, Vec<String>>, Fault> {
+    toml::from_str(include_str!("parts.toml")).map_err(|error| format!("parts.toml: {error}"))
 }
 
-/// Every part.
-pub(super) const ALL: [Part; 19] = [
-    Part {
-        name: "oscillators",
-        code: &["whisking::oscillator::"],
-        named: |scene, _| scene.whisking.is_some(),
-    },
-    Part {
-        name: "exact integrator",
-        code: &["whisking::oscillator::exact::", "whisking::muscle::exact::"],
-        named: |scene, _| integrates(scene, Integrator::Exact),
-    },
-    Part {
-        name: "Euler's integrator",
-        code: &["whisking::oscillator::euler::", "whisking::muscle::euler::"],
-        named: |scene, _| integrates(scene, Integrator::Euler),
-    },
-    Part {
-        name: "noise",
-        code: &["whisking::noise::"],
-        named: |scene, _| scene.whisking.as_ref().is_some_and(|w| w.noise > 0.0),
-    },
-    Part {
-        name: "muscles",
-        code: &["whisking::muscle::"],
-        named: |scene, _| scene.whisking.is_some(),
-    },
-    Part {
-        name: "position control",
-        code: &["whisking::pd::"],
-        named: |scene, _| scene.motor.is_some(),
-    },
-    Part {
-        name: "encoder",
-        code: &["board::encoder::"],
-        named: |scene, _| scene.motor.is_some(),
-    },
-    Part {
-        name: "motor PWM",
-        code: &["board::pwm::"],
-        named: |scene, _| scene.motor.is_some(),
-    },
-    Part {
-        name: "any motor",
-        code: &[
-            "whisking::motor::",
-            "firmware::active::",
-            "firmware::servo::",
-        ],
-        named: |scene, _| scene.motor.is_some(),
-    },
-    Part {
-        name: "H-bridge",
-        code: &["whisking::motor::hbridge::"],
-        named: |scene, _| drives(scene, Driver::HBridge),
-    },
-    Part {
-        name: "six-step stage",
-        code: &["whisking::motor::six_step::"],
-        named: |scene, _| drives(scene, Driver::SixStep),
-    },
-    Part {
-        name: "RCP",
-        code: &["whisking::gate::Rcp"],
-        named: |scene, _| scene.rcp.is_some(),
-    },
-    Part {
-        name: "CIA",
-        code: &["whisking::gate::Cia"],
-        named: |scene, _| scene.cia.is_some(),
-    },
-    Part {
-        name: "contact signal",
-        code: &["firmware::module::Module<R,F,M,P,C,_,_>::feel"],
-        named: |scene, _| {
-            let least = scene.classifier.as_ref().and_then(|c| c.contact_min);
-            scene.rcp.is_some() || scene.cia.is_some() || least.is_some()
-        },
-    },
-    Part {
-        name: "classifier",
-        code: &["tactile::"],
-        named: |scene, _| scene.classifier.is_some(),
-    },
-    Part {
-        name: "sequential rule",
-        code: &["tactile::sequential::"],
-        named: |scene, _| decides(scene, |rule| matches!(rule, Rule::Sequential { .. })),
-    },
-    Part {
-        name: "window rule",
-        code: &["tactile::window::"],
-        named: |scene, _| decides(scene, |rule| matches!(rule, Rule::Window { .. })),
-    },
-    Part {
-        name: "single precision",
-        code: &["whisking::real::float::", "compiler_builtins::float::"],
-        named: |scene, has_fpu| computes(scene) && !is_fixed(scene, has_fpu),
-    },
-    Part {
-        name: "fixed point",
-        code: &["whisking::real::fix::"],
-        named: |scene, has_fpu| computes(scene) && is_fixed(scene, has_fpu),
-    },
-];
-
-fn integrates(scene: &Scene, integrator: Integrator) -> bool {
+/// Whether a scene on a board, with an FPU or without, has a part.
+fn is_named(part: &str, scene: &Scene, has_fpu: bool) -> Result<bool, Fault> {
     let whisking = scene.whisking.as_ref();
-    whisking.is_some_and(|whisking| whisking.integrator == integrator)
-}
-
-fn drives(scene: &Scene, driver: Driver) -> bool {
-    let motor = scene.motor.as_ref();
-    motor.is_some_and(|motor| motor.driver == driver)
-}
-
-fn decides(scene: &Scene, is: impl Fn(&Rule) -> bool) -> bool {
     let classifier = scene.classifier.as_ref();
-    classifier.is_some_and(|classifier| is(&classifier.rule))
+    let rule = classifier.map(|classifier| &classifier.rule);
+    let driver = scene.motor.as_ref().map(|motor| motor.driver);
+    let integrates = |integrator| whisking.is_some_and(|w| w.integrator == integrator);
+    let has_threshold = classifier.is_some_and(|c| c.contact_min.is_some());
+    // Whether anything is computed with numbers at all: motion, or contact.
+    let computes = whisking.is_some() || has_threshold;
+    let is_fixed = plan::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed);
+    Ok(match part {
+        "oscillators" | "muscles" => whisking.is_some(),
+        "exact integrator" => integrates(Integrator::Exact),
+        "Euler's integrator" => integrates(Integrator::Euler),
+        "noise" => whisking.is_some_and(|w| w.noise > 0.0),
+        "position control" | "encoder" | "motor PWM" | "any motor" => driver.is_some(),
+        "H-bridge" => driver == Some(Driver::HBridge),
+        "six-step stage" => driver == Some(Driver::SixStep),
+        "RCP" => scene.rcp.is_some(),
+        "CIA" => scene.cia.is_some(),
+        "contact signal" => scene.rcp.is_some() || scene.cia.is_some() || has_threshold,
+        "classifier" => classifier.is_some(),
+        "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
+        "window rule" => matches!(rule, Some(Rule::Window { .. })),
+        "single precision" => computes && !is_fixed,
+        "fixed point" => computes && is_fixed,
+        _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
+    })
 }
 
-/// Whether anything is computed with numbers at all: motion, or contact.
-fn computes(scene: &Scene) -> bool {
-    let least = scene.classifier.as_ref().and_then(|c| c.contact_min);
-    scene.whisking.is_some() || least.is_some()
-}
-
-fn is_fixed(scene: &Scene, has_fpu: bool) -> bool {
-    plan::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed)
-}
-
-impl Part {
-    /// Whether a program of these functions has it.
-    pub(super) fn is_in(&self, functions: &BTreeSet<String>) -> bool {
-        let is_its = |name: &String| self.code.iter().any(|code| name.contains(code));
-        functions.iter().any(is_its)
-    }
-
-    /// Whether the scene has it, on a board with an FPU or without.
-    pub(super) fn is_named(&self, scene: &Scene, has_fpu: bool) -> bool {
-        (self.named)(scene, has_fpu)
-    }
-}
-
-/// Which parts were found in some program and missed in some other.
+/// Which parts were missed in some program and found in some other.
 #[derive(Default)]
-pub(super) struct Seen {
-    there: BTreeSet<&'static str>,
-    absent: BTreeSet<&'static str>,
-}
+pub(super) struct Seen(BTreeMap<String, [bool; 2]>);
 
 impl Seen {
     /// Compares a program with its scene, and says what is there or absent
     /// against the scene.
+    ///
+    /// # Errors
+    /// If nobody says which scenes have a part.
     pub(super) fn compare(
         &mut self,
         functions: &BTreeSet<String>,
         scene: &Scene,
         has_fpu: bool,
-    ) -> Vec<String> {
+    ) -> Result<Vec<String>, Fault> {
         let mut wrong = Vec::new();
-        for part in &ALL {
-            let (found, named) = (part.is_in(functions), part.is_named(scene, has_fpu));
-            let side = if found {
-                &mut self.there
-            } else {
-                &mut self.absent
-            };
-            side.insert(part.name);
-            match (found, named) {
-                (true, false) => wrong.push(format!("{}: linked, but not named", part.name)),
-                (false, true) => wrong.push(format!("{}: named, but not found", part.name)),
+        for (part, code) in parts()? {
+            let is_its = |name: &String| code.iter().any(|code| name.contains(code));
+            let found = functions.iter().any(is_its);
+            match (found, is_named(&part, scene, has_fpu)?) {
+                (true, false) => wrong.push(format!("{part}: linked, but not named")),
+                (false, true) => wrong.push(format!("{part}: named, but not found")),
                 _ => {}
             }
+            self.0.entry(part).or_default()[usize::from(found)] = true;
         }
-        wrong
+        Ok(wrong)
     }
 
     /// Parts that were never there or never absent: their comparison has proved
     /// nothing.
-    pub(super) fn unproven(&self) -> Vec<&'static str> {
-        let both = |name: &str| self.there.contains(name) && self.absent.contains(name);
-        let names = ALL.iter().map(|part| part.name);
-        names.filter(|name| !both(name)).collect()
+    pub(super) fn unproven(&self) -> impl Iterator<Item = &str> {
+        let seen = self.0.iter();
+        seen.filter_map(|(part, both)| (*both != [true; 2]).then_some(part.as_str()))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Seen};
+    use super::{Seen, parts};
     use scene::Scene;
     use std::collections::BTreeSet;
 
@@ -217,11 +96,12 @@ mod tests {
         let scene = Scene::from_str("p.toml", PASSIVE).unwrap();
         let mut seen = Seen::default();
         let sound = BTreeSet::from(["firmware::sensing::decode".to_owned()]);
-        assert!(seen.compare(&sound, &scene, true).is_empty());
+        assert_eq!(seen.compare(&sound, &scene, true), Ok(Vec::new()));
         let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned()]);
-        let wrong = seen.compare(&gate, &scene, true);
+        let wrong = seen.compare(&gate, &scene, true).unwrap();
         assert_eq!(wrong, ["RCP: linked, but not named"]);
-        assert_eq!(seen.unproven().len(), ALL.len() - 1, "RCP was both");
+        let all = parts().unwrap().len();
+        assert_eq!(seen.unproven().count(), all - 1, "RCP was both");
     }
 
     #[test]
@@ -232,7 +112,9 @@ mod tests {
              noise=0.0\ngain=1.0\nstart=[[1.0,0.0]]\n"
         );
         let scene = Scene::from_str("a.toml", &text).unwrap();
-        let wrong = Seen::default().compare(&BTreeSet::new(), &scene, true);
+        let wrong = Seen::default()
+            .compare(&BTreeSet::new(), &scene, true)
+            .unwrap();
         assert!(wrong.contains(&"muscles: named, but not found".to_owned()));
         assert!(wrong.contains(&"single precision: named, but not found".to_owned()));
     }

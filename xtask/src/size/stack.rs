@@ -6,13 +6,12 @@
 //! Measured depths, by painting, are at most this.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::Path;
 
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 
 use super::thumb::{self, Step};
-use crate::firmware::Board;
+use crate::firmware::{Board, with_elf};
 use crate::run::Fault;
 
 /// What the core itself puts on the stack at an interrupt: eight words; with an
@@ -45,34 +44,29 @@ struct Function {
 /// If the file cannot be read, or holds something that has no bound: a
 /// recursion, a call through a pointer.
 pub(super) fn worst(board: Board, elf: &Path) -> Result<u64, Fault> {
-    let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", elf.display());
-    let bytes = fs::read(elf).map_err(|error| wrong(&error))?;
-    let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
-    let functions = functions(&file).map_err(|error| wrong(&error))?;
-    let vectors = vectors(&file).map_err(|error| wrong(&error))?;
-    let reset = *vectors.get(RESET).ok_or_else(|| wrong(&"no vectors"))?;
+    with_elf(elf, |file| bound(board, file))
+}
+
+fn bound(board: Board, file: &object::File<'_>) -> Result<u64, Fault> {
+    let functions = functions(file).map_err(|error| error.to_string())?;
+    let vectors = vectors(file).map_err(|error| error.to_string())?;
+    let reset = *vectors.get(RESET).ok_or("no vectors")?;
     // Interrupts without a task share one handler, which is a fault.
     let tasks = vectors.get(CORE_VECTORS..).unwrap_or_default();
     let count = |vector: &u64| tasks.iter().filter(|other| *other == vector).count();
-    let tasks = tasks.iter().filter(|v| **v != 0 && count(v) == 1);
-
-    let deepest = |start: u64| depth(&functions, start, &mut Vec::new());
     let mut interrupt = 0;
-    for task in tasks {
-        interrupt = deepest(*task)
-            .map_err(|error| wrong(&error))?
-            .max(interrupt);
+    for task in tasks.iter().filter(|task| **task != 0 && count(task) == 1) {
+        interrupt = depth(&functions, *task, &mut Vec::new())?.max(interrupt);
     }
     if interrupt == 0 {
-        return Err(wrong(&"no task is bound to an interrupt"));
+        return Err("no task is bound to an interrupt".to_owned());
     }
     let exception = if board.has_fpu {
         EXCEPTION_FPU
     } else {
         EXCEPTION
     };
-    let main = deepest(reset).map_err(|error| wrong(&error))?;
-    Ok(main + exception + interrupt)
+    Ok(depth(&functions, reset, &mut Vec::new())? + exception + interrupt)
 }
 
 /// Bytes from the entry of the function at `start` to the deepest of those it

@@ -2,16 +2,18 @@
 
 use std::fmt::Write as _;
 
+use crate::figures::{Figure, Table};
 use crate::firmware::Size;
 use crate::run::Fault;
 
-/// The committed table, seen from the top of the workspace.
-pub(super) const FILE: &str = "docs/measured/sizes.csv";
-
-const HEADER: &str = "scene,board,flash_bytes,ram_bytes,stack_bytes";
-
-/// By how much a program may grow before a check fails.
-const SLACK: f64 = 0.02;
+/// The committed table.
+pub(crate) const TABLE: Table = Table {
+    file: "docs/measured/sizes.csv",
+    header: "scene,board,flash_bytes,ram_bytes,stack_bytes",
+    decimals: &[0; 3],
+    slack: 0.02,
+    command: "cargo xtask size",
+};
 
 /// Goals, bytes: flash without the model for a passive and an active scene,
 /// logging included; static RAM; stack.
@@ -26,8 +28,8 @@ pub(super) struct Row {
     pub(super) scene: String,
     pub(super) board: String,
     pub(super) size: Size,
-    /// Worst stack, where known.
-    pub(super) stack: Option<u64>,
+    /// Worst stack.
+    pub(super) stack: u64,
     // Not in the committed table:
     /// Bytes of flash that are the model.
     pub(super) model: u64,
@@ -37,29 +39,23 @@ pub(super) struct Row {
     pub(super) host_ns: Option<u64>,
 }
 
-/// A line of the committed table: scene, board, flash, RAM, stack.
-type Line = ([String; 2], [Option<u64>; 3]);
-
 impl Row {
-    fn line(&self) -> Line {
-        let bytes = [Some(self.size.flash), Some(self.size.ram), self.stack];
-        ([self.scene.clone(), self.board.clone()], bytes)
+    /// Its line in the committed table.
+    pub(super) fn figure(&self) -> Figure {
+        let numbers = [self.size.flash, self.size.ram, self.stack];
+        Figure {
+            key: vec![self.scene.clone(), self.board.clone()],
+            numbers: numbers.map(|bytes| bytes as f64).to_vec(),
+        }
     }
 
     fn missed_goals(&self) -> impl Iterator<Item = String> {
-        let flash = if self.is_active {
-            ACTIVE_FLASH
-        } else {
-            PASSIVE_FLASH
-        };
+        let flash = [PASSIVE_FLASH, ACTIVE_FLASH][usize::from(self.is_active)];
+        let program = self.size.flash - self.model;
         let goals = [
-            (
-                "flash without the model",
-                self.size.flash - self.model,
-                flash,
-            ),
+            ("flash without the model", program, flash),
             ("static RAM", self.size.ram, RAM),
-            ("stack", self.stack.unwrap_or(0), STACK),
+            ("stack", self.stack, STACK),
         ];
         let place = format!("{} on {}", self.scene, self.board);
         goals
@@ -67,47 +63,6 @@ impl Row {
             .filter(|(_, found, goal)| found > goal)
             .map(move |(what, found, goal)| format!("{place}: {what} {found}, goal {goal}"))
     }
-}
-
-/// A number that may not be known.
-fn text(bytes: Option<u64>) -> String {
-    bytes.map_or_else(|| "-".to_owned(), |bytes| bytes.to_string())
-}
-
-/// The table as it is committed.
-pub(super) fn csv(rows: &[Row]) -> String {
-    let mut lines = format!("{HEADER}\n");
-    for row in rows {
-        let (key, bytes) = row.line();
-        let _ = writeln!(lines, "{},{}", key.join(","), bytes.map(text).join(","));
-    }
-    lines
-}
-
-/// Reads the committed table.
-///
-/// # Errors
-/// If it is none.
-pub(super) fn read(text: &str) -> Result<Vec<Line>, Fault> {
-    let mut lines = text.lines();
-    if lines.next() != Some(HEADER) {
-        return Err(format!("{FILE} does not begin with {HEADER}"));
-    }
-    let bytes = |field: &str| match field {
-        "-" => Some(None),
-        number => number.parse().ok().map(Some),
-    };
-    let line = |line: &str| {
-        let fields: Vec<&str> = line.split(',').collect();
-        let [scene, board, flash, ram, stack] = fields[..] else {
-            return None;
-        };
-        let key = [scene, board].map(str::to_owned);
-        Some((key, [bytes(flash)?, bytes(ram)?, bytes(stack)?]))
-    };
-    lines
-        .map(|text| line(text).ok_or_else(|| format!("{FILE} has a line {text:?}")))
-        .collect()
 }
 
 /// The table for a person to read, with what host-sim takes and what flash
@@ -118,16 +73,15 @@ pub(super) fn columns(rows: &[Row]) -> String {
         "scene", "board", "flash", "without model", "RAM", "stack", "host ns/tick"
     );
     for row in rows {
+        let Size { flash, ram } = row.size;
+        let program = flash - row.model;
+        let host_ns = row
+            .host_ns
+            .map_or_else(|| "-".to_owned(), |ns| ns.to_string());
         let _ = writeln!(
             lines,
-            "{:<12} {:<14} {:>7} {:>14} {:>6} {:>6} {:>12}",
-            row.scene,
-            row.board,
-            row.size.flash,
-            row.size.flash - row.model,
-            row.size.ram,
-            text(row.stack),
-            text(row.host_ns)
+            "{:<12} {:<14} {flash:>7} {program:>14} {ram:>6} {:>6} {host_ns:>12}",
+            row.scene, row.board, row.stack
         );
     }
     lines
@@ -138,43 +92,22 @@ pub(super) fn columns(rows: &[Row]) -> String {
 ///
 /// # Errors
 /// If there is one.
-pub(super) fn compare(known: &[Line], found: &[Row], is_all: bool) -> Result<(), Fault> {
+pub(super) fn compare(known: &[Figure], found: &[Row], is_all: bool) -> Result<(), Fault> {
     let mut faults: Vec<String> = found.iter().flat_map(Row::missed_goals).collect();
-    for row in found {
-        let (key, bytes) = row.line();
-        let name = key.join(",");
-        let Some((_, was)) = known.iter().find(|(known, _)| *known == key) else {
-            faults.push(format!("{name} is not in the table"));
-            continue;
-        };
-        let grown = bytes.iter().zip(was).any(|(now, was)| match (now, was) {
-            (Some(now), Some(was)) => *now as f64 > *was as f64 * (1.0 + SLACK),
-            (now, was) => now != was,
-        });
-        if grown {
-            let [now, was] = [bytes, *was].map(|bytes| bytes.map(text).join(","));
-            faults.push(format!("{name}: {now} was {was}"));
-        }
-    }
-    for (key, _) in known {
-        if is_all && !found.iter().any(|row| row.line().0 == *key) {
-            faults.push(format!("{} is no longer built", key.join(",")));
-        }
-    }
+    let figures: Vec<Figure> = found.iter().map(Row::figure).collect();
+    faults.extend(TABLE.compare(known, &figures, is_all).err());
     if faults.is_empty() {
-        return Ok(());
+        Ok(())
+    } else {
+        Err(faults.join("\n"))
     }
-    faults.push(format!(
-        "If that is meant: cargo xtask size, and commit {FILE}"
-    ));
-    Err(faults.join("\n"))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Row, Size, compare, csv, read};
+    use super::{Row, Size, TABLE, compare};
 
-    fn row(scene: &str, flash: u64, ram: u64, stack: Option<u64>) -> Row {
+    fn row(scene: &str, flash: u64, ram: u64, stack: u64) -> Row {
         Row {
             scene: scene.to_owned(),
             board: "b".to_owned(),
@@ -188,40 +121,42 @@ mod tests {
 
     #[test]
     fn a_table_is_read_back_as_it_was_written() {
-        let rows = [row("a", 10_000, 1_000, Some(500)), row("b", 1, 2, None)];
-        let read_back = read(&csv(&rows)).unwrap();
-        assert_eq!(read_back, rows.each_ref().map(Row::line));
-        assert!(read("scene,board\n").is_err());
-        assert!(read(&(csv(&rows) + "c,b,1,x,-\n")).is_err());
+        let rows = [row("a", 10_000, 1_000, 500), row("b", 1, 2, 3)];
+        let text = TABLE.text(&rows.each_ref().map(Row::figure));
+        assert_eq!(
+            TABLE.parse(&text),
+            Ok(rows.each_ref().map(Row::figure).to_vec())
+        );
+        assert!(TABLE.parse("scene,board\n").is_err());
+        assert!(TABLE.parse(&(text + "c,b,1,x,-\n")).is_err());
     }
 
     #[test]
     fn two_per_cent_are_borne_and_no_more() {
-        let known = [row("a", 10_000, 1_000, Some(500)).line()];
+        let known = [row("a", 10_000, 1_000, 500).figure()];
         let check = |flash, ram, stack| compare(&known, &[row("a", flash, ram, stack)], true);
-        assert_eq!(check(10_200, 1_020, Some(510)), Ok(()));
-        assert_eq!(check(5_000, 500, Some(100)), Ok(()));
-        assert!(check(10_201, 1_000, Some(500)).is_err());
-        assert!(check(10_000, 1_021, Some(500)).is_err());
-        assert!(check(10_000, 1_000, Some(511)).is_err());
-        assert!(check(10_000, 1_000, None).is_err(), "no longer known");
+        assert_eq!(check(10_200, 1_020, 510), Ok(()));
+        assert_eq!(check(5_000, 500, 100), Ok(()));
+        assert!(check(10_201, 1_000, 500).is_err());
+        assert!(check(10_000, 1_021, 500).is_err());
+        assert!(check(10_000, 1_000, 511).is_err());
     }
 
     #[test]
     fn new_and_lost_programs_and_missed_goals_are_named() {
-        let (a, b) = (row("a", 1, 1, None), row("b", 1, 1, None));
-        let fault = compare(&[a.line()], std::slice::from_ref(&b), true).unwrap_err();
+        let (a, b) = (row("a", 1, 1, 1), row("b", 1, 1, 1));
+        let fault = compare(&[a.figure()], std::slice::from_ref(&b), true).unwrap_err();
         assert!(fault.contains("b,b is not in the table"));
-        assert!(fault.contains("a,b is no longer built"));
-        assert_eq!(compare(&[a.line(), b.line()], &[b], false), Ok(()));
-        let mut big = row("c", 24 * 1024 + 100, 4 * 1024 + 1, Some(1_025));
-        let fault = compare(&[big.line()], &[big.clone()], true).unwrap_err();
+        assert!(fault.contains("a,b is no longer measured"));
+        assert_eq!(compare(&[a.figure(), b.figure()], &[b], false), Ok(()));
+        let mut big = row("c", 24 * 1024 + 100, 4 * 1024 + 1, 1_025);
+        let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
         assert_eq!(fault.matches("goal").count(), 3, "{fault}");
         big.model = 100;
-        let fault = compare(&[big.line()], &[big.clone()], true).unwrap_err();
+        let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
         assert_eq!(fault.matches("goal").count(), 2, "the model is apart");
         big.is_active = false;
-        let fault = compare(&[big.line()], &[big], true).unwrap_err();
+        let fault = compare(&[big.figure()], &[big], true).unwrap_err();
         assert!(fault.contains("goal 8192"));
     }
 }
