@@ -15,8 +15,8 @@
 //!
 //! # Where to look
 //!
-//! [`machine`] counts, `check.rs` proves that it does, [`kernel!`] enters a
-//! kernel in a program of `src/bin`. A number format is measured when it has a
+//! [`machine`] counts, `check.rs` proves that it does, [`program!`] enters the
+//! kernels of a program of `src/bin`. A number format is measured when it has a
 //! line in the build script and one in [`each_format`].
 //!
 //! Kernels that have a function in common stand in programs apart: the firmware
@@ -42,10 +42,29 @@ pub mod samples;
 #[cfg(target_os = "none")]
 pub mod start;
 
-/// Makes a program of a function that counts kernels.
+/// Makes a program that counts kernels, each with its name, its body, the inputs and
+/// the state it starts from: `program!(R, ("name", ...), ...)` in every number format
+/// `R`, `program!(("format": "name", ...), ...)` where there is no choice of one.
 #[macro_export]
 macro_rules! program {
-    ($kernels:ident) => {
+    ($(#[$only:meta])* $number:ident, $(($($kernel:tt)*)),* $(,)?) => {
+        $crate::program!(@ $(#[$only])* {
+            #[inline(never)]
+            fn each<$number: $crate::format::Format>() {
+                $($crate::kernel!([$number] $number::NAME, $($kernel)*);)*
+            }
+            $crate::each_format!(each);
+        });
+    };
+    ($($(#[$only:meta])* ($format:literal: $($kernel:tt)*)),* $(,)?) => {
+        $crate::program!(@ { $($(#[$only])* { $crate::kernel!([] $format, $($kernel)*) })* });
+    };
+    (@ $(#[$only:meta])* $kernels:block) => {
+        fn kernels() {
+            $(#[$only])*
+            $kernels
+        }
+
         /// What the processor does after its start.
         #[cfg(target_os = "none")]
         #[allow(
@@ -54,13 +73,13 @@ macro_rules! program {
         )]
         #[unsafe(no_mangle)]
         extern "C" fn start() -> ! {
-            $crate::start::run($kernels)
+            $crate::start::run(kernels)
         }
 
         /// On a PC the kernels run, and nothing is counted.
         #[cfg(not(target_os = "none"))]
         fn main() {
-            $kernels();
+            kernels();
         }
     };
 }

@@ -22,7 +22,7 @@ impl<R: Format> Channel<R> {
     /// Takes the frame of a number in: what the classifier says, and the contact or
     /// `strongest`, whichever is more.
     #[inline]
-    pub fn listen(&mut self, number: u32, strongest: R) -> (u32, R) {
+    fn listen(&mut self, number: u32, strongest: R) -> (u32, R) {
         let Ok(frame) = Decoder::new().decode(frame(number)) else {
             return (1 << 31, strongest);
         };
@@ -72,10 +72,33 @@ impl<R: Format, const S: usize, const N: usize> Pipeline<R, S, N> {
         self.tick_by(call, Channel::listen, whisk, follow)
     }
 
-    /// The same by functions that may not be inlined: in one long function the
+    /// The same by functions that are not inlined: in one long function the
     /// addresses of many whiskers are beyond what an instruction reaches.
     #[inline]
-    pub fn tick_by(
+    pub fn tick_apart(&mut self, call: u32) -> u32 {
+        #[inline(never)]
+        fn listen<R: Format>(channel: &mut Channel<R>, number: u32, strongest: R) -> (u32, R) {
+            channel.listen(number, strongest)
+        }
+        #[inline(never)]
+        fn whisk<R: Format, const S: usize, const N: usize>(
+            state: &mut State<R, S, N>,
+            contact: [R; S],
+        ) {
+            self::whisk(state, contact);
+        }
+        #[inline(never)]
+        fn follow<R: Format, const S: usize, const N: usize>(
+            channels: &mut [[Channel<R>; N]; S],
+            state: &State<R, S, N>,
+        ) -> u32 {
+            self::follow(channels, state)
+        }
+        self.tick_by(call, listen, whisk, follow)
+    }
+
+    #[inline]
+    fn tick_by(
         &mut self,
         call: u32,
         listen: impl Fn(&mut Channel<R>, u32, R) -> (u32, R),
@@ -100,16 +123,13 @@ impl<R: Format, const S: usize, const N: usize> Pipeline<R, S, N> {
 
 /// Moves the whiskers.
 #[inline]
-pub fn whisk<R: Format, const S: usize, const N: usize>(
-    state: &mut State<R, S, N>,
-    contact: [R; S],
-) {
+fn whisk<R: Format, const S: usize, const N: usize>(state: &mut State<R, S, N>, contact: [R; S]) {
     in_memory(R::WHISKING).step(state, contact);
 }
 
 /// Lets the motors follow; the sum of the duties.
 #[inline]
-pub fn follow<R: Format, const S: usize, const N: usize>(
+fn follow<R: Format, const S: usize, const N: usize>(
     channels: &mut [[Channel<R>; N]; S],
     state: &State<R, S, N>,
 ) -> u32 {

@@ -27,34 +27,24 @@ pub fn count<I, S, O>(
     println!("{name},{format},{CALLS},{sum},{worst}");
 }
 
-/// Counts a kernel. Its number format, its name, its body with its arguments
-/// (input and state), the inputs and the state it starts from stand in one
-/// place. The body becomes a function that the compiler calls knowing nothing
-/// of it, and that knows nothing of its caller.
-///
-/// `kernel!(R: "name", …)` for a body in the number format `R`,
-/// `kernel!("format": "name", …)` for one that has no choice.
+/// Counts a kernel of [`program!`](crate::program): a number format's name, the
+/// kernel's, its body with its arguments (input and state), the inputs and the state
+/// it starts from. In brackets the type of numbers, where it has the choice. The body
+/// becomes a function that the compiler calls knowing nothing of it, and that knows
+/// nothing of its caller.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! kernel {
     (
-        $format:ident: $name:literal,
+        [$($number:ident)?] $format:expr, $name:literal,
         ($input:tt: $takes:ty, $state:tt: &mut $keeps:ty) $(-> $gives:ty)? $body:block,
         $inputs:expr, $start:expr $(,)?
     ) => {{
         #[inline(never)]
-        extern "C" fn body<$format: $crate::format::Format>(
+        extern "C" fn body$(<$number: $crate::format::Format>)?(
             $input: $takes,
             $state: &mut $keeps,
         ) $(-> $gives)? $body
-        $crate::report::count($name, $format::NAME, body::<$format>, $inputs, &mut $start)
-    }};
-    (
-        $format:literal: $name:literal,
-        ($input:tt: $takes:ty, $state:tt: &mut $keeps:ty) $(-> $gives:ty)? $body:block,
-        $inputs:expr, $start:expr $(,)?
-    ) => {{
-        #[inline(never)]
-        extern "C" fn body($input: $takes, $state: &mut $keeps) $(-> $gives)? $body
-        $crate::report::count($name, $format, body, $inputs, &mut $start)
+        $crate::report::count($name, $format, body$(::<$number>)?, $inputs, &mut $start)
     }};
 }

@@ -4,15 +4,12 @@
 use count::arguments::Two;
 use count::listener::{Listener, block_4, block_9};
 use count::samples::codes;
-use count::{kernel, program};
 
-program!(kernels);
-
-fn kernels() {
-    kernel!("integer": "classifier push and end of block K=4",
+count::program!(
+    ("integer": "classifier push and end of block K=4",
         (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
-        codes, Listener::new(block_4()));
-    kernel!("integer": "classifier push and end of block K=9",
+        codes, Listener::new(block_4())),
+    ("integer": "classifier push and end of block K=9",
         (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
-        codes, Listener::new(block_9()));
-}
+        codes, Listener::new(block_9())),
+);

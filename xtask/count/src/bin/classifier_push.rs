@@ -4,18 +4,15 @@
 use count::arguments::Two;
 use count::listener::{Listener, open_4, open_9, single_4};
 use count::samples::codes;
-use count::{kernel, program};
 
-program!(kernels);
-
-fn kernels() {
-    kernel!("integer": "classifier push K=4",
+count::program!(
+    ("integer": "classifier push K=4",
         (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
-        codes, Listener::new(open_4()));
-    kernel!("integer": "classifier push of one channel K=4",
+        codes, Listener::new(open_4())),
+    ("integer": "classifier push of one channel K=4",
         (code: i32, listener: &mut Listener<1>) -> u32 { listener.push([code]) },
-        |call| codes(call).0, Listener::new(single_4()));
-    kernel!("integer": "classifier push K=9",
+        |call| codes(call).0, Listener::new(single_4())),
+    ("integer": "classifier push K=9",
         (codes: Two<i32>, listener: &mut Listener<2>) -> u32 { listener.push([codes.0, codes.1]) },
-        codes, Listener::new(open_9()));
-}
+        codes, Listener::new(open_9())),
+);

@@ -6,9 +6,6 @@ use classifiers::features::{Feature, FeatureRule, Features, FeaturesState};
 use classifiers::polynomial::{Polynomial, Term};
 use classifiers::spectrum::Bank;
 use count::samples::{number, spread};
-use count::{kernel, program};
-
-program!(kernels);
 
 /// 6 Hz to 1 kHz in steps of 3 Hz.
 const BINS: usize = 332;
@@ -75,16 +72,16 @@ static RULE: FeatureRule<'_, 3> = FeatureRule {
     classes: 4,
 };
 
-fn kernels() {
-    kernel!("f32": "features push B=332",
+count::program!(
+    ("f32": "features push B=332",
         (x: f32, state: &mut FeaturesState<BINS>) -> f32 {
             FEATURES.push(state, x).map_or(0.0, |[_, _, f3, _, _]| f3)
         },
-        number::<f32>(-1.0, 1.0), FEATURES.state());
-    kernel!("f32": "polynomial F=3 degree 2",
+        number::<f32>(-1.0, 1.0), FEATURES.state()),
+    ("f32": "polynomial F=3 degree 2",
         (x: f32, features: &mut [f32; 5]) -> u32 {
             features[2] = x;
             RULE.estimate(features).class as u32
         },
-        |call| spread(call, 6.0, 1000.0) as f32, [1.0_f32; 5]);
-}
+        |call| spread(call, 6.0, 1000.0) as f32, [1.0_f32; 5]),
+);

@@ -2,13 +2,10 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::samples::frame;
-use count::{kernel, program};
 use mlx90333::{Decoder, FRAME_LEN};
 
-program!(kernels);
-
-fn kernels() {
-    kernel!("integer": "frame decode",
+count::program!(
+    ("integer": "frame decode",
         (bytes: &[u8; FRAME_LEN], _: &mut ()) -> u32 {
             match Decoder::new().decode(bytes) {
                 Ok(frame) => {
@@ -17,5 +14,5 @@ fn kernels() {
                 Err(_) => 0,
             }
         },
-        frame, ());
-}
+        frame, ()),
+);

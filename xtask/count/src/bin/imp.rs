@@ -5,9 +5,6 @@
 use classifiers::imp::{Band, Imp, ImpState};
 use count::arguments::Two;
 use count::samples::spread;
-use count::{kernel, program};
-
-program!(kernels);
 
 /// The paper's rule, and one that leaves noise of some codes out.
 struct Vibrissa {
@@ -40,11 +37,11 @@ fn codes(call: u32) -> Two<i32> {
     Two(3000 - 200 * (place - 10).abs() + noise, 500)
 }
 
-fn kernels() {
-    kernel!("integer": "imp push one vibrissa",
+count::program!(
+    ("integer": "imp push one vibrissa",
         (codes: Two<i32>, vibrissa: &mut Vibrissa) -> u32 { vibrissa.push(codes.0, codes.1) },
-        codes, Vibrissa::new(0));
-    kernel!("integer": "imp push with a band one vibrissa",
+        codes, Vibrissa::new(0)),
+    ("integer": "imp push with a band one vibrissa",
         (codes: Two<i32>, vibrissa: &mut Vibrissa) -> u32 { vibrissa.push(codes.0, codes.1) },
-        codes, Vibrissa::new(40));
-}
+        codes, Vibrissa::new(40)),
+);

@@ -5,14 +5,11 @@
 use classifiers::mlp::Mlp;
 use count::networks::{Single, single};
 use count::samples::spread;
-use count::{kernel, program};
-
-program!(kernels);
 
 static SINGLE: Mlp<33, 33, 8> = single();
 
-fn kernels() {
-    kernel!("f32": "network push 33-33-8",
+count::program!(
+    ("f32": "network push 33-33-8",
         (input: f32, network: &mut Single<33, 33, 8>) -> u32 { network.push(input) },
-        |call| spread(call, 0.0, 1000.0) as f32, Single::new(&SINGLE));
-}
+        |call| spread(call, 0.0, 1000.0) as f32, Single::new(&SINGLE)),
+);

@@ -5,14 +5,11 @@
 use classifiers::mlp::Mlp;
 use count::networks::{Single, single};
 use count::samples::spread;
-use count::{kernel, program};
-
-program!(kernels);
 
 static SINGLE: Mlp<120, 20, 4> = single();
 
-fn kernels() {
-    kernel!("f32": "network push 120-20-4",
+count::program!(
+    ("f32": "network push 120-20-4",
         (input: f32, network: &mut Single<120, 20, 4>) -> u32 { network.push(input) },
-        |call| spread(call, 0.0, 1000.0) as f32, Single::new(&SINGLE));
-}
+        |call| spread(call, 0.0, 1000.0) as f32, Single::new(&SINGLE)),
+);

@@ -1,21 +1,13 @@
 //! The noise of the oscillators.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::{Format, in_memory};
-use count::{each_format, kernel, program};
+use count::format::in_memory;
 use whisking::noise;
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(both_sides);
-}
-
-#[inline(never)]
-fn both_sides<R: Format>() {
-    kernel!(R: "noise of 2 sides",
+count::program!(R,
+    ("noise of 2 sides",
         (_: u32, (state, out): &mut (noise::State<R, 2>, [[R; 2]; 2])) {
             *out = in_memory(R::NOISE).step(state);
         },
-        |call| call, (noise::State::new(1), [[R::ZERO; 2]; 2]));
-}
+        |call| call, (noise::State::new(1), [[R::ZERO; 2]; 2])),
+);

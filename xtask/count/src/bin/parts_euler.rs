@@ -2,30 +2,22 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Three;
-use count::format::{Format, in_memory};
+use count::format::in_memory;
 use count::samples::drives;
-use count::{each_format, kernel, program};
 use whisking::muscle::{self, MuscleIntegrator};
 use whisking::oscillator::{self, OscillatorIntegrator};
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(parts);
-}
-
-#[inline(never)]
-fn parts<R: Format>() {
-    kernel!(R: "muscle (euler)",
+count::program!(R,
+    ("muscle (euler)",
         (at: Three<R>, state: &mut muscle::State<R>) {
             let Three(gain, before, after) = at;
             in_memory(R::EULER_MUSCLE).step(state, gain, before, after);
         },
-        drives::<R>(), muscle::State::default());
-    kernel!(R: "oscillators of 2 sides (euler)",
+        drives::<R>(), muscle::State::default()),
+    ("oscillators of 2 sides (euler)",
         (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
             in_memory(R::EULER_OSCILLATORS).step(state, None);
             *drive = in_memory(R::EULER_OSCILLATORS).drives(state);
         },
-        |call| call, (oscillator::State::new(R::EULER_START.oscillators), [R::ZERO; 2]));
-}
+        |call| call, (oscillator::State::new(R::EULER_START.oscillators), [R::ZERO; 2])),
+);

@@ -9,38 +9,35 @@ use micromath::F32Ext;
 
 use count::format::SECTIONS;
 use count::samples::spread;
-use count::{kernel, program};
 
-program!(kernels);
-
-fn kernels() {
-    kernel!("f32": "peer: libm tanhf", (x: f32, _: &mut ()) -> f32 { libm::tanhf(x) }, signed, ());
-    kernel!("f32": "peer: libm expf", (x: f32, _: &mut ()) -> f32 { libm::expf(x) }, signed, ());
-    kernel!("f32": "peer: libm sqrtf", (x: f32, _: &mut ()) -> f32 { libm::sqrtf(x) }, positive, ());
-    kernel!("f32": "peer: micromath tanh by exp",
+count::program!(
+    ("f32": "peer: libm tanhf", (x: f32, _: &mut ()) -> f32 { libm::tanhf(x) }, signed, ()),
+    ("f32": "peer: libm expf", (x: f32, _: &mut ()) -> f32 { libm::expf(x) }, signed, ()),
+    ("f32": "peer: libm sqrtf", (x: f32, _: &mut ()) -> f32 { libm::sqrtf(x) }, positive, ()),
+    ("f32": "peer: micromath tanh by exp",
         (x: f32, _: &mut ()) -> f32 {
             let e = F32Ext::exp(x + x);
             (e - 1.0) / (e + 1.0)
-        }, signed, ());
-    kernel!("f32": "peer: micromath exp",
-        (x: f32, _: &mut ()) -> f32 { F32Ext::exp(x) }, signed, ());
-    kernel!("f32": "peer: micromath invsqrt",
-        (x: f32, _: &mut ()) -> f32 { F32Ext::invsqrt(x) }, positive, ());
-    kernel!("f32": "peer: biquad h50",
+        }, signed, ()),
+    ("f32": "peer: micromath exp",
+        (x: f32, _: &mut ()) -> f32 { F32Ext::exp(x) }, signed, ()),
+    ("f32": "peer: micromath invsqrt",
+        (x: f32, _: &mut ()) -> f32 { F32Ext::invsqrt(x) }, positive, ()),
+    ("f32": "peer: biquad h50",
         (x: f32, [first, second]: &mut Sections) -> f32 { second.run(first.run(x)) },
-        signed, single());
-    kernel!("q30": "peer: idsp h50",
+        signed, single()),
+    ("q30": "peer: idsp h50",
         (x: i32, state: &mut DirectForm<i32, 2>) -> i32 { CASCADE.process(state, x) },
-        |call| (spread(call, -1.0, 1.0) * Q30) as i32, DirectForm::default());
+        |call| (spread(call, -1.0, 1.0) * Q30) as i32, DirectForm::default()),
     // Without a floating-point unit it is longer than the timer counts. It works
     // in place, so that soon all is infinite: with a unit that costs the same.
     #[cfg(not(machine = "microbit"))]
-    kernel!("f32": "peer: microfft of 1024",
+    ("f32": "peer: microfft of 1024",
         (x: f32, block: &mut [f32; 1024]) {
             block[0] = x;
             let _ = microfft::real::rfft_1024(block);
-        }, signed, [1.0_f32; 1024]);
-}
+        }, signed, [1.0_f32; 1024]),
+);
 
 type Sections = [DirectForm2Transposed<f32>; 2];
 

@@ -1,21 +1,12 @@
 //! What a tick of one side and one whisker computes.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
 use count::pipeline::Pipeline;
-use count::{each_format, kernel, program};
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(tick);
-}
-
-#[inline(never)]
-fn tick<R: Format>() {
-    kernel!(R: "computation of 1 whisker",
+count::program!(R,
+    ("computation of 1 whisker",
         (call: u32, pipeline: &mut Pipeline<R, 1, 1>) -> u32 {
             pipeline.tick(call)
         },
-        |call| call, Pipeline::new(&R::START_1));
-}
+        |call| call, Pipeline::new(&R::START_1)),
+);

@@ -6,9 +6,6 @@ use classifiers::spectral_template::{SpectralState, SpectralTemplate};
 use classifiers::spectrum::{Bank, BankState, Measure};
 use count::arguments::Two;
 use count::samples::pair;
-use count::{kernel, program};
-
-program!(kernels);
 
 /// Samples in a block (LEP12: 400 ms at 2 kHz).
 const BLOCK: u32 = 800;
@@ -37,27 +34,27 @@ static TEMPLATES: SpectralTemplate<'_, 2, 48, 4> =
 /// 1 Hz to 120 Hz.
 static BANK: Bank<120> = bank();
 
-fn kernels() {
-    kernel!("f32": "spectral template push C=2 B=48 K=4",
+count::program!(
+    ("f32": "spectral template push C=2 B=48 K=4",
         (x: Two<f32>, state: &mut SpectralState<2, 48>) -> u32 {
             let choice = TEMPLATES.push(state, &[x.0, x.1]);
             choice.map_or(0, |choice| choice.samples())
         },
-        pair::<f32>(-1.0, 1.0), TEMPLATES.state());
-    kernel!("f32": "spectrum push B=120",
+        pair::<f32>(-1.0, 1.0), TEMPLATES.state()),
+    ("f32": "spectrum push B=120",
         (x: Two<f32>, state: &mut BankState<120>) -> bool { BANK.push(state, x.0) },
-        pair::<f32>(-1.0, 1.0), BANK.state());
-    kernel!("f32": "spectrum power B=120",
+        pair::<f32>(-1.0, 1.0), BANK.state()),
+    ("f32": "spectrum power B=120",
         (_: u32, (state, powers): &mut (BankState<120>, [f32; 120])) {
             *powers = BANK.read(state, Measure::Power);
         },
-        |call| call, (driven(), [0.0; 120]));
-    kernel!("f32": "spectrum magnitude B=120",
+        |call| call, (driven(), [0.0; 120])),
+    ("f32": "spectrum magnitude B=120",
         (_: u32, (state, magnitudes): &mut (BankState<120>, [f32; 120])) {
             *magnitudes = BANK.read(state, Measure::Magnitude);
         },
-        |call| call, (driven(), [0.0; 120]));
-}
+        |call| call, (driven(), [0.0; 120])),
+);
 
 /// A state in which no bin is nothing, whose root would be had for less.
 fn driven() -> BankState<120> {

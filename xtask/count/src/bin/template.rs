@@ -4,9 +4,6 @@
 use classifiers::template::{Template, TemplateState};
 use count::arguments::Two;
 use count::samples::{codes, spread};
-use count::{kernel, program};
-
-program!(kernels);
 
 /// Samples in a window.
 const WINDOW: usize = 250;
@@ -40,19 +37,19 @@ const LARGE: Template<'_, 12, 9> = {
     }
 };
 
-fn kernels() {
-    kernel!("integer": "template push C=2 K=4",
+count::program!(
+    ("integer": "template push C=2 K=4",
         (codes: Two<i32>, state: &mut TemplateState<4>) -> u32 {
             let choice = SMALL.push(state, &[codes.0 as i16, codes.1 as i16]);
             choice.map_or(0, |choice| choice.samples())
         },
-        codes, SMALL.state());
-    kernel!("integer": "template push C=12 K=9",
+        codes, SMALL.state()),
+    ("integer": "template push C=12 K=9",
         (codes: &'static [i16; 12], state: &mut TemplateState<9>) -> u32 {
             LARGE.push(state, codes).map_or(0, |choice| choice.samples())
         },
-        heard, LARGE.state());
-}
+        heard, LARGE.state()),
+);
 
 /// Twelve codes.
 fn heard(call: u32) -> &'static [i16; 12] {

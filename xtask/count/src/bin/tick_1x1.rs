@@ -1,19 +1,10 @@
 //! A whole tick of an active module of one whisker.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::format::Format;
 use count::module::Whole;
-use count::{each_format, kernel, program};
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(tick);
-}
-
-#[inline(never)]
-fn tick<R: Format>() {
-    kernel!(R: "tick of 1 whisker",
+count::program!(R,
+    ("tick of 1 whisker",
         (_: u32, whole: &mut Whole<R, 1, 1>) { whole.tick(); },
-        |call| call, Whole::new(&R::START_1));
-}
+        |call| call, Whole::new(&R::START_1)),
+);

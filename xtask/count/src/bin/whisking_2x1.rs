@@ -2,22 +2,14 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Two;
-use count::format::{Format, in_memory};
+use count::format::in_memory;
 use count::samples::pair;
-use count::{each_format, kernel, program};
 use whisking::{PatternGenerator, State};
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(whisking);
-}
-
-#[inline(never)]
-fn whisking<R: Format>() {
-    kernel!(R: "whisking 2 sides 1 whisker",
+count::program!(R,
+    ("whisking 2 sides 1 whisker",
         (contact: Two<R>, state: &mut State<R, 2, 1>) {
             in_memory(R::WHISKING).step(state, [contact.0, contact.1]);
         },
-        pair::<R>(0.0, 1.0), State::new(&R::START_2, 1));
-}
+        pair::<R>(0.0, 1.0), State::new(&R::START_2, 1)),
+);

@@ -2,22 +2,14 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Two;
-use count::format::{Format, in_memory};
+use count::format::in_memory;
 use count::samples::pair;
-use count::{each_format, kernel, program};
 use whisking::{PatternGenerator, State};
 
-program!(kernels);
-
-fn kernels() {
-    each_format!(whisking);
-}
-
-#[inline(never)]
-fn whisking<R: Format>() {
-    kernel!(R: "whisking 2 sides 1 whisker (euler)",
+count::program!(R,
+    ("whisking 2 sides 1 whisker (euler)",
         (contact: Two<R>, state: &mut State<R, 2, 1>) {
             in_memory(R::EULER_WHISKING).step(state, [contact.0, contact.1]);
         },
-        pair::<R>(0.0, 1.0), State::new(&R::EULER_START, 1));
-}
+        pair::<R>(0.0, 1.0), State::new(&R::EULER_START, 1)),
+);
