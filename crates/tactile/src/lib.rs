@@ -45,9 +45,8 @@
 //!
 //! # Features
 //!
-//! - `std`: `train` (a histogram model from a recording, f64), `reference` (an
-//!   independent f64 classifier to compare with), `score` (how good a classifier
-//!   is) and the owned `ModelBuf`.
+//! - `std`: `train` (a histogram model from a recording, f64), `score` (how good
+//!   a classifier is) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]
@@ -68,8 +67,6 @@ mod model;
 mod model_buf;
 mod naive_bayes;
 mod quantiser;
-#[cfg(feature = "std")]
-pub mod reference;
 mod rule;
 #[cfg(feature = "std")]
 pub mod score;

@@ -121,18 +121,8 @@ impl Trainer {
         &self.names
     }
 
-    /// The options it was made with.
-    pub fn options(&self) -> Options {
-        self.options
-    }
-
-    /// The number of channels it was made for.
-    pub fn channels(&self) -> usize {
-        self.channels
-    }
-
     /// All samples so far: class and values of the channels.
-    pub fn samples(&self) -> impl Iterator<Item = (usize, &[f64])> {
+    fn samples(&self) -> impl Iterator<Item = (usize, &[f64])> {
         self.classes
             .iter()
             .map(|&c| usize::from(c))

@@ -23,7 +23,7 @@ impl Bins {
     /// The bin of a value; the upper edge is in the last bin, and values
     /// outside go to the edge bin.
     fn of(&self, value: f64) -> usize {
-        let position = (value - self.low) / (self.high - self.low) * self.count as f64;
+        let position = (value - self.low) * self.count as f64 / (self.high - self.low);
         // `as` saturates: below zero (and NaN, of an empty range) is bin 0.
         (position.floor() as usize).min(self.count - 1)
     }

@@ -8,6 +8,7 @@ mod euler_trace;
 mod faults;
 mod formats;
 mod played;
+mod precision;
 mod reference_claims;
 mod stability;
 mod terrain;

@@ -8,10 +8,11 @@ use std::vec::Vec;
 use super::statistics::Statistics;
 
 /// Why a trial cannot be counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScoreError {
     /// A class that the matrix does not have.
+    #[error("class {class} of {classes}, from zero")]
     Class {
         /// The class.
         class: usize,
@@ -19,6 +20,7 @@ pub enum ScoreError {
         classes: usize,
     },
     /// Matrices of different numbers of classes cannot be added.
+    #[error("matrices of {ours} and of {theirs} classes")]
     Classes {
         /// Of the one.
         ours: usize,
@@ -26,19 +28,6 @@ pub enum ScoreError {
         theirs: usize,
     },
 }
-
-impl fmt::Display for ScoreError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Class { class, classes } => write!(f, "class {class} of {classes}, from zero"),
-            Self::Classes { ours, theirs } => {
-                write!(f, "matrices of {ours} and of {theirs} classes")
-            }
-        }
-    }
-}
-
-impl core::error::Error for ScoreError {}
 
 /// A confusion matrix and the trials missed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,26 +88,6 @@ impl Confusion {
             *ours += theirs;
         }
         Ok(())
-    }
-
-    /// The same trials where only `of` each class counts: textures of
-    /// texture-distance pairs, say. Classes that `of` sends above `classes`
-    /// are left out.
-    #[must_use]
-    pub fn grouped(&self, classes: usize, of: impl Fn(usize) -> usize) -> Self {
-        let mut grouped = Self::new(classes);
-        for truth in 0..self.classes {
-            for named in 0..self.classes {
-                let (row, column) = (of(truth), of(named));
-                if row < classes && column < classes {
-                    grouped.counts[row * classes + column] += self.count(truth, named);
-                }
-            }
-            if let Some(missed) = grouped.missed.get_mut(of(truth)) {
-                *missed += self.missed(truth);
-            }
-        }
-        grouped
     }
 
     /// How many classes there are.

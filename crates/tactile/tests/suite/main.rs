@@ -1,9 +1,8 @@
-//! The product's classifier: models, rules, training, and real recordings.
+//! The product's classifier: models, rules and training.
 
 mod channels;
 mod common;
 mod model_file;
 mod rules;
 mod score;
-mod terrain;
 mod training;

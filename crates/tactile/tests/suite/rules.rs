@@ -203,7 +203,7 @@ fn any_rule_is_the_rule_itself() {
             decisions += usize::from(decision.unwrap().is_some());
         }
         assert!(decisions > 10, "{decisions}");
-        assert_eq!(any.finish(), typed.finish());
+        assert_eq!((any.finish(), typed.finish()), (None, None));
     }
     let buf = two_normals(4);
     let threshold = Threshold::new(0.75).unwrap();

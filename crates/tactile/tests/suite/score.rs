@@ -85,21 +85,6 @@ fn far_from_zero_the_spread_keeps_its_precision() {
 }
 
 #[test]
-fn pairs_fall_into_their_groups() {
-    // Classes texture · 2 + distance.
-    let mut confusion = Confusion::new(4);
-    confusion.add(0, Some(1)).unwrap();
-    confusion.add(2, Some(0)).unwrap();
-    confusion.add(3, None).unwrap();
-    let texture = confusion.grouped(2, |class| class / 2);
-    assert_eq!((texture.count(0, 0), texture.count(1, 0)), (1, 1));
-    assert_eq!(texture.missed(1), 1);
-    let distance = confusion.grouped(2, |class| class % 2);
-    assert_eq!((distance.count(0, 1), distance.count(0, 0)), (1, 1));
-    assert_eq!(confusion.grouped(1, |class| class).trials(), 0);
-}
-
-#[test]
 fn classes_that_are_not_there_are_refused() {
     let mut confusion = Confusion::new(2);
     let wrong = |class| Err(ScoreError::Class { class, classes: 2 });

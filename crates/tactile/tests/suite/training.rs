@@ -1,8 +1,6 @@
 //! Training against probabilities worked out by hand, and what it refuses.
 
 use approx::assert_relative_eq;
-use proptest::prelude::*;
-use tactile::reference::{Reference, ReferenceRule};
 use tactile::train::{Options, TrainError, Trainer};
 use tactile::{ModelBuf, ModelError, Window};
 
@@ -214,52 +212,4 @@ fn option_ranges_are_checked() {
     );
     assert_eq!(refused(2, 100, -1.0, 20), Some(TrainError::Smooth(-1.0)));
     assert!(refused(2, 100, f64::NAN, 20).is_some());
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
-
-    /// On sensor codes, fixed point and reference pick the same window winners
-    /// with the same posterior, for any bins, smoothing and number of classes.
-    #[test]
-    fn fixed_point_agrees_with_the_reference(
-        classes in 2_usize..=9,
-        bins in 1_usize..200,
-        smooth in 0.0_f64..10.0,
-        data in prop::collection::vec((0.0_f64..1.0, 0_i32..4096, 0_i32..4096), 300..600),
-    ) {
-        let names: Vec<String> = (0..classes).map(|k| format!("k{k}")).collect();
-        let mut trainer = Trainer::new(2, Options { bins, smooth, block: 5 }).unwrap();
-        for &(place, x, y) in &data {
-            let class = (place * classes as f64) as usize;
-            // Classes differ in the spread of x and the level of y.
-            let sample = [f64::from(x / (1 + class as i32)), f64::from(y / 2 + 200 * class as i32)];
-            trainer.add(&names[class], &sample).unwrap();
-        }
-        prop_assume!(trainer.names().len() == classes);
-        let buf = trainer.train().unwrap();
-        let model = buf.view();
-        let reference = Reference::train(&trainer).unwrap();
-        let mut exact = reference.stream(ReferenceRule::Window(15));
-        let mut fixed = Window::new(model, 15).unwrap();
-        for (_, sample) in trainer.samples() {
-            let codes: Vec<i32> = sample.iter().enumerate()
-                .map(|(c, &x)| model.quantiser(c).unwrap().code_from_f64(x))
-                .collect();
-            match (fixed.push(&codes).unwrap(), exact.push(sample)) {
-                (None, None) => {}
-                (Some(f), Some(e)) => {
-                    // Three block means of two channels, each entry up to 2⁻¹¹
-                    // bit off: in odds at most 2 · 6 · 2⁻¹¹ bit, in p a quarter
-                    // of that times ln 2. Where two classes are that close, the
-                    // winner may differ, its posterior may not.
-                    prop_assert!((f.posterior().to_f64() - e.posterior).abs() < 1.1e-3);
-                    if f.class() != e.class {
-                        prop_assert!(e.posterior < 0.502);
-                    }
-                }
-                other => prop_assert!(false, "{other:?}"),
-            }
-        }
-    }
 }

@@ -1,12 +1,9 @@
-//! The stationary rule against closed forms, at its limits and against double
-//! precision.
+//! The stationary rule against closed forms and at its limits.
 
 use crate::common::model;
 use classifiers::Stationary;
 use proptest::prelude::*;
 use tactile::ModelBuf;
-use tactile::reference::{Reference, ReferenceRule};
-use tactile::train::{Options, Trainer};
 
 /// Two classes of normal codes, means 400 and 600, sd 150, in 100 bins. The
 /// likelihood ratio of code x in sd units is closed: (x − 500) · 200 / 150².
@@ -79,40 +76,6 @@ fn stationary_outlasts_a_word() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
-
-    /// On sensor codes, fixed point and reference give the same posterior, for
-    /// any bins, smoothing and number of classes.
-    #[test]
-    fn fixed_point_agrees_with_the_reference(
-        classes in 2_usize..=9,
-        bins in 1_usize..200,
-        smooth in 0.0_f64..10.0,
-        data in prop::collection::vec((0.0_f64..1.0, 0_i32..4096, 0_i32..4096), 300..600),
-    ) {
-        let names: Vec<String> = (0..classes).map(|k| format!("k{k}")).collect();
-        let mut trainer = Trainer::new(2, Options { bins, smooth, block: 5 }).unwrap();
-        for &(place, x, y) in &data {
-            let class = (place * classes as f64) as usize;
-            // Classes differ in the spread of x and the level of y.
-            let sample = [f64::from(x / (1 + class as i32)), f64::from(y / 2 + 200 * class as i32)];
-            trainer.add(&names[class], &sample).unwrap();
-        }
-        prop_assume!(trainer.names().len() == classes);
-        let buf = trainer.train().unwrap();
-        let reference = Reference::train(&trainer).unwrap();
-        let mut fixed = Stationary::new(buf.view(), ()).unwrap();
-        let mut exact = reference.stream(ReferenceRule::Stationary);
-        for (_, sample) in trainer.samples().take(20) {
-            let codes: Vec<i32> = sample.iter().enumerate()
-                .map(|(c, &x)| buf.quantiser(c).unwrap().code_from_f64(x))
-                .collect();
-            fixed.push(&codes).unwrap();
-            exact.push(sample);
-        }
-        let (f, e) = (fixed.finish().unwrap(), exact.finish().unwrap());
-        prop_assert_eq!(u64::from(f.samples()), e.samples);
-        prop_assert!((f.posterior().to_f64() - e.posterior).abs() < 7e-3);
-    }
 
     /// A channel that says nothing changes nothing. Odd and even numbers of
     /// classes.
