@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use emulator::{compare, deadlines, emulate, overload, sensor_loss};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -28,30 +28,18 @@ enum Command {
     /// Runs one scene: writes DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv
     /// where the scene classifies
     Run {
-        /// The scene file
-        scene: PathBuf,
-        /// The program that was built for it
-        #[arg(long, value_name = "ELF")]
-        program: PathBuf,
+        #[command(flatten)]
+        flashed: Flashed,
         /// Where to write
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
     /// Runs one scene on PC and board and compares every tick
-    Compare {
-        /// The scene file
-        scene: PathBuf,
-        /// The program that was built for it
-        #[arg(long, value_name = "ELF")]
-        program: PathBuf,
-    },
+    Compare(Flashed),
     /// Measures how the board keeps its time; fails if it misses a tick
     Deadlines {
-        /// The scene file
-        scene: PathBuf,
-        /// The program that was built for it
-        #[arg(long, value_name = "ELF")]
-        program: PathBuf,
+        #[command(flatten)]
+        flashed: Flashed,
         /// Over how many minutes of simulated time
         #[arg(long, default_value_t = 10.0)]
         minutes: f64,
@@ -59,22 +47,21 @@ enum Command {
         #[arg(long)]
         csv: bool,
     },
-    /// Breaks the sensor's wires; fails if the motor is not switched off, or stays off
-    SensorLoss {
-        /// The scene file; it must whisk
-        scene: PathBuf,
-        /// The program that was built for it
-        #[arg(long, value_name = "ELF")]
-        program: PathBuf,
-    },
+    /// Breaks the wires of a scene that whisks; fails if the motor is not
+    /// switched off, or stays off
+    SensorLoss(Flashed),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
-    Overload {
-        /// The scene file
-        scene: PathBuf,
-        /// The program that was built for it
-        #[arg(long, value_name = "ELF")]
-        program: PathBuf,
-    },
+    Overload(Flashed),
+}
+
+/// A scene and what is flashed for it.
+#[derive(Args)]
+struct Flashed {
+    /// The scene file
+    scene: PathBuf,
+    /// The program that was built for it
+    #[arg(long, value_name = "ELF")]
+    program: PathBuf,
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
@@ -84,16 +71,13 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Verbosity::Normal
     };
     match arguments.command {
-        Command::Run {
-            scene,
-            program,
-            out,
-        } => {
+        Command::Run { flashed, out } => {
+            let Flashed { scene, program } = flashed;
             if let Some(summary) = emulate::emulate(&scene, &program, &out, verbosity)? {
                 report::say(summary);
             }
         }
-        Command::Compare { scene, program } => {
+        Command::Compare(Flashed { scene, program }) => {
             let agreed = compare::compare(&scene, &program)?;
             report::say(format_args!(
                 "{}: PC and board agree to the last bit in {} ticks, {} decisions; {} bytes of stack",
@@ -104,8 +88,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             ));
         }
         Command::Deadlines {
-            scene,
-            program,
+            flashed: Flashed { scene, program },
             minutes,
             csv,
         } => {
@@ -119,15 +102,11 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 return Err(Error::Work(format!("{} ticks missed", measured.missed)));
             }
         }
-        Command::Overload { scene, program } => {
-            for line in overload::overload(&scene, &program)? {
-                report::say(line);
-            }
+        Command::Overload(Flashed { scene, program }) => {
+            report::say(overload::overload(&scene, &program)?.join("\n"));
         }
-        Command::SensorLoss { scene, program } => {
-            for line in sensor_loss::lose(&scene, &program)? {
-                report::say(line);
-            }
+        Command::SensorLoss(Flashed { scene, program }) => {
+            report::say(sensor_loss::lose(&scene, &program)?.join("\n"));
         }
     }
     Ok(())

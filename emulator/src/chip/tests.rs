@@ -122,44 +122,36 @@ fn the_clock_tree_is_worked_out_from_its_registers() {
 
 #[test]
 fn a_clock_that_does_not_run_or_is_too_fast_is_refused() {
-    let mut rig = Rig::new();
-    let fault = rig.try_write(RCC + 0x08, 2);
-    assert!(matches!(fault, Err(Fault::Clock(_))), "{fault:?}");
-
-    let mut rig = Rig::new();
-    rig.write(RCC, 0x0105_0083);
-    rig.write(RCC + 0x04, 4 | 200 << 6 | 1 << 22);
-    let fault = rig.try_write(RCC + 0x08, 2 | 5 << 10 | 4 << 13);
-    assert!(matches!(fault, Err(Fault::Clock(_))), "200 MHz: {fault:?}");
-
-    let mut rig = Rig::new();
-    rig.write(RCC, 0x0105_0083);
-    rig.write(RCC + 0x04, 4 | 160 << 6 | 1 << 22);
-    let fault = rig.try_write(RCC + 0x08, 2 | 4 << 13);
-    assert!(
-        matches!(fault, Err(Fault::Clock(_))),
-        "APB1 at 160 MHz: {fault:?}"
-    );
+    for (case, pll, cfgr) in [
+        ("a PLL that is off", None, 2),
+        ("200 MHz", Some(200), 2 | 5 << 10 | 4 << 13),
+        ("APB1 at 160 MHz", Some(160), 2 | 4 << 13),
+    ] {
+        let mut rig = Rig::new();
+        if let Some(times) = pll {
+            rig.write(RCC, 0x0105_0083);
+            rig.write(RCC + 0x04, 4 | times << 6 | 1 << 22);
+        }
+        let fault = rig.try_write(RCC + 0x08, cfgr);
+        assert!(matches!(fault, Err(Fault::Clock(_))), "{case}: {fault:?}");
+    }
 }
 
 #[test]
 fn what_is_not_modelled_is_told_and_not_guessed() {
+    fn told<T: std::fmt::Debug>(result: Result<T, Fault>) {
+        assert!(
+            matches!(result, Err(Fault::Unmodelled { .. })),
+            "{result:?}"
+        );
+    }
     let mut rig = Rig::clocked();
     // PWR, the ADC, a register that TIM1 has not, one-pulse mode.
     for address in [0x4000_7000, 0x4001_2000, TIM1 + 0x50] {
-        let fault = rig.chip.read(address);
-        assert!(
-            matches!(fault, Err(Fault::Unmodelled { .. })),
-            "{address:#x}"
-        );
-        let fault = rig.try_write(address, 0);
-        assert!(
-            matches!(fault, Err(Fault::Unmodelled { .. })),
-            "{address:#x}"
-        );
+        told(rig.chip.read(address));
+        told(rig.try_write(address, 0));
     }
-    let fault = rig.try_write(TIM1, 1 << 3);
-    assert!(matches!(fault, Err(Fault::Unmodelled { .. })), "{fault:?}");
+    told(rig.try_write(TIM1, 1 << 3));
 }
 
 #[test]
@@ -210,28 +202,22 @@ fn motor_pins_carry_the_duty_only_while_everything_says_so() {
     rig.write(TIM1 + 0x34, 2_000);
     rig.write(TIM1, 1);
     rig.write(TIM1 + 0x44, 1 << 15);
-    assert_eq!(
-        rig.chip.motor_duties()[0],
-        (0, 8_000),
-        "the pin is an input"
+    let mut carries = |writes: &[(u32, u32)], on: u32, why: &str| {
+        for &(address, value) in writes {
+            rig.write(address, value);
+        }
+        assert_eq!(rig.chip.motor_duties()[0], (on, 8_000), "{why}");
+    };
+    let (moder, afrh, ccr1, bdtr) = (GPIOA, GPIOA + 0x24, TIM1 + 0x34, TIM1 + 0x44);
+    carries(&[], 0, "the pin is an input");
+    carries(
+        &[(moder, 0xA800_0000 | 2 << 16)],
+        0,
+        "function 0 is no timer",
     );
-    rig.write(GPIOA, 0xA800_0000 | 2 << 16);
-    assert_eq!(
-        rig.chip.motor_duties()[0],
-        (0, 8_000),
-        "function 0 is no timer"
-    );
-    rig.write(GPIOA + 0x24, 1);
-    assert_eq!(rig.chip.motor_duties()[0], (2_000, 8_000));
-    rig.write(TIM1 + 0x34, 9_000);
-    assert_eq!(rig.chip.motor_duties()[0], (8_000, 8_000), "always on");
-    rig.write(TIM1 + 0x44, 0);
-    assert_eq!(rig.chip.motor_duties()[0], (0, 8_000), "no main output");
-    rig.write(TIM1 + 0x44, 1 << 15);
-    rig.write(GPIOA, 0xA800_0000 | 1 << 16);
-    assert_eq!(
-        rig.chip.motor_duties()[0],
-        (0, 8_000),
-        "a plain output, low"
-    );
+    carries(&[(afrh, 1)], 2_000, "");
+    carries(&[(ccr1, 9_000)], 8_000, "always on");
+    carries(&[(bdtr, 0)], 0, "no main output");
+    let output = (moder, 0xA800_0000 | 1 << 16);
+    carries(&[(bdtr, 1 << 15), output], 0, "a plain output, low");
 }

@@ -13,17 +13,6 @@ const MOST_DECIMALS: u32 = 9;
 /// fits in 64 bits.
 const LIMIT: f64 = (1_u64 << 33) as f64;
 
-/// "00", "01" … "99".
-const PAIRS: [[u8; 2]; 100] = {
-    let mut pairs = [[b'0'; 2]; 100];
-    let mut n = 0;
-    while n < 100 {
-        pairs[n] = [b'0' + (n / 10) as u8, b'0' + (n % 10) as u8];
-        n += 1;
-    }
-    pairs
-};
-
 /// Appends `value` with `decimals` decimals, rounded to the nearest, ties to even.
 pub(super) fn append(line: &mut Vec<u8>, value: f64, decimals: u32) {
     // False for what is not a number.
@@ -38,10 +27,13 @@ pub(super) fn append(line: &mut Vec<u8>, value: f64, decimals: u32) {
     }
     let scale = 10_u64.pow(decimals);
     let scaled = scaled(value, decimals);
-    append_digits(line, scaled / scale, 1);
+    let mut digits = itoa::Buffer::new();
+    line.extend_from_slice(digits.format(scaled / scale).as_bytes());
     if decimals > 0 {
         line.push(b'.');
-        append_digits(line, scaled % scale, decimals as usize);
+        // The one in front keeps the zeros, and is left out.
+        let decimals = digits.format(scale + scaled % scale).as_bytes();
+        line.extend_from_slice(decimals.get(1..).unwrap_or_default());
     }
 }
 
@@ -68,26 +60,6 @@ fn scaled(value: f64, decimals: u32) -> u64 {
     let half = 1 << (shift - 1);
     let up = rest > half || (rest == half && whole & 1 == 1);
     whole + u64::from(up)
-}
-
-/// Appends `number` with at least `least` digits, at most 20.
-fn append_digits(line: &mut Vec<u8>, mut number: u64, least: usize) {
-    let mut digits = [b'0'; 20];
-    let mut from = digits.len();
-    while number > 0 {
-        from = from.saturating_sub(2);
-        let pair = PAIRS.get((number % 100) as usize).copied();
-        let place = digits.get_mut(from..from + 2);
-        if let (Some(place), Some(pair)) = (place, pair) {
-            place.copy_from_slice(&pair);
-        }
-        number /= 100;
-    }
-    // A pair may have begun with a zero that is no digit of the number.
-    let significant = digits.iter().position(|&digit| digit != b'0');
-    let count = significant.map_or(0, |first| digits.len() - first);
-    let first = digits.len() - count.max(least).min(digits.len());
-    line.extend_from_slice(digits.get(first..).unwrap_or_default());
 }
 
 #[cfg(test)]

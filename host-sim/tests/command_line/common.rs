@@ -121,29 +121,25 @@ impl Place {
         String::from_utf8(self.bytes(name)).unwrap()
     }
 
-    /// The program's command, to be run here.
-    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+    /// The program's command with the words of `line`, to be run here.
+    pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_host-sim"));
         command
-            .args(arguments)
+            .args(line.split_ascii_whitespace())
             .current_dir(self.0.path())
             .stdin(Stdio::null());
         command
     }
 
     /// Runs the program here.
-    pub(crate) fn run(&self, arguments: &[&str]) -> Ran {
-        Ran::new(self.command(arguments).output().unwrap())
+    pub(crate) fn run(&self, line: &str) -> Ran {
+        Ran::new(self.command(line).output().unwrap())
     }
 
     /// Runs the program here, which must succeed and have nothing to complain of.
-    pub(crate) fn done(&self, arguments: &[&str]) -> Ran {
-        let ran = self.run(arguments);
-        assert_eq!(
-            (ran.status, ran.stderr.as_str()),
-            (Some(0), ""),
-            "{arguments:?}"
-        );
+    pub(crate) fn done(&self, line: &str) -> Ran {
+        let ran = self.run(line);
+        assert_eq!((ran.status, ran.stderr.as_str()), (Some(0), ""), "{line}");
         ran
     }
 
@@ -154,45 +150,36 @@ impl Place {
         content
     }
 
-    /// The program must refuse `arguments` with status 2 and a message that
+    /// The program must refuse `line` with status 2 and a message that
     /// has each of `naming`, and leave the folder as it was.
-    pub(crate) fn refuses(&self, arguments: &[&str], naming: &[&str]) {
+    pub(crate) fn refuses(&self, line: &str, naming: &[&str]) {
         let before = self.content();
-        let ran = self.run(arguments);
-        let Ran {
-            status,
-            stdout,
-            stderr,
-        } = &ran;
-        assert_eq!(*status, Some(2), "{arguments:?}: {ran:?}");
-        assert_eq!(stdout, "", "{arguments:?}");
+        let ran = self.run(line);
+        assert_eq!(ran.status, Some(2), "{line}: {ran:?}");
+        assert_eq!(ran.stdout, "", "{line}");
         for name in naming {
-            assert!(
-                stderr.contains(name),
-                "{arguments:?}: no {name:?} in: {stderr}"
-            );
+            assert!(ran.stderr.contains(name), "{line}: no {name:?} in: {ran:?}");
         }
         let after = self.content();
         let names = |content: &BTreeMap<PathBuf, _>| content.keys().cloned().collect::<Vec<_>>();
-        assert_eq!(names(&after), names(&before), "{arguments:?}");
-        assert!(after == before, "{arguments:?} changed a file");
+        assert_eq!(names(&after), names(&before), "{line}");
+        assert!(after == before, "{line} changed a file");
     }
 
     /// [`Place::refuses`] with the option `--out`, once onto older output, which
     /// must survive, and once into a folder that is not there.
-    pub(crate) fn refuses_to_write(&self, arguments: &[&str], naming: &[&str]) {
+    pub(crate) fn refuses_to_write(&self, line: &str, naming: &[&str]) {
         let old = ["old/trace.csv", "old/decisions.csv", "old/file"];
         for name in old {
             self.write(name, "older output");
         }
-        let folder = arguments.first() == Some(&"run");
-        let outs = if folder {
+        let outs = if line.starts_with("run ") {
             ["old", "new/deep"]
         } else {
             ["old/file", "new/deep/file"]
         };
         for out in outs {
-            self.refuses(&[arguments, &["--out", out]].concat(), naming);
+            self.refuses(&format!("{line} --out {out}"), naming);
         }
     }
 }

@@ -14,20 +14,14 @@ fn classifying() -> Place {
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
     files::write_recording(&place.path("recorded.csv"), &streams).unwrap();
-    place.done(&[
-        "train",
-        "--data",
-        "recorded.csv",
-        "--out",
-        "scenes/the.model",
-    ]);
+    place.done("train --data recorded.csv --out scenes/the.model");
     place
 }
 
 #[test]
 fn run_writes_a_row_a_tick() {
     let place = Place::with(&[("ideal.toml", IDEAL)]);
-    let ran = place.done(&["run", "ideal.toml", "--out", "deep/er"]);
+    let ran = place.done("run ideal.toml --out deep/er");
     assert_eq!(ran.stdout, "");
     let text = place.text("deep/er/trace.csv");
     let rows = cells(&text);
@@ -50,7 +44,7 @@ fn run_writes_a_row_a_tick() {
 #[test]
 fn a_side_that_is_not_built_has_empty_cells() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
-    place.done(&["run", "s.toml", "--out", "."]);
+    place.done("run s.toml --out .");
     let text = place.text("trace.csv");
     for row in &cells(&text)[1..] {
         for right in [2, 4, 6, 8, 10] {
@@ -63,7 +57,7 @@ fn a_side_that_is_not_built_has_empty_cells() {
 #[test]
 fn run_writes_decisions_where_the_scene_classifies() {
     let place = classifying();
-    let ran = place.done(&["run", "scenes/textured.toml", "--out", "out"]);
+    let ran = place.done("run scenes/textured.toml --out out");
     let decided = decisions(&place.text("out/decisions.csv"));
     assert!(decided.len() >= 20, "{}", decided.len());
     for d in &decided {
@@ -79,14 +73,14 @@ fn run_writes_decisions_where_the_scene_classifies() {
     // The model is looked for beside the scene first, then from where one stands.
     let beside = place.bytes("out/decisions.csv");
     std::fs::rename(place.path("scenes/the.model"), place.path("the.model")).unwrap();
-    place.done(&["run", "scenes/textured.toml", "--out", "out"]);
+    place.done("run scenes/textured.toml --out out");
     assert_eq!(place.bytes("out/decisions.csv"), beside);
 
     // By fixed windows every window decides.
     let window = TEXTURED.to_owned()
         + "[classifier]\nrule = \"window\"\nmodel = \"the.model\"\nwindow = 120\n";
     place.write("window.toml", window);
-    place.done(&["run", "window.toml", "--out", "windows"]);
+    place.done("run window.toml --out windows");
     let decided = decisions(&place.text("windows/decisions.csv"));
     // Two windows fit in each of four presentations of 250 samples.
     assert_eq!(decided.len(), 8);
@@ -98,7 +92,7 @@ fn the_seed_is_the_only_source_of_chance() {
     let place = classifying();
     let run = |scene: &str| {
         place.write("scenes/s.toml", scene);
-        place.done(&["run", "scenes/s.toml", "--out", "out"]);
+        place.done("run scenes/s.toml --out out");
         place.bytes("out/trace.csv")
     };
     let noisy = format!("{TEXTURED}{SEQUENTIAL}");
@@ -116,30 +110,26 @@ fn the_seed_is_the_only_source_of_chance() {
 #[test]
 fn quiet_changes_nothing_but_the_progress() {
     let place = Place::with(&[("r.csv", RECORDING)]);
-    let train = ["train", "--data", "r.csv", "--out", "m", "--block", "2"];
-    place.done(&train);
-    let mut classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv"
-        .split(' ')
-        .collect::<Vec<_>>();
-    let loud = place.done(&classify);
+    place.done("train --data r.csv --out m --block 2");
+    let classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv";
+    let loud = place.done(classify);
     let written = place.bytes("d.csv");
-    classify.push("--quiet");
-    assert_eq!(place.done(&classify).stdout, loud.stdout);
+    let quiet = place.done(&format!("{classify} --quiet"));
+    assert_eq!(quiet.stdout, loud.stdout);
     assert_eq!(place.bytes("d.csv"), written);
-    classify.pop();
-    classify.insert(0, "--quiet");
-    assert_eq!(place.done(&classify).stdout, loud.stdout);
+    let quiet = place.done(&format!("--quiet {classify}"));
+    assert_eq!(quiet.stdout, loud.stdout);
 }
 
 #[test]
 fn train_and_classify_say_and_write_what_they_did() {
     let place = Place::with(&[("r.csv", RECORDING), ("d.csv", "older")]);
-    let ran = place.done(&["train", "--data", "r.csv", "--out", "m", "--block", "2"]);
+    let ran = place.done("train --data r.csv --out m --block 2");
     let size = place.bytes("m").len();
     let told = format!("m: 8 samples in 4 streams, {size} bytes\n");
     assert_eq!(ran.stdout, told);
     let classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv";
-    let ran = place.done(&classify.split(' ').collect::<Vec<_>>());
+    let ran = place.done(classify);
     let told = "4 decisions, hit rate 100.0 % (mean over classes), mean 2 samples\n";
     assert!(ran.stdout.ends_with(told), "{}", ran.stdout);
     let decided = decisions(&place.text("d.csv"));
@@ -164,7 +154,7 @@ fn recordings_may_come_in_any_dress() {
     let train = |bytes: &[u8]| {
         let place = Place::new();
         place.write("r.csv", bytes);
-        place.done(&["train", "--data", "r.csv", "--out", "m"]);
+        place.done("train --data r.csv --out m");
         place.bytes("m")
     };
     let plain = train(RECORDING.as_bytes());
@@ -195,13 +185,13 @@ fn recordings_may_come_in_any_dress() {
 #[test]
 fn record_writes_what_the_classifier_would_get() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
-    let ran = place.done(&["record", "s.toml", "--out", "recorded.csv"]);
+    let ran = place.done("record s.toml --out recorded.csv");
     assert!(
         ran.stdout.contains("1000 samples in 4 streams"),
         "{}",
         ran.stdout
     );
-    place.done(&["run", "s.toml", "--out", "."]);
+    place.done("run s.toml --out .");
     let (recorded, trace) = (place.text("recorded.csv"), place.text("trace.csv"));
     let (recorded, trace) = (cells(&recorded), cells(&trace));
     let column = |name: &str| trace[0].iter().position(|title| *title == name).unwrap();
@@ -215,53 +205,42 @@ fn record_writes_what_the_classifier_would_get() {
         ("smooth", "carpet", "smooth")
     );
     assert_eq!((recorded[1][1], recorded[501][1]), ("0", "1"));
-    place.done(&["record", "s.toml", "--out", "other.csv", "--seed", "7"]);
+    place.done("record s.toml --out other.csv --seed 7");
     assert_ne!(place.text("other.csv"), place.text("recorded.csv"));
 }
 
 #[test]
 fn help_names_every_command_and_option() {
     let place = Place::new();
-    let help = |arguments: &[&str]| place.done(arguments).stdout;
+    let help = |line: &str| place.done(line).stdout;
     for word in ["run", "train", "classify", "--quiet", "Exit status"] {
-        assert!(help(&["--help"]).contains(word), "{word}");
+        assert!(help("--help").contains(word), "{word}");
     }
     for (command, options) in [
-        ("run", &["<SCENE>", "--out"][..]),
-        (
-            "train",
-            &[
-                "--data", "--out", "--bins", "--smooth", "--block", "100", "5", "20",
-            ],
-        ),
+        ("run", "<SCENE> --out"),
+        ("train", "--data --out --bins --smooth --block 100 5 20"),
         (
             "classify",
-            &[
-                "--model",
-                "--data",
-                "--rule",
-                "--threshold",
-                "--window",
-                "--out",
-            ],
+            "--model --data --rule --threshold --window --out",
         ),
     ] {
-        let text = help(&[command, "--help"]);
-        assert!(options.iter().all(|option| text.contains(option)), "{text}");
+        let text = help(&format!("{command} --help"));
+        let mut options = options.split(' ');
+        assert!(options.all(|option| text.contains(option)), "{text}");
     }
-    assert!(help(&["--version"]).starts_with("host-sim "));
+    assert!(help("--version").starts_with("host-sim "));
 }
 
 #[test]
 fn a_reader_that_goes_away_does_not_stop_the_work() {
     let gone = || std::io::pipe().unwrap().1;
     let place = Place::with(&[("r.csv", RECORDING)]);
-    let run = |arguments: &[&str]| {
-        let mut command = place.command(arguments);
+    let run = |line: &str| {
+        let mut command = place.command(line);
         let child = command.stdout(gone()).stderr(gone()).spawn();
         child.unwrap().wait().unwrap().code()
     };
-    assert_eq!(run(&["train", "--data", "r.csv", "--out", "m"]), Some(0));
+    assert_eq!(run("train --data r.csv --out m"), Some(0));
     assert!(place.path("m").exists());
-    assert_eq!(run(&["train", "--data", "none", "--out", "m"]), Some(2));
+    assert_eq!(run("train --data none --out m"), Some(2));
 }

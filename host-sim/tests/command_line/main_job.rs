@@ -7,7 +7,7 @@ const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 #[test]
 fn textures_are_told_apart_better_than_by_chance_and_not_by_magic() {
     let place = Place::new();
-    let ran = place.done(&[]);
+    let ran = place.done("");
     let mut files: Vec<_> = std::fs::read_dir(place.path("out/textures"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -60,6 +60,6 @@ fn textures_are_told_apart_better_than_by_chance_and_not_by_magic() {
 
     // Its model is what `train` makes of its recording.
     let recorded = "out/textures/training.csv";
-    place.done(&["train", "--data", recorded, "--out", "again.model"]);
+    place.done(&format!("train --data {recorded} --out again.model"));
     assert!(place.bytes("again.model") == place.bytes("out/textures/textures.model"));
 }

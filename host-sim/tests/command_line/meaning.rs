@@ -11,9 +11,9 @@ fn decide(training: &str, options: &str, test: &str, deciding: &str) -> Vec<Deci
         ("test.csv", &format!("{header}{test}")),
     ]);
     let train = format!("train --data training.csv --out m {options}");
-    place.done(&train.split_whitespace().collect::<Vec<_>>());
+    place.done(&train);
     let classify = format!("classify --model m --data test.csv --out d.csv {deciding}");
-    place.done(&classify.split_whitespace().collect::<Vec<_>>());
+    place.done(&classify);
     decisions(&place.text("d.csv"))
 }
 

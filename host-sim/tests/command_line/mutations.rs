@@ -252,7 +252,7 @@ proptest! {
             classify,
         ];
         for command in commands {
-            let ran = place.run(&command.split(' ').collect::<Vec<_>>());
+            let ran = place.run(command);
             prop_assert!(matches!(ran.status, Some(0 | 2)), "{}: {:?}", command, ran);
             prop_assert!((ran.status == Some(2)) == ran.stderr.contains("host-sim: "), "{ran:?}");
         }

@@ -10,36 +10,32 @@ fn place() -> Place {
     Place::with(&[("s.toml", &scene), ("r.csv", RECORDING)])
 }
 
-fn classify() -> Vec<&'static str> {
-    CLASSIFY.split(' ').collect()
-}
-
 #[track_caller]
 fn refused_by_both(bytes: &[u8], naming: &str) {
     let place = place();
     place.write("the.model", bytes);
-    place.refuses_to_write(&["run", "s.toml"], &["the.model: ", naming]);
-    place.refuses_to_write(&classify(), &["the.model: ", naming]);
+    place.refuses_to_write("run s.toml", &["the.model: ", naming]);
+    place.refuses_to_write(CLASSIFY, &["the.model: ", naming]);
 }
 
 #[test]
 fn a_valid_model_is_taken() {
     let place = place();
     place.write("the.model", model(2, 20, true));
-    place.done(&["run", "s.toml", "--out", "out"]);
-    place.done(&[&classify()[..], &["--out", "d.csv"]].concat());
+    place.done("run s.toml --out out");
+    place.done(&format!("{CLASSIFY} --out d.csv"));
 }
 
 #[test]
 fn files_that_are_no_model() {
     let place = place();
-    place.refuses_to_write(&["run", "s.toml"], &["the.model: "]);
-    place.refuses_to_write(&classify(), &["the.model: "]);
+    place.refuses_to_write("run s.toml", &["the.model: "]);
+    place.refuses_to_write(CLASSIFY, &["the.model: "]);
     refused_by_both(b"", "cut short");
     refused_by_both(RECORDING.as_bytes(), "not a likelihood model");
     std::fs::create_dir(place.path("the.model")).unwrap();
-    place.refuses_to_write(&["run", "s.toml"], &["the.model: "]);
-    place.refuses_to_write(&classify(), &["the.model: "]);
+    place.refuses_to_write("run s.toml", &["the.model: "]);
+    place.refuses_to_write(CLASSIFY, &["the.model: "]);
 }
 
 #[test]
@@ -76,10 +72,10 @@ fn models_for_something_else() {
     place.write("s.toml", format!("{other}{SEQUENTIAL}"));
     place.write("the.model", model(2, 20, true));
     let naming = ["s.toml: classifier.model", "smooth, carpet", "p600, p240"];
-    place.refuses_to_write(&["run", "s.toml"], &naming);
+    place.refuses_to_write("run s.toml", &naming);
     // Trained on real numbers: good for recordings of such, not for a sensor.
     let place = self::place();
     place.write("the.model", model(2, 20, false));
-    place.refuses_to_write(&["run", "s.toml"], &["the.model: ", "codes"]);
-    place.done(&[&classify()[..], &["--out", "d.csv"]].concat());
+    place.refuses_to_write("run s.toml", &["the.model: ", "codes"]);
+    place.done(&format!("{CLASSIFY} --out d.csv"));
 }

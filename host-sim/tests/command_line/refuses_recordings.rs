@@ -3,7 +3,7 @@
 
 use crate::common::{Place, RECORDING, model};
 
-const TRAIN: [&str; 3] = ["train", "--data", "r.csv"];
+const TRAIN: &str = "train --data r.csv";
 const CLASSIFY: &str = "classify --model m --data r.csv --rule window --window 20";
 
 #[track_caller]
@@ -12,8 +12,8 @@ fn refused_by_both(recording: impl AsRef<[u8]>, naming: &[&str]) {
     place.write("m", model(2, 20, true));
     place.write("r.csv", recording);
     let naming = [&["r.csv: "], naming].concat();
-    place.refuses_to_write(&TRAIN, &naming);
-    place.refuses_to_write(&CLASSIFY.split(' ').collect::<Vec<_>>(), &naming);
+    place.refuses_to_write(TRAIN, &naming);
+    place.refuses_to_write(CLASSIFY, &naming);
 }
 
 /// The recording with `row` in the place of its third.
@@ -28,10 +28,10 @@ fn files_that_are_no_recording() {
     let place = Place::with(&[("folder/file", "")]);
     place.write("m", model(2, 20, true));
     for name in ["none.csv", "folder"] {
-        place.refuses_to_write(&["train", "--data", name], &[&format!("{name}: ")]);
-        let classify = CLASSIFY.replace("r.csv", name);
-        let classify: Vec<_> = classify.split(' ').collect();
-        place.refuses_to_write(&classify, &[&format!("{name}: ")]);
+        for command in [TRAIN, CLASSIFY] {
+            let command = command.replace("r.csv", name);
+            place.refuses_to_write(&command, &[&format!("{name}: ")]);
+        }
     }
     refused_by_both("", &["line 1", "label"]);
     refused_by_both("\n\n\n", &["line 1", "label"]);
@@ -77,9 +77,8 @@ fn lessons_without_content() {
     let refused = |recording: &str, naming: &[&str]| {
         let place = Place::with(&[("r.csv", recording)]);
         place.write("m", model(2, 20, true));
-        place.refuses_to_write(&TRAIN, &[&["r.csv: "], naming].concat());
-        let classify: Vec<_> = CLASSIFY.split(' ').collect();
-        place.done(&[&classify[..], &["--out", "d.csv"]].concat());
+        place.refuses_to_write(TRAIN, &[&["r.csv: "], naming].concat());
+        place.done(&format!("{CLASSIFY} --out d.csv"));
     };
     refused(&RECORDING.replace("high", "low"), &["one class"]);
     let many: Vec<String> = (0..33).map(|n| format!("class{n},0,{n},0")).collect();
@@ -103,11 +102,11 @@ fn lessons_without_content() {
 #[test]
 fn huge_numbers_are_classified() {
     let place = Place::with(&[("r.csv", RECORDING)]);
-    place.done(&["train", "--data", "r.csv", "--out", "m", "--block", "1"]);
+    place.done("train --data r.csv --out m --block 1");
     let huge = "label,trial,x,y\nlow,0,-1e308,8000\nhigh,0,1e308,8000\nhigh,0,1.7e308,-1e308\n";
     place.write("huge.csv", huge);
     let classify = "classify --model m --data huge.csv --rule window --window 1 --out d.csv";
-    place.done(&classify.split(' ').collect::<Vec<_>>());
+    place.done(classify);
     let decided = crate::common::decisions(&place.text("d.csv"));
     assert_eq!(decided.len(), 3);
     assert!(decided.iter().all(|d| d.decision == d.label), "{decided:?}");

@@ -158,33 +158,30 @@ fn what_could_not_be_read_is_not_written() {
         entries: &[1, 2, 3, 4],
     };
     assert!(ModelBuf::new(&parts).is_ok());
-    let refused = |parts: ModelParts<'_>| ModelBuf::new(&parts).unwrap_err();
-    assert_eq!(
-        refused(ModelParts { block: 0, ..parts }),
-        ModelError::Block(0)
-    );
-    assert_eq!(refused(ModelParts { bins: 3, ..parts }), ModelError::Length);
-    assert_eq!(
-        refused(ModelParts {
-            entries: &[1, 2, 3, 20_481],
-            ..parts
-        }),
-        ModelError::TableEntry
-    );
-    assert_eq!(
-        refused(ModelParts {
-            names: &["a".to_owned(), "b".repeat(256)],
-            ..parts
-        }),
-        ModelError::NameLength { class: 1 }
-    );
-    assert_eq!(
-        refused(ModelParts {
-            names: &names[..1],
-            ..parts
-        }),
-        ModelError::Classes(1)
-    );
+    let long = ["a".to_owned(), "b".repeat(256)];
+    let (block, bins, entries) = (0, 3, &[1, 2, 3, 20_481]);
+    let long_name = ModelError::NameLength { class: 1 };
+    for (parts, error) in [
+        (ModelParts { block, ..parts }, ModelError::Block(0)),
+        (ModelParts { bins, ..parts }, ModelError::Length),
+        (ModelParts { entries, ..parts }, ModelError::TableEntry),
+        (
+            ModelParts {
+                names: &long,
+                ..parts
+            },
+            long_name,
+        ),
+        (
+            ModelParts {
+                names: &names[..1],
+                ..parts
+            },
+            ModelError::Classes(1),
+        ),
+    ] {
+        assert_eq!(ModelBuf::new(&parts).unwrap_err(), error);
+    }
 }
 
 proptest! {

@@ -139,77 +139,53 @@ fn a_channel_that_never_changes_is_allowed_and_says_nothing() {
 
 #[test]
 fn bad_input_is_refused() {
-    assert_eq!(
-        trained(options(10, 1.0), &[]).unwrap_err(),
-        TrainError::NoSamples
-    );
-    assert_eq!(
-        trained(options(10, 1.0), &[("a", 1.0)]).unwrap_err(),
-        TrainError::OneClass
-    );
+    let refused = |samples: &[(&str, f64)]| trained(options(10, 1.0), samples).unwrap_err();
+    assert_eq!(refused(&[]), TrainError::NoSamples);
+    assert_eq!(refused(&[("a", 1.0)]), TrainError::OneClass);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let error = trained(options(10, 1.0), &[("a", bad)]).unwrap_err();
-        assert_eq!(error, TrainError::NotFinite { channel: 0 });
+        let channel = 0;
+        assert_eq!(refused(&[("a", bad)]), TrainError::NotFinite { channel });
     }
-    assert_eq!(
-        trained(options(10, 1.0), &[("", 1.0)]).unwrap_err(),
-        TrainError::NameEmpty
-    );
-    let long = "n".repeat(256);
-    let error = trained(options(10, 1.0), &[(&long, 1.0)]).unwrap_err();
-    assert_eq!(error, TrainError::NameTooLong { bytes: 256 });
+    assert_eq!(refused(&[("", 1.0)]), TrainError::NameEmpty);
+    let bytes = 256;
+    let long = "n".repeat(bytes);
+    assert_eq!(refused(&[(&long, 1.0)]), TrainError::NameTooLong { bytes });
     let names: Vec<String> = (0..33).map(|i| i.to_string()).collect();
     let many: Vec<(&str, f64)> = names.iter().map(|n| (n.as_str(), 1.5)).collect();
     assert!(trained(options(10, 1.0), &many[..32]).is_ok());
-    assert_eq!(
-        trained(options(10, 1.0), &many).unwrap_err(),
-        TrainError::TooManyClasses
-    );
+    assert_eq!(refused(&many), TrainError::TooManyClasses);
     for range in [[("a", -1e300), ("b", 1e300)], [("a", 0.0), ("b", 1e-300)]] {
-        assert_eq!(
-            trained(options(10, 1.0), &range).unwrap_err(),
-            TrainError::Range { channel: 0 }
-        );
+        assert_eq!(refused(&range), TrainError::Range { channel: 0 });
     }
     let mut trainer = Trainer::new(2, Options::default()).unwrap();
     let error = trainer.add("a", &[1.0]).unwrap_err();
-    assert_eq!(
-        error,
-        TrainError::Channels {
-            expected: 2,
-            found: 1
-        }
-    );
+    let (expected, found) = (2, 1);
+    assert_eq!(error, TrainError::Channels { expected, found });
     assert!(trainer.names().is_empty());
 }
 
 #[test]
 fn option_ranges_are_checked() {
     let refused = |channels, bins, smooth, block| {
-        Trainer::new(
-            channels,
-            Options {
-                bins,
-                smooth,
-                block,
-            },
-        )
-        .err()
+        let options = Options {
+            bins,
+            smooth,
+            block,
+        };
+        Trainer::new(channels, options).err()
     };
-    let model = |e| Some(TrainError::Model(e));
     assert_eq!(refused(2, 4096, 4096.0, 10_000), None);
-    assert_eq!(refused(2, 0, 5.0, 20), model(ModelError::Bins(0)));
-    assert_eq!(refused(2, 4097, 5.0, 20), model(ModelError::Bins(4097)));
-    assert_eq!(refused(2, 100, 5.0, 0), model(ModelError::Block(0)));
-    assert_eq!(
-        refused(2, 100, 5.0, 10_001),
-        model(ModelError::Block(10_001))
-    );
-    assert_eq!(refused(25, 100, 5.0, 20), model(ModelError::Channels(25)));
-    assert_eq!(
-        refused(7, 100, 5.0, 10_000),
-        model(ModelError::BlockTimesChannels(70_000))
-    );
+    for (channels, bins, block, error) in [
+        (2, 0, 20, ModelError::Bins(0)),
+        (2, 4097, 20, ModelError::Bins(4097)),
+        (2, 100, 0, ModelError::Block(0)),
+        (2, 100, 10_001, ModelError::Block(10_001)),
+        (25, 100, 20, ModelError::Channels(25)),
+        (7, 100, 10_000, ModelError::BlockTimesChannels(70_000)),
+    ] {
+        let error = Some(TrainError::Model(error));
+        assert_eq!(refused(channels, bins, 5.0, block), error);
+    }
     assert_eq!(refused(2, 100, -1.0, 20), Some(TrainError::Smooth(-1.0)));
     assert!(refused(2, 100, f64::NAN, 20).is_some());
 }
