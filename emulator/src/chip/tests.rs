@@ -139,7 +139,7 @@ fn a_clock_that_does_not_run_or_is_too_fast_is_refused() {
 
 #[test]
 fn what_is_not_modelled_is_told_and_not_guessed() {
-    fn told<T: std::fmt::Debug>(result: Result<T, Fault>) {
+    fn told<T: std::fmt::Debug>(result: &Result<T, Fault>) {
         assert!(
             matches!(result, Err(Fault::Unmodelled { .. })),
             "{result:?}"
@@ -148,10 +148,10 @@ fn what_is_not_modelled_is_told_and_not_guessed() {
     let mut rig = Rig::clocked();
     // PWR, the ADC, a register that TIM1 has not, one-pulse mode.
     for address in [0x4000_7000, 0x4001_2000, TIM1 + 0x50] {
-        told(rig.chip.read(address));
-        told(rig.try_write(address, 0));
+        told(&rig.chip.read(address));
+        told(&rig.try_write(address, 0));
     }
-    told(rig.try_write(TIM1, 1 << 3));
+    told(&rig.try_write(TIM1, 1 << 3));
 }
 
 #[test]
