@@ -9,5 +9,18 @@ pub mod lep12;
 pub mod pose;
 pub mod psik;
 
+use std::collections::BTreeMap;
+
+use serde::de::DeserializeOwned;
+
+/// The tables that a paper's file has under `key`. The files are built in, and a
+/// test reads every table of them.
+pub(crate) fn printed<T: DeserializeOwned>(file: &str, key: &str) -> T {
+    let all: Result<BTreeMap<String, toml::Value>, _> = toml::from_str(file);
+    let mut all = all.expect("a paper's file is TOML");
+    let table = all.remove(key).expect("a paper's file has its tables");
+    T::deserialize(table).expect("a paper's table has its shape")
+}
+
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,11 @@
 //! POSE (Evans et al.): one brief contact at an unknown angle and speed.
 
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use super::printed;
+
 /// Angles of the surface, degrees (section II-B).
 pub const ANGLES_DEG: [f64; 8] = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0];
 /// Speeds: from, to and how many, mm/s. The text's step of 7 mm/s does not
@@ -9,7 +15,7 @@ pub const SPEEDS_MM_S: (f64, f64, usize) = (6.0, 106.0, 11);
 pub const TEXTURES: [&str; 4] = ["P80", "P180", "P600", "aluminium"];
 
 /// One classifier on one property.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 pub struct Figure {
     /// Cohen's κ, all three properties classified at once.
     pub kappa: f64,
@@ -20,60 +26,28 @@ pub struct Figure {
     pub spread: f64,
 }
 
-const fn figure(kappa: f64, mean: f64, spread: f64) -> Figure {
-    Figure {
-        kappa,
-        mean,
-        spread,
-    }
-}
-
 /// A classifier's row: angle, speed, texture.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Deserialize)]
 pub struct ClassifierRow {
     /// The classifier.
-    pub what: &'static str,
+    pub what: String,
     /// Angle, speed, texture.
     pub figures: [Figure; 3],
 }
 
 /// Sections III-A to III-C and Table I (features: f2 for angle, f1 for speed,
 /// f5 for texture, as in Figs. 7 and 8).
-pub const ROWS: [ClassifierRow; 3] = [
-    ClassifierRow {
-        what: "template",
-        figures: [
-            figure(0.27, 0.71, 15.6),
-            figure(0.25, -2.7, 14.22),
-            figure(0.24, -0.02, 1.23),
-        ],
-    },
-    ClassifierRow {
-        what: "spectral template",
-        figures: [
-            figure(0.44, -1.08, 13.8),
-            figure(0.14, -2.78, 22.4),
-            figure(0.46, 0.14, 1.00),
-        ],
-    },
-    ClassifierRow {
-        what: "features",
-        figures: [
-            figure(0.11, 0.17, 18.6),
-            figure(0.43, 1.80, 12.12),
-            figure(0.15, 0.05, 1.09),
-        ],
-    },
-];
+pub static ROWS: LazyLock<[ClassifierRow; 3]> =
+    LazyLock::new(|| printed(include_str!("pose.toml"), "rows"));
 
 /// κ of texture alone, whatever the pose: template, spectral template.
 pub const TEXTURE_ALONE: [f64; 2] = [0.24, 0.42];
 
 /// A feature of texture.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Deserialize)]
 pub struct TextureFeature {
     /// Its name.
-    pub name: &'static str,
+    pub name: String,
     /// κ, classified with angle and speed.
     pub together: f64,
     /// κ, classified alone; none is printed for the combination.
@@ -83,29 +57,5 @@ pub struct TextureFeature {
 }
 
 /// Section III-C and Table I.
-pub const TEXTURE_FEATURES: [TextureFeature; 4] = [
-    TextureFeature {
-        name: "f3",
-        together: 0.06,
-        alone: Some(0.08),
-        error: (0.43, 1.10),
-    },
-    TextureFeature {
-        name: "f4",
-        together: 0.03,
-        alone: Some(0.21),
-        error: (-0.07, 1.22),
-    },
-    TextureFeature {
-        name: "f5",
-        together: 0.15,
-        alone: Some(0.27),
-        error: (0.05, 1.09),
-    },
-    TextureFeature {
-        name: "f3, f4 and f5",
-        together: 0.12,
-        alone: None,
-        error: (-0.09, 0.97),
-    },
-];
+pub static TEXTURE_FEATURES: LazyLock<[TextureFeature; 4]> =
+    LazyLock::new(|| printed(include_str!("pose.toml"), "features"));

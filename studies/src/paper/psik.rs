@@ -1,5 +1,9 @@
 //! PSIK (Psikharpax): 33 vibrissae, the IMP feature and a small network.
 
+use std::sync::LazyLock;
+
+use super::printed;
+
 /// Table 1: vibrissae of each arc and their length on the robot, mm.
 pub const ARCS: [(usize, f64); 8] = [
     (5, 250.0),
@@ -18,24 +22,12 @@ pub const VIBRISSAE: usize = 33;
 pub const RATE_HZ: f64 = 1157.0;
 
 /// Table 2: percent, `[true][decided]`.
-pub const TABLE_2: [[f64; 8]; 8] = [
-    [100.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 99.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-    [0.0, 2.0, 95.0, 0.0, 3.0, 0.0, 0.0, 0.0],
-    [0.0, 0.0, 0.0, 96.0, 4.0, 0.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0, 99.0, 0.0, 0.0, 0.0],
-    [0.0, 0.0, 0.0, 0.0, 1.0, 93.0, 6.0, 0.0],
-    [2.0, 0.0, 6.0, 0.0, 3.0, 9.0, 80.0, 0.0],
-    [2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 97.0],
-];
+pub static TABLE_2: LazyLock<[[f64; 8]; 8]> =
+    LazyLock::new(|| printed(include_str!("psik.toml"), "table_2"));
 
 /// Table 3: corridor and direction, percent, `[true][decided]`.
-pub const TABLE_3: [[f64; 4]; 4] = [
-    [75.0, 15.0, 10.0, 0.0],
-    [0.0, 100.0, 0.0, 0.0],
-    [15.0, 0.0, 85.0, 0.0],
-    [0.0, 15.0, 0.0, 85.0],
-];
+pub static TABLE_3: LazyLock<[[f64; 4]; 4]> =
+    LazyLock::new(|| printed(include_str!("psik.toml"), "table_3"));
 
 /// Rows and columns of Table 3.
 pub const CORRIDORS: [&str; 4] = ["1-1", "1-2", "2-1", "2-2"];

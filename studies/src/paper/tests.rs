@@ -7,7 +7,7 @@ const ROUNDING: f64 = 1.01;
 
 #[test]
 fn the_true_classes_of_lep10_sum_to_a_hundred_and_diagonals_to_the_means() {
-    for table in lep10::TABLES {
+    for table in lep10::TABLES.iter() {
         for class in 0..4 {
             let sum: f64 = table.percent.iter().map(|row| row[class]).sum();
             assert!(
@@ -24,7 +24,7 @@ fn the_true_classes_of_lep10_sum_to_a_hundred_and_diagonals_to_the_means() {
 #[test]
 fn the_means_of_lep12_are_those_of_their_floors_but_for_one_misprint() {
     let mut off = Vec::new();
-    for table in lep12::TABLES {
+    for table in lep12::TABLES.iter() {
         for (motion, (row, mean)) in table.percent.iter().zip(table.mean).enumerate() {
             if (row.iter().sum::<f64>() / 4.0 - mean).abs() > 0.76 {
                 off.push((table.number, motion));
@@ -36,7 +36,7 @@ fn the_means_of_lep12_are_those_of_their_floors_but_for_one_misprint() {
 
 #[test]
 fn sequential_exceeds_the_window_by_what_the_text_says() {
-    let [window, sequential, ..] = lep12::TABLES;
+    let [window, sequential, ..] = &*lep12::TABLES;
     let gains: Vec<f64> = (0..4)
         .map(|m| sequential.mean[m] - window.mean[m])
         .collect();
@@ -47,10 +47,10 @@ fn sequential_exceeds_the_window_by_what_the_text_says() {
 
 #[test]
 fn confusions_of_psik_sum_to_a_hundred_and_the_arcs_to_the_vibrissae() {
-    for row in psik::TABLE_2 {
+    for row in psik::TABLE_2.iter() {
         assert_eq!(row.iter().sum::<f64>(), 100.0);
     }
-    for row in psik::TABLE_3 {
+    for row in psik::TABLE_3.iter() {
         assert_eq!(row.iter().sum::<f64>(), 100.0);
     }
     let count: usize = psik::ARCS.iter().map(|arc| arc.0).sum();
@@ -60,7 +60,7 @@ fn confusions_of_psik_sum_to_a_hundred_and_the_arcs_to_the_vibrissae() {
 
 #[test]
 fn pose_s_best_classifiers_are_those_it_names() {
-    let [template, spectral, features] = pose::ROWS;
+    let [template, spectral, features] = &*pose::ROWS;
     for property in [0, 2] {
         assert!(spectral.figures[property].kappa > template.figures[property].kappa);
         assert!(spectral.figures[property].kappa > features.figures[property].kappa);

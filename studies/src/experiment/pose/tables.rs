@@ -15,7 +15,7 @@ pub(super) fn main(section: &mut Section, rows: &[&Scores; 3]) {
         format!("{:.2} ± {:.1} / {ours}", figure.mean, figure.spread)
     };
     let lines = ROWS.iter().zip(rows).map(|(row, scores)| {
-        let mut cells = vec![row.what.to_owned()];
+        let mut cells = vec![row.what.clone()];
         let (kappa, found) = (scores.kappa(), scores.errors());
         for k in 0..3 {
             let figure = row.figures[k];
@@ -47,7 +47,7 @@ pub(super) fn features(section: &mut Section, found: &[Confusion]) {
             .alone
             .map_or("–".to_owned(), |kappa| format!("{kappa:.2}"));
         vec![
-            feature.name.to_owned(),
+            feature.name.clone(),
             format!("{:.2}", feature.together),
             alone,
             format!("**{:.2}**", score.kappa().unwrap_or(0.0)),
