@@ -20,7 +20,7 @@ pub use floor::{Drive, Floor, RobotMotion};
 pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
 pub use module::PositionControl;
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
-pub use read::{OutOfRange, Rig, load, parse, within};
+pub use read::{Keys, OutOfRange, Rig, load, parse};
 pub use table::{Carriage, Table, facing};
 
 use host_sim::Error;

@@ -25,8 +25,7 @@ struct Form {
     note: String,
 }
 
-static FORMS: LazyLock<Vec<Form>> =
-    LazyLock::new(|| printed(include_str!("costs.toml"), "forms"));
+static FORMS: LazyLock<Vec<Form>> = LazyLock::new(|| printed(include_str!("costs.toml"), "forms"));
 
 /// Mean instructions of a kernel on a Cortex-M4F, in the first format counted.
 fn counted(kernel: &str) -> Option<f64> {

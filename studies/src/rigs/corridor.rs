@@ -7,55 +7,26 @@
 //! robot about the axle behind the neck. D in millimetres and V in m/s:
 //! chosen, as the paper gives no units.
 
-use serde::Deserialize;
-
 use super::pad::{Layout, Vibrissa};
-use super::read::{OutOfRange, Rig, within};
+use super::read::keys;
 use crate::rigs::frame::turn;
 use physics::Pose;
 
-/// The robot and its corridor; see `studies/rigs/corridor.toml` for each key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/corridor.toml")]
-pub struct Corridor {
-    pub width_m: f64,
-    pub length_m: f64,
-    pub speed_m_s: f64,
-    pub gain: f64,
-    pub most_m_s: f64,
-    pub axle_m: f64,
-    pub slack_m: f64,
-    pub start_spread_m: f64,
-    pub start_spread_deg: f64,
-    pub smooth_s: f64,
-    pub full_scale_rad: f64,
-    pub layout: Layout,
-}
-
-impl Rig for Corridor {
-    const FILE: &'static str = "corridor.toml";
-    const DEFAULT: &'static str = include_str!("../../rigs/corridor.toml");
-
-    fn check(&self) -> Result<(), OutOfRange> {
-        within("width_m", self.width_m, 0.05, 10.0)?;
-        within("length_m", self.length_m, 0.01, 100.0)?;
-        within("speed_m_s", self.speed_m_s, 1e-3, 10.0)?;
-        within("gain", self.gain, 0.0, 10.0)?;
-        within("most_m_s", self.most_m_s, 0.0, 10.0)?;
-        within("axle_m", self.axle_m, 0.01, 10.0)?;
-        within("slack_m", self.slack_m, 0.0, self.width_m / 2.0)?;
-        within(
-            "start_spread_m",
-            self.start_spread_m,
-            0.0,
-            self.width_m / 2.0,
-        )?;
-        within("start_spread_deg", self.start_spread_deg, 0.0, 45.0)?;
-        within("smooth_s", self.smooth_s, 1e-3, 100.0)?;
-        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        self.layout.check()
-    }
+keys! {
+    /// The robot and its corridor; see `studies/rigs/corridor.toml` for each key.
+    Corridor in "corridor.toml", rig:
+    width_m: f64 => 0.05..=10.0,
+    length_m: f64 => 0.01..=100.0,
+    speed_m_s: f64 => 1e-3..=10.0,
+    gain: f64 => 0.0..=10.0,
+    most_m_s: f64 => 0.0..=10.0,
+    axle_m: f64 => 0.01..=10.0,
+    slack_m: f64 => 0.0..=rig.width_m / 2.0,
+    start_spread_m: f64 => 0.0..=rig.width_m / 2.0,
+    start_spread_deg: f64 => 0.0..=45.0,
+    smooth_s: f64 => 1e-3..=100.0,
+    full_scale_rad: f64 => 1e-4..=3.0,
+    layout: Layout,
 }
 
 /// Where the robot is: its neck, and where it heads.
@@ -108,12 +79,11 @@ impl Corridor {
 #[cfg(test)]
 mod tests {
     use super::{Corridor, Robot};
-    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::load;
     use physics::vector::{add, cross, dot};
-    use std::path::Path;
 
     fn rig() -> Corridor {
-        parse(Path::new(Corridor::FILE), Corridor::DEFAULT).unwrap()
+        load(None).unwrap()
     }
 
     const MIDDLE: Robot = Robot {

@@ -13,66 +13,33 @@
 //! sensor's x is parallel to the floor and y normal to it as far as the
 //! whisker's slope allows (LEP12 section 2).
 
-use serde::Deserialize;
-
 use super::chance::{Chance, Wander};
-use super::read::{OutOfRange, Rig, within};
+use super::read::keys;
 use crate::rigs::frame::{direction, turn};
 use physics::Pose;
 use physics::vector::{add, cross};
 
-/// Geometry and motion of the robot; see `studies/rigs/floor.toml` for each key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/floor.toml")]
-pub struct Floor {
-    pub tick_hz: f64,
-    pub trial_s: f64,
-    pub mount_radius_m: f64,
-    pub mount_bearing_deg: f64,
-    pub azimuth_deg: f64,
-    pub elevation_deg: f64,
-    pub press_m: f64,
-    pub press_sd_m: f64,
-    pub sink_m: [f64; 4],
-    pub wobble_share: f64,
-    pub wobble_s: f64,
-    pub turn_rad_s: f64,
-    pub forward_m_s: f64,
-    pub speed_share_sd: f64,
-    pub speed_s: f64,
-    pub leg_least_s: f64,
-    pub leg_most_s: f64,
-    pub full_scale_rad: f64,
-}
-
-impl Rig for Floor {
-    const FILE: &'static str = "floor.toml";
-    const DEFAULT: &'static str = include_str!("../../rigs/floor.toml");
-
-    fn check(&self) -> Result<(), OutOfRange> {
-        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
-        within("trial_s", self.trial_s, 0.1, 3600.0)?;
-        within("mount_radius_m", self.mount_radius_m, 0.0, 2.0)?;
-        within("mount_bearing_deg", self.mount_bearing_deg, -180.0, 180.0)?;
-        within("azimuth_deg", self.azimuth_deg, -90.0, 90.0)?;
-        within("elevation_deg", self.elevation_deg, -80.0, -1.0)?;
-        within("press_m", self.press_m, 0.0, 0.1)?;
-        within("press_sd_m", self.press_sd_m, 0.0, 0.1)?;
-        within("wobble_share", self.wobble_share, 0.0, 10.0)?;
-        for sink in self.sink_m {
-            within("sink_m", sink, 0.0, 0.1)?;
-        }
-        within("wobble_s", self.wobble_s, 1e-3, 1e3)?;
-        within("turn_rad_s", self.turn_rad_s, 0.0, 20.0)?;
-        within("forward_m_s", self.forward_m_s, 0.0, 10.0)?;
-        within("speed_share_sd", self.speed_share_sd, 0.0, 0.5)?;
-        within("speed_s", self.speed_s, 1e-3, 1e3)?;
-        within("leg_least_s", self.leg_least_s, 0.01, 1e3)?;
-        within("leg_most_s", self.leg_most_s, self.leg_least_s, 1e3)?;
-        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        Ok(())
-    }
+keys! {
+    /// Geometry and motion of the robot; see `studies/rigs/floor.toml` for each key.
+    Floor in "floor.toml", rig:
+    tick_hz: f64 => 200.0..=20_000.0,
+    trial_s: f64 => 0.1..=3600.0,
+    mount_radius_m: f64 => 0.0..=2.0,
+    mount_bearing_deg: f64 => -180.0..=180.0,
+    azimuth_deg: f64 => -90.0..=90.0,
+    elevation_deg: f64 => -80.0..=-1.0,
+    press_m: f64 => 0.0..=0.1,
+    press_sd_m: f64 => 0.0..=0.1,
+    sink_m: [f64; 4] => 0.0..=0.1,
+    wobble_share: f64 => 0.0..=10.0,
+    wobble_s: f64 => 1e-3..=1e3,
+    turn_rad_s: f64 => 0.0..=20.0,
+    forward_m_s: f64 => 0.0..=10.0,
+    speed_share_sd: f64 => 0.0..=0.5,
+    speed_s: f64 => 1e-3..=1e3,
+    leg_least_s: f64 => 0.01..=1e3,
+    leg_most_s: f64 => rig.leg_least_s..=1e3,
+    full_scale_rad: f64 => 1e-4..=3.0,
 }
 
 /// How the robot moves during a trial.
@@ -205,12 +172,11 @@ impl Drive<'_> {
 #[cfg(test)]
 mod tests {
     use super::{Floor, RobotMotion};
-    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::load;
     use physics::vector::{add, cross, dot};
-    use std::path::Path;
 
     fn calm() -> Floor {
-        let mut rig: Floor = parse(Path::new(Floor::FILE), Floor::DEFAULT).unwrap();
+        let mut rig: Floor = load(None).unwrap();
         rig.press_sd_m = 0.0;
         rig.wobble_share = 0.0;
         rig.speed_share_sd = 0.0;

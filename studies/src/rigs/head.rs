@@ -7,12 +7,11 @@
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A
 //! whisker at θ' = 90 degrees points sideways, beyond that forward.
 
-use serde::Deserialize;
 use whisking::{GateSettings, Integrator, Settings};
 
 use super::chance::{Chance, seed_of};
 use super::module::{EACH, HeadModule, PositionControl, SIDES};
-use super::read::{OutOfRange, Rig, within};
+use super::read::keys;
 use crate::refused::refused;
 use host_sim::Error;
 use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
@@ -20,41 +19,19 @@ use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 /// Channels: x and y of every whisker, left side first.
 pub const CHANNELS: usize = 2 * SIDES * EACH;
 
-/// Geometry of the head; see `studies/rigs/head.toml` for each key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/head.toml")]
-pub struct WhiskingHead {
-    pub tick_hz: f64,
-    pub whisk_hz: f64,
-    pub noise: f64,
-    pub gain: f64,
-    pub lead_whisks: usize,
-    pub base_back_m: [f64; EACH],
-    pub base_side_m: [f64; EACH],
-    pub placement_sd_m: f64,
-    pub full_scale_rad: f64,
-    pub motor: PositionControl,
-}
-
-impl Rig for WhiskingHead {
-    const FILE: &'static str = "head.toml";
-    const DEFAULT: &'static str = include_str!("../../rigs/head.toml");
-
-    fn check(&self) -> Result<(), OutOfRange> {
-        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
-        within("whisk_hz", self.whisk_hz, 0.05, 25.0)?;
-        within("noise", self.noise, 0.0, 1.0)?;
-        within("gain", self.gain, 0.0, 2.0)?;
-        within("lead_whisks", self.lead_whisks as f64, 0.0, 1000.0)?;
-        for w in 0..EACH {
-            within("base_back_m", self.base_back_m[w], 0.0, 1.0)?;
-            within("base_side_m", self.base_side_m[w], 0.0, 1.0)?;
-        }
-        within("placement_sd_m", self.placement_sd_m, 0.0, 0.1)?;
-        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        self.motor.check()
-    }
+keys! {
+    /// Geometry of the head; see `studies/rigs/head.toml` for each key.
+    WhiskingHead in "head.toml", rig:
+    tick_hz: f64 => 200.0..=20_000.0,
+    whisk_hz: f64 => 0.05..=25.0,
+    noise: f64 => 0.0..=1.0,
+    gain: f64 => 0.0..=2.0,
+    lead_whisks: usize => 0.0..=1000.0,
+    base_back_m: [f64; EACH] => 0.0..=1.0,
+    base_side_m: [f64; EACH] => 0.0..=1.0,
+    placement_sd_m: f64 => 0.0..=0.1,
+    full_scale_rad: f64 => 1e-4..=3.0,
+    motor: PositionControl,
 }
 
 /// What the head is put before, and how it whisks there.
@@ -180,12 +157,11 @@ impl WhiskingHead {
 mod tests {
     use super::WhiskingHead;
     use crate::paper::biotact::{DISTANCES_MM, WHISKERS};
-    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::load;
     use physics::vector::{add, cross, dot};
-    use std::path::Path;
 
     fn rig() -> WhiskingHead {
-        parse(Path::new(WhiskingHead::FILE), WhiskingHead::DEFAULT).unwrap()
+        load(None).unwrap()
     }
 
     #[test]

@@ -11,11 +11,10 @@ use host_sim::bench::NoClock;
 use host_sim::drive::{self, AnyAngle, AnyMotor};
 use host_sim::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
-use serde::Deserialize;
 use whisking::motor::Duty;
 use whisking::{State, degrees, filter, pd};
 
-use super::read::{OutOfRange, within};
+use super::read::keys;
 use crate::refused::refused;
 
 /// Sides of the head.
@@ -23,32 +22,20 @@ pub(super) const SIDES: usize = 2;
 /// Whiskers of a side, the front one first.
 pub(super) const EACH: usize = 3;
 
-/// Position control; see `studies/rigs/head.toml` for each key.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/head.toml")]
-pub struct PositionControl {
-    pub follows: bool,
-    pub kp: f64,
-    pub kd: f64,
-    pub slew_per_s: f64,
-    pub min_deg: f64,
-    pub max_deg: f64,
+keys! {
+    /// Position control; see `studies/rigs/head.toml` for each key.
+    #[derive(Copy)]
+    PositionControl, rig:
+    follows: bool,
+    kp: f64 => 0.0..=1e3,
+    kd: f64 => 0.0..=1e3,
+    slew_per_s: f64 => 1.0..=1e6,
+    min_deg: f64 => -180.0..=180.0,
+    max_deg: f64 => rig.min_deg..=360.0,
 }
 
 /// Full duty is allowed, and half of it counts as driven hard, as in a scene.
 const DUTY_LIMIT: f64 = 1.0;
-
-impl PositionControl {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        within("kp", self.kp, 0.0, 1e3)?;
-        within("kd", self.kd, 0.0, 1e3)?;
-        within("slew_per_s", self.slew_per_s, 1.0, 1e6)?;
-        within("min_deg", self.min_deg, -180.0, 180.0)?;
-        within("max_deg", self.max_deg, self.min_deg, 360.0)?;
-        Ok(())
-    }
-}
 
 /// The newest frame of a sensor: the tick reads what was measured before it.
 #[derive(Debug)]
@@ -210,6 +197,7 @@ impl HeadModule {
 #[cfg(test)]
 mod tests {
     use super::{EACH, HeadModule, PositionControl, SIDES};
+    use crate::rigs::Keys;
     use firmware::{Command, Place};
     use whisking::{Integrator, Settings, protraction};
 

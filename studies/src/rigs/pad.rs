@@ -15,10 +15,8 @@
 //! lie at one distance from the origin, as fits "an appropriate angle to
 //! provide contact with a maximum number of whiskers" (section 3.2.1).
 
-use serde::Deserialize;
-
 use super::chance::Chance;
-use super::read::{OutOfRange, Rig, within};
+use super::read::keys;
 use crate::paper::psik::{ARCS, RATE_HZ};
 use crate::rigs::frame::{direction, turn};
 use physics::Pose;
@@ -27,17 +25,15 @@ use physics::vector::{add, cross};
 /// Rows of a full arc.
 const ROWS: usize = 5;
 
-/// Where vibrissae sit.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/pad.toml")]
-pub struct Layout {
-    pub tip_radius_m: f64,
-    pub lean_deg: f64,
-    pub arc_step_deg: f64,
-    pub row_step_deg: f64,
-    pub centre_deg: f64,
-    pub tip_diameter_m: f64,
+keys! {
+    /// Where vibrissae sit.
+    Layout, rig:
+    tip_radius_m: f64 => 0.01..=2.0,
+    lean_deg: f64 => -90.0..=90.0,
+    arc_step_deg: f64 => 0.0..=20.0,
+    row_step_deg: f64 => 0.0..=20.0,
+    centre_deg: f64 => -180.0..=180.0,
+    tip_diameter_m: f64 => 1e-5..=2e-3,
 }
 
 /// One vibrissa of a pad.
@@ -54,16 +50,6 @@ pub struct Vibrissa {
 }
 
 impl Layout {
-    pub(super) fn check(&self) -> Result<(), OutOfRange> {
-        within("tip_radius_m", self.tip_radius_m, 0.01, 2.0)?;
-        within("lean_deg", self.lean_deg, -90.0, 90.0)?;
-        within("arc_step_deg", self.arc_step_deg, 0.0, 20.0)?;
-        within("row_step_deg", self.row_step_deg, 0.0, 20.0)?;
-        within("centre_deg", self.centre_deg, -180.0, 180.0)?;
-        within("tip_diameter_m", self.tip_diameter_m, 1e-5, 2e-3)?;
-        Ok(())
-    }
-
     /// The vibrissae, arc by arc from the back.
     pub fn vibrissae(&self) -> Vec<Vibrissa> {
         let mut all = Vec::new();
@@ -103,35 +89,17 @@ pub fn panned(pose: &Pose, radians: f64) -> Pose {
     }
 }
 
-/// The fixed head; see `studies/rigs/pad.toml` for each key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/pad.toml")]
-pub struct Pad {
-    pub distance_m: f64,
-    pub distance_spread_m: f64,
-    pub position_spread_m: f64,
-    pub sweep_deg: f64,
-    pub sweep_s: f64,
-    pub bits: u32,
-    pub full_scale_rad: f64,
-    pub layout: Layout,
-}
-
-impl Rig for Pad {
-    const FILE: &'static str = "pad.toml";
-    const DEFAULT: &'static str = include_str!("../../rigs/pad.toml");
-
-    fn check(&self) -> Result<(), OutOfRange> {
-        within("distance_m", self.distance_m, 0.01, 2.0)?;
-        within("distance_spread_m", self.distance_spread_m, 0.0, 0.5)?;
-        within("position_spread_m", self.position_spread_m, 0.0, 5.0)?;
-        within("sweep_deg", self.sweep_deg, 1.0, 90.0)?;
-        within("sweep_s", self.sweep_s, 0.01, 100.0)?;
-        within("bits", f64::from(self.bits), 2.0, 14.0)?;
-        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        self.layout.check()
-    }
+keys! {
+    /// The fixed head; see `studies/rigs/pad.toml` for each key.
+    Pad in "pad.toml", rig:
+    distance_m: f64 => 0.01..=2.0,
+    distance_spread_m: f64 => 0.0..=0.5,
+    position_spread_m: f64 => 0.0..=5.0,
+    sweep_deg: f64 => 1.0..=90.0,
+    sweep_s: f64 => 0.01..=100.0,
+    bits: usize => 2.0..=14.0,
+    full_scale_rad: f64 => 1e-4..=3.0,
+    layout: Layout,
 }
 
 /// One sweep: how far the sheet is, and where along it the head is set up.
@@ -170,12 +138,11 @@ impl Pad {
 mod tests {
     use super::{Pad, panned};
     use crate::paper::psik::VIBRISSAE;
-    use crate::rigs::read::{Rig, parse};
+    use crate::rigs::load;
     use physics::vector::{add, cross, dot};
-    use std::path::Path;
 
     fn rig() -> Pad {
-        parse(Path::new(Pad::FILE), Pad::DEFAULT).unwrap()
+        load(None).unwrap()
     }
 
     #[test]

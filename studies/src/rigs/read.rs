@@ -1,6 +1,7 @@
 //! Reading a rig's file: an unknown, missing or mistyped key and a value out
 //! of range are errors that name the file, the line and the key.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use serde::de::DeserializeOwned;
@@ -20,13 +21,8 @@ pub struct OutOfRange {
     pub high: f64,
 }
 
-/// A rig that can say whether its numbers are in range.
-pub trait Rig: DeserializeOwned {
-    /// The name of its file.
-    const FILE: &'static str;
-    /// The text that is used where no folder is given.
-    const DEFAULT: &'static str;
-
+/// Keys of a file that can say whether their numbers are in range.
+pub trait Keys: DeserializeOwned {
     /// Checks every number.
     ///
     /// # Errors
@@ -34,22 +30,101 @@ pub trait Rig: DeserializeOwned {
     fn check(&self) -> Result<(), OutOfRange>;
 }
 
-/// `found` if it is in `low..=high`.
-///
-/// # Errors
-/// [`OutOfRange`] otherwise, and for what is not a number.
-pub fn within(key: &'static str, found: f64, low: f64, high: f64) -> Result<f64, OutOfRange> {
-    if (low..=high).contains(&found) {
-        Ok(found)
-    } else {
-        Err(OutOfRange {
-            key,
-            found,
-            low,
-            high,
-        })
+/// Has no range.
+impl Keys for bool {
+    fn check(&self) -> Result<(), OutOfRange> {
+        Ok(())
     }
 }
+
+/// A rig: keys in a file of their own.
+pub trait Rig: Keys {
+    /// The name of its file.
+    const FILE: &'static str;
+    /// The text that is used where no folder is given.
+    const DEFAULT: &'static str;
+}
+
+/// A key's value, as the numbers that must be in its range.
+pub(super) trait Numbers {
+    fn numbers(&self) -> Vec<f64>;
+}
+
+impl Numbers for f64 {
+    fn numbers(&self) -> Vec<f64> {
+        vec![*self]
+    }
+}
+
+impl<const N: usize> Numbers for [f64; N] {
+    fn numbers(&self) -> Vec<f64> {
+        self.to_vec()
+    }
+}
+
+impl Numbers for usize {
+    fn numbers(&self) -> Vec<f64> {
+        vec![*self as f64]
+    }
+}
+
+/// Checks that all of `found` are in `range`; what is not a number is in none.
+pub(super) fn within(
+    key: &'static str,
+    found: &impl Numbers,
+    range: &RangeInclusive<f64>,
+) -> Result<(), OutOfRange> {
+    let outside = |found: &f64| !range.contains(found);
+    let wrong = |found| OutOfRange {
+        key,
+        found,
+        low: *range.start(),
+        high: *range.end(),
+    };
+    found
+        .numbers()
+        .into_iter()
+        .find(outside)
+        .map_or(Ok(()), |found| Err(wrong(found)))
+}
+
+/// Declares the keys of a rig, or of a part of one that has no file: each with
+/// its type and, if it is a number, the range, which may name other keys of `rig`.
+macro_rules! keys {
+    (
+        $(#[$meta:meta])*
+        $name:ident $(in $file:literal)?, $rig:ident:
+        $($key:ident: $type:ty $(=> $range:expr)?,)*
+    ) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        #[expect(missing_docs, reason = "each key is documented in the rig's file")]
+        pub struct $name {
+            $(pub $key: $type,)*
+        }
+
+        impl crate::rigs::read::Keys for $name {
+            fn check(&self) -> Result<(), crate::rigs::read::OutOfRange> {
+                let $rig = self;
+                $(crate::rigs::read::keys!(@check $rig, $key $(, $range)?);)*
+                Ok(())
+            }
+        }
+
+        $(impl crate::rigs::read::Rig for $name {
+            const FILE: &'static str = $file;
+            const DEFAULT: &'static str = include_str!(concat!("../../rigs/", $file));
+        })?
+    };
+    (@check $rig:ident, $key:ident) => {
+        crate::rigs::read::Keys::check(&$rig.$key)?;
+    };
+    (@check $rig:ident, $key:ident, $range:expr) => {
+        crate::rigs::read::within(stringify!($key), &$rig.$key, &$range)?;
+    };
+}
+pub(super) use keys;
 
 /// The rig in `folder`, or the one built in.
 ///

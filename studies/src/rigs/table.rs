@@ -7,49 +7,21 @@
 //! travel: at 0 degrees it would meet the whisker with its edge, at 90 degrees
 //! it would lie along the shaft (POSE section II-B).
 
-use serde::Deserialize;
+use super::read::keys;
 
-use super::read::{OutOfRange, Rig, within};
-
-/// Settings of the table; see `studies/rigs/table.toml` for each key.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[expect(missing_docs, reason = "each key is documented in rigs/table.toml")]
-pub struct Table {
-    pub tick_hz: f64,
-    pub gap_m: f64,
-    pub gap_sd_m: f64,
-    pub threshold: f64,
-    pub latency_s: f64,
-    pub latency_spread_s: f64,
-    pub retract_m_s: f64,
-    pub acceleration_m_s2: f64,
-    pub half_window: usize,
-    pub full_scale_rad: f64,
-}
-
-impl Rig for Table {
-    const FILE: &'static str = "table.toml";
-    const DEFAULT: &'static str = include_str!("../../rigs/table.toml");
-
-    fn check(&self) -> Result<(), OutOfRange> {
-        within("tick_hz", self.tick_hz, 200.0, 20_000.0)?;
-        within("gap_m", self.gap_m, 0.0, 0.1)?;
-        within("gap_sd_m", self.gap_sd_m, 0.0, 0.1)?;
-        within("threshold", self.threshold, 1e-4, 1.0)?;
-        within("latency_s", self.latency_s, 0.0, 10.0)?;
-        within(
-            "latency_spread_s",
-            self.latency_spread_s,
-            0.0,
-            self.latency_s,
-        )?;
-        within("retract_m_s", self.retract_m_s, 0.001, 10.0)?;
-        within("acceleration_m_s2", self.acceleration_m_s2, 0.1, 1000.0)?;
-        within("half_window", self.half_window as f64, 1.0, 1e6)?;
-        within("full_scale_rad", self.full_scale_rad, 1e-4, 3.0)?;
-        Ok(())
-    }
+keys! {
+    /// Settings of the table; see `studies/rigs/table.toml` for each key.
+    Table in "table.toml", rig:
+    tick_hz: f64 => 200.0..=20_000.0,
+    gap_m: f64 => 0.0..=0.1,
+    gap_sd_m: f64 => 0.0..=0.1,
+    threshold: f64 => 1e-4..=1.0,
+    latency_s: f64 => 0.0..=10.0,
+    latency_spread_s: f64 => 0.0..=rig.latency_s,
+    retract_m_s: f64 => 0.001..=10.0,
+    acceleration_m_s2: f64 => 0.1..=1000.0,
+    half_window: usize => 1.0..=1e6,
+    full_scale_rad: f64 => 1e-4..=3.0,
 }
 
 /// The carriage: where the object is along its way, and how fast.

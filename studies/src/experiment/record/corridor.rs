@@ -19,7 +19,7 @@ pub(crate) const INPUTS: usize = 2 * VIBRISSAE;
 /// its heading, radians, and D of both sides, mm.
 pub(crate) const COLUMNS: usize = INPUTS + 4;
 /// Bits of a reading.
-const BITS: u32 = 8;
+const BITS: usize = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
 const WINDOW: u32 = 58;
 

@@ -35,7 +35,7 @@ pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
 }
 
 /// A reading in so many bits, with its sign, 2 to 14.
-pub(crate) fn codes(reading: [f64; 2], bits: u32) -> [i16; 2] {
+pub(crate) fn codes(reading: [f64; 2], bits: usize) -> [i16; 2] {
     let most = f64::from((1_u32 << bits.clamp(2, 14).saturating_sub(1)) - 1);
     reading.map(|x| sensor_code(most * x, most))
 }
