@@ -15,7 +15,6 @@
 //! pictures. All of it is the same, byte for byte, in every run.
 
 mod boundaries;
-pub(crate) mod chart;
 mod choice;
 mod contact;
 mod corners;
@@ -25,16 +24,15 @@ mod gates;
 mod integrators;
 mod long_run;
 pub(crate) mod misprints;
-pub(crate) mod page;
 mod reference;
 mod schemes;
 mod split;
 
 use std::path::Path;
 
+use crate::page::Page;
 use counts::Counts;
 use long_run::{DAY, QUICK, Table};
-use page::Page;
 
 use host_sim::Error;
 use host_sim::progress::Verbosity;
@@ -75,7 +73,7 @@ pub fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Fi
     };
     let near = integrators::measure(&integrators::NEAR)?;
 
-    let mut page = Page::default();
+    let mut page = Page::new("accuracy");
     introduction(&mut page);
     choice::section(&mut page, &near, &counts)?;
     integrators::section(&mut page, &near, &counts)?;

@@ -20,7 +20,6 @@ mod floors;
 mod lep10;
 mod lep12;
 mod matrix;
-mod page;
 mod part;
 mod picture;
 mod pose;

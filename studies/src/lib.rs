@@ -3,8 +3,10 @@
 //! board or a simulated scene runs depends on it.
 
 pub mod accuracy;
+mod chart;
 pub mod commands;
 pub mod experiment;
+mod page;
 pub mod paper;
 mod peaks;
 mod refused;

@@ -7,9 +7,9 @@ use whisking::muscle::MuscleIntegrator;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Config, Fix, Integrator, Real, muscle, oscillator};
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
-use super::page::{Page, short};
 use super::schemes::{Format, Pace};
+use crate::chart::{Axis, Mark, Panel, Series, draw, linear};
+use crate::page::{Page, short};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -206,12 +206,7 @@ fn picture() -> Result<String, Error> {
     draw(&[Panel {
         title: "radius of the limit cycle".to_owned(),
         x: Axis::decades("f_W T", [1e-4, 0.1].into_iter()),
-        y: Axis {
-            name: "radius (middle of smallest and largest)",
-            low: 0.9,
-            high: 1.9,
-            log: false,
-        },
+        y: linear("radius (middle of smallest and largest)", 0.9, 1.9),
         series: vec![
             Series::new(
                 "euler, predicted up to the limit",

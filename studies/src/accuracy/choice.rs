@@ -2,8 +2,8 @@
 
 use super::counts::{Counts, Target};
 use super::integrators::{Errors, FREQUENCIES_HZ, TICKS_HZ, diagram};
-use super::page::Page;
 use super::schemes::Scheme;
+use crate::page::Page;
 use host_sim::Error;
 
 /// Errors that one might live with, degrees.

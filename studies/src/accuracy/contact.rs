@@ -13,8 +13,8 @@ mod runs;
 
 use std::fmt::Write;
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
-use super::page::{Page, short};
+use crate::chart::{Axis, Mark, Panel, Series, draw};
+use crate::page::{Page, short};
 use host_sim::Error;
 use runs::{Measured, TICKS_HZ};
 

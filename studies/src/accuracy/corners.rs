@@ -5,8 +5,8 @@
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};
 
-use super::page::{Page, short};
 use super::schemes::{PAPERS, Pace};
+use crate::page::{Page, short};
 use crate::refused::refused;
 use host_sim::Error;
 

@@ -3,9 +3,9 @@
 
 use whisking::{Fix, Real};
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::counts::{Counts, Target, cell};
-use super::page::{Page, short, verdict};
+use crate::chart::{Axis, Mark, Panel, Series};
+use crate::page::{Page, short, verdict};
 use host_sim::Error;
 
 /// Intervals of the grid of each function.
@@ -272,11 +272,7 @@ fn picture(page: &mut Page, panels: Vec<(Function, Points)>) -> Result<(), Error
     let full = panels.into_iter().filter(|(_, points)| !points.is_empty());
     let panels: Vec<Panel> = full.map(panel).collect();
     if !panels.is_empty() {
-        page.picture(
-            "functions.svg",
-            "error against instructions",
-            draw(&panels)?,
-        );
+        page.panels("functions.svg", "error against instructions", &panels)?;
     }
     Ok(())
 }

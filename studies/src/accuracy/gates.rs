@@ -4,10 +4,10 @@
 use whisking::gate::Gate;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State};
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
-use super::page::{Page, short};
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, name};
+use crate::chart::{Axis, Mark, Panel, Series};
+use crate::page::{Page, short};
 use crate::refused::refused;
 use host_sim::Error;
 
@@ -204,11 +204,11 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
     );
     let errors = panel.series.iter().flat_map(|series| &series.points);
     panel.y = Axis::decades(panel.y.name, errors.map(|point| point.1));
-    page.picture(
+    page.panels(
         "gates.svg",
         "error against tick across a jump of z",
-        draw(&[panel])?,
-    );
+        &[panel],
+    )?;
     Ok(())
 }
 

@@ -2,11 +2,11 @@
 
 use whisking::Integrator;
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
 use super::counts::{Counts, Target, cell};
-use super::page::{Page, short, verdict};
 use super::reference::{Case, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, Scheme, name};
+use crate::chart::{Axis, Mark, Panel, Series, draw};
+use crate::page::{Page, short, verdict};
 use host_sim::Error;
 
 /// Whisk frequencies, Hz.

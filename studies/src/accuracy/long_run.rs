@@ -14,9 +14,9 @@ use std::time::Duration;
 
 use whisking::{Fix, Real};
 
-use super::chart::{Axis, Mark, Panel, Series, draw};
-use super::page::{Page, short, verdict};
 use super::schemes::{Format, PAPERS, Pace};
+use crate::chart::{Mark, Panel, Series, draw, linear};
+use crate::page::{Page, short, verdict};
 use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 use whisk::{Length, MINUTE_TICKS, Row};
@@ -235,18 +235,8 @@ fn picture(rows: &[Row]) -> Result<String, Error> {
     let end = shown().map(hours).fold(0.0, f64::max);
     draw(&[Panel {
         title: "phase ahead of exactly 2 Hz".to_owned(),
-        x: Axis {
-            name: "hours",
-            low: 0.0,
-            high: end.max(1e-3),
-            log: false,
-        },
-        y: Axis {
-            name: "degrees of a whisk",
-            low: -most,
-            high: most,
-            log: false,
-        },
+        x: linear("hours", 0.0, end.max(1e-3)),
+        y: linear("degrees of a whisk", -most, most),
         series: Format::ALL.into_iter().enumerate().map(series).collect(),
     }])
 }

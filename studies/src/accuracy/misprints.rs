@@ -12,8 +12,8 @@ use whisking::{Integrator, PatternGenerator, State};
 
 use figures::{FREE, Printed, Row, run};
 
-use super::page::Page;
 use super::schemes::PAPERS;
+use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG7, FIG8, FIG9, Figure};
 use crate::peaks::peaks;
 use crate::refused::refused;

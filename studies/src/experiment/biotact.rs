@@ -10,11 +10,11 @@ mod why;
 
 use rayon::prelude::*;
 
-use super::page::Section;
-use super::picture::{Curve, FOLDER, linear, panel, percent};
+use super::picture::{Curve, panel, percent};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::accuracy::chart::{Mark, draw};
+use crate::chart::{Mark, linear};
+use crate::page::Page;
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
@@ -79,13 +79,16 @@ impl Hits {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+pub(super) fn evaluate(
+    page: &mut Page,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
     let visits = Visits::new(request, recordings);
     let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));
     let hits = Hits::measure(request, &visits, most)?;
-    let mut section = Section::default();
-    section.page.heading(2, "BIOTACT: active whisking");
-    section.page.say(format_args!(
+    page.heading(2, "BIOTACT: active whisking");
+    page.say(format_args!(
         "Six whiskers of 80, 112 and 158 mm (`studies/rigs/head.toml`), moved by the module's pattern \
          generator in closed loop with what they feel, each by a motor under the module's \
          position control, before {} textures at {} distances, {} \
@@ -96,7 +99,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         request.extent.whisks(),
         SAID.join("; ")
     ));
-    patterns::section(&mut section)?;
+    patterns::section(page)?;
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {
@@ -112,30 +115,28 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
             let x = linear("training whisks", 0.0, most as f64 + 1.0);
             panels.push(panel(task.text(), x, percent("%"), &curves, Mark::Dot));
         }
-        section.page.say(format_args!(
+        page.say(format_args!(
             "**Fig. {figure}**: {}, hit rate in %.",
             method.text()
         ));
         let name = format!("biotact-fig{figure}.svg");
         let what = format!("Hit rate of {}", method.text());
-        section
-            .page
-            .picture_in(FOLDER, &name, &what, draw(&panels)?);
-        table(&mut section, &hits, method, most);
+        page.panels(&name, &what, &panels)?;
+        table(page, &hits, method, most);
         for task in Task::ALL {
             let name = method.score_name();
             let what = format!("{}, RCP7, {most} whisks", task.text());
-            section.score(name, what, hits.at(method, task, 1, most));
+            page.score(name, what, hits.at(method, task, 1, most));
         }
     }
-    let why = why::section(&mut section, request, recordings, most)?;
-    claims(&mut section, &hits, most, &why.hits);
-    movement::section(&mut section, request, recordings, &why.biphasic);
-    histories::section(&mut section, request, recordings)?;
-    Ok(section)
+    let why = why::section(page, request, recordings, most)?;
+    claims(page, &hits, most, &why.hits);
+    movement::section(page, request, recordings, &why.biphasic);
+    histories::section(page, request, recordings)?;
+    Ok(())
 }
 
-fn table(section: &mut Section, hits: &Hits, method: Method, most: usize) {
+fn table(page: &mut Page, hits: &Hits, method: Method, most: usize) {
     let counts: Vec<String> = (1..=most).map(|n| n.to_string()).collect();
     let mut rows = Vec::new();
     for task in Task::ALL {
@@ -147,13 +148,13 @@ fn table(section: &mut Section, hits: &Hits, method: Method, most: usize) {
         }
     }
     let header = format!("task | whisking | {}", counts.join(" | "));
-    section.page.table(&header, rows);
+    page.table(&header, rows);
 }
 
-fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
+fn claims(page: &mut Page, hits: &Hits, most: usize, why: &str) {
     let bayes = |strategy, count| hits.at(Method::Bayes, Task::Both, strategy, count);
     for count in [1, 2] {
-        section.claim(
+        page.claim(
             format_args!(
                 "BIOTACT: after {count} training whisk(s) RCP7 beats unmodulated (naive \
             Bayes, both)"
@@ -170,7 +171,7 @@ fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
         );
     }
     let seven = bayes(1, 7.min(most));
-    section.claim(
+    page.claim(
         format_args!(
             "BIOTACT: naive Bayes with RCP7 reaches 100 % after {} training whisks",
             7.min(most)
@@ -184,7 +185,7 @@ fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
     let texture = hits.at(Method::Bayes, Task::Texture, 0, most);
     let distance = hits.at(Method::Bayes, Task::Distance, 0, most);
     let product = texture * distance / 100.0;
-    section.claim(
+    page.claim(
         "BIOTACT: the joint hit rate is about the product of texture's and distance's (naive \
         Bayes, unmodulated)",
         "about equal",
@@ -193,7 +194,7 @@ fn claims(section: &mut Section, hits: &Hits, most: usize, why: &str) {
         why,
     );
     let template = hits.at(Method::Template, Task::Texture, 0, most);
-    section.claim(
+    page.claim(
         "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
         format_args!("about 100 against {FIG11_TEXTURE:.0} %"),
         format_args!("{texture:.1} against {template:.1} %"),

@@ -4,8 +4,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::page::Section;
-use crate::accuracy::page::Page;
+use crate::page::{Page, Score};
 use crate::paper::printed;
 
 /// Counted kernels, as `cargo xtask count` left them.
@@ -46,10 +45,9 @@ impl Form {
 }
 
 /// The table of the scores.
-pub(super) fn section(page: &mut Page, sections: &[Section]) {
-    let rows: Vec<Vec<String>> = sections
+pub(super) fn section(page: &mut Page, scores: &[Score]) {
+    let rows: Vec<Vec<String>> = scores
         .iter()
-        .flat_map(|section| &section.scores)
         .map(|score| {
             let form = FORMS
                 .iter()

@@ -8,10 +8,10 @@ use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
 
 use super::dataset::Dataset;
-use super::page::percent_of;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings};
 use super::request::{Extent, Request};
+use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
 use crate::refused::refused;
 use crate::rigs::RobotMotion;

@@ -2,10 +2,10 @@
 //! (turning on the spot) against natural motion (autonomous).
 
 use super::floors::{Floors, Half, Stream, Tally, train};
-use super::page::{Section, confusion};
 use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
+use crate::page::{Page, confusion};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
@@ -37,13 +37,14 @@ fn windows(
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+pub(super) fn evaluate(
+    page: &mut Page,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
     let floors = Floors::with_all(request, recordings);
-    let mut section = Section::default();
-    section
-        .page
-        .heading(2, "LEP10: naive Bayes over fixed windows");
-    section.page.say(
+    page.heading(2, "LEP10: naive Bayes over fixed windows");
+    page.say(
         "A passive whisker dragged over four floors by a small robot (`studies/rigs/floor.toml`). \
          Likelihoods in bins of 10 mV, smoothed over 100 mV, from the first half of each trial \
          (four of each rotation, eight of natural motion); the second half is cut into windows. In the tables a row is the true floor, a column \
@@ -75,25 +76,25 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
             )?,
         };
         means[n] = tally.mean_hit();
-        section.page.say(format_args!(
+        page.say(format_args!(
             "**Table {}**, {}, 0.5 s: mean hit rate {:.0} % in the paper, **{:.1} %** here.",
             table.number, table.what, table.mean, means[n]
         ));
         // The paper's columns are the true floors.
         let paper = |truth: usize, named: usize| table.percent[named][truth];
-        confusion(&mut section.page, &FLOORS, &paper, &tally.confusion);
+        confusion(page, &FLOORS, &paper, &tally.confusion);
     }
 
-    let knee = figure_4(&floors, &models, &validation, &mut section)?;
-    section.score("naive Bayes, window of 0.5 s, x", "four floors", means[0]);
-    section.score("naive Bayes, window of 0.5 s, y", "four floors", means[1]);
-    section.score(
+    let knee = figure_4(&floors, &models, &validation, page)?;
+    page.score("naive Bayes, window of 0.5 s, x", "four floors", means[0]);
+    page.score("naive Bayes, window of 0.5 s, y", "four floors", means[1]);
+    page.score(
         "naive Bayes, window of 0.5 s, x and y",
         "four floors",
         means[2],
     );
-    claims(&mut section, &means, knee);
-    Ok(section)
+    claims(page, &means, knee);
+    Ok(())
 }
 
 /// The figure; mean hit rates of both channels together at one sample, at the
@@ -102,7 +103,7 @@ fn figure_4(
     floors: &Floors<'_>,
     models: &[ModelBuf],
     validation: &[Stream],
-    section: &mut Section,
+    page: &mut Page,
 ) -> Result<[f64; 3], Error> {
     let mut panels = Vec::new();
     let mut means: Vec<Curve> = Vec::new();
@@ -117,7 +118,8 @@ fn figure_4(
             }
             mean.points.push((seconds, tally.mean_hit()));
         }
-        panels.push((format!("{name}: hit rate of each floor, %"), curves));
+        let title = format!("{name}: hit rate of each floor, %");
+        panels.push(picture::windows(&title, &curves));
         means.push(mean);
     }
     let at = |seconds: f64| {
@@ -138,35 +140,30 @@ fn figure_4(
             cells
         })
         .collect();
-    let svg = picture::windows(&panels)?;
-    let mean_svg = picture::windows(&[("mean hit rate, %".to_owned(), means)])?;
-    section.page.say(format_args!(
+    let mean = picture::windows("mean hit rate, %", &means);
+    page.say(format_args!(
         "**Fig. 4**: hit rate against the window. In the paper x alone and y alone reach about \
          {:.0} % and both together {:.0} % from 0.5 s on.",
         FIG4_LONG[0], FIG4_LONG[2]
     ));
     let what = "Hit rate against window";
-    section
-        .page
-        .picture_in(picture::FOLDER, "lep10-fig4.svg", what, svg);
-    section
-        .page
-        .picture_in(picture::FOLDER, "lep10-fig4-means.svg", what, mean_svg);
-    section.page.table(header, rows);
+    page.panels("lep10-fig4.svg", what, &panels)?;
+    page.panels("lep10-fig4-means.svg", what, &[mean])?;
+    page.table(header, rows);
     Ok(knee)
 }
 
-fn claims(section: &mut Section, means: &[f64; 5], knee: [f64; 3]) {
+fn claims(page: &mut Page, means: &[f64; 5], knee: [f64; 3]) {
     let [x, y, both, transfer, natural] = *means;
     let share = (knee[1] - knee[0]) / (knee[2] - knee[0]);
-    section.claim(
+    page.claim(
         "LEP10: x and y together beat either alone (0.5 s)",
         "79, 82: 92 %",
         format_args!("{x:.0}, {y:.0}: {both:.0} %"),
         both > x && both > y,
         "",
     );
-    section.claim(
+    page.claim(
         "LEP10: most of the gain comes within 100 ms",
         "substantial up to 100 ms, modest after",
         format_args!(
@@ -183,7 +180,7 @@ fn claims(section: &mut Section, means: &[f64; 5], knee: [f64; 3]) {
         (LEP12 below: a faster robot does better). Not measured: whether the paper's early \
         gain comes from vibration that is faster than the features",
     );
-    section.claim(
+    page.claim(
         "LEP10: the hit rate falls from artificial training to natural validation",
         "92 to 68 %, natural training 81 %",
         format_args!("{both:.0} to {transfer:.0} %, natural training {natural:.0} %"),

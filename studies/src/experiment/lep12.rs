@@ -7,9 +7,9 @@ mod spectral;
 mod why;
 
 use super::floors::Floors;
-use super::page::{Section, beside};
 use super::recording::Recordings;
 use super::request::Request;
+use crate::page::{Page, beside};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use crate::refused::refused;
@@ -17,13 +17,16 @@ use groups::{Curves, Group, interpolate};
 use host_sim::Error;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+pub(super) fn evaluate(
+    page: &mut Page,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
     let floors = Floors::new(request, recordings);
     let rate_hz = floors.rate_hz;
     let groups = Group::all(&floors)?;
-    let mut section = Section::default();
-    section.page.heading(2, "LEP12: sequential Bayes");
-    section.page.say(
+    page.heading(2, "LEP12: sequential Bayes");
+    page.say(
         "The recordings of LEP10. Evidence is the mean log-likelihood of blocks of 20 samples; \
          the sequential rule decides where a posterior passes its threshold, the window after a \
          fixed time. The spectral methods take segments of 400 ms. Each cell: the paper's \
@@ -44,17 +47,17 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         rows[3].push(with_mean(spectral::network(group, rate_hz, request.seed)?));
         curves.push(both);
     }
-    tables(&mut section, &rows, &times);
-    figures::all(&mut section, &groups, &curves, rate_hz)?;
+    tables(page, &rows, &times);
+    figures::all(page, &groups, &curves, rate_hz)?;
     let robots = why::robots(request)?;
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**What the paper does not say of the robot** matters. {robots}."
     ));
     let reasons: Vec<String> = groups
         .iter()
         .map(|group| why::distributions(group, rate_hz))
         .collect();
-    claims(&mut section, &rows, &curves, &reasons);
+    claims(page, &rows, &curves, &reasons);
     for (name, rows) in [
         "maximum likelihood, window of 200 ms",
         "sequential Bayes, 200 ms on average",
@@ -64,13 +67,13 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     .into_iter()
     .zip(&rows)
     {
-        section.score(
+        page.score(
             name,
             "four floors, rotating",
             rows.get(2).map_or(0.0, |row| row[4]),
         );
     }
-    Ok(section)
+    Ok(())
 }
 
 /// The hit rates of the floors, and their mean.
@@ -79,12 +82,10 @@ fn with_mean(hits: [f64; 4]) -> [f64; 5] {
     [a, b, c, d, (a + b + c + d) / 4.0]
 }
 
-fn tables(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
+fn tables(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
     let header = format!("motion | {} | mean", FLOORS.join(" | "));
     for (table, ours) in TABLES.iter().zip(rows) {
-        section
-            .page
-            .say(format_args!("**Table {}**: {}.", table.number, table.what));
+        page.say(format_args!("**Table {}**: {}.", table.number, table.what));
         let line = |(motion, ours): (usize, &[f64; 5])| {
             let mut cells = vec![MOTIONS[motion].to_owned()];
             cells.extend((0..4).map(|k| beside(table.percent[motion][k], ours[k])));
@@ -92,7 +93,7 @@ fn tables(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]
             cells
         };
         let lines: Vec<_> = ours.iter().enumerate().map(line).collect();
-        section.page.table(&header, lines);
+        page.table(&header, lines);
         if table.number == 2 {
             let said: Vec<String> = MOTIONS
                 .iter()
@@ -101,20 +102,20 @@ fn tables(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]
                     format!("{motion} {:.0} ms at {threshold}", 1000.0 * time)
                 })
                 .collect();
-            section.page.say(format_args!(
+            page.say(format_args!(
                 "Mean decision times nearest to 200 ms, and their thresholds: {}.",
                 said.join("; ")
             ));
         }
         if table.number == 3 {
-            section.page.say(
+            page.say(
                 "The paper prints a mean of 48 % for rotating motion; its own floors give 59.5 %.",
             );
         }
     }
 }
 
-fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], reasons: &[String]) {
+fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], reasons: &[String]) {
     let [window, sequential, template, network] = rows;
     for (m, motion) in MOTIONS.iter().enumerate() {
         let at = |table: &Vec<[f64; 5]>| table.get(m).map_or(0.0, |row| row[4]);
@@ -123,7 +124,7 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], r
         let fixed = curves.get(m).map_or(0.0, |both| both.window_at(time_s));
         let gain = at(sequential) - fixed;
         let printed = TABLES[1].mean[m] - TABLES[0].mean[m];
-        section.claim(
+        page.claim(
             format_args!("LEP12, {motion}: sequential beats the window by 6 points or more at equal mean time"),
             format_args!("{printed:+.0} points"),
             format_args!("{:.1} against {fixed:.1} %: {gain:+.1} points", at(sequential)),
@@ -131,7 +132,7 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], r
             reasons.get(m).map_or("", String::as_str),
         );
         let best = at(template).max(at(network));
-        section.claim(
+        page.claim(
             format_args!("LEP12, {motion}: both beat the spectral template and the network"),
             format_args!(
                 "{:.0} and {:.0} against {:.0} and {:.0} %",
@@ -154,7 +155,7 @@ fn claims(section: &mut Section, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves], r
     let at = |time: f64| interpolate(&rotating.sequential, time);
     let (first, knee, last) = (at(0.0), at(KNEE_S), at(1.0));
     let share = (knee - first) / (last - first);
-    section.claim(
+    page.claim(
         "LEP12, rotating: most of the gain of the sequential rule comes within 100 ms",
         "dramatic up to 100 ms, slow after",
         format_args!(

@@ -3,7 +3,8 @@
 use plotters::prelude::*;
 use tactile::score::Confusion;
 
-use super::page::percent_of;
+use crate::chart::{Area, Fault, svg};
+use crate::page::percent_of;
 use host_sim::Error;
 
 /// A confusion matrix with its names.
@@ -14,8 +15,6 @@ pub(super) struct Matrix {
     pub(super) classes: Vec<String>,
     pub(super) score: Confusion,
 }
-
-type Fault = Box<dyn std::error::Error>;
 
 /// Pixels of a panel, of its square of cells, and where that begins.
 const PANEL: (u32, u32) = (330, 330);
@@ -30,23 +29,15 @@ fn shade(share: f64) -> RGBColor {
 }
 
 /// The matrices in so many columns.
-///
-/// # Errors
-/// [`Error::Work`] if the drawing library fails.
 pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String, Error> {
-    let mut svg = String::new();
-    match draw_on(&mut svg, matrices, columns.max(1)) {
-        Ok(()) => Ok(svg),
-        Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
-    }
-}
-
-fn draw_on(svg: &mut String, matrices: &[Matrix], columns: usize) -> Result<(), Fault> {
+    let columns = columns.max(1);
     let rows = matrices.len().div_ceil(columns).max(1);
     let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
-    let root = SVGBackend::with_string(svg, size).into_drawing_area();
-    root.fill(&WHITE)?;
-    for (matrix, area) in matrices.iter().zip(root.split_evenly((rows, columns))) {
+    svg(size, |root| draw_on(root, matrices, (rows, columns)))
+}
+
+fn draw_on(root: &Area<'_>, matrices: &[Matrix], grid: (usize, usize)) -> Result<(), Fault> {
+    for (matrix, area) in matrices.iter().zip(root.split_evenly(grid)) {
         let text = |text: &str, at: (i32, i32), size: i32| {
             area.draw(&Text::new(text.to_owned(), at, ("sans-serif", size)))
         };
@@ -71,7 +62,6 @@ fn draw_on(svg: &mut String, matrices: &[Matrix], columns: usize) -> Result<(), 
         let frame = [(left, top), (left + end, top + end)];
         area.draw(&Rectangle::new(frame, RGBColor(110, 110, 110)))?;
     }
-    root.present()?;
     Ok(())
 }
 

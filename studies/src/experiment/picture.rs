@@ -1,26 +1,6 @@
 //! The pictures of the experiments.
 
-use super::page::Section;
-use crate::accuracy::chart::{Axis, COLOURS, Mark, Panel, Series, draw};
-use host_sim::Error;
-
-/// The folder of pictures beside the page.
-pub(super) const FOLDER: &str = "experiments";
-
-/// Draws panels as a picture of the section.
-///
-/// # Errors
-/// [`Error::Work`] if the drawing library fails.
-pub(super) fn place(
-    section: &mut Section,
-    name: &str,
-    what: &str,
-    panels: &[Panel],
-) -> Result<(), Error> {
-    let svg = draw(panels)?;
-    section.page.picture_in(FOLDER, name, what, svg);
-    Ok(())
-}
+use crate::chart::{Axis, COLOURS, Mark, Panel, Series, linear};
 
 /// A named curve.
 #[derive(Debug, Clone)]
@@ -35,16 +15,6 @@ impl Curve {
             name: name.to_owned(),
             points,
         }
-    }
-}
-
-/// A linear axis.
-pub(super) fn linear(name: &'static str, low: f64, high: f64) -> Axis {
-    Axis {
-        name,
-        low,
-        high: if high > low { high } else { low + 1.0 },
-        log: false,
     }
 }
 
@@ -68,17 +38,11 @@ pub(super) fn panel(title: &str, x: Axis, y: Axis, curves: &[Curve], mark: Mark)
     }
 }
 
-/// Panels of hit rates against a window in seconds.
-pub(super) fn windows(panels: &[(String, Vec<Curve>)]) -> Result<String, Error> {
-    let panels: Vec<Panel> = panels
-        .iter()
-        .map(|(title, curves)| {
-            let points = curves.iter().flat_map(|curve| &curve.points);
-            let x = Axis::decades("window, s", points.map(|point| point.0));
-            panel(title, x, percent(""), curves, Mark::Dot)
-        })
-        .collect();
-    draw(&panels)
+/// Hit rates against a window in seconds.
+pub(super) fn windows(title: &str, curves: &[Curve]) -> Panel {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let x = Axis::decades("window, s", points.map(|point| point.0));
+    panel(title, x, percent(""), curves, Mark::Dot)
 }
 
 /// The range of all ordinates, from zero.

@@ -7,10 +7,10 @@ mod scores;
 mod sets;
 mod tables;
 
-use super::page::Section;
 use super::record::on_other_rigs;
 use super::recording::Recordings;
 use super::request::{Name, Request};
+use crate::page::Page;
 use crate::paper::pose::{ROWS, TEXTURE_ALONE};
 use host_sim::Error;
 use rules::{features, spectral, template};
@@ -18,16 +18,17 @@ use scores::Scores;
 use sets::Sets;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+pub(super) fn evaluate(
+    page: &mut Page,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
     let sets = Sets::new(request, recordings);
     let by_template = template(&sets)?;
     let by_spectrum = spectral(&sets)?;
     let by_features = features(&sets)?;
-    let mut section = Section::default();
-    section
-        .page
-        .heading(2, "POSE: one contact at an unknown angle and speed");
-    section.page.say(format_args!(
+    page.heading(2, "POSE: one contact at an unknown angle and speed");
+    page.say(format_args!(
         "A textured surface is carried into a fixed whisker (`studies/rigs/table.toml`): {} contacts to \
          train on and {} to test with, each every combination of angle, speed and texture once. \
          Signals are x alone, as the paper's count of samples says. κ is Cohen's. That signals are \
@@ -37,20 +38,20 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         sets.testing.len()
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];
-    tables::main(&mut section, &rows);
-    matrices::section(&mut section, &rows)?;
-    tables::features(&mut section, &by_features.textures);
+    tables::main(page, &rows);
+    matrices::section(page, &rows)?;
+    tables::features(page, &by_features.textures);
     let alone = [
         rules::template_of_textures(&sets)?,
         rules::spectral_of_textures(&sets)?,
     ];
-    section.page.say(format_args!(
+    page.say(format_args!(
         "κ of texture alone, whatever the pose (one template a texture): template {:.2} / \
          **{:.2}**, spectral template {:.2} / **{:.2}**.",
         TEXTURE_ALONE[0], alone[0], TEXTURE_ALONE[1], alone[1]
     ));
     let why = why(request, &sets)?;
-    claims(&mut section, &rows, &why);
+    claims(page, &rows, &why);
     for (name, scores) in [
         "template by sum of squares, 352 poses",
         "spectral template |DFT|, 352 poses",
@@ -60,10 +61,10 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
     .zip(rows)
     {
         for (property, hit) in ["angle", "speed", "texture"].into_iter().zip(scores.hit()) {
-            section.score(name, property, hit);
+            page.score(name, property, hit);
         }
     }
-    Ok(section)
+    Ok(())
 }
 
 /// Largest deviation of a latency in the comparison below, s.
@@ -102,7 +103,7 @@ fn why(request: &Request, sets: &Sets) -> Result<String, Error> {
     ))
 }
 
-fn claims(section: &mut Section, rows: &[&Scores; 3], why: &str) {
+fn claims(page: &mut Page, rows: &[&Scores; 3], why: &str) {
     let kappas = rows.map(Scores::kappa);
     let all = |property: usize| kappas.map(|kappa| kappa[property]);
     for (property, name, best) in [(0, "angle", 1), (2, "texture", 1), (1, "speed", 2)] {
@@ -113,7 +114,7 @@ fn claims(section: &mut Section, rows: &[&Scores; 3], why: &str) {
             let [a, b, c] = kappas;
             format!("template {a:.2}, spectral {b:.2}, features {c:.2}")
         };
-        section.claim(
+        page.claim(
             format_args!("POSE: {} are best for {name}", ROWS[best].what),
             text(paper),
             text(ours),

@@ -9,12 +9,12 @@ use rayon::prelude::*;
 use tactile::score::Confusion;
 
 use super::dataset::Dataset;
-use super::page::{Section, confusion};
-use super::picture::{Curve, FOLDER, linear, panel, percent};
+use super::picture::{Curve, panel, percent};
 use super::record::pad::PAPERS;
 use super::recording::Recordings;
 use super::request::Request;
-use crate::accuracy::chart::{Mark, draw};
+use crate::chart::{Mark, linear};
+use crate::page::{Page, confusion};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::seed_of;
@@ -31,12 +31,15 @@ fn borders() -> Vec<usize> {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Section, Error> {
+pub(super) fn evaluate(
+    page: &mut Page,
+    request: &Request,
+    recordings: &Recordings,
+) -> Result<(), Error> {
     let sweeps = Sweeps::new(request, &recordings.of(Dataset::Pad));
     let (training, testing) = request.extent.sweeps();
-    let mut section = Section::default();
-    section.page.heading(2, "PSIK: many vibrissae");
-    section.page.say(format_args!(
+    page.heading(2, "PSIK: many vibrissae");
+    page.say(format_args!(
         "A pad of {VIBRISSAE} vibrissae in eight arcs swept over eight sandpapers \
          (`studies/rigs/pad.toml`); the IMP of each, summed over the sweep, goes to a network of 33–33–8 \
          units, whose penalty on weights is chosen by a fifth of the training sweeps that is held \
@@ -65,23 +68,23 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Sec
         .map(|(n, row)| row[n])
         .sum::<f64>()
         / 8.0;
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Table 2**: all vibrissae; a row is the true paper, a column what was decided. Mean \
          {mean:.1} % in the paper, **{:.1} %** here.",
         hit(all)
     ));
     let paper = |truth: usize, named: usize| TABLE_2[truth][named];
-    confusion(&mut section.page, &NAMES, &paper, all);
-    figures(&mut section, &more, &single, &borders)?;
-    let why = why::section(&mut section, request, &sweeps, &borders)?;
-    claims(&mut section, &more, &why);
-    section.score("IMP and network 33–33–8", "eight sandpapers", hit(all));
-    corridor::section(&mut section, request, recordings)?;
-    Ok(section)
+    confusion(page, &NAMES, &paper, all);
+    figures(page, &more, &single, &borders)?;
+    let why = why::section(page, request, &sweeps, &borders)?;
+    claims(page, &more, &why);
+    page.score("IMP and network 33–33–8", "eight sandpapers", hit(all));
+    corridor::section(page, request, recordings)?;
+    Ok(())
 }
 
 fn figures(
-    section: &mut Section,
+    page: &mut Page,
     more: &[Confusion],
     single: &[Confusion],
     borders: &[usize],
@@ -95,24 +98,20 @@ fn figures(
         VIBRISSAE as f64 + 1.0,
     );
     let panels = [panel("Fig. 6", x, percent("%"), &[curve], Mark::Dot)];
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Fig. 6**: with more and more arcs, the longest first. In the paper {:.0} to {:.0} % \
          from three arcs (15 vibrissae) on.",
         FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1
     ));
     let what = "Performance over the number of vibrissae";
-    section
-        .page
-        .picture_in(FOLDER, "psik-fig6.svg", what, draw(&panels)?);
+    page.panels("psik-fig6.svg", what, &panels)?;
     let header: Vec<String> = (1..=ARCS.len()).map(|n| n.to_string()).collect();
     let row = more.iter().map(|score| format!("**{:.1}**", hit(score)));
     let mut cells = vec!["hit rate, %".to_owned()];
     cells.extend(row);
-    section
-        .page
-        .table(&format!("arcs | {}", header.join(" | ")), [cells]);
+    page.table(&format!("arcs | {}", header.join(" | ")), [cells]);
 
-    section.page.say(
+    page.say(
         "**Fig. 7**: each of the five longer arcs alone, percent of each paper. Here as there \
          arcs differ in which papers they tell.",
     );
@@ -130,14 +129,14 @@ fn figures(
         })
         .collect();
     let header = format!("arc | {} | mean", NAMES.join(" | "));
-    section.page.table(&header, rows);
+    page.table(&header, rows);
     Ok(())
 }
 
-fn claims(section: &mut Section, more: &[Confusion], why: &str) {
+fn claims(page: &mut Page, more: &[Confusion], why: &str) {
     let rates: Vec<f64> = more.iter().map(hit).collect();
     let at = |arcs: usize| rates.get(arcs - 1).copied().unwrap_or(0.0);
-    section.claim(
+    page.claim(
         "PSIK: more arcs help",
         "quickly rising with the number of vibrissae",
         format_args!(
@@ -150,7 +149,7 @@ fn claims(section: &mut Section, more: &[Confusion], why: &str) {
         at(2) > at(1) && at(3) > at(2) && at(8) > at(1),
         why,
     );
-    section.claim(
+    page.claim(
         "PSIK: 90 % or more from three arcs on",
         format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
         format_args!(

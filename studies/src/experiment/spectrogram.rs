@@ -2,6 +2,7 @@
 
 use plotters::prelude::*;
 
+use crate::chart::{Area, Fault, svg};
 use host_sim::Error;
 
 /// What is drawn white, below the most, dB.
@@ -19,8 +20,6 @@ pub(super) struct Spectrogram {
     pub(super) power: Vec<Vec<f64>>,
 }
 
-type Fault = Box<dyn std::error::Error>;
-
 /// Pixels of a panel, and of its diagram.
 const PANEL: (u32, u32) = (330, 270);
 const CORNER: (i32, i32) = (46, 30);
@@ -33,25 +32,17 @@ fn shade(power: f64, most: f64) -> u8 {
 }
 
 /// Spectrograms in so many columns, shaded alike.
-///
-/// # Errors
-/// [`Error::Work`] if the drawing library fails.
 pub(super) fn draw(all: &[Spectrogram], columns: usize) -> Result<String, Error> {
-    let mut svg = String::new();
-    match draw_on(&mut svg, all, columns.max(1)) {
-        Ok(()) => Ok(svg),
-        Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
-    }
-}
-
-fn draw_on(svg: &mut String, all: &[Spectrogram], columns: usize) -> Result<(), Fault> {
+    let columns = columns.max(1);
     let rows = all.len().div_ceil(columns).max(1);
     let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
-    let root = SVGBackend::with_string(svg, size).into_drawing_area();
-    root.fill(&WHITE)?;
+    svg(size, |root| draw_on(root, all, (rows, columns)))
+}
+
+fn draw_on(root: &Area<'_>, all: &[Spectrogram], grid: (usize, usize)) -> Result<(), Fault> {
     let powers = all.iter().flat_map(|one| one.power.iter().flatten());
     let most = powers.copied().fold(f64::MIN_POSITIVE, f64::max);
-    for (one, area) in all.iter().zip(root.split_evenly((rows, columns))) {
+    for (one, area) in all.iter().zip(root.split_evenly(grid)) {
         let text =
             |text: String, at: (i32, i32)| area.draw(&Text::new(text, at, ("sans-serif", 13)));
         text(one.title.clone(), (10, 8))?;
@@ -77,7 +68,6 @@ fn draw_on(svg: &mut String, all: &[Spectrogram], columns: usize) -> Result<(), 
         text("0".to_owned(), (left - 14, bottom - 14))?;
         text(format!("{:.1} s", one.time_s), (right - 30, bottom + 6))?;
     }
-    root.present()?;
     Ok(())
 }
 

@@ -4,14 +4,14 @@
 use classifiers::spectrum::{Bins, Measure, Spectrum};
 
 use super::movement::column;
-use crate::accuracy::chart::{Mark, draw};
+use crate::chart::{Mark, linear};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::page::Section;
-use crate::experiment::picture::{Curve, FOLDER, linear, panel};
+use crate::experiment::picture::{Curve, panel};
 use crate::experiment::record::head::number;
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
+use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use host_sim::Error;
@@ -36,7 +36,7 @@ fn whisk(all: &[&Recording], ticks: usize, strategy: usize, texture: usize) -> O
 }
 
 pub(super) fn section(
-    section: &mut Section,
+    page: &mut Page,
     request: &Request,
     recordings: &Recordings,
 ) -> Result<(), Error> {
@@ -68,16 +68,13 @@ pub(super) fn section(
         let y = linear("sensor codes", low, high);
         panels.push(panel(TEXTURES[texture].0, x, y, &curves, Mark::Nothing));
     }
-    section.page.say(
+    page.say(
         "**Fig. 12**, time histories: x of the left 80 mm whisker over one whisk at 10 mm. RCP \
          cuts the deflection short; textures differ less than strategies, as in the paper.",
     );
     let what = "One whisk with and without RCP";
-    let svg = draw(&panels)?;
-    section
-        .page
-        .picture_in(FOLDER, "biotact-fig12.svg", what, svg);
-    section.page.say(format_args!(
+    page.panels("biotact-fig12.svg", what, &panels)?;
+    page.say(format_args!(
         "**Fig. 12**, spectrograms of the same whisks, 0 to {HIGHEST_HZ:.0} Hz over the whisk: power \
          under a Gaussian window of {:.0} ms, black the most of all, white {:.0} dB less (the paper \
          reassigns it to where it comes from, which sharpens lines and moves none).",
@@ -86,9 +83,7 @@ pub(super) fn section(
     ));
     let svg = spectrogram::draw(&spectrograms, STRATEGIES.len())?;
     let what = "Spectrograms of one whisk with and without RCP";
-    section
-        .page
-        .picture_in(FOLDER, "biotact-fig12-spectrograms.svg", what, svg);
+    page.picture("biotact-fig12-spectrograms.svg", what, svg);
     Ok(())
 }
 

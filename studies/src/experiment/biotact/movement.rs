@@ -2,10 +2,10 @@
 //! touches, and what RCP leaves of the deflection (BIOTACT Fig. 8).
 
 use crate::experiment::dataset::Dataset;
-use crate::experiment::page::Section;
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
+use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::peaks::peaks;
 use crate::rigs::CHANNELS;
@@ -92,12 +92,7 @@ fn spread(visit: &Recording, ticks: usize, whisks: usize) -> f64 {
     (sum / ticks.max(1) as f64).sqrt()
 }
 
-pub(super) fn section(
-    section: &mut Section,
-    request: &Request,
-    recordings: &Recordings,
-    why: &str,
-) {
+pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings, why: &str) {
     let all = recordings.of(Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let smooth = TEXTURES.len() - 1;
@@ -136,18 +131,18 @@ pub(super) fn section(
             add(name, format!("at {EARLY_DEG:.0} degrees"), found);
         }
     }
-    section.page.say(
+    page.say(
         "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \
          whisk, share of time in contact, largest |x| in sensor codes, spread of x between whisks, share of whisks with two \
          peaks of θ' with a dip of half a degree or more between them, contacts a whisk). Strong and fast is σ_z = 2 and \
          τ_z = T_W/10 (Fig. 8); at 100 degrees is where the front whisker meets the \
          obstacle of that figure.",
     );
-    section.page.table(
+    page.table(
         "whisking | surface | peak, degrees | contact, % | deflection, codes | spread, codes | biphasic, % | contacts",
         rows,
     );
-    section.claim(
+    page.claim(
         "BIOTACT: whisking turns biphasic only at strong and fast gains",
         "two contacts a whisk at σ_z = 2, τ_z = T_W/10; none at 0.9, T_W/4",
         format_args!(

@@ -4,10 +4,10 @@
 //! The runs are those of the report on misprints: forward Euler, 2 kHz, no
 //! noise.
 
-use crate::accuracy::chart::{Mark, draw};
 use crate::accuracy::misprints::figures::{FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
-use crate::experiment::page::Section;
-use crate::experiment::picture::{Curve, FOLDER, linear, panel};
+use crate::chart::{Mark, linear};
+use crate::experiment::picture::{Curve, panel};
+use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
 use host_sim::Error;
 
@@ -48,13 +48,13 @@ fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
     Curve::new(name, points.collect())
 }
 
-pub(super) fn section(section: &mut Section) -> Result<(), Error> {
-    gains(section)?;
-    obstacles(section)
+pub(super) fn section(page: &mut Page) -> Result<(), Error> {
+    gains(page)?;
+    obstacles(page)
 }
 
 /// Fig. 6.
-fn gains(section: &mut Section) -> Result<(), Error> {
+fn gains(page: &mut Page) -> Result<(), Error> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
         let rows = tail(&Figure { gain, ..FIG6 })?;
@@ -63,7 +63,7 @@ fn gains(section: &mut Section) -> Result<(), Error> {
         highest.push(high);
         curves.push(curve(&format!("g = {gain}"), &rows, LEFT));
     }
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Fig. 6**: free whisking with four gains. θ' goes from {} degrees.",
         said.join(", ")
     ));
@@ -72,11 +72,9 @@ fn gains(section: &mut Section) -> Result<(), Error> {
     let y = linear("θ', degrees", 50.0, 160.0);
     let panels = [panel("Fig. 6", x, y, &curves, Mark::Nothing)];
     let what = "Free whisking with four gains";
-    section
-        .page
-        .picture_in(FOLDER, "biotact-fig6.svg", what, draw(&panels)?);
+    page.panels("biotact-fig6.svg", what, &panels)?;
     let most = (highest.last().copied().unwrap_or(0.0) - 50.0) / 100.0;
-    section.claim(
+    page.claim(
         "BIOTACT Fig. 6: a higher gain gives a higher θ', and at g = 2 θ approaches unity but does not exceed it",
         "so",
         format_args!("largest θ = {most:.4} at g = 2"),
@@ -87,7 +85,7 @@ fn gains(section: &mut Section) -> Result<(), Error> {
 }
 
 /// Figs. 7 to 9.
-fn obstacles(section: &mut Section) -> Result<(), Error> {
+fn obstacles(page: &mut Page) -> Result<(), Error> {
     let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;
     let mut panels = Vec::new();
@@ -113,17 +111,15 @@ fn obstacles(section: &mut Section) -> Result<(), Error> {
         panels.push(panel(title, x, y, &curves, Mark::Nothing));
         runs.push(rows);
     }
-    section.page.say(
+    page.say(
         "**Figs. 7 to 9**: the generator before obstacles at 100 degrees on the left and 125 on \
          the right (eq. 11, σ_x = 0.1).",
     );
     let what = "RCP and CIA before obstacles";
-    section
-        .page
-        .picture_in(FOLDER, "biotact-fig7-9.svg", what, draw(&panels)?);
+    page.panels("biotact-fig7-9.svg", what, &panels)?;
     let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| range(rows, side).1);
     let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side));
-    section.claim(
+    page.claim(
         "BIOTACT Fig. 7: RCP holds the left back; the right does not reach its obstacle",
         "left suppressed, right below 125 degrees",
         format_args!(
@@ -134,7 +130,7 @@ fn obstacles(section: &mut Section) -> Result<(), Error> {
         highest(0, LEFT) < highest(0, RIGHT) - 5.0 && highest(0, RIGHT) < OBSTACLES_DEG[RIGHT],
         "",
     );
-    section.claim(
+    page.claim(
         "BIOTACT Fig. 8: strong and fast RCP makes two distinct contacts a whisk",
         "2",
         format_args!(
@@ -145,7 +141,7 @@ fn obstacles(section: &mut Section) -> Result<(), Error> {
         touches(1, LEFT) > 1.5 && touches(0, LEFT) < 1.5,
         "",
     );
-    section.claim(
+    page.claim(
         "BIOTACT Fig. 9: with CIA the right finds its obstacle",
         "beyond 125 degrees, 1 contact a whisk",
         format_args!(

@@ -4,11 +4,11 @@
 use super::movement::movement;
 use super::whisks::{Task, Visits};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::page::Section;
 use crate::experiment::record::head::{early, number};
 use crate::experiment::record::on_other_rigs;
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::{Name, Request};
+use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::rigs::WhiskingHead;
 use host_sim::Error;
@@ -96,7 +96,7 @@ impl Found {
 
 /// Says it on the page.
 pub(super) fn section(
-    section: &mut Section,
+    page: &mut Page,
     request: &Request,
     recordings: &Recordings,
     most: usize,
@@ -105,7 +105,7 @@ pub(super) fn section(
     let narrow = Found::of(request, recordings, most, NARROW)?;
     let exact = Found::other(request, most, |head| head.motor.follows = false)?;
     let wider = Found::other(request, most, |head| head.full_scale_rad *= WIDER)?;
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**What the paper leaves open.** Hit rates of naive Bayes on texture and distance in \
          percent, unmodulated, RCP7, RCP9, one choice of training whisks; spread of x between \
          whisks at 10 mm in codes, likewise; share of biphasic whisks and contacts a whisk with \
@@ -114,7 +114,7 @@ pub(super) fn section(
          degree of overlap reads 0.1, as in eq. 11. A smoothing of {NARROW:.1} bins takes the \
          paper's width of 5 intervals as that at half maximum."
     ));
-    section.page.table(
+    page.table(
         &format!("rig | 1 training whisk | {most} | spread | biphasic, % | contacts"),
         [
             plain.cells("as it is"),

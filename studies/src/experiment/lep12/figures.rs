@@ -6,10 +6,10 @@ use classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use tactile::Threshold;
 
 use super::groups::{BLOCK, Curves, Group, Point};
-use crate::accuracy::chart::{Axis, Mark, Panel};
+use crate::chart::{Axis, Mark, Panel, linear};
 use crate::experiment::floors::CHANNELS;
-use crate::experiment::page::Section;
-use crate::experiment::picture::{Curve, linear, panel, percent, place, top};
+use crate::experiment::picture::{Curve, panel, percent, top};
+use crate::page::Page;
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS};
 use crate::refused::refused;
@@ -19,25 +19,25 @@ use host_sim::Error;
 const VOLTS: f64 = 5.0 / 16_384.0;
 
 pub(super) fn all(
-    section: &mut Section,
+    page: &mut Page,
     groups: &[Group],
     curves: &[Curves],
     rate_hz: f64,
 ) -> Result<(), Error> {
-    distributions(section, groups)?;
-    hit_rates(section, groups, curves)?;
+    distributions(page, groups)?;
+    hit_rates(page, groups, curves)?;
     if let Some(rotating) = groups.get(2) {
-        example(section, rotating, rate_hz)?;
-        decision_times(section, rotating, rate_hz)?;
+        example(page, rotating, rate_hz)?;
+        decision_times(page, rotating, rate_hz)?;
     }
     if let Some(anticlockwise) = groups.first() {
-        spectra::figure_9(section, anticlockwise, rate_hz)?;
+        spectra::figure_9(page, anticlockwise, rate_hz)?;
     }
     Ok(())
 }
 
 /// Fig. 4: how often each voltage occurs, per floor, channel and motion.
-fn distributions(section: &mut Section, groups: &[Group]) -> Result<(), Error> {
+fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
     let mut panels = Vec::new();
     for group in groups {
         let model = group.model.view();
@@ -69,14 +69,12 @@ fn distributions(section: &mut Section, groups: &[Group]) -> Result<(), Error> {
             panels.push(panel(&title, x, y, &curves, Mark::Nothing));
         }
     }
-    section
-        .page
-        .say("**Fig. 4**: how often each voltage occurs (bins of 10 mV, smoothed).");
-    place(section, "lep12-fig4.svg", "Sampling distributions", &panels)
+    page.say("**Fig. 4**: how often each voltage occurs (bins of 10 mV, smoothed).");
+    page.panels("lep12-fig4.svg", "Sampling distributions", &panels)
 }
 
 /// Figs. 5 and 6: hit rates against time and threshold.
-fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Result<(), Error> {
+fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<(), Error> {
     let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Curve> {
         let mut curves: Vec<Curve> = (0..FLOORS.len())
             .map(|k| {
@@ -109,16 +107,13 @@ fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Resu
         let x = time(&both.sequential);
         sequential.push(panel(&title, x, percent("%"), &by_time, Mark::Dot));
     }
-    section
-        .page
-        .say("**Fig. 5**: maximum likelihood, hit rate against the window.");
-    place(section, "lep12-fig5.svg", "Hit rate against window", &fixed)?;
-    section.page.say(
+    page.say("**Fig. 5**: maximum likelihood, hit rate against the window.");
+    page.panels("lep12-fig5.svg", "Hit rate against window", &fixed)?;
+    page.say(
         "**Fig. 6**: sequential Bayes, hit rate against the threshold (left, as what is missing \
          to one) and against the mean decision time at that threshold (right).",
     );
-    place(
-        section,
+    page.panels(
         "lep12-fig6.svg",
         "Hit rate against threshold and time",
         &sequential,
@@ -126,7 +121,7 @@ fn hit_rates(section: &mut Section, groups: &[Group], curves: &[Curves]) -> Resu
 }
 
 /// Fig. 7: posteriors of one stretch of rough carpet.
-fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
     let model = group.model.view();
     let never = Threshold::new(1.0 - 1e-12).map_err(refused)?;
     let Some(stream) = group.validation.first() else {
@@ -161,7 +156,7 @@ fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Err
             format!("{threshold}: {:.0} ms / **{ours}**", 1000.0 * paper)
         })
         .collect();
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Fig. 7**: posteriors at the beginning of a stretch of rough carpet. Thresholds passed \
          at (paper / ours): {}.",
         said.join("; ")
@@ -169,11 +164,11 @@ fn example(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Err
     let x = linear("s", 0.0, 400.0 / rate_hz);
     let y = linear("posterior", 0.0, 1.0);
     let panels = [panel("posterior probabilities", x, y, &curves, Mark::Dot)];
-    place(section, "lep12-fig7.svg", "Posteriors", &panels)
+    page.panels("lep12-fig7.svg", "Posteriors", &panels)
 }
 
 /// Fig. 8: how decision times spread, per floor.
-fn decision_times(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
     /// Width of a bar, s, and how many there are.
     const BAR_S: f64 = 0.02;
     const BARS: usize = 40;
@@ -216,13 +211,11 @@ fn decision_times(section: &mut Section, group: &Group, rate_hz: f64) -> Result<
             panel(FLOORS[*floor], x, y, curves, Mark::Nothing)
         })
         .collect();
-    section.page.say(
+    page.say(
         "**Fig. 8**: decision times, rotating motion (the last bar holds all longer ones); mean \
          times in ms below.",
     );
-    place(section, "lep12-fig8.svg", "Decision times", &panels)?;
-    section
-        .page
-        .table(&format!("threshold | {}", FLOORS.join(" | ")), means);
+    page.panels("lep12-fig8.svg", "Decision times", &panels)?;
+    page.table(&format!("threshold | {}", FLOORS.join(" | ")), means);
     Ok(())
 }

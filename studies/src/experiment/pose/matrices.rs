@@ -3,14 +3,13 @@
 
 use super::scores::Scores;
 use crate::experiment::matrix::{Matrix, draw};
-use crate::experiment::page::Section;
-use crate::experiment::picture::FOLDER;
 use crate::experiment::record::table::speeds;
+use crate::page::Page;
 use crate::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};
 use host_sim::Error;
 
 /// The picture; classifiers one below the other.
-pub(super) fn section(section: &mut Section, rows: &[&Scores; 3]) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, rows: &[&Scores; 3]) -> Result<(), Error> {
     let numbers = |values: &[f64]| values.iter().map(|value| format!("{value:.0}")).collect();
     let classes: [(&str, Vec<String>); 3] = [
         ("angle, degrees", numbers(&ANGLES_DEG)),
@@ -27,14 +26,12 @@ pub(super) fn section(section: &mut Section, rows: &[&Scores; 3]) -> Result<(), 
             });
         }
     }
-    section.page.say(
+    page.say(
         "**Confusion**: a row is the true class, a column the one that was named; the darker, \
          the larger its share of the row.",
     );
     let svg = draw(&matrices, classes.len())?;
     let what = "Confusion matrices of three classifiers";
-    section
-        .page
-        .picture_in(FOLDER, "pose-confusion.svg", what, svg);
+    page.picture("pose-confusion.svg", what, svg);
     Ok(())
 }

@@ -3,11 +3,11 @@
 use tactile::score::{Confusion, Statistics};
 
 use super::scores::Scores;
-use crate::experiment::page::Section;
+use crate::page::Page;
 use crate::paper::pose::{Figure, ROWS, TEXTURE_FEATURES, TEXTURES};
 
 /// κ and errors of the three classifiers.
-pub(super) fn main(section: &mut Section, rows: &[&Scores; 3]) {
+pub(super) fn main(page: &mut Page, rows: &[&Scores; 3]) {
     let errors = |figure: Figure, ours: Option<Statistics>| {
         let ours = ours.map_or("none".to_owned(), |s| {
             format!("**{:.2} ± {:.1}**", s.mean, s.sd)
@@ -25,18 +25,18 @@ pub(super) fn main(section: &mut Section, rows: &[&Scores; 3]) {
         cells
     });
     let lines: Vec<_> = lines.collect();
-    section.page.say(
+    page.say(
         "**κ and errors** (sections III-A to III-C, Table I, Figs. 7 and 8): paper / **ours**; \
          errors are mean ± spread in degrees, mm/s and classes.",
     );
-    section.page.table(
+    page.table(
         "classifier | angle κ | angle error | speed κ | speed error | texture κ | texture error",
         lines,
     );
 }
 
 /// Texture by each feature.
-pub(super) fn features(section: &mut Section, found: &[Confusion]) {
+pub(super) fn features(page: &mut Page, found: &[Confusion]) {
     let classes: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
     let lines = TEXTURE_FEATURES.iter().zip(found).map(|(feature, score)| {
         let errors = score.errors(&classes);
@@ -58,10 +58,8 @@ pub(super) fn features(section: &mut Section, found: &[Confusion]) {
         ]
     });
     let lines: Vec<_> = lines.collect();
-    section
-        .page
-        .say("**Texture by features** (section III-C and Table I).");
-    section.page.table(
+    page.say("**Texture by features** (section III-C and Table I).");
+    page.table(
         "feature | κ in the paper, together | κ in the paper, alone | κ here | error, classes",
         lines,
     );

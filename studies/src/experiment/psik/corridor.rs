@@ -5,10 +5,10 @@ use tactile::score::Confusion;
 
 use super::sweeps::{PENALTIES, Row, train};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::page::{Section, confusion};
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
 use crate::experiment::recording::{Recording, Recordings};
 use crate::experiment::request::Request;
+use crate::page::{Page, confusion};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::refused::refused;
 use crate::rigs::seed_of;
@@ -22,7 +22,7 @@ fn steps(run: &Recording) -> Vec<Vec<f64>> {
 }
 
 pub(super) fn section(
-    section: &mut Section,
+    page: &mut Page,
     request: &Request,
     recordings: &Recordings,
 ) -> Result<(), Error> {
@@ -73,7 +73,7 @@ pub(super) fn section(
         .map(|(n, row)| row[n])
         .sum::<f64>()
         / 4.0;
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Corridors** (`studies/rigs/corridor.toml`): the robot keeps to the middle by D = (1/N) Σ (1 − \
          V_i) L_i of either side and V_y = (D_left − D_right) · 0.01. {taught} runs of each \
          corridor and direction to train on, {tested} to test with (**{:.0} %** of single \
@@ -83,20 +83,20 @@ pub(super) fn section(
         1000.0 * (squares / count.max(1.0)).sqrt(),
         1000.0 * off,
     ));
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Table 3**: a row is the true corridor and direction, a column what was decided. Mean \
          {paper:.0} % in the paper, **{hit:.0} %** here."
     ));
     let printed = |truth: usize, named: usize| TABLE_3[truth][named];
-    confusion(&mut section.page, &CORRIDORS, &printed, &by_run);
-    section.claim(
+    confusion(page, &CORRIDORS, &printed, &by_run);
+    page.claim(
         "PSIK: the robot tells two corridors and their directions apart on its way, steering by touch",
         format_args!("{paper:.0} %"),
         format_args!("{hit:.0} %"),
         hit >= 75.0,
         "",
     );
-    section.score(
+    page.score(
         "IMP and network 66–66–4, votes",
         "two corridors, both ways",
         hit,

@@ -4,10 +4,10 @@
 
 use super::sweeps::{NAMES, Row, Sweeps, hit};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::page::Section;
 use crate::experiment::record::pad::PAPERS;
 use crate::experiment::record::{jobs, record};
 use crate::experiment::request::{Extent, Name, Request};
+use crate::page::Page;
 use crate::paper::psik::ARCS;
 use crate::rigs::{Pad, seed_of};
 use host_sim::Error;
@@ -90,7 +90,7 @@ fn swept(request: &Request, change: fn(&mut Pad)) -> Result<Sweeps, Error> {
 
 /// Says it on the page; the reason for claims that are not met.
 pub(super) fn section(
-    section: &mut Section,
+    page: &mut Page,
     request: &Request,
     sweeps: &Sweeps,
     borders: &[usize],
@@ -114,15 +114,13 @@ pub(super) fn section(
         table.push(cells);
         steps.push(mean);
     }
-    section.page.say(
+    page.say(
         "**How far neighbouring papers are apart**: the step of the IMP from one paper to the \
          next over its scatter from sweep to sweep, one vibrissa, mean over the arc.",
     );
     let pairs = NAMES.windows(2).map(|pair| pair.join("–"));
     let pairs: Vec<String> = pairs.collect();
-    section
-        .page
-        .table(&format!("arc | {} | mean", pairs.join(" | ")), table);
+    page.table(&format!("arc | {} | mean", pairs.join(" | ")), table);
     let most = steps.iter().copied().fold(0.0, f64::max);
     let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
     let apart = format!(
@@ -130,7 +128,7 @@ pub(super) fn section(
          to sweep apart, by its arc"
     );
     if request.extent == Extent::Quick {
-        section.page.say(
+        page.say(
             "What the choices do that the paper leaves open is measured by the full run alone.",
         );
         let (training, _) = request.extent.sweeps();
@@ -145,7 +143,7 @@ pub(super) fn section(
         rows.push((what, found));
     }
     let (training, testing) = Extent::Reduced.sweeps();
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**What the paper leaves open** decides. Hit rates in percent with {training} sweeps of \
          each paper to train on and {testing} to test with (standard error 4 to 6 points), one \
          thing changed at a time. A first run had that sweep, that lean, that distance and a taper \
@@ -160,9 +158,7 @@ pub(super) fn section(
             format!("**{all:.0}**"),
         ]
     };
-    section
-        .page
-        .table("rig | three arcs | all", rows.iter().map(cells));
+    page.table("rig | three arcs | all", rows.iter().map(cells));
     let coarse = rows.last().map_or([0.0; 2], |row| row.1);
     Ok(format!(
         "{apart}. With {training} sweeps of each to train on three arcs tell {three:.0} % and all \

@@ -2,18 +2,18 @@
 
 use classifiers::spectrum::{Bins, Measure, Spectrum};
 
-use crate::accuracy::chart::Mark;
+use crate::chart::{Mark, linear};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::lep12::groups::Group;
-use crate::experiment::page::Section;
-use crate::experiment::picture::{Curve, linear, panel, place, top};
+use crate::experiment::picture::{Curve, panel, top};
+use crate::page::Page;
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
 use crate::refused::refused;
 use host_sim::Error;
 
 /// Fig. 9: mean power spectra of anticlockwise motion.
-pub(super) fn figure_9(section: &mut Section, group: &Group, rate_hz: f64) -> Result<(), Error> {
+pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
     let bins = Bins::between(block as u32, rate_hz, 0.0, 120.0).map_err(refused)?;
     let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
@@ -58,7 +58,7 @@ pub(super) fn figure_9(section: &mut Section, group: &Group, rate_hz: f64) -> Re
         let y = linear("power / mean total", 0.0, top(&curves));
         panels.push(panel(axis, x, y, &curves, Mark::Nothing));
     }
-    section.page.say(format_args!(
+    page.say(format_args!(
         "**Fig. 9**: mean power spectra over 400 ms, anticlockwise motion. The paper's peak at \
          {:.0} to {:.0} Hz; ours above 20 Hz, floor by floor: x {}, y {} Hz.",
         FIG9_PEAK_HZ.0,
@@ -66,10 +66,10 @@ pub(super) fn figure_9(section: &mut Section, group: &Group, rate_hz: f64) -> Re
         hertz(peaks.get(..4)),
         hertz(peaks.get(4..)),
     ));
-    place(section, "lep12-fig9.svg", "Power spectra", &panels)?;
+    page.panels("lep12-fig9.svg", "Power spectra", &panels)?;
     let normal = peaks.get(4..).unwrap_or(&[]);
     let in_range = normal.iter().all(|hz| (27.5..=42.5).contains(hz));
-    section.claim(
+    page.claim(
         "LEP12 Fig. 9: the power of the whisker's vibration peaks at 30 to 40 Hz (y, normal to the floor; within a bin)",
         "30 to 40 Hz",
         format_args!(

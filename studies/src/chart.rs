@@ -8,8 +8,8 @@ use plotters::prelude::*;
 
 use host_sim::Error;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Fault = Box<dyn std::error::Error>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Fault = Box<dyn std::error::Error>;
 
 /// An axis: its name and what it covers.
 #[derive(Debug, Clone)]
@@ -94,6 +94,16 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
+/// A linear axis.
+pub(crate) fn linear(name: &'static str, low: f64, high: f64) -> Axis {
+    Axis {
+        name,
+        low,
+        high: if high > low { high } else { low + 1.0 },
+        log: false,
+    }
+}
+
 /// How a point is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mark {
@@ -159,30 +169,43 @@ const PANEL_HEIGHT: u32 = 330;
 const LEGEND_ROW: i32 = 22;
 const LEGEND_COLUMNS: usize = 3;
 
-/// The panels, two beside each other, over one legend (that of the first).
+/// What `draw` puts on a white picture of so many pixels.
 ///
 /// # Errors
 /// [`Error::Work`] if the drawing library fails.
-pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
+pub(crate) fn svg(
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Result<(), Fault>,
+) -> Result<String, Error> {
     let mut svg = String::new();
-    match draw_on(&mut svg, panels) {
+    let all = |root: Area<'_>| -> Result<(), Fault> {
+        root.fill(&WHITE)?;
+        draw(&root)?;
+        Ok(root.present()?)
+    };
+    match all(SVGBackend::with_string(&mut svg, size).into_drawing_area()) {
         Ok(()) => Ok(svg),
         Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
     }
 }
 
-fn draw_on(svg: &mut String, panels: &[Panel]) -> Result<(), Fault> {
+/// The panels, two beside each other, over one legend (that of the first).
+pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
     let columns = panels.len().clamp(1, 2);
     let rows = panels.len().div_ceil(columns).max(1);
     let legend: &[Series] = panels.first().map_or(&[], |panel| &panel.series);
     let legend_height = LEGEND_ROW as u32 * (legend.len().div_ceil(LEGEND_COLUMNS) as u32) + 12;
     let height = PANEL_HEIGHT * rows as u32;
-    let root = SVGBackend::with_string(svg, (WIDTH, height + legend_height)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (diagrams, below) = root.split_vertically(height);
-    for (panel, area) in panels.iter().zip(diagrams.split_evenly((rows, columns))) {
-        draw_panel(panel, &area)?;
-    }
+    svg((WIDTH, height + legend_height), |root| {
+        let (diagrams, below) = root.split_vertically(height);
+        for (panel, area) in panels.iter().zip(diagrams.split_evenly((rows, columns))) {
+            draw_panel(panel, &area)?;
+        }
+        draw_legend(legend, &below)
+    })
+}
+
+fn draw_legend(legend: &[Series], below: &Area<'_>) -> Result<(), Fault> {
     for (n, series) in legend.iter().enumerate() {
         let x = 40 + (n % LEGEND_COLUMNS) as i32 * (WIDTH as i32 / LEGEND_COLUMNS as i32);
         let y = 12 + (n / LEGEND_COLUMNS) as i32 * LEGEND_ROW;
@@ -196,7 +219,6 @@ fn draw_on(svg: &mut String, panels: &[Panel]) -> Result<(), Fault> {
         let font = ("sans-serif", 14).into_font();
         below.draw(&Text::new(series.name.clone(), (x + 36, y - 7), font))?;
     }
-    root.present()?;
     Ok(())
 }
 

@@ -1,0 +1,175 @@
+//! A page in the making: text, tables, the pictures beside it, and what an
+//! experiment claims.
+
+use std::fmt::{Display, Write};
+
+use host_sim::Error;
+use tactile::score::Confusion;
+
+use crate::chart::{Panel, draw};
+
+/// Something that must come out, and whether it does.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Claim {
+    /// What must come out.
+    pub(crate) what: String,
+    /// What the paper has.
+    pub(crate) paper: String,
+    /// What we have.
+    pub(crate) ours: String,
+    /// Whether it came out.
+    pub(crate) met: bool,
+    /// Where it did not: why, as measured.
+    pub(crate) why: String,
+}
+
+/// A classifier's hit rate.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Score {
+    /// The classifier.
+    pub(crate) classifier: &'static str,
+    /// On what.
+    pub(crate) task: String,
+    /// Hit rate, percent.
+    pub(crate) hit: f64,
+}
+
+/// Markdown and the files that it shows, by name.
+#[derive(Debug, Default)]
+pub(crate) struct Page {
+    /// Where pictures are, beside the page.
+    pub(crate) folder: &'static str,
+    pub(crate) text: String,
+    pub(crate) files: Vec<(String, String)>,
+    pub(crate) claims: Vec<Claim>,
+    pub(crate) scores: Vec<Score>,
+}
+
+impl Page {
+    /// A page, or a section of one, whose pictures are in a folder beside it.
+    pub(crate) fn new(folder: &'static str) -> Self {
+        Self {
+            folder,
+            ..Self::default()
+        }
+    }
+
+    /// A paragraph.
+    pub(crate) fn say(&mut self, paragraph: impl Display) {
+        // Writing to a string does not fail.
+        let _ = write!(self.text, "{paragraph}\n\n");
+    }
+
+    /// A heading of its level.
+    pub(crate) fn heading(&mut self, level: usize, heading: &str) {
+        self.say(format_args!("{} {heading}", "#".repeat(level)));
+    }
+
+    /// A table; `header` cells are divided by `|`.
+    pub(crate) fn table(&mut self, header: &str, rows: impl IntoIterator<Item = Vec<String>>) {
+        let columns = header.split('|').count();
+        let _ = writeln!(self.text, "| {} |", header.trim());
+        let _ = writeln!(self.text, "|{}", "---|".repeat(columns));
+        for row in rows {
+            let _ = writeln!(self.text, "| {} |", row.join(" | "));
+        }
+        self.text.push('\n');
+    }
+
+    /// A picture in the folder.
+    pub(crate) fn picture(&mut self, name: &str, what: &str, svg: String) {
+        let path = format!("{}/{name}", self.folder);
+        self.say(format_args!("![{what}]({path})"));
+        self.files.push((path, svg));
+    }
+
+    /// Diagrams as a picture.
+    pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
+        self.picture(name, what, draw(panels)?);
+        Ok(())
+    }
+
+    /// Adds a claim.
+    pub(crate) fn claim(
+        &mut self,
+        what: impl Display,
+        paper: impl Display,
+        ours: impl Display,
+        met: bool,
+        why: impl Display,
+    ) {
+        self.claims.push(Claim {
+            what: what.to_string(),
+            paper: paper.to_string(),
+            ours: ours.to_string(),
+            met,
+            why: why.to_string(),
+        });
+    }
+
+    /// Adds a classifier's score.
+    pub(crate) fn score(&mut self, classifier: &'static str, task: impl Display, hit: f64) {
+        self.scores.push(Score {
+            classifier,
+            task: task.to_string(),
+            hit,
+        });
+    }
+}
+
+/// Two digits and an exponent.
+pub(crate) fn short(value: f64) -> String {
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (0.1..1000.0).contains(&value.abs()) {
+        format!("{value:.2}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+/// A cell for a goal.
+pub(crate) fn verdict(met: bool) -> &'static str {
+    if met { "met" } else { "**missed**" }
+}
+
+/// Percent without a digit behind the point, the paper's beside ours.
+pub(crate) fn beside(paper: f64, ours: f64) -> String {
+    format!("{paper:.0} / **{ours:.0}**")
+}
+
+/// Percent of the trials of a true class in which `named` was named.
+pub(crate) fn percent_of(score: &Confusion, truth: usize, named: usize) -> f64 {
+    let sum: u64 = (0..score.classes()).map(|k| score.count(truth, k)).sum();
+    100.0 * score.count(truth, named) as f64 / sum.max(1) as f64
+}
+
+/// A confusion matrix in percent: a row is the true class, a column what was
+/// decided; the paper's `[true][decided]` beside ours.
+pub(crate) fn confusion(
+    page: &mut Page,
+    names: &[&str],
+    paper: &dyn Fn(usize, usize) -> f64,
+    ours: &Confusion,
+) {
+    let rows = names.iter().enumerate().map(|(truth, name)| {
+        let cell = |named| beside(paper(truth, named), percent_of(ours, truth, named));
+        std::iter::once((*name).to_owned())
+            .chain((0..names.len()).map(cell))
+            .collect()
+    });
+    let header = format!("true \\ decided | {}", names.join(" | "));
+    page.table(&header, rows);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Page, short};
+
+    #[test]
+    fn a_table_has_a_rule_of_its_width() {
+        let mut page = Page::default();
+        page.table("a | b", [vec!["1".to_owned(), short(2.5e-4)]]);
+        assert_eq!(page.text, "| a | b |\n|---|---|\n| 1 | 2.5e-4 |\n\n");
+    }
+}
