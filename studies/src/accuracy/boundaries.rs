@@ -25,10 +25,7 @@ const LIMIT: f64 = 1.5;
 fn config<R: Real>(integrator: Integrator, cycles: f64) -> Result<Config<R>, Error> {
     // The frequency is free: only f_W T enters. It keeps the tick rate in range.
     let frequency_hz = (cycles * 20_000.0).min(25.0);
-    let pace = Pace {
-        frequency_hz,
-        tick_hz: frequency_hz / cycles,
-    };
+    let pace = Pace::new(frequency_hz, frequency_hz / cycles);
     pace.settings(integrator).build().map_err(refused)
 }
 

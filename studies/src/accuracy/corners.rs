@@ -155,10 +155,7 @@ fn combinations() -> Vec<Settings> {
                     for integrator in [Integrator::Exact, Integrator::Euler] {
                         let tau_s = in_ticks / tick_hz + in_whisks / frequency_hz;
                         let gate = Some(GateSettings { gain, tau_s });
-                        let pace = Pace {
-                            frequency_hz,
-                            tick_hz,
-                        };
+                        let pace = Pace::new(frequency_hz, tick_hz);
                         list.push(Settings {
                             rcp: gate,
                             cia: gate,

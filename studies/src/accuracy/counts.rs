@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use serde::Deserialize;
 use whisking::Integrator;
 
 use super::schemes::Format;
@@ -35,8 +36,8 @@ impl Target {
     }
 }
 
-/// A row: kernel, format, target, mean.
-#[derive(Debug)]
+/// A row, by the names of the header.
+#[derive(Debug, Deserialize)]
 struct Row {
     kernel: String,
     format: String,
@@ -57,22 +58,7 @@ impl Counts {
 
     fn parse(text: &[u8]) -> Self {
         let mut reader = csv::Reader::from_reader(text);
-        let headers = reader.headers().cloned().unwrap_or_default();
-        let column = |name: &str| headers.iter().position(|header| header == name);
-        let columns = ["kernel", "format", "target", "mean"].map(column);
-        let [Some(kernel), Some(format), Some(target), Some(mean)] = columns else {
-            return Self::default();
-        };
-        let row = |cells: csv::StringRecord| {
-            let cell = |at: usize| cells.get(at).map(str::to_owned);
-            Some(Row {
-                kernel: cell(kernel)?,
-                format: cell(format)?,
-                target: cell(target)?,
-                mean: cells.get(mean)?.parse().ok()?,
-            })
-        };
-        Self(reader.records().flatten().filter_map(row).collect())
+        Self(reader.deserialize().flatten().collect())
     }
 
     /// Whether nothing was counted.

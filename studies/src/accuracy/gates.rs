@@ -88,10 +88,7 @@ impl Contact {
         tick_hz: f64,
         truth: &Truth,
     ) -> Result<f64, Error> {
-        let pace = Pace {
-            frequency_hz: FREQUENCY_HZ,
-            tick_hz,
-        };
+        let pace = Pace::new(FREQUENCY_HZ, tick_hz);
         let settings = Settings {
             rcp: Some(RCP),
             ..pace.settings(integrator)
@@ -119,10 +116,7 @@ impl Contact {
 /// 2 kHz.
 fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
     fn of<R: Real>(integrator: Integrator) -> Result<f64, Error> {
-        let pace = Pace {
-            frequency_hz: FREQUENCY_HZ,
-            tick_hz: 2_000.0,
-        };
+        let pace = Pace::new(FREQUENCY_HZ, 2_000.0);
         let settings = Settings {
             rcp: Some(RCP),
             ..pace.settings(integrator)

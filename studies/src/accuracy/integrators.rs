@@ -50,10 +50,7 @@ pub(super) fn measure(case: &Case) -> Result<Vec<Errors>, Error> {
         let mut degrees = [[0.0; TICKS_HZ.len()]; FREQUENCIES_HZ.len()];
         for (row, frequency_hz) in degrees.iter_mut().zip(FREQUENCIES_HZ) {
             for (cell, tick_hz) in row.iter_mut().zip(TICKS_HZ) {
-                let pace = Pace {
-                    frequency_hz,
-                    tick_hz,
-                };
+                let pace = Pace::new(frequency_hz, tick_hz);
                 *cell = scheme.error(case, &truth, pace)?;
             }
         }

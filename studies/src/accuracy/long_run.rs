@@ -78,11 +78,13 @@ impl Table {
         let Ok(text) = std::fs::read_to_string(path) else {
             return Ok(None);
         };
-        let rows = text.lines().skip(1).map(Row::parse);
-        let rows: Option<Vec<Row>> = rows.collect();
-        match rows.filter(|rows| !rows.is_empty()) {
-            Some(rows) => Ok(Some(Self(rows))),
-            None => Err(Error::file(
+        // Not by the names of the header: a range takes two columns.
+        let mut reader = csv::ReaderBuilder::new();
+        let reader = reader.has_headers(false).from_reader(text.as_bytes());
+        let rows = reader.into_deserialize().skip(1);
+        match rows.collect::<Result<Vec<Row>, _>>() {
+            Ok(rows) if !rows.is_empty() => Ok(Some(Self(rows))),
+            _ => Err(Error::file(
                 path,
                 "is not a table of a long run: run with --long",
             )),
@@ -103,25 +105,6 @@ impl Table {
             );
         }
         text
-    }
-}
-
-impl Row {
-    fn parse(line: &str) -> Option<Self> {
-        let mut cells = line.split(',');
-        let format = cells.next()?.to_owned();
-        let frequency_hz = cells.next()?.parse().ok()?;
-        let minutes = cells.next()?.parse().ok()?;
-        let mut number = || cells.next()?.parse::<f64>().ok();
-        Some(Self {
-            format,
-            frequency_hz,
-            minutes,
-            phase_whisks: number()?,
-            whisks: number()?,
-            radius: [number()?, number()?],
-            theta_deg: [number()?, number()?],
-        })
     }
 }
 

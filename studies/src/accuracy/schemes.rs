@@ -99,12 +99,17 @@ pub(super) struct Pace {
 }
 
 /// 2 Hz at 2 kHz, as in all of BIOTACT.
-pub(super) const PAPERS: Pace = Pace {
-    frequency_hz: 2.0,
-    tick_hz: 2_000.0,
-};
+pub(super) const PAPERS: Pace = Pace::new(2.0, 2_000.0);
 
 impl Pace {
+    /// From f_W and the tick rate, Hz.
+    pub(super) const fn new(frequency_hz: f64, tick_hz: f64) -> Self {
+        Self {
+            frequency_hz,
+            tick_hz,
+        }
+    }
+
     /// Coupled, without noise and gates.
     pub(super) fn settings(self, integrator: Integrator) -> Settings {
         Settings {
@@ -206,10 +211,7 @@ mod tests {
                 51.0,
             ),
         ] {
-            let pace = Pace {
-                frequency_hz,
-                tick_hz,
-            };
+            let pace = Pace::new(frequency_hz, tick_hz);
             let found = scheme.error(&CASE, &truth, pace).unwrap();
             assert!(
                 (found / known - 1.0).abs() < 0.05,
@@ -223,10 +225,7 @@ mod tests {
     fn the_split_step_is_of_second_order() {
         let truth = Truth::solve(&CASE);
         let error = |tick_hz| {
-            let pace = Pace {
-                frequency_hz: 8.0,
-                tick_hz,
-            };
+            let pace = Pace::new(8.0, tick_hz);
             Scheme::Split.error(&CASE, &truth, pace).unwrap()
         };
         let ratio = error(1_000.0) / error(2_000.0);
@@ -236,10 +235,7 @@ mod tests {
     #[test]
     fn an_error_is_that_of_the_worse_side_and_of_the_whole_run() {
         let truth = Truth::solve(&CASE);
-        let pace = Pace {
-            frequency_hz: 25.0,
-            tick_hz: 2_000.0,
-        };
+        let pace = Pace::new(25.0, 2_000.0);
         let other = Case {
             psi: [[1.0, 0.0], [0.6, 0.500_1]],
             ..CASE

@@ -37,18 +37,12 @@ impl Dataset {
 
     /// Its number in part files and seeds.
     pub const fn number(self) -> u32 {
-        match self {
-            Self::Floor => 0,
-            Self::Head => 1,
-            Self::Table => 2,
-            Self::Pad => 3,
-            Self::Corridor => 4,
-        }
+        self as u32
     }
 
     /// The set of a number.
     pub fn from_number(number: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|set| set.number() == number)
+        Self::ALL.get(number as usize).copied()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use serde::Deserialize;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, Real, State};
 
@@ -21,7 +22,7 @@ pub(in crate::accuracy) struct Length {
 }
 
 /// The state of a run after a stretch; extremes are those of the stretch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct Row {
     pub(super) format: String,
     pub(super) frequency_hz: f64,

@@ -75,6 +75,9 @@ impl Task {
 /// A whisk: its texture, distance and samples of all channels.
 type Whisk = (usize, usize, Vec<f64>);
 
+/// Numbers of the whisks to train on and to validate with.
+type Split<'a> = (&'a [usize], &'a [usize]);
+
 /// All whisks, strategy by strategy.
 #[derive(Debug)]
 pub(super) struct Visits {
@@ -112,51 +115,19 @@ impl Visits {
         numbers.iter().filter_map(|n| whisks.get(*n)).flatten()
     }
 
-    /// Share of validation whisks that are classified rightly.
+    /// Share of validation whisks that a classifier, as the paper has it, names
+    /// rightly.
     pub(super) fn hit_rate(
         &self,
         method: Method,
         task: Task,
         strategy: usize,
-        (training, validation): (&[usize], &[usize]),
+        split: Split<'_>,
     ) -> Result<f64, Error> {
-        let training = self.some(strategy, training);
-        let validation = self.some(strategy, validation);
         match method {
-            Method::Bayes => bayes(task, &ALL, Options::default(), training, validation),
-            Method::Template => self.template(task, training, validation),
+            Method::Bayes => self.bayes(&ALL, Options::default(), task, strategy, split),
+            Method::Template => self.template(task, strategy, split),
         }
-    }
-
-    /// The same of naive Bayes on one axis of all whiskers, 0: x, 1: y.
-    pub(super) fn hit_rate_of_axis(
-        &self,
-        axis: usize,
-        task: Task,
-        strategy: usize,
-        (training, validation): (&[usize], &[usize]),
-    ) -> Result<f64, Error> {
-        let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
-        let training = self.some(strategy, training);
-        let validation = self.some(strategy, validation);
-        bayes(task, &picked, Options::default(), training, validation)
-    }
-
-    /// The same of naive Bayes with histograms smoothed by so many bins.
-    pub(super) fn hit_rate_smoothed(
-        &self,
-        smooth: f64,
-        task: Task,
-        strategy: usize,
-        (training, validation): (&[usize], &[usize]),
-    ) -> Result<f64, Error> {
-        let options = Options {
-            smooth,
-            ..Options::default()
-        };
-        let training = self.some(strategy, training);
-        let validation = self.some(strategy, validation);
-        bayes(task, &ALL, options, training, validation)
     }
 
     /// The least and most code of a channel over some whisks of a strategy.
@@ -169,47 +140,47 @@ impl Visits {
         })
     }
 
-    fn template<'w>(
-        &self,
-        task: Task,
-        training: impl Iterator<Item = &'w Whisk>,
-        validation: impl Iterator<Item = &'w Whisk>,
-    ) -> Result<f64, Error> {
+    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {
+        let (training, validation) = split;
         let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks).map_err(refused)?;
-        for (texture, distance, samples) in training {
+        for (texture, distance, samples) in self.some(strategy, training) {
             let class = task.class(*texture, *distance);
             trainer.add(class, samples).map_err(refused)?;
         }
         let templates = trainer.train().map_err(refused)?;
+        let validation = self.some(strategy, validation);
         Ok(share(&mut templates.recogniser(), task, validation))
+    }
+
+    /// The same of naive Bayes on some channels and with other options.
+    pub(super) fn bayes(
+        &self,
+        picked: &[usize],
+        options: Options,
+        task: Task,
+        strategy: usize,
+        (training, validation): Split<'_>,
+    ) -> Result<f64, Error> {
+        let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
+        // Classes are numbered as they first appear: put them in order.
+        let mut sorted: Vec<&Whisk> = self.some(strategy, training).collect();
+        sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
+        for (texture, distance, samples) in sorted {
+            let name = format!("class {}", task.class(*texture, *distance));
+            for sample in pick(samples, CHANNELS, picked).chunks_exact(picked.len()) {
+                trainer.add(&name, sample).map_err(refused)?;
+            }
+        }
+        let buf = trainer.train().map_err(refused)?;
+        let model = buf.view();
+        let bayes = Bayes::stationary(model).map_err(refused)?;
+        let validation = self.some(strategy, validation);
+        Ok(share(&mut Picked::new(bayes, picked), task, validation))
     }
 }
 
 /// Every channel.
-const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
-
-fn bayes<'w>(
-    task: Task,
-    picked: &[usize],
-    options: Options,
-    training: impl Iterator<Item = &'w Whisk>,
-    validation: impl Iterator<Item = &'w Whisk>,
-) -> Result<f64, Error> {
-    let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
-    // Classes are numbered as they first appear: put them in order.
-    let mut sorted: Vec<&Whisk> = training.collect();
-    sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
-    for (texture, distance, samples) in sorted {
-        let name = format!("class {}", task.class(*texture, *distance));
-        for sample in pick(samples, CHANNELS, picked).chunks_exact(picked.len()) {
-            trainer.add(&name, sample).map_err(refused)?;
-        }
-    }
-    let buf = trainer.train().map_err(refused)?;
-    let model = buf.view();
-    let bayes = Bayes::stationary(model).map_err(refused)?;
-    Ok(share(&mut Picked::new(bayes, picked), task, validation))
-}
+pub(super) const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 fn share<'w>(
     recogniser: &mut impl Recogniser,

@@ -2,7 +2,7 @@
 //! the sensors' gain and the smoothing of the histograms do.
 
 use super::movement::movement;
-use super::whisks::{Task, Visits};
+use super::whisks::{ALL, Task, Visits};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{early, number};
 use crate::experiment::record::on_other_rigs;
@@ -10,8 +10,9 @@ use crate::experiment::recording::Recordings;
 use crate::experiment::request::{Name, Request};
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
-use crate::rigs::WhiskingHead;
+use crate::rigs::{CHANNELS, WhiskingHead};
 use host_sim::Error;
+use tactile::train::Options;
 
 /// The paper's smoothing, and what it is if its "width 5 intervals" is the full
 /// width at half maximum of a Gaussian: 5/√(8 ln 2).
@@ -25,6 +26,12 @@ const WIDER: f64 = 1.5;
 pub(super) struct Why {
     pub(super) hits: String,
     pub(super) biphasic: String,
+}
+
+/// Numbers without digits behind the point, one after another.
+fn list(values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|x| format!("{x:.0}")).collect();
+    values.join(", ")
 }
 
 /// What came of one rig.
@@ -49,10 +56,14 @@ impl Found {
     ) -> Result<Self, Error> {
         let visits = Visits::new(request, recordings);
         let order: Vec<usize> = (0..request.extent.whisks()).collect();
+        let options = Options {
+            smooth,
+            ..Options::default()
+        };
         let rates = |count: usize| -> Result<Vec<f64>, Error> {
             let rate = |strategy| {
                 let split = order.split_at(count);
-                Ok(100.0 * visits.hit_rate_smoothed(smooth, Task::Both, strategy, split)?)
+                Ok(100.0 * visits.bayes(&ALL, options, Task::Both, strategy, split)?)
             };
             (0..STRATEGIES.len()).map(rate).collect()
         };
@@ -79,10 +90,7 @@ impl Found {
     }
 
     fn cells(&self, what: &str) -> Vec<String> {
-        let text = |values: &[f64]| {
-            let values: Vec<String> = values.iter().map(|x| format!("{x:.0}")).collect();
-            format!("**{}**", values.join(", "))
-        };
+        let text = |values: &[f64]| format!("**{}**", list(values));
         vec![
             what.to_owned(),
             text(&self.one),
@@ -128,13 +136,11 @@ pub(super) fn section(
     let (low, high) = visits.range(0, order.get(..most).unwrap_or(&[]), 1);
     let mut axes = Vec::new();
     for axis in [0, 1] {
-        let hit = visits.hit_rate_of_axis(axis, Task::Texture, 0, order.split_at(most))?;
+        let picked: Vec<usize> = (axis..CHANNELS).step_by(2).collect();
+        let split = order.split_at(most);
+        let hit = visits.bayes(&picked, Options::default(), Task::Texture, 0, split)?;
         axes.push(100.0 * hit);
     }
-    let three = |values: &[f64]| {
-        let values: Vec<String> = values.iter().map(|x| format!("{x:.0}")).collect();
-        values.join(", ")
-    };
     Ok(Why {
         hits: format!(
             "the histograms' smoothing of 5 bins in 100 ({:.0} codes of y, where the noise is 4) \
@@ -146,10 +152,10 @@ pub(super) fn section(
              by {}, and hit rates are {} %. RCP also shortens contact, and air is the same before \
              all surfaces. x alone tells textures at {:.0} %, y alone at {:.0} (unmodulated)",
             (high - low) / 20.0,
-            three(&narrow.most),
-            three(&plain.spread),
-            three(&exact.spread),
-            three(&exact.most),
+            list(&narrow.most),
+            list(&plain.spread),
+            list(&exact.spread),
+            list(&exact.most),
             axes[0],
             axes[1],
         ),
