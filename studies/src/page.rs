@@ -117,6 +117,11 @@ impl Page {
     }
 }
 
+/// A row of a table: its name, then its cells.
+pub(crate) fn row(name: impl Into<String>, cells: impl IntoIterator<Item = String>) -> Vec<String> {
+    std::iter::once(name.into()).chain(cells).collect()
+}
+
 /// Two digits and an exponent.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 {
@@ -154,9 +159,7 @@ pub(crate) fn confusion(
 ) {
     let rows = names.iter().enumerate().map(|(truth, name)| {
         let cell = |named| beside(paper(truth, named), percent_of(ours, truth, named));
-        std::iter::once((*name).to_owned())
-            .chain((0..names.len()).map(cell))
-            .collect()
+        row(*name, (0..names.len()).map(cell))
     });
     let header = format!("true \\ decided | {}", names.join(" | "));
     page.table(&header, rows);

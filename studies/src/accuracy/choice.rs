@@ -3,7 +3,7 @@
 use super::counts::{Counts, Target};
 use super::integrators::{Errors, FREQUENCIES_HZ, TICKS_HZ, diagram};
 use super::schemes::Scheme;
-use crate::page::Page;
+use crate::page::{Page, row};
 use host_sim::Error;
 
 /// Errors that one might live with, degrees.
@@ -40,14 +40,13 @@ pub(super) fn section(page: &mut Page, measured: &[Errors], counts: &Counts) -> 
         let what = format!("error against instructions a second, {}", target.name());
         page.picture(file, &what, svg);
         page.say("The cheapest that keeps its error below a bound:");
-        let row = |(f, frequency_hz): (usize, &f64)| {
+        let line = |(f, frequency_hz): (usize, &f64)| {
             let cell = |bound| cheapest(measured, f, bound, cost);
-            let first = vec![format!("{frequency_hz} Hz")];
-            [first, BOUNDS_DEG.map(cell).to_vec()].concat()
+            row(format!("{frequency_hz} Hz"), BOUNDS_DEG.map(cell))
         };
         page.table(
             "f_W | 0.05 degrees | 0.001 degrees | 0.0001 degrees",
-            FREQUENCIES_HZ.iter().enumerate().map(row),
+            FREQUENCIES_HZ.iter().enumerate().map(line),
         );
     }
     Ok(())

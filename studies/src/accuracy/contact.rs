@@ -14,7 +14,7 @@ mod runs;
 use std::fmt::Write;
 
 use crate::chart::{Axis, Mark, Panel, Series, draw};
-use crate::page::{Page, short};
+use crate::page::{Page, row, short};
 use host_sim::Error;
 use runs::{Measured, TICKS_HZ};
 
@@ -37,14 +37,12 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
     let header = "surface | 500 Hz | 1 kHz | 2 kHz | 4 kHz | 8 kHz | reference at half its rate";
     let mut table = |what: &str, value: fn(&Measured) -> f64| {
         page.say(what);
-        let row = |against: &Against| {
+        let line = |against: &Against| {
             let all = against.ticks.iter().chain([&against.half]);
             let cells = all.map(|measured| short(value(measured)));
-            std::iter::once(against.name.to_owned())
-                .chain(cells)
-                .collect()
+            row(against.name, cells)
         };
-        page.table(header, measured.iter().map(row));
+        page.table(header, measured.iter().map(line));
     };
     table("Root mean square error:", |m| m.rms);
     table("Largest error:", |m| m.largest);
@@ -70,18 +68,16 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error
         picture(measured)?,
     );
     page.say("What cutting the ticks of 2 kHz finer brings, root mean square error:");
-    let row = |against: &Against| {
+    let line = |against: &Against| {
         let cells = against
             .finer
             .iter()
             .map(|m| format!("{} ({:.1})", short(m.rms), m.parts));
-        std::iter::once(against.name.to_owned())
-            .chain(cells)
-            .collect()
+        row(against.name, cells)
     };
     page.table(
         "surface | usual (parts) | twice | four times | eight times",
-        measured.iter().map(row),
+        measured.iter().map(line),
     );
     page.say("All figures are in [contact.csv](accuracy/contact.csv).");
     page.files

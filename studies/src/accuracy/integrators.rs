@@ -6,7 +6,7 @@ use super::counts::{Counts, Target, cell};
 use super::reference::{Case, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, Scheme, name};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
-use crate::page::{Page, short, verdict};
+use crate::page::{Page, row, short, verdict};
 use host_sim::Error;
 
 /// Whisk frequencies, Hz.
@@ -113,12 +113,12 @@ pub(super) fn diagram(
 
 /// Instructions a tick of each integrator and format.
 fn costs(page: &mut Page, counts: &Counts) {
-    let row = |integrator: Integrator, format: Format| {
+    let line = |integrator: Integrator, format: Format| {
         let counted = Target::ALL.map(|target| counts.tick(integrator, format, target));
         let name = format!("{} {}", name(integrator), format.name());
-        [vec![name], counted.map(cell).to_vec()].concat()
+        row(name, counted.map(cell))
     };
-    let rows = INTEGRATORS.map(|integrator| Format::ALL.map(|format| row(integrator, format)));
+    let rows = INTEGRATORS.map(|integrator| Format::ALL.map(|format| line(integrator, format)));
     page.table(
         "instructions a tick | Cortex-M4F | Cortex-M0+",
         rows.into_iter().flatten(),
@@ -185,12 +185,12 @@ fn of(measured: &[Errors], scheme: Scheme, frequency_hz: f64, tick_hz: f64) -> O
 fn table(page: &mut Page, measured: &[Errors]) {
     for (f, frequency_hz) in FREQUENCIES_HZ.iter().enumerate() {
         let header = format!("{frequency_hz} Hz | 0.1 ms | 0.25 ms | 0.5 ms | 1 ms | 2 ms");
-        let row = |errors: &Errors| {
+        let line = |errors: &Errors| {
             let cells = errors.degrees.get(f).into_iter().flatten();
             let cells = cells.map(|degrees| short(*degrees));
-            std::iter::once(errors.scheme.name()).chain(cells).collect()
+            row(errors.scheme.name(), cells)
         };
-        page.table(&header, measured.iter().map(row));
+        page.table(&header, measured.iter().map(line));
     }
 }
 

@@ -7,6 +7,7 @@
 
 pub(crate) mod figures;
 
+use serde::Deserialize;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, State};
 
@@ -30,23 +31,23 @@ const APART: f64 = 0.2;
 const LEFT: usize = 0;
 const RIGHT: usize = 1;
 
-/// What is measured.
-#[derive(Debug, Clone, Copy)]
+/// What is measured, of a side if it has two.
+#[derive(Debug, Clone, Copy, Deserialize)]
 enum Quantity {
-    /// Largest θ.
+    /// Largest θ of the left.
     Theta,
     /// Largest θ' of a side, degrees.
-    Highest(usize),
+    Highest,
     /// Peaks of θ' of a side a whisk.
-    Peaks(usize),
+    Peaks,
     /// Contacts of a side a whisk.
-    Contacts(usize),
+    Contacts,
     /// Smallest and largest g of the left whisker.
     Gain,
 }
 
 impl Quantity {
-    fn measure(self, rows: &[Row]) -> String {
+    fn measure(self, side: usize, rows: &[Row]) -> String {
         // Whole whisks, cut where the left side is most retracted.
         let tail = rows.len().saturating_sub((WHISKS + 1) * WHISK_TICKS);
         let (_, rows) = rows.split_at(tail);
@@ -61,9 +62,9 @@ impl Quantity {
                 "{:.4}",
                 (highest(&|row| row.theta_deg[LEFT]) - 50.0) / 100.0
             ),
-            Self::Highest(side) => format!("{:.1}°", highest(&|row| row.theta_deg[side])),
-            Self::Peaks(side) => a_whisk(peaks(rows.map(|row| row.theta_deg[side]))),
-            Self::Contacts(side) => a_whisk(contacts(rows.map(|row| row.contact[side]))),
+            Self::Highest => format!("{:.1}°", highest(&|row| row.theta_deg[side])),
+            Self::Peaks => a_whisk(peaks(rows.map(|row| row.theta_deg[side]))),
+            Self::Contacts => a_whisk(contacts(rows.map(|row| row.contact[side]))),
             Self::Gain => format!(
                 "{:.3} to {:.3}",
                 -highest(&|row| -row.g[LEFT]),
@@ -83,83 +84,26 @@ fn contacts(signal: impl Iterator<Item = f64>) -> usize {
     count
 }
 
-/// A row of the table: the claim, where it stands, how it is measured, what is
-/// misprinted.
-type Claim = (&'static str, Figure, Quantity, Printed);
+/// A row of the table.
+#[derive(Deserialize)]
+struct Claim {
+    /// What is claimed, where, and how it is measured.
+    claim: String,
+    /// The figure whose run it is.
+    figure: String,
+    quantity: Quantity,
+    side: usize,
+    /// What is misprinted.
+    printed: Printed,
+}
 
-const TABLE: [Claim; 12] = [
-    (
-        "Fig. 6, g = 2: θ approaches but does not exceed unity: largest θ",
-        FIG6,
-        Quantity::Theta,
-        Printed::Mass,
-    ),
-    (
-        "Fig. 7, RCP: the left is suppressed: highest",
-        FIG7,
-        Quantity::Highest(LEFT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 7, RCP: the right is not: highest",
-        FIG7,
-        Quantity::Highest(RIGHT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 8: biphasic: peaks a whisk",
-        FIG8,
-        Quantity::Peaks(LEFT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 8: two distinct contacts a whisk",
-        FIG8,
-        Quantity::Contacts(LEFT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 9, CIA: the right reaches beyond 125°: highest",
-        FIG9,
-        Quantity::Highest(RIGHT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 9, CIA: the right finds its obstacle: contacts a whisk",
-        FIG9,
-        Quantity::Contacts(RIGHT),
-        Printed::Mass,
-    ),
-    (
-        "Fig. 9, CIA: contact excites: range of g",
-        FIG9,
-        Quantity::Gain,
-        Printed::Lift,
-    ),
-    (
-        "Fig. 9, CIA: the right finds its obstacle: contacts a whisk",
-        FIG9,
-        Quantity::Contacts(RIGHT),
-        Printed::Lift,
-    ),
-    (
-        "g returns to 1: its range in free air",
-        FREE,
-        Quantity::Gain,
-        Printed::Decay,
-    ),
-    (
-        "Fig. 6 with CIA in free air: highest",
-        FREE,
-        Quantity::Highest(LEFT),
-        Printed::Decay,
-    ),
-    (
-        "Fig. 9, CIA: range of g",
-        FIG9,
-        Quantity::Gain,
-        Printed::Decay,
-    ),
+/// The figures by their names in the table.
+const FIGURES: [(&str, Figure); 5] = [
+    ("6", FIG6),
+    ("7", FIG7),
+    ("8", FIG8),
+    ("9", FIG9),
+    ("free", FREE),
 ];
 
 /// The table.
@@ -171,14 +115,22 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
          whisks): once as the product reads the formula, once as it is printed.",
     );
     let mut rows = Vec::new();
-    for (claim, figure, quantity, printed) in TABLE {
-        let (misprint, reading) = formulas(printed);
+    let mut claims = csv::Reader::from_reader(include_bytes!("misprints/claims.csv").as_slice());
+    for row in claims.deserialize() {
+        let row: Claim = row.map_err(refused)?;
+        let (misprint, reading) = formulas(row.printed);
+        let figure = FIGURES.iter().find(|(name, _)| *name == row.figure);
+        let (_, figure) = figure.ok_or_else(|| refused("no such figure"))?;
+        let measure = |printed| {
+            let rows = run(figure, printed);
+            rows.map(|rows| row.quantity.measure(row.side, &rows))
+        };
         rows.push(vec![
-            claim.to_owned(),
+            row.claim,
             misprint.to_owned(),
             reading.to_owned(),
-            quantity.measure(&run(&figure, printed)?),
-            quantity.measure(&run(&figure, Printed::Nothing)?),
+            measure(row.printed)?,
+            measure(Printed::Nothing)?,
         ]);
     }
     page.table(
@@ -233,28 +185,28 @@ mod tests {
 
     use super::{FIG6, FIG8, FIG9, FREE, LEFT, Printed, Quantity, RIGHT, run};
 
-    fn measure(figure: &super::Figure, quantity: Quantity, printed: Printed) -> String {
-        quantity.measure(&run(figure, printed).unwrap())
+    fn measure(figure: &super::Figure, of: (Quantity, usize), printed: Printed) -> String {
+        of.0.measure(of.1, &run(figure, printed).unwrap())
     }
 
     /// Figures of an independent program for both readings.
     #[test]
     fn claims_hold_as_read_and_fail_as_printed() {
         use Printed::{Lift, Mass, Nothing};
-        for (figure, quantity, printed, expected) in [
-            (&FIG6, Quantity::Highest(LEFT), Nothing, "149.7°"),
-            (&FIG6, Quantity::Highest(LEFT), Mass, "137.5°"),
-            (&FIG8, Quantity::Peaks(LEFT), Nothing, "2"),
-            (&FIG8, Quantity::Peaks(LEFT), Mass, "1"),
-            (&FIG8, Quantity::Contacts(LEFT), Mass, "1"),
-            (&FIG9, Quantity::Highest(RIGHT), Nothing, "130.4°"),
-            (&FIG9, Quantity::Highest(RIGHT), Mass, "114.4°"),
-            (&FIG9, Quantity::Contacts(RIGHT), Nothing, "1"),
-            (&FIG9, Quantity::Contacts(RIGHT), Lift, "0"),
-            (&FREE, Quantity::Gain, Nothing, "1.000 to 1.000"),
+        for (figure, quantity, side, printed, expected) in [
+            (&FIG6, Quantity::Highest, LEFT, Nothing, "149.7°"),
+            (&FIG6, Quantity::Highest, LEFT, Mass, "137.5°"),
+            (&FIG8, Quantity::Peaks, LEFT, Nothing, "2"),
+            (&FIG8, Quantity::Peaks, LEFT, Mass, "1"),
+            (&FIG8, Quantity::Contacts, LEFT, Mass, "1"),
+            (&FIG9, Quantity::Highest, RIGHT, Nothing, "130.4°"),
+            (&FIG9, Quantity::Highest, RIGHT, Mass, "114.4°"),
+            (&FIG9, Quantity::Contacts, RIGHT, Nothing, "1"),
+            (&FIG9, Quantity::Contacts, RIGHT, Lift, "0"),
+            (&FREE, Quantity::Gain, LEFT, Nothing, "1.000 to 1.000"),
         ] {
             assert_eq!(
-                measure(figure, quantity, printed),
+                measure(figure, (quantity, side), printed),
                 expected,
                 "{quantity:?} {printed:?}"
             );
@@ -279,7 +231,7 @@ mod tests {
 
     #[test]
     fn the_printed_decay_never_rests_at_the_nominal_gain() {
-        let range = measure(&FREE, Quantity::Gain, Printed::Decay);
+        let range = measure(&FREE, (Quantity::Gain, LEFT), Printed::Decay);
         assert_ne!(range, "1.000 to 1.000");
     }
 }

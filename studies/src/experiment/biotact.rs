@@ -14,7 +14,7 @@ use super::picture::{Curve, panel, percent};
 use super::recording::Recordings;
 use super::request::Request;
 use crate::chart::{Mark, linear};
-use crate::page::Page;
+use crate::page::{Page, row};
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
@@ -141,10 +141,9 @@ fn table(page: &mut Page, hits: &Hits, method: Method, most: usize) {
     let mut rows = Vec::new();
     for task in Task::ALL {
         for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
-            let mut cells = vec![task.text().to_owned(), (*name).to_owned()];
-            let curve = hits.curve(method, task, strategy);
-            cells.extend(curve.iter().map(|hit| format!("**{hit:.0}**")));
-            rows.push(cells);
+            let cells = hits.curve(method, task, strategy).iter();
+            let cells = cells.map(|hit| format!("**{hit:.0}**"));
+            rows.push(row(format!("{} | {name}", task.text()), cells));
         }
     }
     let header = format!("task | whisking | {}", counts.join(" | "));

@@ -5,7 +5,7 @@ use super::floors::{Floors, Half, Stream, Tally, train};
 use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::{Page, confusion};
+use crate::page::{Page, confusion, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
@@ -132,12 +132,11 @@ fn figure_4(
     let rows: Vec<Vec<String>> = means
         .iter()
         .map(|curve| {
-            let mut cells = vec![curve.name.clone()];
-            cells.extend([0, 4, 7, 9, 10].map(|n| {
+            let cells = [0, 4, 7, 9, 10].map(|n| {
                 let hit = curve.points.get(n).map_or(0.0, |point| point.1);
                 format!("**{hit:.0}**")
-            }));
-            cells
+            });
+            row(&*curve.name, cells)
         })
         .collect();
     let mean = picture::windows("mean hit rate, %", &means);

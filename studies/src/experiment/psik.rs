@@ -14,7 +14,7 @@ use super::record::pad::PAPERS;
 use super::recording::Recordings;
 use super::request::Request;
 use crate::chart::{Mark, linear};
-use crate::page::{Page, confusion};
+use crate::page::{Page, confusion, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::seed_of;
@@ -106,10 +106,9 @@ fn figures(
     let what = "Performance over the number of vibrissae";
     page.panels("psik-fig6.svg", what, &panels)?;
     let header: Vec<String> = (1..=ARCS.len()).map(|n| n.to_string()).collect();
-    let row = more.iter().map(|score| format!("**{:.1}**", hit(score)));
-    let mut cells = vec!["hit rate, %".to_owned()];
-    cells.extend(row);
-    page.table(&format!("arcs | {}", header.join(" | ")), [cells]);
+    let cells = more.iter().map(|score| format!("**{:.1}**", hit(score)));
+    let line = row("hit rate, %", cells);
+    page.table(&format!("arcs | {}", header.join(" | ")), [line]);
 
     page.say(
         "**Fig. 7**: each of the five longer arcs alone, percent of each paper. Here as there \

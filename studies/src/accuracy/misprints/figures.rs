@@ -1,5 +1,6 @@
 //! Runs of the papers' figures, with one formula as printed.
 
+use serde::Deserialize;
 use whisking::gate::{Cia, Gate};
 use whisking::{
     GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter, muscle,
@@ -16,7 +17,7 @@ pub(crate) const TICK_HZ: f64 = PAPERS.tick_hz;
 pub(crate) const FREQUENCY_HZ: f64 = PAPERS.frequency_hz;
 const RUN_TICKS: usize = 20_000;
 /// One formula as printed; the others as read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub(crate) enum Printed {
     Nothing,
     /// Eq. 7: m = f_W²/100.
