@@ -6,6 +6,7 @@ pub mod accuracy;
 mod chart;
 pub mod commands;
 pub mod experiment;
+mod moments;
 mod page;
 pub mod paper;
 mod peaks;

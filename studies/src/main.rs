@@ -8,9 +8,9 @@ use host_sim::Error;
 use host_sim::progress::Verbosity;
 use host_sim::report::{say, warn};
 use studies::accuracy::LongRun;
-use studies::commands::experiment::{self, Asked};
+use studies::commands::experiment::{self, Options};
 use studies::commands::{merge, report};
-use studies::experiment::{Name, Shard};
+use studies::experiment::Name;
 
 /// The laboratory: the papers' experiments on simulated rigs, and the accuracy
 /// report.
@@ -81,26 +81,6 @@ enum Which {
     },
 }
 
-/// How an experiment is run.
-#[derive(clap::Args)]
-struct Options {
-    /// Fewer trials, whisks, contacts, sweeps and runs; the same physics
-    #[arg(long)]
-    quick: bool,
-    /// All chance comes from it
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Record only share i of n, into a part file
-    #[arg(long, value_name = "i/n")]
-    shard: Option<Shard>,
-    /// The folder of the rigs' files (studies/rigs/*.toml); those built in if none
-    #[arg(long, value_name = "DIR")]
-    rigs: Option<PathBuf>,
-    /// Where to write
-    #[arg(long, value_name = "DIR", default_value = "out/experiments")]
-    out: PathBuf,
-}
-
 impl Which {
     fn work(self, verbosity: Verbosity) -> Result<String, Error> {
         let (names, options) = match self {
@@ -114,15 +94,7 @@ impl Which {
                 return merge::merge(&parts, rigs.as_deref(), &out);
             }
         };
-        let asked = Asked {
-            names,
-            quick: options.quick,
-            seed: options.seed,
-            shard: options.shard,
-            rigs: options.rigs,
-            out: options.out,
-        };
-        experiment::experiment(&asked, verbosity)
+        experiment::experiment(names, &options, verbosity)
     }
 }
 

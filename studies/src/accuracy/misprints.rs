@@ -29,7 +29,6 @@ const RELEASE: f64 = 0.02;
 /// Phase difference of the sides from which they lock, rad.
 const APART: f64 = 0.2;
 const LEFT: usize = 0;
-const RIGHT: usize = 1;
 
 /// What is measured, of a side if it has two.
 #[derive(Debug, Clone, Copy, Deserialize)]
@@ -183,7 +182,9 @@ const fn formulas(printed: Printed) -> (&'static str, &'static str) {
 mod tests {
     use crate::accuracy::reference::{Case, GRID, State as Continuous};
 
-    use super::{FIG6, FIG8, FIG9, FREE, LEFT, Printed, Quantity, RIGHT, run};
+    use super::{FIG6, FIG8, FIG9, FREE, LEFT, Printed, Quantity, run};
+
+    const RIGHT: usize = 1;
 
     fn measure(figure: &super::Figure, of: (Quantity, usize), printed: Printed) -> String {
         of.0.measure(of.1, &run(figure, printed).unwrap())

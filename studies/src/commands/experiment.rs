@@ -10,20 +10,23 @@ use host_sim::Error;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 
-/// What the command line asks for.
-#[derive(Debug, Clone)]
-pub struct Asked {
-    /// The experiments.
-    pub names: Vec<Name>,
-    /// Less of each.
+/// How an experiment is run.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Fewer trials, whisks, contacts, sweeps and runs; the same physics
+    #[arg(long)]
     pub quick: bool,
-    /// All chance comes from it.
+    /// All chance comes from it
+    #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Record this share only.
+    /// Record only share i of n, into a part file
+    #[arg(long, value_name = "i/n")]
     pub shard: Option<Shard>,
-    /// The folder of the rigs' files; the rigs that are built in if none.
+    /// The folder of the rigs' files (studies/rigs/*.toml); those built in if none
+    #[arg(long, value_name = "DIR")]
     pub rigs: Option<PathBuf>,
-    /// Where to write.
+    /// Where to write
+    #[arg(long, value_name = "DIR", default_value = "out/experiments")]
     pub out: PathBuf,
 }
 
@@ -32,26 +35,30 @@ pub struct Asked {
 ///
 /// # Errors
 /// [`Error::Input`] for a bad rig, [`Error::Work`], [`Error::Write`].
-pub fn experiment(asked: &Asked, verbosity: Verbosity) -> Result<String, Error> {
+pub fn experiment(
+    names: Vec<Name>,
+    options: &Options,
+    verbosity: Verbosity,
+) -> Result<String, Error> {
     let request = Request {
-        names: asked.names.clone(),
-        extent: if asked.quick {
+        names,
+        extent: if options.quick {
             Extent::Quick
         } else {
             Extent::Full
         },
-        seed: asked.seed,
-        rigs: Rigs::load(asked.rigs.as_deref())?,
+        seed: options.seed,
+        rigs: Rigs::load(options.rigs.as_deref())?,
     };
-    if let Some(shard) = asked.shard {
+    if let Some(shard) = options.shard {
         let recordings = record(&request, &share(&request, shard), verbosity)?;
-        let names: Vec<&str> = request.names.iter().map(|name| name.text()).collect();
         let Shard { index, count } = shard;
-        let name = match names.as_slice() {
-            [one] => format!("{one}-{index}-of-{count}.part"),
-            _ => format!("all-{index}-of-{count}.part"),
+        let name = match request.names.as_slice() {
+            [one] => one.text(),
+            _ => "all",
         };
-        let path = asked.out.join(name);
+        let name = format!("{name}-{index}-of-{count}.part");
+        let path = options.out.join(name);
         write_part(&path, &request, &recordings)?;
         return Ok(format!(
             "{}: {} recordings",
@@ -60,7 +67,7 @@ pub fn experiment(asked: &Asked, verbosity: Verbosity) -> Result<String, Error> 
         ));
     }
     let recordings = record(&request, &jobs(&request), verbosity)?;
-    written(&request, &recordings, &asked.out)
+    written(&request, &recordings, &options.out)
 }
 
 /// Evaluates recordings and writes the page.

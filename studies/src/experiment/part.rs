@@ -44,33 +44,14 @@ pub fn write(path: &Path, request: &Request, recordings: &Recordings) -> Result<
     write_whole(path, &bytes(request, recordings))
 }
 
-/// Takes words off the front of bytes.
-struct Reader<'a>(&'a [u8]);
-
-impl Reader<'_> {
-    fn word(&mut self) -> Option<[u8; 4]> {
-        let (word, rest) = self.0.split_first_chunk()?;
-        self.0 = rest;
-        Some(*word)
-    }
-
-    fn count(&mut self) -> Option<usize> {
-        self.word().map(|word| u32::from_le_bytes(word) as usize)
-    }
-
-    fn recording(&mut self) -> Option<(Job, Recording)> {
-        let dataset = Dataset::from_number(u32::from_le_bytes(self.word()?))?;
-        let number = self.count()?;
-        let channels = self.count()?;
-        let count = self.count()?;
-        if channels == 0 || count > self.0.len() / 4 {
-            return None;
-        }
-        let values = (0..count)
-            .map(|_| self.word().map(f32::from_le_bytes))
-            .collect::<Option<_>>()?;
-        Some((Job { dataset, number }, Recording { channels, values }))
-    }
+/// Takes a recording off the front of words; `None` if it is cut short.
+fn recording(words: &mut impl Iterator<Item = [u8; 4]>) -> Option<(Job, Recording)> {
+    let mut count = || words.next().map(u32::from_le_bytes);
+    let dataset = Dataset::from_number(count()?)?;
+    let [number, channels, count] = [count()?, count()?, count()?].map(|word| word as usize);
+    let values: Vec<f32> = words.take(count).map(f32::from_le_bytes).collect();
+    let whole = channels > 0 && values.len() == count;
+    whole.then_some((Job { dataset, number }, Recording { channels, values }))
 }
 
 /// Reads part `bytes` into `recordings`; what is wrong with them otherwise.
@@ -82,18 +63,16 @@ fn read(bytes: &[u8], request: &Request, recordings: &mut Recordings) -> Result<
     if CRC.checksum(body) != u32::from_le_bytes(*sum) {
         return Err("damaged: its checksum is wrong".to_owned());
     }
-    let end = rest
-        .iter()
-        .position(|byte| *byte == b'\n')
-        .ok_or("no first line")?;
-    let (line, rest) = rest.split_at(end);
+    let end = rest.iter().position(|byte| *byte == b'\n');
+    let (line, rest) = rest.split_at(end.ok_or("no first line")?);
     let (line, expected) = (String::from_utf8_lossy(line), request.line());
     if line != expected {
         return Err(format!("of another request: {line}, not {expected}"));
     }
-    let mut reader = Reader(rest.get(1..).unwrap_or(&[]));
-    while !reader.0.is_empty() {
-        let (job, recording) = reader.recording().ok_or("a recording is cut short")?;
+    let (words, odd) = rest.get(1..).unwrap_or(&[]).as_chunks::<4>();
+    let mut words = words.iter().copied().peekable();
+    while words.peek().is_some() || !odd.is_empty() {
+        let (job, recording) = recording(&mut words).ok_or("a recording is cut short")?;
         if let Some(job) = recordings.add(job, recording) {
             let Job { dataset, number } = job;
             return Err(format!("{} {number} is there twice", dataset.text()));

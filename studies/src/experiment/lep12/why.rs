@@ -15,14 +15,9 @@ const FASTER: f64 = 4.0;
 
 /// Mean and standard deviation of one channel of a floor.
 fn moments(streams: &[Stream], floor: usize, channel: usize) -> (f64, f64) {
-    let values = || {
-        let some = streams.iter().filter(move |stream| stream.floor == floor);
-        some.flat_map(move |stream| stream.samples.iter().skip(channel).step_by(CHANNELS))
-    };
-    let count = values().count().max(1) as f64;
-    let mean = values().sum::<f64>() / count;
-    let square = values().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count;
-    (mean, square.sqrt())
+    let mine = streams.iter().filter(|stream| stream.floor == floor);
+    let values = mine.flat_map(|stream| stream.samples.iter().skip(channel).step_by(CHANNELS));
+    crate::moments::moments(values.copied())
 }
 
 /// Lag at which the correlation of one channel falls to 1/e, samples; the mean

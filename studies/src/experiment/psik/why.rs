@@ -33,14 +33,8 @@ const OTHERS: [Other; 5] = [
 
 /// Mean and standard deviation of one input over the sweeps of one paper.
 fn moments(rows: &[Row], paper: usize, input: usize) -> (f64, f64) {
-    let values = || {
-        let mine = rows.iter().filter(move |(class, _)| *class == paper);
-        mine.filter_map(move |(_, row)| row.get(input))
-    };
-    let count = values().count().max(1) as f64;
-    let mean = values().sum::<f64>() / count;
-    let square = values().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count;
-    (mean, square.sqrt())
+    let mine = rows.iter().filter(|(class, _)| *class == paper);
+    crate::moments::moments(mine.filter_map(|(_, row)| row.get(input).copied()))
 }
 
 /// The step between two papers over the scatter within them, of one input.
