@@ -87,7 +87,7 @@ fn contacts(signal: impl Iterator<Item = f64>) -> usize {
 #[derive(Deserialize)]
 struct Claim {
     /// What is claimed, where, and how it is measured.
-    claim: String,
+    what: String,
     /// The figure whose run it is.
     figure: String,
     quantity: Quantity,
@@ -125,7 +125,7 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
             rows.map(|rows| row.quantity.measure(row.side, &rows))
         };
         rows.push(vec![
-            row.claim,
+            row.what,
             misprint.to_owned(),
             reading.to_owned(),
             measure(row.printed)?,
