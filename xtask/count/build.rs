@@ -89,6 +89,18 @@ fn settings(integrator: Integrator) -> Settings {
     }
 }
 
+/// The source of constants, of each its name, its type and its value.
+macro_rules! constants {
+    ($($name:ident: $of_type:ty = $value:expr;)*) => {
+        [$(line(
+            stringify!($name),
+            stringify!($of_type),
+            &$value.bake(&CrateEnv::default()),
+        )),*]
+        .concat()
+    };
+}
+
 fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
     let euler = settings(Integrator::Euler);
     let exact = settings(Integrator::Exact);
@@ -116,79 +128,30 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         // BIOTACT's motor: 512 counts a turn, a gear of 11.
         degrees_per_count: 360.0 / (512.0 * 11.0),
     };
-    let parts = [
-        part(
-            "H50",
-            "&'static filter::Config<Self>",
-            &filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?,
-        ),
-        part(
-            "RCP",
-            "&'static gate::Rcp<Self>",
-            &whisking.rcp.ok_or(none)?,
-        ),
-        part(
-            "CIA",
-            "&'static gate::Cia<Self>",
-            &whisking.cia.ok_or(none)?,
-        ),
-        part(
-            "NOISE",
-            "&'static noise::Config<Self>",
-            &whisking.noise.ok_or(none)?,
-        ),
-        part(
-            "EULER_OSCILLATORS",
-            "&'static oscillator::Euler<Self>",
-            &papers_oscillators,
-        ),
-        part(
-            "EULER_MUSCLE",
-            "&'static muscle::Euler<Self>",
-            &papers_muscle,
-        ),
-        part(
-            "EULER_START",
-            "Start<Self, 2, 1>",
-            &euler.start::<R, 2, 1>(psi, [[1.0]; 2])?,
-        ),
-        part(
-            "OSCILLATORS",
-            "&'static oscillator::Exact<Self>",
-            &oscillators,
-        ),
-        part("MUSCLE", "&'static muscle::Exact<Self>", &muscle),
-        part(
-            "START_1",
-            "Start<Self, 1, 1>",
-            &exact.start::<R, 1, 1>([left], [[1.0]])?,
-        ),
-        part(
-            "START_2",
-            "Start<Self, 2, 1>",
-            &exact.start::<R, 2, 1>(psi, [[1.0]; 2])?,
-        ),
-        part(
-            "START_24",
-            "Start<Self, 2, 12>",
-            &exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?,
-        ),
+    let constants = constants! {
+        H50: &'static filter::Config<Self> = filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?;
+        RCP: &'static gate::Rcp<Self> = whisking.rcp.ok_or(none)?;
+        CIA: &'static gate::Cia<Self> = whisking.cia.ok_or(none)?;
+        NOISE: &'static noise::Config<Self> = whisking.noise.ok_or(none)?;
+        EULER_OSCILLATORS: &'static oscillator::Euler<Self> = papers_oscillators;
+        EULER_MUSCLE: &'static muscle::Euler<Self> = papers_muscle;
+        EULER_START: Start<Self, 2, 1> = euler.start::<R, 2, 1>(psi, [[1.0]; 2])?;
+        OSCILLATORS: &'static oscillator::Exact<Self> = oscillators;
+        MUSCLE: &'static muscle::Exact<Self> = muscle;
+        START_1: Start<Self, 1, 1> = exact.start::<R, 1, 1>([left], [[1.0]])?;
+        START_2: Start<Self, 2, 1> = exact.start::<R, 2, 1>(psi, [[1.0]; 2])?;
+        START_24: Start<Self, 2, 12> = exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?;
+        PD: &'static pd::Config<Self> = pd.build::<R>(TICK_HZ)?;
+    };
+    Ok(format!(
+        "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{constants}{}{}}}\n",
+        name.to_lowercase(),
         generator("WHISKING", "Exact", whisking),
         generator("EULER_WHISKING", "Euler", papers),
-        part("PD", "&'static pd::Config<Self>", &pd.build::<R>(TICK_HZ)?),
-    ];
-    Ok(format!(
-        "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{}}}\n",
-        name.to_lowercase(),
-        parts.concat()
     ))
 }
 
 /// `const NAME: TYPE = VALUE;`; of a reference the value is that of its target.
-fn part(name: &str, of_type: &str, value: &impl Bake) -> String {
-    line(name, of_type, &value.bake(&CrateEnv::default()))
-}
-
 fn line(name: &str, of_type: &str, value: &TokenStream) -> String {
     let by_reference = if of_type.starts_with('&') { "&" } else { "" };
     format!("    const {name}: {of_type} = {by_reference}{value};\n")

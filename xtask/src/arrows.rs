@@ -46,10 +46,11 @@ pub(crate) fn all(only: &[String]) -> Result<(), Fault> {
     let mut types = BTreeMap::<String, BTreeSet<String>>::new();
     for package in &packages {
         let mut arrows = Arrows::new();
-        for root in &package.roots {
-            let tree = Tree::read(&root.file, &|path| std::fs::read_to_string(path).ok())?;
+        for target in &package.targets {
+            let tree = Tree::read(&target.src_path, &|path| std::fs::read_to_string(path).ok())?;
             paths::arrows(&tree, &mut arrows);
-            if root.is_library && !rooms::ROWS[0].contains(&package.name.as_str()) {
+            let is_library = target.kind.iter().any(|kind| kind == "lib");
+            if is_library && !rooms::ROWS[0].contains(&package.name.as_str()) {
                 for name in tree.public_types() {
                     types.entry(name).or_default().insert(package.name.clone());
                 }
