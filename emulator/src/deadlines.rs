@@ -50,9 +50,7 @@ pub fn measure(
         board.check()?;
         // The probe keeps up.
         drop(board.take_log());
-        if n.is_multiple_of(1024) {
-            progress.set(n);
-        }
+        progress.tick(n);
     }
     let ticks = run.ticks();
     let emulated = run.module_mut();

@@ -65,11 +65,7 @@ struct Flashed {
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
-    let verbosity = if arguments.quiet {
-        Verbosity::Quiet
-    } else {
-        Verbosity::Normal
-    };
+    let verbosity = Verbosity::of(arguments.quiet);
     match arguments.command {
         Command::Run { flashed, out } => {
             let Flashed { scene, program } = flashed;
@@ -113,11 +109,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    match work(Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            report::warn(format_args!("emulator: {error}"));
-            ExitCode::from(error.exit_status())
-        }
-    }
+    report::exit("emulator", work(Arguments::parse()))
 }

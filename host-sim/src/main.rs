@@ -116,11 +116,7 @@ fn rule(name: RuleName, threshold: Option<f64>, window: Option<u32>) -> Result<R
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
-    let verbosity = if arguments.quiet {
-        Verbosity::Quiet
-    } else {
-        Verbosity::Normal
-    };
+    let verbosity = Verbosity::of(arguments.quiet);
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
         Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity)?,
@@ -153,11 +149,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    match work(Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            report::warn(format_args!("host-sim: {error}"));
-            ExitCode::from(error.exit_status())
-        }
-    }
+    report::exit("host-sim", work(Arguments::parse()))
 }

@@ -36,7 +36,7 @@ use std::sync::Arc;
 
 pub use ideal::IdealMotor;
 use pins::Wires;
-pub use pins::{PWM_MAX, SimDir, SimEncoder, SimHall, SimPin, SimPwm, Wire};
+pub use pins::{PWM_MAX, SimEncoder, SimHall, SimPin, SimPwm, Wire};
 use rotor::Rotor;
 pub use settings::{BadMotorSetting, MotorSettings};
 use stage::Stage;
@@ -47,7 +47,7 @@ pub struct Brushed {
     /// Size of the duty.
     pub pwm: SimPwm,
     /// Its sign; high is protraction.
-    pub dir: SimDir,
+    pub dir: SimPin,
     /// Angle input.
     pub encoder: SimEncoder,
 }

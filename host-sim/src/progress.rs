@@ -13,6 +13,13 @@ pub enum Verbosity {
     Quiet,
 }
 
+impl Verbosity {
+    /// What the option `--quiet` asks for.
+    pub const fn of(quiet: bool) -> Self {
+        if quiet { Self::Quiet } else { Self::Normal }
+    }
+}
+
 /// A bar that appears once the work has taken a second.
 #[derive(Debug)]
 pub struct Progress {
@@ -54,6 +61,13 @@ impl Progress {
         }
         if let Some(bar) = &self.bar {
             bar.set_position(done);
+        }
+    }
+
+    /// Tick `done` of a run is done: to be called at every one.
+    pub fn tick(&mut self, done: u64) {
+        if done.is_multiple_of(1024) {
+            self.set(done);
         }
     }
 

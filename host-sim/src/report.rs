@@ -2,9 +2,11 @@
 
 use std::fmt::{self, Display};
 use std::io::{self, Write};
+use std::process::ExitCode;
 
 use firmware::Event;
 
+use crate::Error;
 use crate::decisions::{Decided, Score};
 
 /// A line on standard output. A closed pipe does not stop the work: what
@@ -16,6 +18,17 @@ pub fn say(line: impl Display) {
 /// A line on standard error, likewise.
 pub fn warn(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// How a program ends: its exit status, and on standard error what went wrong.
+pub fn exit(program: &str, done: Result<(), Error>) -> ExitCode {
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            warn(format_args!("{program}: {error}"));
+            ExitCode::from(error.exit_status())
+        }
+    }
 }
 
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].

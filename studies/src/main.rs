@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use host_sim::Error;
 use host_sim::progress::Verbosity;
-use host_sim::report::{say, warn};
+use host_sim::report::{exit, say};
 use studies::accuracy::LongRun;
 use studies::commands::experiment::{self, Options};
 use studies::commands::{merge, report};
@@ -99,11 +99,7 @@ impl Which {
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
-    let verbosity = if arguments.quiet {
-        Verbosity::Quiet
-    } else {
-        Verbosity::Normal
-    };
+    let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
         Command::Experiment { which } => which.work(verbosity)?,
         Command::Report {
@@ -124,11 +120,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    match work(Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            warn(format_args!("studies: {error}"));
-            ExitCode::from(error.exit_status())
-        }
-    }
+    exit("studies", work(Arguments::parse()))
 }

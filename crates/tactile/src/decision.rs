@@ -98,11 +98,6 @@ impl Posterior {
         u32::try_from(u64::MAX / ((1 << 32) + against)).unwrap_or(u32::MAX)
     }
 
-    /// p in single precision.
-    pub fn to_f32(self) -> f32 {
-        self.to_f64() as f32
-    }
-
     /// p in double precision.
     pub fn to_f64(self) -> f64 {
         1.0 / (1.0 + self.odds_against())

@@ -140,9 +140,7 @@ fn decide(
                 decided,
             });
         }
-        if n.is_multiple_of(1024) {
-            progress.set(n);
-        }
+        progress.tick(n);
     }
     trace.finish()?;
     Ok(Deciding {

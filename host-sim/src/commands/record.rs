@@ -46,9 +46,7 @@ pub fn streams(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error
     for n in 0..run.ticks() {
         run.tick();
         recorder.take(&mut run);
-        if n.is_multiple_of(1024) {
-            progress.set(n);
-        }
+        progress.tick(n);
     }
     Ok(recorder.into_streams())
 }

@@ -115,9 +115,7 @@ pub fn play<B: Bench + ?Sized>(
             report::limits_and_faults(row.t_s, event);
         }
         decided.extend(run.decision());
-        if n.is_multiple_of(1024) {
-            progress.set(n);
-        }
+        progress.tick(n);
     }
     drop(progress);
 

@@ -127,9 +127,6 @@ pub struct SimPin {
     i: usize,
 }
 
-/// The direction input of an H-bridge.
-pub type SimDir = SimPin;
-
 /// A digital input of the module: Hall sensor k, high while the rotor's magnet
 /// is within 90° of axis k.
 #[derive(Debug)]

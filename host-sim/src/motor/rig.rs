@@ -5,7 +5,7 @@ use firmware::AngleInput;
 use whisking::motor::{HBridge, MotorDriver};
 use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, filter, pd};
 
-use super::{MotorSettings, SimDir, SimEncoder, SimMotor, SimPwm};
+use super::{MotorSettings, SimEncoder, SimMotor, SimPin, SimPwm};
 
 /// The defaults of a scene's motor section.
 pub(crate) const PD: pd::Settings = pd::Settings {
@@ -39,7 +39,7 @@ pub(crate) struct Rig {
     smoothed: filter::State<f64>,
     pd: pd::Config<f64>,
     servo: pd::State<f64>,
-    driver: HBridge<SimPwm, SimDir>,
+    driver: HBridge<SimPwm, SimPin>,
     encoder: SimEncoder,
     counts: i32,
     pub(crate) motor: SimMotor,

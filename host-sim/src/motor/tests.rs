@@ -9,7 +9,7 @@ use whisking::pd;
 use super::rig::{PD, Rig, whisking};
 use super::{BadMotorSetting, MotorSettings, SimEncoder, SimMotor, Wire};
 
-type Driver = HBridge<super::SimPwm, super::SimDir>;
+type Driver = HBridge<super::SimPwm, super::SimPin>;
 
 const IDEAL: MotorSettings = MotorSettings {
     viscous_nm_s: 0.0,

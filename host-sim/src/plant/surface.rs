@@ -35,35 +35,19 @@ impl SurfaceSettings {
     /// as the tip does. Friction is of the order of plastic on plastic, on fine
     /// and coarse abrasive, and on fibre.
     pub const fn of(texture: Texture) -> Self {
-        match texture {
-            Texture::Smooth => Self {
-                height_m: 1e-6,
-                grain_m: 20e-6,
-                grip: 20.0,
-                softness: 0.0,
-                friction: 0.15,
-            },
-            Texture::P600 => Self {
-                height_m: 8.6e-6,
-                grain_m: 25.8e-6,
-                grip: 20.0,
-                softness: 0.0,
-                friction: 0.4,
-            },
-            Texture::P240 => Self {
-                height_m: 19.5e-6,
-                grain_m: 58.5e-6,
-                grip: 20.0,
-                softness: 0.0,
-                friction: 0.7,
-            },
-            Texture::Carpet => Self {
-                height_m: 0.3e-3,
-                grain_m: 2.5e-3,
-                grip: 5.0,
-                softness: 1.0,
-                friction: 0.3,
-            },
+        // Height, grain, grip, softness, friction.
+        let [height_m, grain_m, grip, softness, friction] = match texture {
+            Texture::Smooth => [1e-6, 20e-6, 20.0, 0.0, 0.15],
+            Texture::P600 => [8.6e-6, 25.8e-6, 20.0, 0.0, 0.4],
+            Texture::P240 => [19.5e-6, 58.5e-6, 20.0, 0.0, 0.7],
+            Texture::Carpet => [0.3e-3, 2.5e-3, 5.0, 1.0, 0.3],
+        };
+        Self {
+            height_m,
+            grain_m,
+            grip,
+            softness,
+            friction,
         }
     }
 }

@@ -40,9 +40,4 @@ impl Statistics {
             rms: (squares / n + mean * mean).sqrt(),
         })
     }
-
-    /// Standard error of the mean, sd/√n.
-    pub fn standard_error(&self) -> f64 {
-        self.sd / (self.count as f64).sqrt()
-    }
 }
