@@ -124,9 +124,12 @@ impl<R: Real> Config<R> {
         let error = self.clamp(setpoint) - measured;
         state.p = error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
-        let wanted = (state.p + state.d).to_q24().clamp(-self.limit, self.limit);
+        // Not `clamp`, which panics where a limit is negative.
+        let wanted = (state.p + state.d).to_q24();
+        let wanted = wanted.min(self.limit).max(-self.limit);
         // Both are within ±2^24.
-        state.command += (wanted - state.command).clamp(-self.slew, self.slew);
+        let change = wanted - state.command;
+        state.command += change.min(self.slew).max(-self.slew);
         Duty::from_q24(state.command)
     }
 }
