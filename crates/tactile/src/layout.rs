@@ -14,7 +14,10 @@ use crate::quantiser::Quantiser;
 pub(crate) struct Layout {
     pub(crate) classes: usize,
     pub(crate) channels: usize,
-    pub(crate) bins: usize,
+    /// Bins a channel, less one.
+    pub(crate) last_bin: usize,
+    /// Words of a row of the table.
+    pub(crate) row_words: usize,
     /// Samples.
     pub(crate) block: u32,
     /// The channels' records end and the names begin.
@@ -81,7 +84,8 @@ impl Layout {
         Ok(Self {
             classes,
             channels,
-            bins,
+            last_bin: bins - 1,
+            row_words: row_words(classes),
             block,
             names: words(body) - words(rest),
             table: words(body) - words(table),

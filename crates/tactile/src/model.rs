@@ -8,7 +8,7 @@
 use zerocopy::{FromBytes, IntoBytes};
 
 use crate::error::ModelError;
-use crate::format::{ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, row_words};
+use crate::format::{ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS};
 use crate::layout::{Layout, RECORDS, names};
 use crate::quantiser::Quantiser;
 
@@ -87,7 +87,13 @@ impl<W: AsRef<[u32]>> Model<W> {
 
     /// Bins a channel B, 1 to 4096.
     pub const fn bins(&self) -> usize {
-        self.layout.bins
+        self.layout.last_bin + 1
+    }
+
+    /// The last bin of a channel.
+    #[inline]
+    pub(crate) const fn last_bin(&self) -> usize {
+        self.layout.last_bin
     }
 
     /// Samples in a block, 1 to 10000.
@@ -119,21 +125,25 @@ impl<W: AsRef<[u32]>> Model<W> {
         if channel >= self.channels() || bin >= self.bins() || class >= self.classes() {
             return None;
         }
-        let entry = *self.row(bin, channel).get(class)?;
+        let word = *self.row(bin, channel).get(class / 2)?;
+        let entry = (word >> (16 * (class % 2))) as u16;
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
-    /// What a channel in a bin says of each class: a table entry a class.
-    /// Empty outside the table.
+    /// Words of a row of the table, two classes each.
     #[inline]
-    pub(crate) fn row(&self, bin: usize, channel: usize) -> &[u16] {
-        let words = row_words(self.layout.classes);
+    pub(crate) const fn row_words(&self) -> usize {
+        self.layout.row_words
+    }
+
+    /// The words from the row on that says of each class what a channel in a bin
+    /// says of it: table entries, two classes a word, the even one in its lower
+    /// half. Empty outside the model.
+    #[inline]
+    pub(crate) fn row(&self, bin: usize, channel: usize) -> &[u32] {
         let row = bin * self.layout.channels + channel;
-        let first = 2 * (self.layout.table + row * words);
-        // Words have whole halves, little-endian.
-        let entries = <[u16]>::ref_from_bytes(self.as_bytes()).unwrap_or_default();
-        let row = entries.get(first..first + self.layout.classes);
-        row.unwrap_or_default()
+        let first = self.layout.table + row * self.layout.row_words;
+        self.words.as_ref().get(first..).unwrap_or_default()
     }
 
     #[inline]

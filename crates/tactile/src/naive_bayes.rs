@@ -99,21 +99,30 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
             return Err(WrongChannels { expected, found });
         }
         self.add(codes);
-        let state = &mut self.state;
-        state.left = state.left.saturating_sub(1);
-        Ok((state.left == 0).then(|| self.end_of_block()).flatten())
+        if self.state.left > 1 {
+            self.state.left -= 1;
+            return Ok(None);
+        }
+        Ok(self.end_of_block())
     }
 
+    #[inline]
     fn add(&mut self, codes: &[i32]) {
+        let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
+        let pairs = pairs.get_mut(..self.model.row_words()).unwrap_or_default();
         for (channel, (binner, &code)) in self.binners.iter().zip(codes).enumerate() {
-            let bin = binner.bin(code, self.model.bins());
-            for (sum, &entry) in self.state.sums.iter_mut().zip(self.model.row(bin, channel)) {
+            let bin = binner.bin(code, self.model.last_bin());
+            let row = self.model.row(bin, channel);
+            for ([even, odd], word) in pairs.iter_mut().zip(row) {
                 // See `MAX_SAMPLES_TIMES_CHANNELS`: no sum wraps.
-                *sum = sum.wrapping_add(u32::from(entry));
+                *even = even.wrapping_add(word & 0xffff);
+                *odd = odd.wrapping_add(word >> 16);
             }
         }
     }
 
+    // Once a block: apart from the samples, which then need less of the stack.
+    #[inline(never)]
     fn end_of_block(&mut self) -> Option<Decision> {
         let State { sums, evidence, .. } = &mut self.state;
         let sums = sums.get_mut(..self.model.classes()).unwrap_or_default();

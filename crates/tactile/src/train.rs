@@ -158,7 +158,7 @@ impl Trainer {
         let mut counts = vec![vec![0.0; bins]; self.channels * classes];
         for (class, sample) in self.samples() {
             for (channel, &x) in sample.iter().enumerate() {
-                let bin = binners[channel].bin(quantisers[channel].code_from_f64(x), bins);
+                let bin = binners[channel].bin(quantisers[channel].code_from_f64(x), bins - 1);
                 counts[channel * classes + class][bin] += 1.0;
             }
         }
