@@ -64,7 +64,7 @@ pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
     let mut scenes = stages.chunk_by(|one, next| one.from == next.from);
     let first = scenes.find(|group| group[0].is_on_board());
-    let found = measured(first.unwrap_or_default())?;
+    let found = measured(first.ok_or("no stage is measured on the board")?)?;
     print!("{}", columns(&found, |figure| page::note(&stages, figure)));
     TABLE.compare(&TABLE.read(None)?, &found, false)
 }
