@@ -6,6 +6,7 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 
+use crate::moments::range;
 use host_sim::Error;
 
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -23,10 +24,7 @@ pub(crate) struct Axis {
 impl Axis {
     /// A logarithmic axis of whole decades around the positive of `values`.
     pub(crate) fn decades(name: &'static str, values: impl Iterator<Item = f64>) -> Self {
-        let mut ends = (f64::INFINITY, f64::NEG_INFINITY);
-        for value in values.filter(|value| *value > 0.0 && value.is_finite()) {
-            ends = (ends.0.min(value), ends.1.max(value));
-        }
+        let ends = range(values.filter(|value| *value > 0.0 && value.is_finite()));
         let (low, high) = if ends.0 <= ends.1 { ends } else { (1.0, 1.0) };
         let power = |exponent: f64| libm::pow(10.0, exponent);
         let from = libm::log10(low).floor();

@@ -33,6 +33,16 @@ const CASE: Case = Case {
     gain: 1.0,
 };
 
+/// The pace at a tick rate, and settings with RCP.
+fn modulated(integrator: Integrator, tick_hz: f64) -> (Pace, Settings) {
+    let pace = Pace::new(FREQUENCY_HZ, tick_hz);
+    let settings = Settings {
+        rcp: Some(RCP),
+        ..pace.settings(integrator)
+    };
+    (pace, settings)
+}
+
 /// A step of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Contact {
@@ -88,11 +98,7 @@ impl Contact {
         tick_hz: f64,
         truth: &Truth,
     ) -> Result<f64, Error> {
-        let pace = Pace::new(FREQUENCY_HZ, tick_hz);
-        let settings = Settings {
-            rcp: Some(RCP),
-            ..pace.settings(integrator)
-        };
+        let (pace, settings) = modulated(integrator, tick_hz);
         let config = settings.build::<R>().map_err(refused)?;
         let start = settings
             .start(CASE.psi, [[CASE.gain]; 2])
@@ -116,11 +122,7 @@ impl Contact {
 /// 2 kHz.
 fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
     fn of<R: Real>(integrator: Integrator) -> Result<f64, Error> {
-        let pace = Pace::new(FREQUENCY_HZ, 2_000.0);
-        let settings = Settings {
-            rcp: Some(RCP),
-            ..pace.settings(integrator)
-        };
+        let (pace, settings) = modulated(integrator, 2_000.0);
         let rcp = settings.build::<R>().map_err(refused)?.rcp;
         let rcp = rcp.ok_or_else(|| Error::Work("RCP is missing".to_owned()))?;
         let mut z = Gate::new(R::ONE);

@@ -194,22 +194,13 @@ mod tests {
     #[test]
     fn the_comparisons_have_their_known_errors() {
         let truth = Truth::solve(&CASE);
+        let euler = Scheme::Product(Euler, super::Format::F64);
         for (scheme, frequency_hz, tick_hz, known) in [
             (Scheme::RungeKutta, 2.0, 2_000.0, 6.7e-8),
             (Scheme::RungeKutta, 25.0, 2_000.0, 2.3e-3),
             (Scheme::RungeKutta, 25.0, 500.0, 1.5),
-            (
-                Scheme::Product(Euler, super::Format::F64),
-                2.0,
-                2_000.0,
-                0.48,
-            ),
-            (
-                Scheme::Product(Euler, super::Format::F64),
-                25.0,
-                500.0,
-                51.0,
-            ),
+            (euler, 2.0, 2_000.0, 0.48),
+            (euler, 25.0, 500.0, 51.0),
         ] {
             let pace = Pace::new(frequency_hz, tick_hz);
             let found = scheme.error(&CASE, &truth, pace).unwrap();

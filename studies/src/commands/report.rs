@@ -31,16 +31,12 @@ pub fn report(
             .filter(differs)
             .map(|(name, _)| out.join(name).display().to_string())
             .collect();
+        let (folder, stale_files) = (out.display(), stale.join(", "));
         return if stale.is_empty() {
-            Ok(format!(
-                "{}: the accuracy report is up to date",
-                out.display()
-            ))
+            Ok(format!("{folder}: the accuracy report is up to date"))
         } else {
-            Err(Error::Work(format!(
-                "out of date: {}: run studies report",
-                stale.join(", ")
-            )))
+            let fault = format!("out of date: {stale_files}: run studies report");
+            Err(Error::Work(fault))
         };
     }
     for (name, text) in &files {

@@ -11,6 +11,7 @@ use super::dataset::Dataset;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings};
 use super::request::{Extent, Request};
+use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
 use crate::refused::refused;
@@ -109,9 +110,8 @@ impl<'a> Floors<'a> {
 /// The model's bins span each channel's own range, so every class is given the
 /// common range's two ends as samples: 2 among some 10⁵.
 pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
-    let all = || streams.iter().flat_map(|stream| &stream.samples).copied();
-    let low = all().fold(f64::INFINITY, f64::min);
-    let high = all().fold(f64::NEG_INFINITY, f64::max);
+    let all = streams.iter().flat_map(|stream| &stream.samples).copied();
+    let (low, high) = range(all);
     let bins = ((high - low) / CODES_A_BIN).ceil().clamp(1.0, 4096.0) as usize;
     let options = Options {
         bins,

@@ -19,7 +19,7 @@ use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
-use sweeps::{NAMES, Sweeps, hit};
+use sweeps::{NAMES, Sweeps, hit, mean_hit};
 
 /// Where each arc's vibrissae begin, and where the last ends.
 fn borders() -> Vec<usize> {
@@ -50,24 +50,17 @@ pub(super) fn evaluate(
 
     let borders = borders();
     let seed = |n: usize| seed_of(request.seed, &[33, n as u64]);
-    let more: Result<Vec<Confusion>, Error> = (1..=ARCS.len())
+    let more = (1..=ARCS.len())
         .into_par_iter()
         .map(|arcs| sweeps.score(0, borders[arcs], seed(arcs)))
-        .collect();
-    let more = more?;
-    let single: Result<Vec<Confusion>, Error> = (0..5)
+        .collect::<Result<Vec<Confusion>, Error>>()?;
+    let single = (0..5)
         .into_par_iter()
         .map(|arc| sweeps.score(borders[arc], borders[arc + 1], seed(100 + arc)))
-        .collect();
-    let single = single?;
+        .collect::<Result<Vec<Confusion>, Error>>()?;
     let all = more.last().ok_or_else(|| refused("no arcs"))?;
 
-    let mean = TABLE_2
-        .iter()
-        .enumerate()
-        .map(|(n, row)| row[n])
-        .sum::<f64>()
-        / 8.0;
+    let mean = mean_hit(&TABLE_2);
     page.say(format_args!(
         "**Table 2**: all vibrissae; a row is the true paper, a column what was decided. Mean \
          {mean:.1} % in the paper, **{:.1} %** here.",

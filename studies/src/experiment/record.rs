@@ -105,20 +105,14 @@ pub(crate) fn on_other_rigs(
 #[cfg(test)]
 mod tests {
     use super::{jobs, share};
-    use crate::experiment::{Extent, Name, Request, Shard};
-    use crate::rigs::Rigs;
+    use crate::experiment::{Name, Request, Shard};
 
     #[test]
     fn shards_parse_and_cover_every_job_once() {
         for bad in ["", "1", "0/2", "3/2", "1/0", "a/b", "1/100001", "-1/2"] {
             assert!(bad.parse::<Shard>().is_err(), "{bad}");
         }
-        let request = Request {
-            names: Name::ALL.to_vec(),
-            extent: Extent::Quick,
-            seed: 1,
-            rigs: Rigs::load(None).unwrap(),
-        };
+        let request = Request::quick(&Name::ALL, 1);
         let all = jobs(&request);
         let mut found: Vec<_> = (1..=3)
             .flat_map(|i| share(&request, format!("{i}/3").parse().unwrap()))

@@ -2,19 +2,9 @@
 //! the number of cores nor on how the jobs were shared out.
 
 use super::part::bytes;
-use super::{Extent, Job, Name, Request, Shard, jobs, join, record, report, share, write_part};
-use crate::rigs::Rigs;
+use super::{Job, Name, Request, Shard, jobs, join, record, report, share, write_part};
 use host_sim::progress::Verbosity;
 use std::path::PathBuf;
-
-fn request(name: Name, seed: u64) -> Request {
-    Request {
-        names: vec![name],
-        extent: Extent::Quick,
-        seed,
-        rigs: Rigs::load(None).unwrap(),
-    }
-}
 
 /// The first jobs of every data set.
 fn some(request: &Request, count: usize) -> Vec<Job> {
@@ -26,7 +16,7 @@ fn some(request: &Request, count: usize) -> Vec<Job> {
 #[test]
 fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
     for name in [Name::Lep12, Name::Biotact, Name::Pose] {
-        let request = request(name, 3);
+        let request = Request::quick(&[name], 3);
         let jobs = some(&request, 3);
         let make = |cores| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(cores);
@@ -52,7 +42,7 @@ fn the_same_seed_gives_the_same_bytes_on_one_core_or_several() {
 /// request is refused.
 #[test]
 fn shards_join_to_the_same_bytes_and_bad_ones_are_refused() {
-    let request = request(Name::Pose, 5);
+    let request = Request::quick(&[Name::Pose], 5);
     let whole = record(&request, &jobs(&request), Verbosity::Quiet).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let mut paths: Vec<PathBuf> = Vec::new();

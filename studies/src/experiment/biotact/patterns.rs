@@ -7,6 +7,7 @@
 use crate::accuracy::misprints::figures::{FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
 use crate::chart::{Mark, linear};
 use crate::experiment::picture::{Curve, panel};
+use crate::moments::range;
 use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
 use host_sim::Error;
@@ -26,11 +27,8 @@ fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
 }
 
 /// Least and largest θ' of a side, degrees.
-fn range(rows: &[Row], side: usize) -> (f64, f64) {
-    let angles = rows.iter().map(|row| row.theta_deg[side]);
-    angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| {
-        (low.min(angle), high.max(angle))
-    })
+fn angles(rows: &[Row], side: usize) -> (f64, f64) {
+    range(rows.iter().map(|row| row.theta_deg[side]))
 }
 
 /// Contacts of a side a whisk: how often it comes past its obstacle.
@@ -58,7 +56,7 @@ fn gains(page: &mut Page) -> Result<(), Error> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
         let rows = tail(&Figure { gain, ..FIG6 })?;
-        let (low, high) = range(&rows, LEFT);
+        let (low, high) = angles(&rows, LEFT);
         said.push(format!("{low:.1} to {high:.1} at g = {gain}"));
         highest.push(high);
         curves.push(curve(&format!("g = {gain}"), &rows, LEFT));
@@ -117,7 +115,7 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
     );
     let what = "RCP and CIA before obstacles";
     page.panels("biotact-fig7-9.svg", what, &panels)?;
-    let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| range(rows, side).1);
+    let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| angles(rows, side).1);
     let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side));
     page.claim(
         "BIOTACT Fig. 7: RCP holds the left back; the right does not reach its obstacle",

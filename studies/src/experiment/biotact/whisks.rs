@@ -8,6 +8,7 @@ use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::Recordings;
 use crate::experiment::request::Request;
+use crate::moments::range;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
@@ -135,9 +136,7 @@ impl Visits {
         let whisks = self.some(strategy, numbers);
         let codes =
             whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
-        codes.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(*x), high.max(*x))
-        })
+        range(codes.copied())
     }
 
     fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {

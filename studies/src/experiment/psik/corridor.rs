@@ -3,7 +3,7 @@
 
 use tactile::score::Confusion;
 
-use super::sweeps::{PENALTIES, Row, train};
+use super::sweeps::{PENALTIES, Row, mean_hit, train};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
 use crate::experiment::recording::{Recording, Recordings};
@@ -67,12 +67,7 @@ pub(super) fn section(
         }
     }
     let hit = 100.0 * by_run.hit_rate().unwrap_or(0.0);
-    let paper = TABLE_3
-        .iter()
-        .enumerate()
-        .map(|(n, row)| row[n])
-        .sum::<f64>()
-        / 4.0;
+    let paper = mean_hit(&TABLE_3);
     page.say(format_args!(
         "**Corridors** (`studies/rigs/corridor.toml`): the robot keeps to the middle by D = (1/N) Σ (1 − \
          V_i) L_i of either side and V_y = (D_left − D_right) · 0.01. {taught} runs of each \

@@ -110,3 +110,9 @@ impl Sweeps {
 pub(super) fn hit(score: &Confusion) -> f64 {
     100.0 * score.hit_rate().unwrap_or(0.0)
 }
+
+/// Mean of the diagonal of a paper's table.
+pub(super) fn mean_hit<const N: usize>(table: &[[f64; N]; N]) -> f64 {
+    let hits = table.iter().enumerate().map(|(n, row)| row[n]);
+    hits.sum::<f64>() / N as f64
+}
