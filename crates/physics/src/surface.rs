@@ -81,24 +81,11 @@ pub enum Grit {
 impl Grit {
     /// Mean grain diameter, m.
     pub const fn grain_m(self) -> f64 {
-        1e-6 * match self {
-            Self::P40 => 425.0,
-            Self::P50 => 336.0,
-            Self::P60 => 269.0,
-            Self::P80 => 201.0,
-            Self::P100 => 162.0,
-            Self::P120 => 125.0,
-            Self::P150 => 100.0,
-            Self::P180 => 82.0,
-            Self::P220 => 68.0,
-            Self::P240 => 58.5,
-            Self::P280 => 52.2,
-            Self::P320 => 46.2,
-            Self::P360 => 40.5,
-            Self::P400 => 35.0,
-            Self::P500 => 30.2,
-            Self::P600 => 25.8,
-        }
+        const MICRONS: [f64; 16] = [
+            425.0, 336.0, 269.0, 201.0, 162.0, 125.0, 100.0, 82.0, 68.0, 58.5, 52.2, 46.2, 40.5,
+            35.0, 30.2, 25.8,
+        ];
+        1e-6 * MICRONS[self as usize]
     }
 }
 

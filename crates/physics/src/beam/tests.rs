@@ -148,34 +148,23 @@ fn the_response_of_the_tip_is_the_sum_of_all_modes() {
 
 #[test]
 fn bad_settings_are_named() {
-    let with = |change: fn(&mut Shaft)| {
-        let mut shaft = CLAMPED;
+    type Change = fn(&mut Shaft);
+    let mut shaft = CLAMPED;
+    assert_eq!(shaft.modes(3).map(|_| ()), Ok(()));
+    let changes: [(&str, Change); 8] = [
+        ("length_m", |s| s.length_m = 0.0),
+        ("tip_diameter_m", |s| s.tip_diameter_m = f64::NAN),
+        ("hub_diameter_m", |s| s.hub_diameter_m = 0.05),
+        ("youngs_pa", |s| s.youngs_pa = 1.0),
+        ("density_kg_m3", |s| s.density_kg_m3 = 0.0),
+        ("damping", |s| s.damping = 1.0),
+        ("rotation_n_m_rad", |s| s.follicle.rotation_n_m_rad = 0.0),
+        ("axial_n_m", |s| s.follicle.axial_n_m = f64::NAN),
+    ];
+    for (name, change) in changes {
+        shaft = CLAMPED;
         change(&mut shaft);
-        shaft.modes(3).map(|_| ())
-    };
-    assert_eq!(with(|_| ()), Ok(()));
-    assert_eq!(with(|s| s.length_m = 0.0), Err(BadSetting("length_m")));
-    assert_eq!(
-        with(|s| s.tip_diameter_m = f64::NAN),
-        Err(BadSetting("tip_diameter_m"))
-    );
-    assert_eq!(
-        with(|s| s.hub_diameter_m = 0.05),
-        Err(BadSetting("hub_diameter_m"))
-    );
-    assert_eq!(with(|s| s.youngs_pa = 1.0), Err(BadSetting("youngs_pa")));
-    assert_eq!(
-        with(|s| s.density_kg_m3 = 0.0),
-        Err(BadSetting("density_kg_m3"))
-    );
-    assert_eq!(with(|s| s.damping = 1.0), Err(BadSetting("damping")));
-    assert_eq!(
-        with(|s| s.follicle.rotation_n_m_rad = 0.0),
-        Err(BadSetting("rotation_n_m_rad"))
-    );
-    assert_eq!(
-        with(|s| s.follicle.axial_n_m = f64::NAN),
-        Err(BadSetting("axial_n_m"))
-    );
+        assert_eq!(shaft.modes(3), Err(BadSetting(name)));
+    }
     assert_eq!(CLAMPED.modes(13), Err(BadSetting("count")));
 }

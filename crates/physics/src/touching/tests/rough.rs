@@ -1,25 +1,29 @@
 //! Textures: jumps, dead zones, seeds, and what depends on the material.
 
-use super::energy::MATERIALS;
+use super::energy::materials;
 use super::{DT, QUIET, floor};
 use crate::{Biotact, Material, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// A reading, and whether the tip touched.
 type Read = ([f64; 2], bool);
 
-/// The floor robot's whisker, 15° below the level and 45° to the way, drawn over
-/// a surface at 0.2 m/s for 5 s.
-fn drawn(surface: Surface, settings: SensorSettings, seed: u64) -> Vec<Read> {
+/// After `n` steps at 0.2 m/s: 15° below the level and 45° to the way, pressed
+/// down by a twentieth of the length.
+fn slanted(n: usize, length_m: f64) -> Pose {
     let (sine, cosine) = 15.0_f64.to_radians().sin_cos();
     let half = 0.5_f64.sqrt();
+    Pose {
+        base_m: [1e-4 * n as f64, 0.0, length_m * (sine - 0.05)],
+        x: [-half, half, 0.0],
+        y: [half * sine, half * sine, cosine],
+    }
+}
+
+/// The floor robot's whisker drawn over a surface for 5 s.
+fn drawn(surface: Surface, settings: SensorSettings, seed: u64) -> Vec<Read> {
     let mut whisker = TouchingWhisker::new(&Shaft::floor_robot(), &settings, seed).unwrap();
     let mut step = |n: usize| {
-        let pose = Pose {
-            base_m: [1e-4 * n as f64, 0.0, 0.2 * sine - 0.01],
-            x: [-half, half, 0.0],
-            y: [half * sine, half * sine, cosine],
-        };
-        whisker.step(&pose, Some(&floor(surface)), DT);
+        whisker.step(&slanted(n, 0.2), Some(&floor(surface)), DT);
         (whisker.reading(), whisker.contact())
     };
     (0..12_000).map(&mut step).skip(2000).collect()
@@ -114,25 +118,18 @@ fn a_floor_rings_where_the_whisker_does_with_its_tip_held() {
 fn the_ground_stays_where_it_is() {
     // Drawn over every material at 0.2 m/s: where contact cannot pay for the
     // ground's height at once, it soon does.
-    let (sine, cosine) = 15.0_f64.to_radians().sin_cos();
-    let half = 0.5_f64.sqrt();
     let shafts = [
         Shaft::floor_robot(),
         Shaft::biotact(Biotact::Front),
         Shaft::psikharpax(1),
     ];
-    for material in MATERIALS {
+    for material in materials() {
         let surface = Surface::of(material);
         for shaft in &shafts {
             let mut whisker = TouchingWhisker::new(shaft, &QUIET, 1).unwrap();
             let (mut touching, mut lowered) = (0, 0);
             for n in 0..2000 {
-                let pose = Pose {
-                    base_m: [1e-4 * f64::from(n), 0.0, shaft.length_m * (sine - 0.05)],
-                    x: [-half, half, 0.0],
-                    y: [half * sine, half * sine, cosine],
-                };
-                whisker.step(&pose, Some(&floor(surface)), DT);
+                whisker.step(&slanted(n, shaft.length_m), Some(&floor(surface)), DT);
                 touching += u32::from(whisker.contact());
                 lowered += u32::from(whisker.lowered_m() > 0.01 * surface.height_m);
             }
