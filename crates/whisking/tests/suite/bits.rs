@@ -5,6 +5,7 @@
 //! a table from another. A fingerprint can. Whoever changes a table, a
 //! coefficient or the order of operations on purpose puts the new one here.
 
+use crate::settings::plain;
 use whisking::muscle::drive;
 use whisking::{Elementary, Fix, Integrator, Settings, noise};
 
@@ -66,13 +67,9 @@ fn elementary_functions_in_single_precision() {
 #[test]
 fn noise_of_a_seed() {
     let settings = Settings {
-        tick_hz: 2_000.0,
-        frequency_hz: 8.0,
-        integrator: Integrator::Exact,
         coupling: true,
         noise: 0.005,
-        rcp: None,
-        cia: None,
+        ..plain(Integrator::Exact, 2_000.0, 8.0)
     };
     let config: noise::Config<f64> = settings.build().unwrap().noise.unwrap();
     let mut state = noise::State::<f64, 2>::new(1);

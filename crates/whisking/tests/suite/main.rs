@@ -12,3 +12,5 @@ mod motor_six_step;
 mod motor_stall;
 mod oscillator_terms;
 mod phase_noise;
+mod pins;
+mod settings;

@@ -1,17 +1,14 @@
 //! Every term of the muscles, of the gain (BIOTACT eqs. 7 and 8) and of the
 //! position control's filter against the same written out in f64.
 
+use crate::settings::plain;
 use whisking::muscle::{self, MuscleIntegrator, PEAK_GAIN};
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, pd};
 
 fn settings(integrator: Integrator) -> Settings {
     Settings {
-        tick_hz: 200.0,
-        frequency_hz: 2.0,
-        integrator,
         coupling: true,
-        noise: 0.0,
         rcp: Some(GateSettings {
             gain: 0.7,
             tau_s: 0.02,
@@ -20,6 +17,7 @@ fn settings(integrator: Integrator) -> Settings {
             gain: 0.5,
             tau_s: 0.03,
         }),
+        ..plain(integrator, 200.0, 2.0)
     }
 }
 

@@ -1,215 +1,133 @@
 //! The order of writes across pins, which separate mocks cannot see: all pins
 //! of a driver write into one log, and the log is compared word for word.
 
-use core::convert::Infallible;
-use embedded_hal::digital::{self, InputPin, OutputPin};
-use embedded_hal::pwm::{self, SetDutyCycle};
+use crate::pins::{FREE_RUNNING, Log, MAX, Wire};
 use proptest::prelude::*;
-use std::cell::{Cell, RefCell};
-use std::rc::Rc;
-use whisking::motor::{Duty, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
+use whisking::motor::{Duty, HBridge, MotorDriver, SixStep};
 
-const MAX: u16 = 1000;
+const HALF: Duty = Duty::from_q15(16_384);
+const MINUS_HALF: Duty = Duty::from_q15(-16_384);
+/// The writes that switch the six-step stage off.
+const OFF: &str = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=0";
 
-/// What the pins of one driver have done, as words like `EN1=1` or `IN2=500`.
-#[derive(Clone, Default)]
-struct Log(Rc<RefCell<Vec<String>>>);
+/// A driver and the log of its pins.
+struct Bench<D> {
+    log: Log,
+    driver: D,
+    halls: [Wire; 3],
+}
 
-impl Log {
-    fn write(&self, name: &str, value: u16) {
-        self.0.borrow_mut().push(format!("{name}={value}"));
+impl<D: MotorDriver> Bench<D> {
+    /// What a tick writes.
+    fn drive(&mut self, duty: Duty) -> String {
+        self.driver.drive(duty).unwrap();
+        self.log.take()
     }
 
-    /// Everything since the last call.
-    fn take(&self) -> String {
-        self.0.take().join(" ")
+    fn off(&mut self) -> String {
+        self.driver.off();
+        self.log.take()
+    }
+
+    /// Sets the Hall code.
+    fn turn(&self, code: u16) {
+        for (bit, hall) in self.halls.iter().enumerate() {
+            hall.value.set(code >> bit & 1);
+        }
+    }
+
+    fn map(self, change: impl FnOnce(D) -> D) -> Self {
+        Self {
+            driver: change(self.driver),
+            ..self
+        }
     }
 }
 
-struct Out(&'static str, Log);
-
-impl digital::ErrorType for Out {
-    type Error = Infallible;
-}
-
-impl OutputPin for Out {
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        self.1.write(self.0, 0);
-        Ok(())
-    }
-
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        self.1.write(self.0, 1);
-        Ok(())
-    }
-}
-
-impl pwm::ErrorType for Out {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for Out {
-    fn max_duty_cycle(&self) -> u16 {
-        MAX
-    }
-
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.1.write(self.0, duty);
-        Ok(())
-    }
-}
-
-/// One bit of a Hall code set by the test.
-struct Hall(Rc<Cell<u8>>, u8);
-
-impl digital::ErrorType for Hall {
-    type Error = Infallible;
-}
-
-impl InputPin for Hall {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.get() & self.1 != 0)
-    }
-
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.get() & self.1 == 0)
-    }
-}
-
-fn bridge() -> (Log, HBridge<Out, Out>) {
+fn bridge() -> Bench<HBridge<Wire, Wire>> {
     let log = Log::default();
-    let bridge = HBridge::new(Out("PWM", log.clone()), Out("DIR", log.clone()));
-    (log, bridge)
+    let driver = HBridge::new(Wire::new("PWM", &log), Wire::new("DIR", &log));
+    let halls = Default::default();
+    Bench { log, driver, halls }
 }
 
-type Three = (Out, Out, Out);
+type Three = (Wire, Wire, Wire);
 
-type Motor = SixStep<Three, Three, (Hall, Hall, Hall)>;
-
-fn six_step() -> (Log, Rc<Cell<u8>>, Motor) {
-    let (log, code) = (Log::default(), Rc::new(Cell::new(1)));
-    let out = |name| Out(name, log.clone());
-    let hall = |bit| Hall(code.clone(), bit);
-    // The tests jump about and stand still as they like.
-    let config = SixStepConfig {
-        skip_limit: u8::MAX,
-        stall: StallConfig {
-            ticks: 1,
-            threshold: Duty::FULL,
-        },
-        ..SixStepConfig::DEFAULT
-    };
-    let motor = SixStep::new(
-        (out("IN1"), out("IN2"), out("IN3")),
-        (out("EN1"), out("EN2"), out("EN3")),
-        (hall(1), hall(2), hall(4)),
-        config,
+fn six_step() -> Bench<SixStep<Three, Three, Three>> {
+    let (log, halls) = (Log::default(), <[Wire; 3]>::default());
+    let out = |names: [_; 3]| names.map(|name| Wire::new(name, &log)).into();
+    let driver = SixStep::new(
+        out(["IN1", "IN2", "IN3"]),
+        out(["EN1", "EN2", "EN3"]),
+        halls.clone().into(),
+        FREE_RUNNING,
     );
-    (log, code, motor)
-}
-
-fn half() -> Duty {
-    Duty::from_q15(16_384)
-}
-
-fn minus_half() -> Duty {
-    Duty::from_q15(-16_384)
+    let bench = Bench { log, driver, halls };
+    bench.turn(1);
+    bench
 }
 
 #[test]
 fn hbridge_reverses_over_zero() {
-    let (log, mut bridge) = bridge();
-    assert_eq!(log.take(), "PWM=0");
-    bridge.drive(half()).unwrap();
-    assert_eq!(log.take(), "PWM=0 DIR=1 PWM=500");
-    bridge.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), "PWM=0 DIR=0 PWM=500");
-    bridge.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), "PWM=500");
-    bridge.off();
-    assert_eq!(log.take(), "PWM=0");
+    let mut bridge = bridge();
+    assert_eq!(bridge.log.take(), "PWM=0");
+    assert_eq!(bridge.drive(HALF), "PWM=0 DIR=1 PWM=500");
+    assert_eq!(bridge.drive(MINUS_HALF), "PWM=0 DIR=0 PWM=500");
+    assert_eq!(bridge.drive(MINUS_HALF), "PWM=500");
+    assert_eq!(bridge.off(), "PWM=0");
 }
 
 #[test]
 fn buffered_hbridge_rests_a_tick_before_it_reverses() {
-    let (log, bridge) = bridge();
-    let mut bridge = bridge.with_buffered_pwm();
-    log.take();
-    bridge.drive(half()).unwrap();
-    assert_eq!(log.take(), "PWM=0 DIR=1 PWM=500");
-    bridge.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), "PWM=0");
-    bridge.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), "PWM=0 DIR=0 PWM=500");
+    let mut bridge = bridge().map(HBridge::with_buffered_pwm);
+    bridge.log.take();
+    assert_eq!(bridge.drive(HALF), "PWM=0 DIR=1 PWM=500");
+    assert_eq!(bridge.drive(MINUS_HALF), "PWM=0");
+    assert_eq!(bridge.drive(MINUS_HALF), "PWM=0 DIR=0 PWM=500");
     // From rest there is nothing to wait for.
-    bridge.drive(Duty::ZERO).unwrap();
-    bridge.drive(half()).unwrap();
-    assert_eq!(log.take(), "PWM=0 PWM=0 DIR=1 PWM=500");
+    assert_eq!(bridge.drive(Duty::ZERO), "PWM=0");
+    assert_eq!(bridge.drive(HALF), "PWM=0 DIR=1 PWM=500");
 }
 
 #[test]
 fn six_step_breaks_before_it_makes() {
-    let (log, code, mut motor) = six_step();
-    let off = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=0";
-    assert_eq!(log.take(), off);
+    let mut motor = six_step();
+    assert_eq!(motor.log.take(), OFF);
     // Whatever the outputs are, the first step sets them all.
-    motor.drive(half()).unwrap();
-    assert_eq!(
-        log.take(),
-        "EN1=0 EN2=0 EN3=0 IN1=0 IN3=0 IN2=500 EN3=1 EN2=1"
-    );
+    let first = "EN1=0 EN2=0 EN3=0 IN1=0 IN3=0 IN2=500 EN3=1 EN2=1";
+    assert_eq!(motor.drive(HALF), first);
     // Same step: the duty alone.
-    motor.drive(Duty::FULL).unwrap();
-    assert_eq!(log.take(), "IN2=1000");
+    assert_eq!(motor.drive(Duty::FULL), "IN2=1000");
     // Next sector: low moves from 3 to 1.
-    code.set(3);
-    motor.drive(half()).unwrap();
-    assert_eq!(log.take(), "EN3=0 IN1=0 IN3=0 IN2=500 EN1=1");
+    motor.turn(3);
+    assert_eq!(motor.drive(HALF), "EN3=0 IN1=0 IN3=0 IN2=500 EN1=1");
     // Next sector: high moves from 2 to 3.
-    code.set(2);
-    motor.drive(half()).unwrap();
-    assert_eq!(log.take(), "EN2=0 IN2=0 IN3=500 EN3=1");
+    motor.turn(2);
+    assert_eq!(motor.drive(HALF), "EN2=0 IN2=0 IN3=500 EN3=1");
     // Reversal: both float while their inputs change places.
-    motor.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), "EN1=0 EN3=0 IN3=0 IN1=500 EN3=1 EN1=1");
+    let reversal = "EN1=0 EN3=0 IN3=0 IN1=500 EN3=1 EN1=1";
+    assert_eq!(motor.drive(MINUS_HALF), reversal);
     // Zero keeps the direction, either one.
-    motor.drive(Duty::ZERO).unwrap();
-    assert_eq!(log.take(), "IN1=0");
-    motor.drive(half()).unwrap();
-    log.take();
-    motor.drive(Duty::ZERO).unwrap();
-    assert_eq!(log.take(), "IN3=0");
-    motor.off();
-    assert_eq!(log.take(), off);
+    assert_eq!(motor.drive(Duty::ZERO), "IN1=0");
+    motor.drive(HALF);
+    assert_eq!(motor.drive(Duty::ZERO), "IN3=0");
+    assert_eq!(motor.off(), OFF);
 }
 
 #[test]
 fn buffered_six_step_coasts_a_tick_before_it_reverses() {
-    let (log, code, motor) = six_step();
-    let mut motor = motor.with_buffered_pwm();
-    let off = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=0";
-    motor.drive(half()).unwrap();
-    log.take();
-    motor.drive(minus_half()).unwrap();
-    assert_eq!(log.take(), off);
-    motor.drive(minus_half()).unwrap();
-    assert_eq!(
-        log.take(),
-        "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=500 EN2=1 EN3=1"
-    );
+    let mut motor = six_step().map(SixStep::with_buffered_pwm);
+    motor.drive(HALF);
+    assert_eq!(motor.drive(MINUS_HALF), OFF);
+    let first = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=500 EN2=1 EN3=1";
+    assert_eq!(motor.drive(MINUS_HALF), first);
     // Reverse 1 to 3 (high 3 to 1, low stays 2): no phase goes from high to low.
-    code.set(3);
-    motor.drive(minus_half()).unwrap();
-    assert_eq!(
-        log.take(),
-        "EN3=0 IN2=0 IN3=0 IN1=500 EN2=1 EN1=1"
-            .replace("EN2=1 ", "")
-            .replace("IN2=0 ", "")
-    );
+    motor.turn(3);
+    assert_eq!(motor.drive(MINUS_HALF), "EN3=0 IN3=0 IN1=500 EN1=1");
     // After a tick at zero there is nothing to wait for.
-    motor.drive(Duty::ZERO).unwrap();
-    motor.drive(half()).unwrap();
-    assert_eq!(log.take(), "IN1=0 EN1=0 EN2=0 IN1=0 IN2=500 EN1=1 EN2=1");
+    assert_eq!(motor.drive(Duty::ZERO), "IN1=0");
+    let forward = "EN1=0 EN2=0 IN1=0 IN2=500 EN1=1 EN2=1";
+    assert_eq!(motor.drive(HALF), forward);
 }
 
 /// The last value written to each output, read back from a log.
@@ -231,16 +149,16 @@ proptest! {
         duties in proptest::collection::vec(any::<i16>(), 1..40),
         buffered: bool,
     ) {
-        let (log, bridge) = bridge();
-        let mut bridge = if buffered { bridge.with_buffered_pwm() } else { bridge };
+        let bridge = bridge();
+        let mut bridge = if buffered { bridge.map(HBridge::with_buffered_pwm) } else { bridge };
         let mut now = [0; 3];
         // A buffered timer still puts out, during a tick, what it was left at
         // in the tick before.
         let mut before = 0;
         for q15 in duties {
-            bridge.drive(Duty::from_q15(q15)).unwrap();
+            let words = bridge.drive(Duty::from_q15(q15));
             let mut old = now;
-            for new in states(&log.take(), ["PWM", "DIR", ""], &mut now) {
+            for new in states(&words, ["PWM", "DIR", ""], &mut now) {
                 if new[1] != old[1] {
                     prop_assert_eq!(new[0], 0);
                     prop_assert!(!buffered || before == 0);
@@ -260,14 +178,13 @@ proptest! {
     fn six_step_drives_no_pattern_in_between(
         ticks in proptest::collection::vec((0_usize..6, any::<i16>()), 1..40),
     ) {
-        let (log, code, mut motor) = six_step();
+        let mut motor = six_step();
         let (mut en, mut inputs) = ([0; 3], [0; 3]);
         let mut before = None;
         for (sector, q15) in ticks {
-            code.set([1, 3, 2, 6, 4, 5][sector]);
-            motor.drive(Duty::from_q15(q15)).unwrap();
+            motor.turn([1, 3, 2, 6, 4, 5][sector]);
             let mut passed = Vec::new();
-            for word in log.take().split_whitespace() {
+            for word in motor.drive(Duty::from_q15(q15)).split_whitespace() {
                 states(word, ["EN1", "EN2", "EN3"], &mut en);
                 states(word, ["IN1", "IN2", "IN3"], &mut inputs);
                 let high: Vec<_> = (0..3).filter(|&i| en[i] == 1 && inputs[i] > 0).collect();

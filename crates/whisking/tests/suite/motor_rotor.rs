@@ -5,19 +5,14 @@
 //! sensor k high where cos(α − 120° (k − 1)) > 0; the field is the sum of the
 //! driven phases' axes, plus for a phase at its PWM, minus for one at ground.
 
-use core::convert::Infallible;
+use crate::pins::{FREE_RUNNING, MAX, Wire};
 use core::f64::consts::TAU;
-use embedded_hal::digital::{self, InputPin, OutputPin};
-use embedded_hal::pwm::{self, SetDutyCycle};
 use proptest::prelude::*;
-use std::cell::Cell;
-use std::rc::Rc;
 use whisking::motor::{
     COMMUTATION, CommutationStep, Duty, Fault, MotorDriver, Pair, Phase, SixStep, SixStepConfig,
     StallConfig,
 };
 
-const MAX: u16 = 1000;
 const ORDERS: [[usize; 3]; 6] = [
     [0, 1, 2],
     [1, 2, 0],
@@ -26,51 +21,6 @@ const ORDERS: [[usize; 3]; 6] = [
     [1, 0, 2],
     [2, 1, 0],
 ];
-
-/// A shared wire: a level or a duty.
-#[derive(Clone, Default)]
-struct Wire(Rc<Cell<u16>>);
-
-impl digital::ErrorType for Wire {
-    type Error = Infallible;
-}
-
-impl OutputPin for Wire {
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        self.0.set(0);
-        Ok(())
-    }
-
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        self.0.set(1);
-        Ok(())
-    }
-}
-
-impl InputPin for Wire {
-    fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.get() != 0)
-    }
-
-    fn is_low(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.get() == 0)
-    }
-}
-
-impl pwm::ErrorType for Wire {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for Wire {
-    fn max_duty_cycle(&self) -> u16 {
-        MAX
-    }
-
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.0.set(duty);
-        Ok(())
-    }
-}
 
 type Wires = (Wire, Wire, Wire);
 
@@ -109,15 +59,15 @@ impl Bench {
 
     fn place(&self, angle: f64) {
         for (k, hall) in self.halls.iter().enumerate() {
-            hall.0.set(u16::from((angle - axis(k)).cos() > 0.0));
+            hall.value.set(u16::from((angle - axis(k)).cos() > 0.0));
         }
     }
 
     /// The field's components, for a supply of one: two phases at full drive
     /// make a length of √3.
     fn field(&self) -> [f64; 2] {
-        let enabled = || (0..3).filter(|&k| self.enables[k].0.get() != 0);
-        let pulse = |k: usize| f64::from(self.inputs[k].0.get()) / f64::from(MAX);
+        let enabled = || (0..3).filter(|&k| self.enables[k].value.get() != 0);
+        let pulse = |k: usize| f64::from(self.inputs[k].value.get()) / f64::from(MAX);
         let mean = enabled().map(pulse).sum::<f64>() / (enabled().count().max(1)) as f64;
         // Star point at the mean of the driven phases; twice, for ±1.
         enabled().fold([0.0; 2], |[x, y], k| {
@@ -133,17 +83,6 @@ fn lead_deg([x, y]: [f64; 2], angle: f64) -> f64 {
     (if lead > TAU / 2.0 { lead - TAU } else { lead }).to_degrees()
 }
 
-fn free_running() -> SixStepConfig {
-    SixStepConfig {
-        skip_limit: u8::MAX,
-        stall: StallConfig {
-            ticks: 1,
-            threshold: Duty::FULL,
-        },
-        ..SixStepConfig::DEFAULT
-    }
-}
-
 /// Whether a field leads (or lags, in reverse) by 60° to 120°.
 fn drives(field: [f64; 2], angle: f64, forward: bool) -> bool {
     let sign = if forward { 1.0 } else { -1.0 };
@@ -152,7 +91,7 @@ fn drives(field: [f64; 2], angle: f64, forward: bool) -> bool {
 
 /// Whether a driver in this wiring drives rightly from everywhere.
 fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
-    let mut bench = Bench::new(phases, sensors, free_running());
+    let mut bench = Bench::new(phases, sensors, FREE_RUNNING);
     (0..360).all(|degree| {
         let angle = (f64::from(degree) + 0.5).to_radians();
         bench.place(angle);
@@ -227,7 +166,7 @@ proptest! {
         turns in -100.0_f64..100.0,
         q15 in prop_oneof![-32_767_i16..-40, 40_i16..=32_767],
     ) {
-        let mut bench = Bench::new(ORDERS[0], ORDERS[0], free_running());
+        let mut bench = Bench::new(ORDERS[0], ORDERS[0], FREE_RUNNING);
         let (angle, duty) = (turns * TAU, Duty::from_q15(q15));
         bench.place(angle);
         bench.driver.drive(duty).unwrap();
@@ -286,8 +225,8 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
     let stalled = (1..100).find(|_| bench.driver.drive(Duty::FULL).is_err());
     assert!(stalled.is_some_and(|ticks| ticks <= 10), "{stalled:?}");
     assert_eq!(bench.driver.fault(), Some(Fault::Stall));
-    assert!(bench.enables.iter().all(|enable| enable.0.get() == 0));
-    assert!(bench.inputs.iter().all(|input| input.0.get() == 0));
+    assert!(bench.enables.iter().all(|enable| enable.value.get() == 0));
+    assert!(bench.inputs.iter().all(|input| input.value.get() == 0));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Every term of the oscillators (BIOTACT eqs. 3 to 5) against closed forms,
 //! far from the circle and near it, with one side and with two.
 
+use crate::settings::plain;
 use core::f64::consts::TAU;
 use whisking::oscillator::{self, OscillatorIntegrator, Psi};
 use whisking::{Fix, Integrator, Real, Settings};
@@ -9,18 +10,6 @@ const TICK_HZ: f64 = 2000.0;
 const HZ: f64 = 8.0;
 const CYCLES: f64 = HZ / TICK_HZ;
 
-fn settings(integrator: Integrator, coupling: bool) -> Settings {
-    Settings {
-        tick_hz: TICK_HZ,
-        frequency_hz: HZ,
-        integrator,
-        coupling,
-        noise: 0.0,
-        rcp: None,
-        cia: None,
-    }
-}
-
 struct Running<R: Real, const S: usize> {
     config: oscillator::Config<R>,
     state: oscillator::State<R, S>,
@@ -28,7 +17,10 @@ struct Running<R: Real, const S: usize> {
 
 impl<R: Real, const S: usize> Running<R, S> {
     fn new(integrator: Integrator, coupling: bool, psi: [Psi<f64>; S]) -> Self {
-        let settings = settings(integrator, coupling);
+        let settings = Settings {
+            coupling,
+            ..plain(integrator, TICK_HZ, HZ)
+        };
         let start = settings.start::<R, S, 1>(psi, [[1.0]; S]).unwrap();
         Self {
             config: settings.build().unwrap().oscillators,

@@ -6,6 +6,7 @@
 //! pulled back; along it nothing does, so the phase of a side alone walks with
 //! that variance, in rad².
 
+use crate::settings::plain;
 use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Integrator, PatternGenerator, Settings, State};
 
@@ -13,13 +14,8 @@ use whisking::{Integrator, PatternGenerator, Settings, State};
 fn variance(integrator: Integrator, tick_hz: f64) -> f64 {
     const SEEDS: u32 = 60;
     let settings = |noise| Settings {
-        tick_hz,
-        frequency_hz: 2.0,
-        integrator,
-        coupling: false,
         noise,
-        rcp: None,
-        cia: None,
+        ..plain(integrator, tick_hz, 2.0)
     };
     let phases = |noise, seed| {
         let config = settings(noise).build::<f64>().unwrap();
