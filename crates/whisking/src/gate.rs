@@ -129,16 +129,16 @@ mod tests {
     use super::{Cia, Decay, Gate, Rcp};
     use crate::{Fix, Integrator, Real};
 
-    fn rcp<R: Real>(ticks: f64) -> Rcp<R> {
+    fn rcp<R: Real>(integrator: Integrator, ticks: f64) -> Rcp<R> {
         Rcp {
-            decay: Decay::new(ticks, Integrator::Exact),
+            decay: Decay::new(ticks, integrator),
             gain: R::coefficient(0.7),
         }
     }
 
     #[test]
     fn suppression_rises_at_once_and_decays_with_its_time_constant() {
-        let rcp = rcp::<f64>(250.0);
+        let rcp = rcp::<f64>(Integrator::Exact, 250.0);
         let mut z = Gate::new(0.0);
         rcp.step(&mut z, 0.5);
         assert!((z.value - 0.35).abs() < 1e-15);
@@ -153,7 +153,7 @@ mod tests {
     /// A contact of NaN or infinity leaves a gate that is a number.
     #[test]
     fn a_gate_recovers_from_anything() {
-        let rcp = rcp::<f32>(250.0);
+        let rcp = rcp::<f32>(Integrator::Exact, 250.0);
         let mut z = Gate::new(0.5_f32);
         for pi in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 0.0] {
             rcp.step(&mut z, pi);
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn the_slowest_decay_arrives_in_every_format() {
         fn after<R: Real>() -> f64 {
-            let rcp = rcp::<R>(4e8);
+            let rcp = rcp::<R>(Integrator::Exact, 4e8);
             let mut z = Gate::new(R::ONE);
             for _ in 0..4_000_000 {
                 rcp.step(&mut z, R::ZERO);
@@ -212,10 +212,7 @@ mod tests {
     /// 1 − T/τ is negative for τ < T, so the demand of contact is the larger.
     #[test]
     fn a_decay_shorter_than_a_tick_leaves_the_demand_of_contact() {
-        let rcp = Rcp {
-            decay: Decay::<f64>::new(0.1, Integrator::Euler),
-            gain: 0.7,
-        };
+        let rcp = rcp::<f64>(Integrator::Euler, 0.1);
         let mut z = Gate::new(1.0);
         rcp.step(&mut z, 0.5);
         assert_eq!(z.value, 0.35);
@@ -229,16 +226,13 @@ mod tests {
 
     #[test]
     fn the_mean_is_half_a_tick_further_unless_contact_holds_the_gate() {
-        let (ours, mut z) = (rcp::<f64>(4.0), Gate::new(0.8));
+        let (ours, mut z) = (rcp::<f64>(Integrator::Exact, 4.0), Gate::new(0.8));
         ours.step(&mut z, 0.0);
         assert!((z.value - 0.8 * (-0.25_f64).exp()).abs() < 1e-15);
         assert!((z.mean - 0.8 * (-0.375_f64).exp()).abs() < 1e-15);
         ours.step(&mut z, 1.0);
         assert_eq!((z.value, z.mean), (0.7, 0.7));
-        let papers = Rcp {
-            decay: Decay::<f64>::new(4.0, Integrator::Euler),
-            gain: 0.7,
-        };
+        let papers = rcp::<f64>(Integrator::Euler, 4.0);
         papers.step(&mut z, 0.0);
         assert!((z.value - 0.525).abs() < 1e-15);
         assert_eq!(z.value, z.mean);

@@ -165,24 +165,18 @@ fn readings_and_constants_in_fixed_point_are_the_nearest() {
         let error = Fix::from_code(code).to_f64() - f64::from(code) / 8191.0;
         assert!(error.abs() < 2e-8, "{code}: {error:e}");
     }
+    let nearest = |mantissa: f64, value: f64, shift: i32| {
+        let scaled = value * f64::from(shift).exp2();
+        assert!((mantissa - scaled).abs() <= 0.5, "{value}");
+    };
     for n in 1..2000 {
         let value = f64::from(n) * 4.7e-4;
-        let Ok(mantissa) = u32::try_from(Fix::fine(value).mantissa) else {
-            panic!("{value}")
-        };
-        let scaled = value * f64::from(32 + Fix::fine(value).shift).exp2();
-        assert!((f64::from(mantissa) - scaled).abs() <= 0.5, "{value}");
+        let fine = Fix::fine(value);
+        assert!(fine.mantissa >= 0, "{value}");
+        nearest(f64::from(fine.mantissa), value, 32 + fine.shift);
         let factor = Fix::coefficient(value);
-        let scaled = value * f64::from(16 + factor.shift).exp2();
-        assert!(
-            (f64::from(factor.mantissa) - scaled).abs() <= 0.5,
-            "{value}"
-        );
+        nearest(f64::from(factor.mantissa), value, 16 + factor.shift);
         let row = Fix::row([value, value / 3.0]);
-        let scaled = value / 3.0 * f64::from(16 + row.shift).exp2();
-        assert!(
-            (f64::from(row.mantissas[1]) - scaled).abs() <= 0.5,
-            "{value}"
-        );
+        nearest(f64::from(row.mantissas[1]), value / 3.0, 16 + row.shift);
     }
 }

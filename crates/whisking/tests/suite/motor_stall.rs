@@ -65,9 +65,8 @@ fn a_new_guard_starts_over() {
     guard.update(HALF, Duty::FULL, false);
     guard.update(HALF, Duty::FULL, false);
     guard = StallGuard::default();
-    assert!(!guard.update(HALF, Duty::FULL, false));
-    assert!(!guard.update(HALF, Duty::FULL, false));
-    assert!(guard.update(HALF, Duty::FULL, false));
+    let seen = [(); 3].map(|()| guard.update(HALF, Duty::FULL, false));
+    assert_eq!(seen, [false, false, true]);
 }
 
 #[test]
