@@ -6,7 +6,7 @@ use stm32_metapac::timer::vals::{CcmrInputCcs, FilterValue, Sms};
 
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::{EncoderA, EncoderB};
-use crate::here::{ENCODER, ENCODER_FUNCTION, encoder_count};
+use crate::here::{ENCODER, ENCODER_BITS, ENCODER_FUNCTION, encoder_count};
 
 /// A level counts after eight equal samples of the timer's clock: 100 ns at 80 MHz.
 const FILTER: FilterValue = FilterValue::FCK_INT_N8;
@@ -14,35 +14,12 @@ const FILTER: FilterValue = FilterValue::FCK_INT_N8;
 /// the setting after channel 4's).
 const OWN_INPUT: CcmrInputCcs = CcmrInputCcs::TI4;
 
-/// What a timer counts; wraps around.
-pub(crate) trait Count: Copy {
-    /// From `earlier` to now, the short way round.
-    fn since(self, earlier: Self) -> i32;
-}
-
-impl Count for u16 {
-    #[inline]
-    fn since(self, earlier: Self) -> i32 {
-        self.wrapping_sub(earlier).cast_signed().into()
-    }
-}
-
-impl Count for u32 {
-    #[inline]
-    fn since(self, earlier: Self) -> i32 {
-        self.wrapping_sub(earlier).cast_signed()
-    }
-}
-
-/// A timer as encoder input, widened to 32 bits: right as long as less than
+/// The board's encoder timer, widened to 32 bits: right as long as less than
 /// half of its round passes between two ticks.
-pub(crate) struct Widened<C> {
-    last: C,
+pub(crate) struct Encoder {
+    last: u32,
     counts: i32,
 }
-
-/// What the board's encoder timer makes of it.
-pub(crate) type Encoder = Widened<crate::here::EncoderCount>;
 
 impl Encoder {
     /// Counts from zero at the whisker's present angle.
@@ -70,7 +47,10 @@ impl AngleInput for Encoder {
     #[inline]
     fn counts(&mut self) -> i32 {
         let now = encoder_count();
-        self.counts = self.counts.wrapping_add(now.since(self.last));
+        // The short way round: the sign of the timer's bits.
+        let above = u32::BITS - ENCODER_BITS;
+        let moved = (now.wrapping_sub(self.last) << above).cast_signed() >> above;
+        self.counts = self.counts.wrapping_add(moved);
         self.last = now;
         self.counts
     }

@@ -69,7 +69,8 @@ mod chip {
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
-    use crate::board::systick::SysTick;
+    /// Measures the ticks.
+    pub(crate) use crate::board::systick::SysTick as Counter;
 
     /// Requests each byte of a frame.
     pub(crate) const BYTE_TIMER: TimGp16 = TIM4;
@@ -77,6 +78,8 @@ mod chip {
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp16 = TIM2;
+    /// Bits of its count.
+    pub(crate) const ENCODER_BITS: u32 = 16;
     /// DMA1 channel 2, counted from 0: requested by SPI1_RX (RM0008, table 78).
     pub(crate) const RX_DMA: usize = 1;
     /// DMA1 channel 7: requested by TIM4_UP.
@@ -86,21 +89,10 @@ mod chip {
     pub(crate) const ENCODER_FUNCTION: AlternateFunction = 0;
     pub(crate) const PWM_FUNCTION: AlternateFunction = 0;
 
-    /// What [`ENCODER`] counts.
-    pub(crate) type EncoderCount = u16;
-
     /// The encoder's count.
     #[inline]
-    pub(crate) fn encoder_count() -> EncoderCount {
-        ENCODER.cnt().read().cnt()
-    }
-
-    /// Measures the ticks.
-    pub(crate) type Counter = SysTick;
-
-    /// Counts from now on.
-    pub(crate) fn start_counter(core: cortex_m::Peripherals) -> Counter {
-        SysTick::start(core.SYST)
+    pub(crate) fn encoder_count() -> u32 {
+        ENCODER.cnt().read().cnt().into()
     }
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.

@@ -76,7 +76,7 @@ mod chip {
 
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{Cause, ClockError, wait};
+    use crate::board::reset::{Cause, ClockError, settle, wait};
 
     /// Requests each byte of a frame.
     pub(crate) const BYTE_TIMER: TimAdv = TIM8;
@@ -84,6 +84,8 @@ mod chip {
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp32 = TIM2;
+    /// Bits of its count.
+    pub(crate) const ENCODER_BITS: u32 = 32;
     /// Alternate function of the SPI's pins, SPI1.
     pub(crate) const SPI_FUNCTION: AlternateFunction = 5;
     /// Of the encoder's pins, TIM2.
@@ -91,29 +93,28 @@ mod chip {
     /// Of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
 
-    /// What [`ENCODER`] counts.
-    pub(crate) type EncoderCount = u32;
-
     /// The encoder's count.
     #[inline]
-    pub(crate) fn encoder_count() -> EncoderCount {
+    pub(crate) fn encoder_count() -> u32 {
         ENCODER.cnt().read()
     }
 
     /// TIM5, counting through 32 bits.
     pub(crate) struct Counter(());
 
+    impl Counter {
+        /// Counts from now on.
+        pub(crate) fn start(_: cortex_m::Peripherals) -> Self {
+            TIM5.cr1().write(|w| w.set_cen(true));
+            Self(())
+        }
+    }
+
     impl Clock for Counter {
         #[inline]
         fn now(&mut self) -> u32 {
             TIM5.cnt().read()
         }
-    }
-
-    /// Counts from now on.
-    pub(crate) fn start_counter(_: cortex_m::Peripherals) -> Counter {
-        TIM5.cr1().write(|w| w.set_cen(true));
-        Counter(())
     }
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
@@ -175,11 +176,6 @@ mod chip {
         });
         settle();
         Ok(())
-    }
-
-    /// A peripheral answers two cycles after its clock came (errata sheet).
-    fn settle() {
-        cortex_m::asm::dsb();
     }
 
     /// Clock for the ports.

@@ -68,8 +68,9 @@ mod chip {
 
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{Cause, ClockError, wait};
-    use crate::board::systick::SysTick;
+    use crate::board::reset::{Cause, ClockError, settle, wait};
+    /// Measures the ticks.
+    pub(crate) use crate::board::systick::SysTick as Counter;
 
     /// Requests each byte of a frame.
     pub(crate) const BYTE_TIMER: TimBasic = TIM6;
@@ -77,6 +78,8 @@ mod chip {
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     /// Counts the encoder's edges.
     pub(crate) const ENCODER: TimGp32 = TIM2;
+    /// Bits of its count.
+    pub(crate) const ENCODER_BITS: u32 = 32;
     /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
     pub(crate) const RX_DMA: usize = 0;
     /// DMA1 channel 2.
@@ -92,21 +95,10 @@ mod chip {
     /// Of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
 
-    /// What [`ENCODER`] counts.
-    pub(crate) type EncoderCount = u32;
-
     /// The encoder's count.
     #[inline]
-    pub(crate) fn encoder_count() -> EncoderCount {
+    pub(crate) fn encoder_count() -> u32 {
         ENCODER.cnt().read()
-    }
-
-    /// Measures the ticks.
-    pub(crate) type Counter = SysTick;
-
-    /// Counts from now on.
-    pub(crate) fn start_counter(core: cortex_m::Peripherals) -> Counter {
-        SysTick::start(core.SYST)
     }
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
@@ -154,11 +146,6 @@ mod chip {
         RCC.apbenr1().modify(|w| w.set_tim3en(true));
         settle();
         Ok(())
-    }
-
-    /// A peripheral answers two cycles after its clock came (RM0444).
-    fn settle() {
-        cortex_m::asm::dsb();
     }
 
     /// Clock for the ports.

@@ -43,7 +43,7 @@ pub(crate) fn start(core: cortex_m::Peripherals) -> Module {
     let Some(perception) = scene::start_perception() else {
         faults::die(log::model)
     };
-    let counter = here::start_counter(core);
+    let counter = Counter::start(core);
     let inner = firmware::Module::new([[frames]], motion, perception, counter);
 
     // The sensor's start-up, with /SS high since above.

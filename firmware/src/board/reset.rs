@@ -42,3 +42,9 @@ pub(crate) fn wait(error: ClockError, ready: impl Fn() -> bool) -> Result<(), Cl
     let came = (0..super::timing::CLOCK_WAIT_LOOPS).any(|_| ready());
     if came { Ok(()) } else { Err(error) }
 }
+
+/// A peripheral answers two cycles after its clock came (errata sheet of the
+/// STM32F4, RM0444).
+pub(crate) fn settle() {
+    cortex_m::asm::dsb();
+}

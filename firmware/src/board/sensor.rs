@@ -19,6 +19,7 @@ use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
 use stm32_metapac::SPI1;
+use stm32_metapac::spi::vals::{Br, Cpha, Mstr};
 
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::{SensorMiso, SensorMosi, SensorSck, SensorSelect};
@@ -107,10 +108,20 @@ impl Frames {
     }
 }
 
-/// Also discards a frame that broke off in the middle of a byte.
+/// Mode 1, most significant bit first, bytes, the slowest clock
+/// ([`SPI_DIVIDER`](super::timing::SPI_DIVIDER)); /SS is ours. Also discards a
+/// frame that broke off in the middle of a byte.
 fn set_up_spi() {
     reset_spi();
-    spi::set_up();
+    spi::set_up_bytes();
+    SPI1.cr1().write(|w| {
+        w.set_mstr(Mstr::MASTER);
+        w.set_ssm(true);
+        w.set_ssi(true);
+        w.set_cpha(Cpha::SECOND_EDGE);
+        w.set_br(Br::DIV256);
+        w.set_spe(true);
+    });
 }
 
 /// Whether all eight bytes were moved and none was lost.

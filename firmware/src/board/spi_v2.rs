@@ -1,24 +1,15 @@
 //! SPI controllers with a queue of four bytes (STM32G0).
 
 use stm32_metapac::SPI1;
-use stm32_metapac::spi::vals::{Br, Cpha, Ds, Frxth, Mstr};
+use stm32_metapac::spi::vals::{Ds, Frxth};
 
-/// Mode 1, most significant bit first, bytes, the slowest clock
-/// ([`SPI_DIVIDER`](crate::board::timing::SPI_DIVIDER)); /SS is ours.
-pub(crate) fn set_up() {
+/// Bytes, each received one a request for the DMA.
+pub(crate) fn set_up_bytes() {
     SPI1.cr2().write(|w| {
         w.set_ds(Ds::BITS8);
         // Each byte is reported, not each pair.
         w.set_frxth(Frxth::QUARTER);
         w.set_rxdmaen(true);
-    });
-    SPI1.cr1().write(|w| {
-        w.set_mstr(Mstr::MASTER);
-        w.set_ssm(true);
-        w.set_ssi(true);
-        w.set_cpha(Cpha::SECOND_EDGE);
-        w.set_br(Br::DIV256);
-        w.set_spe(true);
     });
 }
 

@@ -16,7 +16,8 @@ impl SysTick {
     const MASK: u32 = 0x00FF_FFFF;
 
     /// Counts from now on.
-    pub(crate) fn start(mut timer: SYST) -> Self {
+    pub(crate) fn start(core: cortex_m::Peripherals) -> Self {
+        let mut timer = core.SYST;
         timer.set_clock_source(SystClkSource::Core);
         timer.set_reload(Self::MASK);
         timer.clear_current();
