@@ -52,10 +52,8 @@ impl Range {
     /// Above 0, up to and including `high`.
     pub(crate) const fn positive(high: f64) -> Self {
         Self {
-            low: 0.0,
-            high,
-            with_low: false,
             with_high: true,
+            ..Self::open(0.0, high)
         }
     }
 

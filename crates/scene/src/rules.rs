@@ -48,31 +48,14 @@ fn limits_in_order(values: &Values, text: &mut Text<'_>) {
         return;
     }
     // The message goes to the limit that is in the file; to the lower if both are.
-    let at_min = values.offset("motor", "min_deg");
-    let at_max = values.offset("motor", "max_deg");
-    let (key, offset, found, allowed) = if let Some(offset) = at_min {
-        (
-            "min_deg",
-            offset,
-            min,
-            format!("below max_deg, which is {max}"),
-        )
+    let (key, found, allowed) = if values.offset("motor", "min_deg").is_some() {
+        ("min_deg", min, format!("below max_deg, which is {max}"))
     } else {
-        let offset = at_max.unwrap_or(0);
-        (
-            "max_deg",
-            offset,
-            max,
-            format!("above min_deg, which is {min}"),
-        )
+        ("max_deg", max, format!("above min_deg, which is {min}"))
     };
-    let path = format!("motor.{key}");
-    text.report(
-        offset,
-        path,
-        format!("found {found}"),
-        format!("allowed: {allowed}"),
-    );
+    let offset = values.offset("motor", key).unwrap_or(0);
+    let (found, allowed) = (format!("found {found}"), format!("allowed: {allowed}"));
+    text.report(offset, format!("motor.{key}"), found, allowed);
 }
 
 fn textured_is_active(values: &Values, text: &mut Text<'_>) {

@@ -1,13 +1,7 @@
 //! Faulty scenes, and what is said of them: problems of one key at a time.
 
-use crate::common::{FULL, complaint, with};
+use crate::common::{FULL, complaint, refuses, with};
 use scene::Scene;
-
-/// Checks that replacing `old` by `new` draws exactly this complaint.
-#[track_caller]
-fn refuses(old: &str, new: &str, expected: &str) {
-    assert_eq!(complaint(&with(FULL, old, new)), expected);
-}
 
 #[test]
 fn numbers_out_of_range() {

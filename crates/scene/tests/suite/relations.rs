@@ -1,11 +1,6 @@
 //! Faulty scenes whose keys do not go together, and files with many problems.
 
-use crate::common::{FULL, complaint, with};
-
-#[track_caller]
-fn refuses(old: &str, new: &str, expected: &str) {
-    assert_eq!(complaint(&with(FULL, old, new)), expected);
-}
+use crate::common::{FULL, complaint, refuses, with};
 
 const PASSIVE: &str = "name = 'a'\ntick_hz = 2000\nduration_s = 1\nseed = 0\n\
                        head.whiskers_per_side = 1\n";
