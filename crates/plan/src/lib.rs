@@ -29,32 +29,17 @@ pub struct MotionPlan<R: Real, const S: usize, const N: usize> {
 }
 
 /// What is wrong with a scene for a module of a given shape.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Mismatch {
     /// The scene has another number of sides or whiskers.
+    #[error("the scene has another number of sides or whiskers")]
     Shape,
     /// A value is out of range; a checked scene has none.
-    Value(Error),
+    #[error(transparent)]
+    Value(#[from] Error),
     /// Its integrator, forward Euler, cannot carry it.
+    #[error("{0}")]
     Unstable(Unstable),
-}
-
-impl std::fmt::Display for Mismatch {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Shape => write!(f, "the scene has another number of sides or whiskers"),
-            Self::Value(error) => write!(f, "{error}"),
-            Self::Unstable(unstable) => write!(f, "{unstable}"),
-        }
-    }
-}
-
-impl std::error::Error for Mismatch {}
-
-impl From<Error> for Mismatch {
-    fn from(error: Error) -> Self {
-        Self::Value(error)
-    }
 }
 
 /// The pattern generator's settings; `None` for a passive scene.
