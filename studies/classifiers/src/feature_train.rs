@@ -76,17 +76,11 @@ impl Extractor {
     ///
     /// The first that is wrong.
     pub fn new(settings: FeatureSettings) -> Result<Self, Error> {
-        let FeatureSettings {
-            rest,
-            onset,
-            rate_hz,
-            block,
-            bins,
-        } = settings;
-        if !(rest.is_finite() && onset.is_finite() && rate_hz.is_finite() && rate_hz > 0.0) {
+        let numbers = [settings.rest, settings.onset, settings.rate_hz];
+        if !numbers.iter().all(|x| x.is_finite()) || settings.rate_hz <= 0.0 {
             return Err(Error::Setting);
         }
-        let spectrum = Spectrum::new(bins, block)?;
+        let spectrum = Spectrum::new(settings.bins, settings.block)?;
         Ok(Self { settings, spectrum })
     }
 
@@ -96,25 +90,23 @@ impl Extractor {
     ///
     /// It is too short, or a sample is not finite.
     pub fn features(&mut self, segment: &[f64]) -> Result<[f64; 5], Error> {
-        let FeatureSettings {
-            rest,
-            onset,
-            rate_hz,
-            block,
-            bins,
-        } = self.settings;
-        check_segment(segment, 1, block)?;
-        let deflection: Vec<f64> = segment.iter().take(block).map(|x| x - rest).collect();
+        let settings = &self.settings;
+        check_segment(segment, 1, settings.block)?;
+        let block = segment.iter().take(settings.block);
+        let deflection: Vec<f64> = block.map(|x| x - settings.rest).collect();
         let f1 = deflection.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let peak = deflection.iter().position(|&x| x == f1).unwrap_or(0);
-        let contact = deflection.iter().position(|&x| x >= onset).unwrap_or(0);
+        let contact = deflection
+            .iter()
+            .position(|&x| x >= settings.onset)
+            .unwrap_or(0);
         // From the sample before contact.
-        let time_s = (peak + 1).saturating_sub(contact).max(1) as f64 / rate_hz;
+        let time_s = (peak + 1).saturating_sub(contact).max(1) as f64 / settings.rate_hz;
 
         let magnitudes = self.spectrum.of(&deflection, Measure::Magnitude)?;
         let f4 = magnitudes.iter().copied().fold(0.0, f64::max);
         let centroid = magnitudes.iter().position(|&x| x == f4).unwrap_or(0);
-        let f3 = bins.frequency(centroid, rate_hz);
+        let f3 = settings.bins.frequency(centroid, settings.rate_hz);
         Ok([f1, f1 / time_s, f3, f4, magnitudes.iter().sum()])
     }
 }

@@ -63,6 +63,15 @@ impl Means {
     }
 }
 
+/// The sum of squared differences of a vector from each mean, as far as both go.
+pub(crate) fn squared_errors(means: &[Vec<f64>], found: &[f64]) -> Vec<f64> {
+    let error = |mean: &Vec<f64>| {
+        let pairs = found.iter().zip(mean);
+        pairs.map(|(x, t)| (x - t) * (x - t)).sum()
+    };
+    means.iter().map(error).collect()
+}
+
 /// Checks that a segment has whole samples, all finite, `needed` of them or more.
 pub(crate) fn check_segment(segment: &[f64], channels: usize, needed: usize) -> Result<(), Error> {
     let values = segment.len();

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use crate::choice::Choice;
 use crate::error::Error;
-use crate::means::{Means, check_segment, check_window};
+use crate::means::{Means, check_segment, check_window, squared_errors};
 use crate::recogniser::{Outcome, Recogniser};
 use crate::spectrum::{Bins, Measure, Spectrum};
 
@@ -139,11 +139,7 @@ impl SpectralTemplates {
     pub fn errors(&mut self, block: &[f64]) -> Result<Vec<f64>, Error> {
         check_segment(block, self.channels, self.block())?;
         let found = spectra(&mut self.spectrum, self.measure, self.channels, block)?;
-        let error = |mean: &Vec<f64>| {
-            let pairs = found.iter().zip(mean);
-            pairs.map(|(x, t)| (x - t) * (x - t)).sum()
-        };
-        Ok(self.means.iter().map(error).collect())
+        Ok(squared_errors(&self.means, &found))
     }
 
     /// A recogniser in double precision, by the FFT.

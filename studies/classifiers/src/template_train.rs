@@ -7,7 +7,7 @@ use std::vec::Vec;
 
 use crate::choice::Choice;
 use crate::error::Error;
-use crate::means::{Means, check_segment, check_window};
+use crate::means::{Means, check_segment, check_window, squared_errors};
 use crate::recogniser::{Outcome, Recogniser};
 use crate::template::add_squares;
 use tactile::Quantiser;
@@ -169,11 +169,7 @@ impl Templates {
     /// eq. 17), by the exact means, in units of the samples squared; over the
     /// window or over a shorter signal.
     pub fn errors(&self, segment: &[f64]) -> Vec<f64> {
-        let error = |mean: &Vec<f64>| {
-            let pairs = segment.iter().zip(mean);
-            pairs.map(|(x, t)| (x - t) * (x - t)).sum()
-        };
-        self.means.iter().map(error).collect()
+        squared_errors(&self.means, segment)
     }
 
     /// A recogniser that gives what a board gives, to the bit.

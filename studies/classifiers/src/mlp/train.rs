@@ -34,7 +34,7 @@ use super::shape::Shape;
 use crate::error::Error;
 use crate::limits::MAX_OUTPUTS;
 pub use options::Options;
-use session::{Found, session};
+use session::session;
 
 /// A network and how it was come by.
 #[derive(Debug, Clone, PartialEq)]
@@ -155,11 +155,7 @@ impl NetworkTrainer {
             let Some(found) = session(shape, &self.options, start, &training, &held_out) else {
                 continue;
             };
-            let Found {
-                weights,
-                mean_square,
-            } = found;
-            let Ok(network) = Network::new(shape, &offset, &gain, &weights) else {
+            let Ok(network) = Network::new(shape, &offset, &gain, &found.weights) else {
                 continue;
             };
             let hit_rates = self.hit_rates(&network)?;
@@ -168,7 +164,7 @@ impl NetworkTrainer {
                     network,
                     names: self.names.clone(),
                     hit_rates,
-                    error: mean_square.sqrt(),
+                    error: found.mean_square.sqrt(),
                 });
             }
         }
