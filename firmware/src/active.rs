@@ -67,10 +67,7 @@ where
         let sides = self.servos.iter_mut().zip(&self.state.whiskers);
         for (side, (servos, whiskers)) in sides.enumerate() {
             for (w, (servo, whisker)) in servos.iter_mut().zip(whiskers).enumerate() {
-                let place = Place {
-                    side: side as u8,
-                    whisker: w as u8,
-                };
+                let place = Place::new(side as u8, w as u8);
                 let valid = readings[side][w].valid;
                 servo.step(&config.servo, whisker.muscle.theta, valid, place, events);
             }

@@ -14,15 +14,25 @@ pub struct Place {
     pub whisker: u8,
 }
 
+impl Place {
+    /// Of this side and number.
+    pub const fn new(side: u8, whisker: u8) -> Self {
+        Self { side, whisker }
+    }
+}
+
 /// Why a whisker's readings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SensorFault {
     /// No frame was finished in time. Likely cause: the bus is too slow for
     /// the tick, or its DMA stands still.
+    #[error("no frame in time")]
     NoFrame,
     /// The bus controller reported an error.
+    #[error("bus error")]
     Bus,
     /// The frame was refused; the reason names the cause.
+    #[error("{0}")]
     Frame(FrameError),
 }
 
@@ -39,16 +49,6 @@ impl SensorFault {
             Self::Frame(FrameError::BadStart(_)) => 20,
             Self::Frame(FrameError::BadSum { .. }) => 21,
             Self::Frame(FrameError::Sensor(_)) => 22,
-        }
-    }
-}
-
-impl core::fmt::Display for SensorFault {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::NoFrame => write!(f, "no frame in time"),
-            Self::Bus => write!(f, "bus error"),
-            Self::Frame(error) => write!(f, "{error}"),
         }
     }
 }

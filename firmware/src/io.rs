@@ -49,11 +49,6 @@ impl<SPI: SpiDevice> Polled<SPI> {
     pub const fn sensor_mut(&mut self) -> &mut Mlx90333<SPI> {
         &mut self.sensor
     }
-
-    /// Gives the sensor back.
-    pub fn release(self) -> Mlx90333<SPI> {
-        self.sensor
-    }
 }
 
 impl<SPI: SpiDevice> FrameSource for Polled<SPI> {

@@ -96,10 +96,7 @@ where
         let mut readings = [[Reading::REST; N]; S];
         for (side, (sensors, readings)) in self.sensors.iter_mut().zip(&mut readings).enumerate() {
             for (w, (sensor, reading)) in sensors.iter_mut().zip(readings).enumerate() {
-                let place = Place {
-                    side: side as u8,
-                    whisker: w as u8,
-                };
+                let place = Place::new(side as u8, w as u8);
                 *reading = sensor.read(decoder, limits, place, events);
             }
         }

@@ -27,16 +27,9 @@ pub enum Command<R> {
 }
 
 /// There is no such whisker, or it is passive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("no such whisker, or it is passive")]
 pub struct NoActiveWhisker;
-
-impl core::fmt::Display for NoActiveWhisker {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "no such whisker, or it is passive")
-    }
-}
-
-impl core::error::Error for NoActiveWhisker {}
 
 /// What can be done to the whiskers of a module between ticks.
 pub trait MotorControl<R> {

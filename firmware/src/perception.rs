@@ -126,19 +126,9 @@ pub struct CodeClassifier<R: DecisionRule, W = &'static [u32]> {
 
 /// The model was not trained on the integer codes of a sensor's two channels,
 /// so that it cannot classify them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the model was not trained on 14-bit sensor codes of two channels")]
 pub struct NotCodes;
-
-impl core::fmt::Display for NotCodes {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(
-            f,
-            "the model was not trained on 14-bit sensor codes of two channels"
-        )
-    }
-}
-
-impl core::error::Error for NotCodes {}
 
 /// By how many bits a sensor's codes are shifted to become the model's, for
 /// each channel.

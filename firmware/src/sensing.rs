@@ -181,6 +181,8 @@ mod tests {
     use crate::{Event, Place, SensorFault};
     use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
 
+    const PLACE: Place = Place::new(1, 4);
+
     type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;
 
     struct Script<I>(I);
@@ -210,14 +212,10 @@ mod tests {
             hold: 3,
             recover: 2,
         };
-        let place = Place {
-            side: 1,
-            whisker: 4,
-        };
         let mut events = Vec::new();
         let readings = (0..script.len())
             .map(|tick| {
-                sensor.read(Decoder::new(), hold_limits, place, &mut |e| {
+                sensor.read(Decoder::new(), hold_limits, PLACE, &mut |e| {
                     events.push((tick, e));
                 })
             })
@@ -233,11 +231,7 @@ mod tests {
         assert!(readings[..8].iter().all(|r| r.valid));
         assert_eq!(readings[3].x.raw(), 0x9000, "held");
         assert!(!readings[3].fresh && readings[4].fresh);
-        let place = Place {
-            side: 1,
-            whisker: 4,
-        };
-        let lost = Event::SensorLost(place, SensorFault::Frame(FrameError::NoSensor));
+        let lost = Event::SensorLost(PLACE, SensorFault::Frame(FrameError::NoSensor));
         assert_eq!(events, [(8, lost)], "told once");
         assert_eq!(readings[8].x, Word::MID, "a faulty sensor feels nothing");
         assert!(!readings[9].valid);
@@ -248,15 +242,11 @@ mod tests {
         let bad = Err(BusError);
         let [one, two, three] = good([1, 2, 0x4000]);
         let (readings, events) = play(&[bad, bad, Ok(None), bad, one, bad, two, three, Ok(None)]);
-        let place = Place {
-            side: 1,
-            whisker: 4,
-        };
         assert_eq!(
             events,
             [
-                (3, Event::SensorLost(place, SensorFault::Bus)),
-                (7, Event::SensorBack(place)),
+                (3, Event::SensorLost(PLACE, SensorFault::Bus)),
+                (7, Event::SensorBack(PLACE)),
             ]
         );
         assert!(!readings[6].valid && readings[7].valid && readings[8].valid);

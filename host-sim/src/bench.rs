@@ -157,10 +157,7 @@ where
         if n >= S * N {
             return Err(NoActiveWhisker);
         }
-        let place = Place {
-            side: (n / N) as u8,
-            whisker: (n % N) as u8,
-        };
+        let place = Place::new((n / N) as u8, (n % N) as u8);
         let command = match command {
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
             Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),

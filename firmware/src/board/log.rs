@@ -3,6 +3,10 @@
 //!
 //! Only idle writes here, and fault handlers. A line that finds no room in the
 //! ring is dropped whole; nothing waits for the probe.
+#![allow(
+    clippy::match_same_arms,
+    reason = "arms differ in their texts, which clippy does not see within a macro"
+)]
 
 use firmware::{Place, SensorFault};
 use mlx90333::{Faults, FrameError};
@@ -108,36 +112,32 @@ pub(crate) fn decision(name: &str, decided: tactile::Decision) {
     );
 }
 
+/// The line of a fault: its text begins with the whisker's side and number, and
+/// the fault's number.
+macro_rules! fault_line {
+    ($at:ident, $text:literal $(, $value:expr)* $(,)?) => {
+        defmt::error!($text, $at.0, $at.1, $at.2 $(, $value)*)
+    };
+}
+
 /// A motor was switched off.
 pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
-    let (side, whisker) = (side(place), place.whisker);
-    let code = fault.code();
+    let at = (side(place), place.whisker, fault.code());
     match fault {
-        motor::Fault::Pin => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, a motor pin",
-            side,
-            whisker,
-            code
-        ),
-        motor::Fault::Pwm => defmt::error!("{=str} {=u8}: fault {=u8}, PWM", side, whisker, code),
-        motor::Fault::InvalidHall(hall) => defmt::error!(
+        motor::Fault::Pin => fault_line!(at, "{=str} {=u8}: fault {=u8}, a motor pin"),
+        motor::Fault::Pwm => fault_line!(at, "{=str} {=u8}: fault {=u8}, PWM"),
+        motor::Fault::InvalidHall(hall) => fault_line!(
+            at,
             "{=str} {=u8}: fault {=u8}, impossible Hall code {=u8} (supply or cable of the Halls?)",
-            side,
-            whisker,
-            code,
             hall
         ),
-        motor::Fault::SkippedSector => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, Hall sectors skipped (too fast, noise, lines exchanged?)",
-            side,
-            whisker,
-            code
+        motor::Fault::SkippedSector => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, Hall sectors skipped (too fast, noise, lines exchanged?)"
         ),
-        motor::Fault::Stall => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)",
-            side,
-            whisker,
-            code
+        motor::Fault::Stall => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)"
         ),
     }
 }
@@ -158,54 +158,33 @@ pub(crate) fn sensor_back(place: Place) {
 
 /// A sensor has a fault; the motor is off.
 pub(crate) fn sensor_lost(place: Place, fault: SensorFault) {
-    let (side, whisker) = (side(place), place.whisker);
-    let code = fault.code();
+    let at = (side(place), place.whisker, fault.code());
     match fault {
-        SensorFault::NoFrame => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, no frame in time",
-            side,
-            whisker,
-            code
+        SensorFault::NoFrame => fault_line!(at, "{=str} {=u8}: fault {=u8}, no frame in time"),
+        SensorFault::Bus => fault_line!(at, "{=str} {=u8}: fault {=u8}, SPI or its DMA"),
+        SensorFault::Frame(FrameError::NoSensor) => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, no sensor answers (/SS or data line open, no supply?)"
         ),
-        SensorFault::Bus => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, SPI or its DMA",
-            side,
-            whisker,
-            code
+        SensorFault::Frame(FrameError::LineLow) => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, data line stuck low (no pull-up, short?)"
         ),
-        SensorFault::Frame(FrameError::NoSensor) => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, no sensor answers (/SS or data line open, no supply?)",
-            side,
-            whisker,
-            code
-        ),
-        SensorFault::Frame(FrameError::LineLow) => defmt::error!(
-            "{=str} {=u8}: fault {=u8}, data line stuck low (no pull-up, short?)",
-            side,
-            whisker,
-            code
-        ),
-        SensorFault::Frame(FrameError::BadStart(found)) => defmt::error!(
+        SensorFault::Frame(FrameError::BadStart(found)) => fault_line!(
+            at,
             "{=str} {=u8}: fault {=u8}, frame begins with {=u8:#04x} (slow edges, SPI mode?)",
-            side,
-            whisker,
-            code,
             found
         ),
-        SensorFault::Frame(FrameError::BadSum { expected, found }) => defmt::error!(
+        SensorFault::Frame(FrameError::BadSum { expected, found }) => fault_line!(
+            at,
             "{=str} {=u8}: fault {=u8}, sum {=u8:#04x} instead of {=u8:#04x} (noise, pull-up?)",
-            side,
-            whisker,
-            code,
             found,
             expected
         ),
         SensorFault::Frame(FrameError::Sensor(faults)) => {
-            defmt::error!(
+            fault_line!(
+                at,
                 "{=str} {=u8}: fault {=u8}, the sensor reports {=u16:#06x}",
-                side,
-                whisker,
-                code,
                 faults.bits()
             );
             sensor_reports(faults);

@@ -94,10 +94,7 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     (module, config)
 }
 
-const SECOND: Place = Place {
-    side: 0,
-    whisker: 1,
-};
+const SECOND: Place = Place::new(0, 1);
 
 /// Duties of both motors after a tick.
 fn tick<R: Real>(module: &mut Whiskers<R>, config: &Settable<R>) -> [f64; 2] {
@@ -169,13 +166,7 @@ fn whiskers_that_are_not_there_or_passive_are_refused() {
         }
     }
     let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
-    let refused = passive.command(
-        Place {
-            side: 0,
-            whisker: 0,
-        },
-        Command::Gain(1.0),
-    );
+    let refused = passive.command(Place::new(0, 0), Command::Gain(1.0));
     assert_eq!(refused, Err(NoActiveWhisker));
     let config = Config {
         decoder: Decoder::new(),

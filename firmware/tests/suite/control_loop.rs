@@ -192,10 +192,7 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     spi.done();
     pwm.done();
     pin.done();
-    let place = Place {
-        side: 0,
-        whisker: 0,
-    };
+    let place = Place::new(0, 0);
     let lost = SensorFault::Frame(FrameError::NoSensor);
     assert_eq!(
         events,

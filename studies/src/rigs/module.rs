@@ -226,10 +226,7 @@ mod tests {
     #[test]
     fn a_load_leaves_the_error_that_the_gain_allows() {
         let mut module = HeadModule::new(&WHISKING, &CONTROL, 1.0, 1).unwrap();
-        let front = Place {
-            side: 0,
-            whisker: 0,
-        };
+        let front = Place::new(0, 0);
         let setpoint = Command::Setpoint(Some(protraction(100.0)));
         module.module.command(front, setpoint).unwrap();
         let load = -2e-3_f64;

@@ -16,10 +16,7 @@ const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;
 
 /// A tick at which the left side protracts fastest, at 0.35 degrees a tick.
 const AMID: u64 = 1440;
-const LEFT: Place = Place {
-    side: 0,
-    whisker: 0,
-};
+const LEFT: Place = Place::new(0, 0);
 
 /// Every fault of the wire with the number of its report.
 const WIRE: [(WireFault, u8); 8] = [
@@ -141,10 +138,7 @@ fn the_sensor_s_own_report_is_told_bit_by_bit() {
             300 => slave(run, 1).set_error_word(Faults::NONE),
             _ => {}
         });
-        let place = Place {
-            side: 1,
-            whisker: 0,
-        };
+        let place = Place::new(1, 0);
         let fault = SensorFault::Frame(FrameError::Sensor(faults));
         assert_eq!(fault.code(), 22);
         let expected = [
@@ -208,10 +202,7 @@ fn one_of_twenty_four_leaves_the_others_alone() {
             slave(run, 7).set_fault(Some(WireFault::Silent));
         }
     });
-    let place = Place {
-        side: 0,
-        whisker: 7,
-    };
+    let place = Place::new(0, 7);
     let fault = SensorFault::Frame(FrameError::NoSensor);
     let expected = [(AMID + HOLD, Event::SensorLost(place, fault))];
     assert_eq!(played.events, expected);
