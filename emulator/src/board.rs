@@ -20,7 +20,7 @@ use host_sim::motor::{PWM_MAX, Pins, SimPwm};
 
 use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
-use crate::meter::{Figures, Meter};
+use crate::meter::Meter;
 use crate::program::Program;
 use crate::watch::Watch;
 
@@ -45,13 +45,14 @@ impl SensorEnd for Wired {
 
 /// The emulated board and what hangs on it.
 #[derive(Debug)]
-pub struct Board {
-    machine: Machine,
+pub(crate) struct Board {
+    pub(crate) machine: Machine,
     watch: Watch,
     sensor: Wired,
     pins: Option<Pins>,
     log: Vec<u8>,
-    reset: Option<ResetCause>,
+    /// What has reset the chip last.
+    pub(crate) reset: Option<ResetCause>,
 }
 
 /// Longer than the slowest tick with anything that may delay it.
@@ -65,11 +66,7 @@ fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
 impl Board {
     /// A board with `program` in its flash, a sensor, and a motor where the
     /// program drives one; started, and before its first tick.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if the program is not what the emulator needs; what
-    /// the machine cannot go along with.
-    pub fn new(program: &Program, pins: Option<Pins>) -> Result<Self, Fault> {
+    pub(crate) fn new(program: &Program, pins: Option<Pins>) -> Result<Self, Fault> {
         let mut board = Self {
             machine: Machine::new(program)?,
             watch: Watch::new(program)?,
@@ -86,17 +83,14 @@ impl Board {
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
             Stop::Tick | Stop::Time => return Err(Fault::Asleep),
         }
-        board.watch.keep_evidence(board.machine.memories())?;
+        board.watch.keep_evidence(&board.machine.memories)?;
         Ok(board)
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.
-    ///
-    /// # Errors
-    /// What the machine cannot go along with, or no tick within a second.
-    pub fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
+    pub(crate) fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
         self.inputs();
-        let limit = self.machine.now() + PATIENCE;
+        let limit = self.machine.now + PATIENCE;
         loop {
             let stop = self.machine.run(limit, &mut self.sensor, observer)?;
             match stop {
@@ -115,30 +109,13 @@ impl Board {
     }
 
     /// Ticks that the module has counted as missed since it started.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] if that is not in RAM.
-    pub fn missed(&self) -> Result<u32, Fault> {
-        self.watch.missed(self.machine.memories())
-    }
-
-    /// The machine, for whoever wants to disturb or measure it.
-    pub const fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
-    }
-
-    /// What reset the chip since the last call.
-    pub const fn take_reset(&mut self) -> Option<ResetCause> {
-        self.reset.take()
-    }
-
-    /// What has been logged since the last call, as the probe fetched it.
-    pub fn take_log(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.log)
+    pub(crate) fn missed(&self) -> Result<u32, Fault> {
+        self.watch.missed(&self.machine.memories)
     }
 
     fn drain(&mut self) -> Result<(), Fault> {
-        self.log.extend(self.machine.drain_log()?);
+        let Machine { ring, memories, .. } = &self.machine;
+        self.log.extend(ring.drain(memories)?);
         Ok(())
     }
 
@@ -190,16 +167,18 @@ impl Board {
 /// The board as host-sim's runs see it. What goes wrong is kept for
 /// [`Emulated::check`]; after that the board stands still.
 #[derive(Debug)]
-pub struct Emulated {
-    board: Board,
-    meter: Meter,
-    bears_resets: bool,
+pub(crate) struct Emulated {
+    pub(crate) board: Board,
+    /// How the ticks have kept their time.
+    pub(crate) meter: Meter,
+    /// Whether a reset is no fault.
+    pub(crate) bears_resets: bool,
     fault: Option<Fault>,
 }
 
 impl Emulated {
     /// A board before its first tick.
-    pub fn new(board: Board) -> Self {
+    pub(crate) fn new(board: Board) -> Self {
         Self {
             board,
             meter: Meter::default(),
@@ -208,37 +187,14 @@ impl Emulated {
         }
     }
 
-    /// The fault that has stopped the board.
-    ///
-    /// # Errors
-    /// That fault; a reset is one too.
-    pub fn check(&self) -> Result<(), Fault> {
+    /// Fails with the fault that has stopped the board; a reset is one too.
+    pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
     /// What has been logged since the last call.
-    pub fn take_log(&mut self) -> Vec<u8> {
-        self.board.take_log()
-    }
-
-    /// From now on a reset is no fault.
-    pub const fn bear_resets(&mut self) {
-        self.bears_resets = true;
-    }
-
-    /// The board, between two ticks.
-    pub const fn board(&self) -> &Board {
-        &self.board
-    }
-
-    /// The board, to be worked on between two ticks.
-    pub const fn board_mut(&mut self) -> &mut Board {
-        &mut self.board
-    }
-
-    /// How the ticks have kept their time.
-    pub const fn figures(&self) -> &Figures {
-        self.meter.figures()
+    pub(crate) fn take_log(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.board.log)
     }
 
     fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {
@@ -259,8 +215,9 @@ impl Emulated {
         {
             return Err(Fault::Reset(cause));
         }
-        self.meter.logged(board.machine.log_position()?);
-        let decisions = board.watch.decisions(board.machine.memories())?;
+        self.meter
+            .logged(board.machine.ring.writer(&board.machine.memories)?);
+        let decisions = board.watch.decisions(&board.machine.memories)?;
         events.extend(decisions.into_iter().map(Event::Decision));
         Ok(())
     }
@@ -274,14 +231,14 @@ impl Bench for Emulated {
     fn look(&mut self, snapshot: &mut Snapshot) {
         self.attempt(|emulated| {
             let board = &emulated.board;
-            board.watch.look(board.machine.memories(), snapshot)
+            board.watch.look(&board.machine.memories, snapshot)
         });
     }
 
     fn forget(&mut self) {
         self.attempt(|emulated| {
             let board = &emulated.board;
-            board.watch.forget(board.machine.memories())
+            board.watch.forget(&board.machine.memories)
         });
     }
 

@@ -20,10 +20,10 @@ mod time;
 mod timer;
 mod watchdog;
 
-pub use fault::Fault;
-pub use reset::ResetCause;
-pub use sensor_lines::SensorEnd;
-pub use time::Ps;
+pub(crate) use fault::Fault;
+pub(crate) use reset::ResetCause;
+pub(crate) use sensor_lines::SensorEnd;
+pub(crate) use time::Ps;
 
 use dma::{Dma, Move};
 use gpio::{Gpio, Role};
@@ -47,8 +47,9 @@ const PACER: usize = 4;
 
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
-pub struct Chip {
-    now: Ps,
+pub(crate) struct Chip {
+    /// The time up to which everything has happened, and at which accesses happen.
+    pub(crate) now: Ps,
     rcc: Rcc,
     clocks: Clocks,
     flash: Plain,
@@ -64,10 +65,7 @@ pub struct Chip {
 
 impl Chip {
     /// A chip as its supply comes.
-    ///
-    /// # Errors
-    /// None that a chip after power-up could have.
-    pub fn new() -> Result<Self, Fault> {
+    pub(crate) fn new() -> Result<Self, Fault> {
         let rcc = Rcc::new();
         let clocks = rcc.clocks()?;
         Ok(Self {
@@ -97,10 +95,7 @@ impl Chip {
     }
 
     /// A reset: every peripheral as after power-up, but for what outlives it.
-    ///
-    /// # Errors
-    /// None that a chip after a reset could have.
-    pub fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
+    pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.rcc.reset(cause);
         self.clocks = self.rcc.clocks()?;
         self.flash.reset();
@@ -116,12 +111,12 @@ impl Chip {
     }
 
     /// A cycle of the core now.
-    pub const fn cycle(&self) -> Ps {
+    pub(crate) const fn cycle(&self) -> Ps {
         self.clocks.core
     }
 
     /// Whether the interrupt lines of tick and frame are up.
-    pub fn interrupts(&self) -> [(u16, bool); 2] {
+    pub(crate) fn interrupts(&self) -> [(u16, bool); 2] {
         [
             (TICK_IRQ, self.timers[TICK].interrupts()),
             (FRAME_IRQ, self.dma.interrupts(0)),
@@ -129,22 +124,17 @@ impl Chip {
     }
 
     /// When the tick's timer had its last update.
-    pub const fn tick_began(&self) -> Ps {
-        self.timers[TICK].updated()
-    }
-
-    /// When the watchdog will bite.
-    pub fn watchdog_bites(&self) -> Option<Ps> {
-        self.watchdog.bites()
+    pub(crate) const fn tick_began(&self) -> Ps {
+        self.timers[TICK].updated
     }
 
     /// Moves the encoder to this position, counts.
-    pub const fn set_encoder(&mut self, position: i32) {
+    pub(crate) const fn set_encoder(&mut self, position: i32) {
         self.timers[ENCODER].set_position(position);
     }
 
     /// Sets the levels of the Hall sensors on PA15, PB3 and PB10.
-    pub fn set_halls(&mut self, [first, second, third]: [bool; 3]) {
+    pub(crate) fn set_halls(&mut self, [first, second, third]: [bool; 3]) {
         self.gpio[0].drive(15, first);
         self.gpio[1].drive(3, second);
         self.gpio[1].drive(10, third);
@@ -152,7 +142,7 @@ impl Chip {
 
     /// Duty on the motor pins PA8 to PA10, counts of a period of counts; zero
     /// where the pin is not the timer's.
-    pub fn motor_duties(&self) -> [(u32, u32); 3] {
+    pub(crate) fn motor_duties(&self) -> [(u32, u32); 3] {
         [0, 1, 2].map(|channel: u32| {
             let (on, period) = self.timers[MOTOR].duty(channel as usize);
             match self.gpio[0].role(8 + channel) {
@@ -165,16 +155,16 @@ impl Chip {
 
     /// Levels of the motor's other outputs: direction on PB5, and enables on
     /// PC10 to PC12. A pin that is not driven is low.
-    pub fn motor_pins(&self) -> (bool, [bool; 3]) {
+    pub(crate) fn motor_pins(&self) -> (bool, [bool; 3]) {
         let high = |port: usize, pin| self.gpio[port].role(pin) == Role::Output(true);
         (high(1, 5), [high(2, 10), high(2, 11), high(2, 12)])
     }
 
     /// The next time at which something happens by itself.
-    pub fn next_event(&self) -> Option<Ps> {
+    pub(crate) fn next_event(&self) -> Option<Ps> {
         let timers =
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
-        let byte = self.spi.shift().map(|shift| shift.ends);
+        let byte = self.spi.shift.map(|shift| shift.ends);
         timers.chain(byte).chain(self.watchdog.bites()).min()
     }
 
@@ -182,7 +172,7 @@ impl Chip {
     ///
     /// # Errors
     /// The first fault since the last call.
-    pub fn advance(
+    pub(crate) fn advance(
         &mut self,
         now: Ps,
         memory: &dyn Memory,
@@ -193,7 +183,7 @@ impl Chip {
                 return Err(fault);
             }
             self.serve_requests(memory)?;
-            if let Some(shift) = self.spi.shift() {
+            if let Some(shift) = self.spi.shift {
                 let bit = self.spi.bit(self.clocks.apb2);
                 self.lines.begin(shift.began, bit, sensor)?;
             }
@@ -208,7 +198,7 @@ impl Chip {
                 let clock = self.timer_clock(n);
                 self.timers[n].sync(due, clock);
             }
-            if let Some(shift) = self.spi.shift().filter(|shift| shift.ends == due) {
+            if let Some(shift) = self.spi.shift.filter(|shift| shift.ends == due) {
                 let heard = self.sensor_is_connected();
                 let answer = self.lines.end(shift.sent, due, heard, sensor);
                 self.spi.end(answer, due, self.clocks.apb2);
@@ -237,13 +227,13 @@ impl Chip {
                 self.move_byte(from, to, memory)?;
                 continue;
             }
-            if !self.timers[PACER].requests() {
+            if !self.timers[PACER].request {
                 return Ok(());
             }
             let Some(Move { from, to }) = self.dma.request(1, 7) else {
                 return Ok(());
             };
-            self.timers[PACER].serve_request();
+            self.timers[PACER].request = false;
             self.move_byte(from, to, memory)?;
         }
     }
@@ -267,24 +257,14 @@ impl Chip {
         }
     }
 
-    /// The time up to which everything has happened.
-    pub const fn now(&self) -> Ps {
-        self.now
-    }
-
-    /// The time at which the core's accesses happen.
-    pub const fn set_now(&mut self, now: Ps) {
-        self.now = now;
-    }
-
     /// Keeps the first fault of an access for [`Chip::advance`] to tell.
-    pub fn keep(&mut self, fault: Fault) {
+    pub(crate) fn keep(&mut self, fault: Fault) {
         self.fault.get_or_insert(fault);
     }
 }
 
 /// The chip's memories, as the DMA sees them.
-pub trait Memory {
+pub(crate) trait Memory {
     /// A byte; `None` where there is no memory.
     fn get(&self, address: u32) -> Option<u8>;
 

@@ -77,14 +77,14 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
         agreement.decisions += u64::from(found.is_some());
     }
     let board = target.module_mut();
-    let period = board.figures().period.mean() * 1e-12 * f64::from(scene.tick_hz);
+    let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
         return Err(Error::Work(format!(
             "{}: a tick lasts {period} times as long as it should",
             path.display()
         )));
     }
-    agreement.stack = board.board_mut().machine_mut().stack_used()?;
+    agreement.stack = board.board.machine.stack_used()?;
     Ok(agreement)
 }
 

@@ -16,15 +16,15 @@ use crate::program::Program;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deadlines {
     /// Ticks that happened.
-    pub ticks: u64,
+    ticks: u64,
     /// Ticks that did not, as the module itself counts them.
     pub missed: u32,
     /// The most bytes that the stack has held.
-    pub stack: u32,
+    stack: u32,
     /// A cycle of the core.
-    pub cycle: Ps,
+    cycle: Ps,
     /// The figures.
-    pub figures: Figures,
+    figures: Figures,
 }
 
 /// Runs the scene in `path` on the board for `minutes` of its time, whatever its
@@ -56,10 +56,10 @@ pub fn measure(
     let emulated = run.module_mut();
     Ok(Deadlines {
         ticks,
-        missed: emulated.board().missed()?,
-        stack: emulated.board_mut().machine_mut().stack_used()?,
-        cycle: emulated.board_mut().machine_mut().cycle(),
-        figures: emulated.figures().clone(),
+        missed: emulated.board.missed()?,
+        stack: emulated.board.machine.stack_used()?,
+        cycle: emulated.board.machine.cycle,
+        figures: emulated.meter.figures.clone(),
     })
 }
 
@@ -68,15 +68,14 @@ impl Deadlines {
     pub fn csv(&self) -> String {
         let figures = &self.figures;
         let cycles = |ps: Ps| ps / self.cycle.max(1);
-        let line = |what: &str, extent: &Tally| {
-            format!("{what},{:.1},{}\n", extent.mean(), extent.worst())
-        };
+        let line =
+            |what: &str, extent: &Tally| format!("{what},{:.1},{}\n", extent.mean(), extent.worst);
         [
             format!("ticks,,{}\n", self.ticks),
             format!("ticks missed,,{}\n", self.missed),
             format!("bytes of stack by its paint,,{}\n", self.stack),
-            format!("latency cycles,,{}\n", cycles(figures.latency.worst())),
-            format!("tick cycles,,{}\n", cycles(figures.length.worst())),
+            format!("latency cycles,,{}\n", cycles(figures.latency.worst)),
+            format!("tick cycles,,{}\n", cycles(figures.length.worst)),
             line("tick's handler", &figures.tick),
             line("handler at the end of a frame", &figures.handlers),
             line("idle without a line to log", &figures.idle),
@@ -98,23 +97,18 @@ impl fmt::Display for Deadlines {
         writeln!(
             f,
             "interrupt latency: worst {} cycles ({:.2} us)",
-            cycles(figures.latency.worst()),
-            figures.latency.worst() as f64 / 1e6
+            cycles(figures.latency.worst),
+            figures.latency.worst as f64 / 1e6
         )?;
         writeln!(
             f,
             "longest tick: {} cycles ({:.2} us) by the cycle model",
-            cycles(figures.length.worst()),
-            figures.length.worst() as f64 / 1e6
+            cycles(figures.length.worst),
+            figures.length.worst as f64 / 1e6
         )?;
         writeln!(f, "instructions{:>32} {:>8}", "mean", "worst")?;
         let mut line = |name: &str, extent: &Tally| {
-            writeln!(
-                f,
-                "  {name:<32} {:>9.1} {:>8}",
-                extent.mean(),
-                extent.worst()
-            )
+            writeln!(f, "  {name:<32} {:>9.1} {:>8}", extent.mean(), extent.worst)
         };
         line("tick's handler", &figures.tick)?;
         line("other handlers, a tick", &figures.handlers)?;

@@ -24,10 +24,7 @@ impl From<Fault> for Error {
 
 /// A scene on the emulated board before its first tick; `classes` are those of
 /// the program's classifier.
-///
-/// # Errors
-/// [`Error::Work`] if the world or the board cannot be put together.
-pub fn start(
+pub(crate) fn start(
     scene: &Scene,
     classes: Vec<String>,
     program: &Program,

@@ -28,10 +28,3 @@ mod rtt;
 pub mod sensor_loss;
 mod trouble;
 mod watch;
-
-pub use board::{Board, Emulated};
-pub use chip::{Chip, Fault, Memory, Ps, ResetCause, SensorEnd};
-pub use machine::{Machine, Observer, Spent, Stop};
-pub use meter::{Figures, Tally};
-pub use program::Program;
-pub use rtt::LogDecoder;

@@ -25,7 +25,7 @@ const HOLD_AFTER: u64 = 200;
 
 /// Why [`Machine::run`] came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stop {
+pub(crate) enum Stop {
     /// The tick's handler has returned.
     Tick,
     /// The core sleeps for the first time since it started.
@@ -38,7 +38,7 @@ pub enum Stop {
 
 /// What the core has executed, instructions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Spent {
+pub(crate) struct Spent {
     /// In the tick's handler.
     pub tick: u64,
     /// In the handler at the end of a frame.
@@ -50,7 +50,7 @@ pub struct Spent {
 }
 
 /// What happens in the core, as it happens.
-pub trait Observer {
+pub(crate) trait Observer {
     /// The tick's handler begins `latency` after its timer's update.
     fn tick_begins(&mut self, _now: Ps, _latency: Ps, _spent: &Spent) {}
 
@@ -63,16 +63,18 @@ impl Observer for () {}
 
 /// The emulated board, without what hangs on its pins.
 #[derive(Debug)]
-pub struct Machine {
+pub(crate) struct Machine {
     core: ArmV7m,
     shared: Arc<Shared>,
-    memories: Memories,
-    ring: Ring,
+    pub(crate) memories: Memories,
+    pub(crate) ring: Ring,
     stack: Stack,
-    now: Ps,
+    /// Time since power-up.
+    pub(crate) now: Ps,
     /// The next event of a peripheral.
     due: Option<Ps>,
-    cycle: Ps,
+    /// A cycle of the core.
+    pub(crate) cycle: Ps,
     exception: u32,
     ready: bool,
     /// For how long the core is to be held, and before which instruction of the tick.
@@ -83,10 +85,7 @@ pub struct Machine {
 
 impl Machine {
     /// A board with `program` in its flash, as its supply comes.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] or [`Fault::Memory`] if it does not fit.
-    pub fn new(program: &Program) -> Result<Self, Fault> {
+    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         let memories = Memories::new(program)?;
         let shared = Shared::new(Chip::new()?);
         let core = core(&memories, &shared)?;
@@ -108,68 +107,27 @@ impl Machine {
         })
     }
 
-    /// Time since power-up.
-    pub const fn now(&self) -> Ps {
-        self.now
-    }
-
-    /// A cycle of the core.
-    pub const fn cycle(&self) -> Ps {
-        self.cycle
-    }
-
-    /// What the core has executed since power-up.
-    pub const fn spent(&self) -> &Spent {
-        &self.spent
-    }
-
     /// Works on the chip from outside.
-    pub fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
+    pub(crate) fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
         let mut chip = self.shared.chip();
-        chip.set_now(self.now);
+        chip.now = self.now;
         work(&mut chip)
     }
 
-    pub(crate) const fn memories(&self) -> &Memories {
-        &self.memories
-    }
-
-    /// Where the log's writer stands: changes with every line.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] if the program has broken its log.
-    pub fn log_position(&self) -> Result<u32, Fault> {
-        self.ring.writer(&self.memories)
-    }
-
-    /// Fetches what has been logged, as a probe does.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] if the program has broken its log.
-    pub fn drain_log(&self) -> Result<Vec<u8>, Fault> {
-        self.ring.drain(&self.memories)
-    }
-
     /// The most bytes that the stack has held since the reset.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if it was not painted or ran over its end.
-    pub fn stack_used(&self) -> Result<u32, Fault> {
+    pub(crate) fn stack_used(&self) -> Result<u32, Fault> {
         self.stack.used(&self.memories)
     }
 
     /// Holds the core for `time` in the middle of the next tick while the
     /// peripherals go on: a tick that is too long.
-    pub const fn hold_next_tick(&mut self, time: Ps) {
+    pub(crate) const fn hold_next_tick(&mut self, time: Ps) {
         self.hold = time;
     }
 
     /// Runs until the tick's handler has returned, the chip has been reset, the
     /// program is ready, or the time is `until`.
-    ///
-    /// # Errors
-    /// What the chip cannot go along with.
-    pub fn run(
+    pub(crate) fn run(
         &mut self,
         until: Ps,
         sensor: &mut dyn SensorEnd,
@@ -273,7 +231,7 @@ impl Machine {
         let mut chip = self.shared.chip();
         chip.reset(cause)?;
         // A core that was held knows nothing of the time since.
-        self.now = chip.now();
+        self.now = chip.now;
         self.shared.set_now(self.now);
         self.due = chip.next_event();
         self.cycle = chip.cycle();

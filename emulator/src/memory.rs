@@ -50,7 +50,7 @@ impl Shared {
 
     fn access(&self) -> MutexGuard<'_, Chip> {
         let mut chip = self.chip();
-        chip.set_now(self.now.load(Ordering::Relaxed));
+        chip.now = self.now.load(Ordering::Relaxed);
         self.touched.store(true, Ordering::Relaxed);
         chip
     }

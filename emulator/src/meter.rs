@@ -6,10 +6,11 @@ use crate::machine::{Observer, Spent};
 
 /// A figure over many ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Tally {
+pub(crate) struct Tally {
     count: u64,
     sum: u64,
-    worst: u64,
+    /// The largest.
+    pub(crate) worst: u64,
 }
 
 impl Tally {
@@ -22,25 +23,15 @@ impl Tally {
     }
 
     /// The mean; 0 without a value.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.sum as f64 / self.count.max(1) as f64
-    }
-
-    /// The largest.
-    pub const fn worst(&self) -> u64 {
-        self.worst
-    }
-
-    /// How many there were.
-    pub const fn count(&self) -> u64 {
-        self.count
     }
 }
 
 /// What was measured. A whole tick is from the first instruction of its handler
 /// to that of the next; idle's sleep executes nothing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Figures {
+pub(crate) struct Figures {
     /// From the timer's update to the first instruction of the tick's handler, ps.
     pub latency: Tally,
     /// From there to the handler's return, ps.
@@ -63,7 +54,7 @@ pub struct Figures {
 /// Takes the figures.
 #[derive(Debug, Default)]
 pub(crate) struct Meter {
-    figures: Figures,
+    pub(crate) figures: Figures,
     began: Option<(Ps, Spent)>,
     /// The whole tick that has ended last, until it is known whether it logged.
     ended: Option<Spent>,
@@ -71,10 +62,6 @@ pub(crate) struct Meter {
 }
 
 impl Meter {
-    pub(crate) const fn figures(&self) -> &Figures {
-        &self.figures
-    }
-
     /// Where the log's writer stands after a tick: idle has moved it, if at all,
     /// before that tick began.
     pub(crate) fn logged(&mut self, writer: u32) {
@@ -147,7 +134,7 @@ mod tests {
         meter.tick_begins(1_600, 3, &spent);
         meter.logged(writer);
 
-        let figures = meter.figures();
+        let figures = &meter.figures;
         let is = |extent: Tally, sum, worst| {
             assert_eq!((extent.sum, extent.worst), (sum, worst));
         };
@@ -160,6 +147,6 @@ mod tests {
         is(figures.latency, 27, 9);
         is(figures.length, 153, 52);
         is(figures.period, 1_600, 600);
-        assert_eq!(figures.whole.count(), 3);
+        assert_eq!(figures.whole.count, 3);
     }
 }

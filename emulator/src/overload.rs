@@ -26,7 +26,7 @@ const HANG: Ps = 60_000_000_000;
 pub fn overload(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let loaded = Loaded::new(path)?;
     let mut trouble = Trouble::new(&loaded.scene, program)?;
-    trouble.run.module_mut().bear_resets();
+    trouble.run.module_mut().bears_resets = true;
     let second = loaded.scene.tick_hz;
     let period = 1_000_000_000_000 / Ps::from(second);
     let missed = |trouble: &mut Trouble| trouble.board_mut().missed();
@@ -52,7 +52,7 @@ pub fn overload(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
 
     trouble.hold(HANG);
     trouble.pass(second + second / 10)?;
-    let reset = trouble.board_mut().take_reset();
+    let reset = trouble.board_mut().reset.take();
     if reset != Some(ResetCause::Watchdog) {
         return Err(Error::Work(format!("the watchdog did not bite: {reset:?}")));
     }

@@ -19,9 +19,6 @@ pub(crate) struct Stack {
 
 impl Stack {
     /// Of `program`.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if its linker script did not say.
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         Ok(Self {
             end: program.symbol("_stack_end")?,

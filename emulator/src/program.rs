@@ -10,7 +10,7 @@ use crate::chip::Fault;
 
 /// An ELF file as it came from the linker.
 #[derive(Debug, Clone)]
-pub struct Program {
+pub(crate) struct Program {
     bytes: Vec<u8>,
     /// Where in memory what stands, by load address.
     segments: Vec<(u32, Vec<u8>)>,
@@ -22,10 +22,7 @@ fn bad(what: impl std::fmt::Display) -> Fault {
 
 impl Program {
     /// Reads an ELF file.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if it cannot be read or is no 32-bit ELF file.
-    pub fn load(path: &Path) -> Result<Self, Fault> {
+    pub(crate) fn load(path: &Path) -> Result<Self, Fault> {
         let told = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
         let bytes = std::fs::read(path).map_err(|error| told(&error))?;
         Self::parse(bytes).map_err(|fault| told(&fault))
@@ -48,22 +45,19 @@ impl Program {
     }
 
     /// The file.
-    pub fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
     /// What is flashed, by address.
-    pub fn segments(&self) -> impl Iterator<Item = (u32, &[u8])> {
+    pub(crate) fn segments(&self) -> impl Iterator<Item = (u32, &[u8])> {
         self.segments
             .iter()
             .map(|(at, contents)| (*at, contents.as_slice()))
     }
 
     /// The address of a symbol.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if there is none of that name.
-    pub fn symbol(&self, name: &str) -> Result<u32, Fault> {
+    pub(crate) fn symbol(&self, name: &str) -> Result<u32, Fault> {
         let file = object::File::parse(self.bytes.as_slice()).map_err(bad)?;
         let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
         let symbol = symbol.ok_or_else(|| bad(format!("it has no symbol {name}")))?;

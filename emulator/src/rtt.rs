@@ -56,17 +56,14 @@ impl Ring {
 
 /// Turns the bytes of the log into lines.
 #[derive(Debug)]
-pub struct LogDecoder {
+pub(crate) struct LogDecoder {
     table: Table,
     encoded: Vec<u8>,
 }
 
 impl LogDecoder {
     /// The decoder for a program's log.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if the program does not log by defmt.
-    pub fn new(program: &Program) -> Result<Self, Fault> {
+    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         let bad = |fault: String| Fault::Program(format!("defmt: {fault}"));
         let table = Table::parse(program.bytes())
             .map_err(|error| bad(error.to_string()))?
@@ -78,7 +75,7 @@ impl LogDecoder {
     }
 
     /// Takes bytes of the log and returns the lines that are whole by now.
-    pub fn lines(&mut self, bytes: &[u8]) -> Vec<String> {
+    pub(crate) fn lines(&mut self, bytes: &[u8]) -> Vec<String> {
         if bytes.is_empty() {
             return Vec::new();
         }
@@ -112,10 +109,5 @@ impl LogDecoder {
                 Err(DecodeError::Malformed) => lines.push("(a broken line)".to_owned()),
             }
         }
-    }
-
-    /// Forgets a line that a reset has cut off.
-    pub fn cut(&mut self) {
-        self.encoded.clear();
     }
 }

@@ -20,7 +20,7 @@ const TROUBLES: [(WireFault, &str); 3] = [
 
 /// Whether the motor is driven.
 fn is_driven(trouble: &mut Trouble) -> bool {
-    let machine = trouble.board_mut().machine_mut();
+    let machine = &mut trouble.board_mut().machine;
     let duties = machine.with_chip(|chip: &mut Chip| chip.motor_duties());
     duties.iter().any(|(on, _)| *on > 0)
 }

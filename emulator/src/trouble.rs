@@ -21,9 +21,6 @@ pub(crate) struct Trouble {
 
 impl Trouble {
     /// A board that runs `scene`, for which `program` was built.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it cannot be put together.
     pub(crate) fn new(scene: &Scene, program: &Path) -> Result<Self, Error> {
         let program = Program::load(program)?;
         Ok(Self {
@@ -34,9 +31,6 @@ impl Trouble {
     }
 
     /// Lets so many ticks pass.
-    ///
-    /// # Errors
-    /// [`Error::Work`] for what the board cannot go along with.
     pub(crate) fn pass(&mut self, ticks: u32) -> Result<(), Error> {
         for _ in 0..ticks {
             self.run.tick();
@@ -50,18 +44,15 @@ impl Trouble {
 
     /// Holds the core for `time` in the middle of the next tick.
     pub(crate) fn hold(&mut self, time: Ps) {
-        self.board_mut().machine_mut().hold_next_tick(time);
+        self.board_mut().machine.hold_next_tick(time);
     }
 
     /// The board.
     pub(crate) fn board_mut(&mut self) -> &mut Board {
-        self.run.module_mut().board_mut()
+        &mut self.run.module_mut().board
     }
 
     /// The line of the log that says `text`.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if none does.
     pub(crate) fn hear(&self, text: &str) -> Result<String, Error> {
         let line = self.log.iter().find(|line| line.contains(text)).cloned();
         line.ok_or_else(|| {

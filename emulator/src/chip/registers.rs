@@ -50,11 +50,11 @@ impl Chip {
         Some((unit, clocked, address - base))
     }
 
-    /// Reads a register at the time of the last [`Chip::set_now`].
+    /// Reads a register, at the time in [`Chip::now`].
     ///
     /// # Errors
     /// [`Fault::Unmodelled`], without the place in the program.
-    pub fn read(&mut self, address: u32) -> Result<u32, Fault> {
+    pub(crate) fn read(&mut self, address: u32) -> Result<u32, Fault> {
         let now = self.now;
         let found = self.find(address).and_then(|(unit, clocked, offset)| {
             if !clocked {
@@ -81,13 +81,12 @@ impl Chip {
         })
     }
 
-    /// Writes the bits of `mask` into a register, at the time of the last
-    /// [`Chip::set_now`].
+    /// Writes the bits of `mask` into a register, at the time in [`Chip::now`].
     ///
     /// # Errors
     /// [`Fault::Unmodelled`], without the place in the program; what a wrong
     /// clock tree brings.
-    pub fn write(&mut self, address: u32, value: u32, mask: u32) -> Result<(), Fault> {
+    pub(crate) fn write(&mut self, address: u32, value: u32, mask: u32) -> Result<(), Fault> {
         let now = self.now;
         let unmodelled = Fault::Unmodelled {
             address,

@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::time::Ps;
 
 /// The sensor's end of the wires.
-pub trait SensorEnd {
+pub(crate) trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with.
     fn latch(&mut self);
 

@@ -35,7 +35,8 @@ pub(super) struct Shift {
 pub(super) struct Spi {
     cr1: u32,
     cr2: u32,
-    shift: Option<Shift>,
+    /// The byte on its way.
+    pub(super) shift: Option<Shift>,
     waiting: Option<u8>,
     received: Option<u8>,
     last: u8,
@@ -66,11 +67,6 @@ impl Spi {
     /// The period of the SPI's clock, from that of its bus.
     pub(super) fn bit(&self, apb2: Ps) -> Ps {
         apb2 << (((self.cr1 >> 3) & 7) + 1)
-    }
-
-    /// The byte on its way.
-    pub(super) const fn shift(&self) -> Option<Shift> {
-        self.shift
     }
 
     fn begin(&mut self, now: Ps, apb2: Ps) {

@@ -83,12 +83,12 @@ impl Rig {
     }
 
     fn try_write(&mut self, address: u32, value: u32) -> Result<(), Fault> {
-        self.chip.set_now(self.now);
+        self.chip.now = self.now;
         self.chip.write(address, value, u32::MAX)
     }
 
     fn read(&mut self, address: u32) -> u32 {
-        self.chip.set_now(self.now);
+        self.chip.now = self.now;
         self.chip.read(address).unwrap()
     }
 

@@ -1,4 +1,4 @@
 //! The emulated chip's time.
 
 /// Time since power-up, picoseconds: wraps after half a year.
-pub type Ps = u64;
+pub(crate) type Ps = u64;

@@ -55,8 +55,9 @@ pub(super) struct Timer {
     count: u32,
     since: Ps,
     /// When the last update was.
-    updated: Ps,
-    request: bool,
+    pub(super) updated: Ps,
+    /// Whether it waits for the DMA.
+    pub(super) request: bool,
     /// The encoder's position outside, counts.
     position: i32,
 }
@@ -146,21 +147,8 @@ impl Timer {
         heard.then(|| self.since + left.max(1) * self.step(clock))
     }
 
-    /// When the last update was.
-    pub(super) const fn updated(&self) -> Ps {
-        self.updated
-    }
-
     pub(super) const fn interrupts(&self) -> bool {
         self.sr & self.dier & UIF != 0
-    }
-
-    pub(super) const fn requests(&self) -> bool {
-        self.request
-    }
-
-    pub(super) const fn serve_request(&mut self) {
-        self.request = false;
     }
 
     /// Moves the encoder to `position` counts.

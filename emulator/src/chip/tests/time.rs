@@ -114,7 +114,7 @@ fn the_watchdog_keeps_its_settings_without_the_key() {
     let mut rig = Rig::new();
     start_watchdog(&mut rig);
     rig.write(IWDG + 0x08, 0xFFF);
-    assert_eq!(rig.chip.watchdog_bites(), Some(20 * MS));
+    assert_eq!(rig.chip.watchdog.bites(), Some(20 * MS));
 }
 
 #[test]
@@ -129,5 +129,5 @@ fn the_cause_of_a_reset_is_kept_until_it_is_cleared() {
     rig.chip.reset(ResetCause::Software).unwrap();
     assert_eq!(cause(&mut rig), 0b1_1010, "and software");
     assert_eq!(rig.chip.cycle(), 62_500, "back on 16 MHz");
-    assert_eq!(rig.chip.watchdog_bites(), None);
+    assert_eq!(rig.chip.watchdog.bites(), None);
 }
