@@ -187,6 +187,23 @@ pub(crate) fn svg(
     }
 }
 
+/// Pictures of `size` pixels each in so many columns, by what draws one.
+pub(crate) fn grid<T>(
+    all: &[T],
+    columns: usize,
+    size: (u32, u32),
+    draw_one: impl Fn(&T, &Area<'_>) -> Result<(), Fault>,
+) -> Result<String, Error> {
+    let columns = columns.max(1);
+    let rows = all.len().div_ceil(columns).max(1);
+    svg((size.0 * columns as u32, size.1 * rows as u32), |root| {
+        let areas = root.split_evenly((rows, columns));
+        all.iter()
+            .zip(areas)
+            .try_for_each(|(one, area)| draw_one(one, &area))
+    })
+}
+
 /// The panels, two beside each other, over one legend (that of the first).
 pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
     let columns = panels.len().clamp(1, 2);
@@ -257,7 +274,7 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), Fault> {
 
 #[cfg(test)]
 mod tests {
-    use super::Axis;
+    use super::{Axis, linear};
 
     #[test]
     fn decades_enclose_their_values_and_places_are_even() {
@@ -269,12 +286,7 @@ mod tests {
     #[test]
     fn a_linear_axis_counts_in_round_steps() {
         for (high, step) in [(24.0, 5.0), (1.0, 0.1), (3e-3, 5e-4)] {
-            let axis = Axis {
-                name: "",
-                low: 0.0,
-                high,
-                log: false,
-            };
+            let axis = linear("", 0.0, high);
             assert!((axis.step() / step - 1.0).abs() < 1e-12, "{high}");
         }
     }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use whisking::muscle::MuscleIntegrator;
 use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Config, Fix, Integrator, Real, muscle, oscillator};
+use whisking::{Config, Integrator, Real, muscle, oscillator};
 
-use super::schemes::{Format, Pace};
+use super::schemes::{Format, Pace, in_format};
 use crate::chart::{Axis, Mark, Panel, Series, draw, linear};
 use crate::page::{Page, short};
 use crate::refused::refused;
@@ -52,11 +52,7 @@ fn cycle<R: Real>(integrator: Integrator, cycles: f64) -> Result<[f64; 3], Error
 
 /// Largest |r − 1|.
 fn out_of_round(integrator: Integrator, format: Format, cycles: f64) -> Result<f64, Error> {
-    let [low, high, _] = match format {
-        Format::F64 => cycle::<f64>(integrator, cycles),
-        Format::F32 => cycle::<f32>(integrator, cycles),
-        Format::Fixed => cycle::<Fix>(integrator, cycles),
-    }?;
+    let [low, high, _] = in_format!(format, cycle(integrator, cycles))?;
     Ok(f64::max(high - 1.0, 1.0 - low))
 }
 

@@ -2,10 +2,10 @@
 //! jumps.
 
 use whisking::gate::Gate;
-use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State};
+use whisking::{GateSettings, Integrator, PatternGenerator, Real, Settings, State};
 
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
-use super::schemes::{Format, INTEGRATORS, Pace, name};
+use super::schemes::{Format, INTEGRATORS, Pace, in_format, name};
 use crate::chart::{Axis, Mark, Panel, Series};
 use crate::page::{Page, short};
 use crate::refused::refused;
@@ -131,11 +131,7 @@ fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
         }
         Ok((z.value.to_f64() / libm::exp(-4.0) - 1.0).abs())
     }
-    match format {
-        Format::F64 => of::<f64>(integrator),
-        Format::F32 => of::<f32>(integrator),
-        Format::Fixed => of::<Fix>(integrator),
-    }
+    in_format!(format, of(integrator))
 }
 
 /// Error of the decay, and order of convergence across a step of contact.

@@ -12,9 +12,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use whisking::{Fix, Real};
+use whisking::Real;
 
-use super::schemes::{Format, PAPERS, Pace};
+use super::schemes::{Format, PAPERS, Pace, in_format};
 use crate::chart::{Mark, Panel, Series, draw, linear};
 use crate::page::{Page, short, verdict};
 use host_sim::Error;
@@ -56,11 +56,7 @@ impl Table {
         let rows = thread::scope(|scope| {
             let work = Format::ALL.map(|format| {
                 let done = &done;
-                scope.spawn(move || match format {
-                    Format::F64 => both::<f64>(format, length, done),
-                    Format::F32 => both::<f32>(format, length, done),
-                    Format::Fixed => both::<Fix>(format, length, done),
-                })
+                scope.spawn(move || in_format!(format, both(format, length, done)))
             });
             while work.iter().any(|thread| !thread.is_finished()) {
                 progress.set(done.load(Ordering::Relaxed));

@@ -124,7 +124,8 @@ impl Truth {
 
 #[cfg(test)]
 mod tests {
-    use super::{Case, GRID, Truth};
+    use super::{GRID, Truth};
+    use crate::accuracy::integrators::NEAR;
 
     /// Rows of an independent solver (DOP853 at 1e-13), ticks of 0.5 ms.
     const DOP853: [(usize, &str); 3] = [
@@ -135,10 +136,7 @@ mod tests {
 
     #[test]
     fn the_truth_is_that_of_an_independent_solver() {
-        let truth = Truth::solve(&Case {
-            psi: [[1.0, 0.0], [0.6, 0.5]],
-            gain: 1.0,
-        });
+        let truth = Truth::solve(&NEAR);
         let mut worst = 0.0_f64;
         for (frequency_hz, text) in DOP853 {
             assert!(text.lines().count() > 300);

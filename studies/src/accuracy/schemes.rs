@@ -1,7 +1,7 @@
 //! What is compared: the product's integrators in every number format, and two
 //! schemes from outside for scale.
 
-use whisking::{Fix, Integrator, PatternGenerator, Real, Settings};
+use whisking::{Integrator, PatternGenerator, Real, Settings};
 
 use super::reference::{Case, GRID, PEAK_GAIN, State, Truth, WHISKS};
 use super::split::Split;
@@ -28,6 +28,18 @@ impl Format {
         }
     }
 }
+
+/// A function of a number type, called with that of a format.
+macro_rules! in_format {
+    ($format:expr, $function:ident($($argument:expr),*)) => {
+        match $format {
+            Format::F64 => $function::<f64>($($argument),*),
+            Format::F32 => $function::<f32>($($argument),*),
+            Format::Fixed => $function::<whisking::Fix>($($argument),*),
+        }
+    };
+}
+pub(super) use in_format;
 
 /// As the report calls it.
 pub(super) const fn name(integrator: Integrator) -> &'static str {
@@ -76,11 +88,7 @@ impl Scheme {
         match self {
             Self::Product(integrator, format) => {
                 let settings = pace.settings(integrator);
-                match format {
-                    Format::F64 => product::<f64>(&settings, case, truth, pace),
-                    Format::F32 => product::<f32>(&settings, case, truth, pace),
-                    Format::Fixed => product::<Fix>(&settings, case, truth, pace),
-                }
+                in_format!(format, product(&settings, case, truth, pace))
             }
             Self::RungeKutta => outside(case, truth, pace, |s| s.runge_kutta(cycles, [push; 3])),
             Self::Split => {
@@ -182,18 +190,14 @@ fn worst(truth: &Truth, pace: Pace, mut tick: impl FnMut() -> [f64; 2]) -> Resul
 #[cfg(test)]
 mod tests {
     use super::{Pace, Scheme};
+    use crate::accuracy::integrators::NEAR;
     use crate::accuracy::reference::{Case, Truth};
     use whisking::Integrator::{Euler, Exact};
-
-    const CASE: Case = Case {
-        psi: [[1.0, 0.0], [0.6, 0.5]],
-        gain: 1.0,
-    };
 
     /// What other programs measured for the same runs.
     #[test]
     fn the_comparisons_have_their_known_errors() {
-        let truth = Truth::solve(&CASE);
+        let truth = Truth::solve(&NEAR);
         let euler = Scheme::Product(Euler, super::Format::F64);
         for (scheme, frequency_hz, tick_hz, known) in [
             (Scheme::RungeKutta, 2.0, 2_000.0, 6.7e-8),
@@ -203,7 +207,7 @@ mod tests {
             (euler, 25.0, 500.0, 51.0),
         ] {
             let pace = Pace::new(frequency_hz, tick_hz);
-            let found = scheme.error(&CASE, &truth, pace).unwrap();
+            let found = scheme.error(&NEAR, &truth, pace).unwrap();
             assert!(
                 (found / known - 1.0).abs() < 0.05,
                 "{scheme:?}: {found:e} of {known:e}"
@@ -214,10 +218,10 @@ mod tests {
     /// A split of second order: half the tick, a quarter of the error.
     #[test]
     fn the_split_step_is_of_second_order() {
-        let truth = Truth::solve(&CASE);
+        let truth = Truth::solve(&NEAR);
         let error = |tick_hz| {
             let pace = Pace::new(8.0, tick_hz);
-            Scheme::Split.error(&CASE, &truth, pace).unwrap()
+            Scheme::Split.error(&NEAR, &truth, pace).unwrap()
         };
         let ratio = error(1_000.0) / error(2_000.0);
         assert!((ratio - 4.0).abs() < 0.2, "{ratio}");
@@ -225,14 +229,14 @@ mod tests {
 
     #[test]
     fn an_error_is_that_of_the_worse_side_and_of_the_whole_run() {
-        let truth = Truth::solve(&CASE);
+        let truth = Truth::solve(&NEAR);
         let pace = Pace::new(25.0, 2_000.0);
         let other = Case {
             psi: [[1.0, 0.0], [0.6, 0.500_1]],
-            ..CASE
+            ..NEAR
         };
         let scheme = Scheme::Product(Exact, super::Format::F64);
-        let [same, moved] = [CASE, other].map(|case| scheme.error(&case, &truth, pace).unwrap());
+        let [same, moved] = [NEAR, other].map(|case| scheme.error(&case, &truth, pace).unwrap());
         assert!(moved > same + 1e-3, "{same:e} {moved:e}");
     }
 }

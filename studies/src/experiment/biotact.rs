@@ -28,8 +28,8 @@ const DRAWS: usize = 10;
 /// Hit rates, percent, of 1, 2, … training whisks.
 type HitCurve = Vec<f64>;
 
-/// Hit rates `[method][task][strategy]`.
-struct Hits(Vec<Vec<Vec<HitCurve>>>);
+/// Hit rates by method, task and strategy, the last the fastest.
+struct Hits(Vec<HitCurve>);
 
 impl Hits {
     fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self, Error> {
@@ -56,10 +56,8 @@ impl Hits {
             })
             .collect();
         let rates = rates?;
-        let mut curves = rates.chunks_exact(most).map(<[f64]>::to_vec);
-        let mut strategies = || curves.by_ref().take(STRATEGIES.len()).collect();
-        let tasks = |_| Task::ALL.iter().map(|_| strategies()).collect();
-        Ok(Self(Method::ALL.iter().map(tasks).collect()))
+        let curves = rates.chunks_exact(most).map(<[f64]>::to_vec);
+        Ok(Self(curves.collect()))
     }
 
     /// Percent after `count` training whisks; the most that there are if fewer.
@@ -70,11 +68,9 @@ impl Hits {
     }
 
     fn curve(&self, method: Method, task: Task, strategy: usize) -> &[f64] {
-        let found = self.0.get(method as usize);
-        let found = found.and_then(|tasks| tasks.get(task as usize));
-        found
-            .and_then(|strategies| strategies.get(strategy))
-            .map_or(&[], Vec::as_slice)
+        let group = method as usize * Task::ALL.len() + task as usize;
+        let found = self.0.get(group * STRATEGIES.len() + strategy);
+        found.map_or(&[], Vec::as_slice)
     }
 }
 

@@ -9,7 +9,7 @@ use tactile::train::{Options, Trainer};
 
 use super::dataset::Dataset;
 use super::record::floor::{MOTIONS, number};
-use super::recording::{Recording, Recordings};
+use super::recording::{Recording, Recordings, of_set};
 use super::request::{Extent, Request};
 use crate::moments::range;
 use crate::page::percent_of;
@@ -57,7 +57,7 @@ impl<'a> Floors<'a> {
     /// rotation.
     pub(super) fn new(request: &Request, recordings: &'a Recordings) -> Self {
         Self {
-            recordings: recordings.of(Dataset::Floor),
+            recordings: of_set(recordings, Dataset::Floor),
             extent: request.extent,
             natural: request.extent.trials(),
             rate_hz: request.rigs.floor.tick_hz,

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use tactile::score::Confusion;
 
-use crate::chart::{Area, Fault, svg};
+use crate::chart::grid;
 use crate::page::percent_of;
 use host_sim::Error;
 
@@ -30,14 +30,7 @@ fn shade(share: f64) -> RGBColor {
 
 /// The matrices in so many columns.
 pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String, Error> {
-    let columns = columns.max(1);
-    let rows = matrices.len().div_ceil(columns).max(1);
-    let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
-    svg(size, |root| draw_on(root, matrices, (rows, columns)))
-}
-
-fn draw_on(root: &Area<'_>, matrices: &[Matrix], grid: (usize, usize)) -> Result<(), Fault> {
-    for (matrix, area) in matrices.iter().zip(root.split_evenly(grid)) {
+    grid(matrices, columns, PANEL, |matrix, area| {
         let text = |text: &str, at: (i32, i32), size: i32| {
             area.draw(&Text::new(text.to_owned(), at, ("sans-serif", size)))
         };
@@ -60,9 +53,8 @@ fn draw_on(root: &Area<'_>, matrices: &[Matrix], grid: (usize, usize)) -> Result
             }
         }
         let frame = [(left, top), (left + end, top + end)];
-        area.draw(&Rectangle::new(frame, RGBColor(110, 110, 110)))?;
-    }
-    Ok(())
+        Ok(area.draw(&Rectangle::new(frame, RGBColor(110, 110, 110)))?)
+    })
 }
 
 #[cfg(test)]

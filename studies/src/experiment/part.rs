@@ -20,7 +20,7 @@ const CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
 /// The bytes of a part.
 pub fn bytes(request: &Request, recordings: &Recordings) -> Vec<u8> {
     let mut bytes = format!("{MAGIC}{}\n", request.line()).into_bytes();
-    for (job, recording) in recordings.iter() {
+    for (job, recording) in recordings {
         // Counts are far below 2³²: the largest set has 3200 jobs of 2²⁰ values.
         let head = [
             job.dataset.number(),
@@ -73,8 +73,8 @@ fn read(bytes: &[u8], request: &Request, recordings: &mut Recordings) -> Result<
     let mut words = words.iter().copied().peekable();
     while words.peek().is_some() || !odd.is_empty() {
         let (job, recording) = recording(&mut words).ok_or("a recording is cut short")?;
-        if let Some(job) = recordings.add(job, recording) {
-            let Job { dataset, number } = job;
+        let Job { dataset, number } = job;
+        if recordings.insert(job, recording).is_some() {
             return Err(format!("{} {number} is there twice", dataset.text()));
         }
     }
@@ -93,7 +93,10 @@ pub fn join(paths: &[PathBuf], request: &Request) -> Result<Recordings, Error> {
         read(&bytes, request, &mut recordings).map_err(|fault| Error::file(path, fault))?;
     }
     let expected = jobs(request);
-    let missing: Vec<&Job> = expected.iter().filter(|job| !recordings.has(job)).collect();
+    let missing: Vec<&Job> = expected
+        .iter()
+        .filter(|job| !recordings.contains_key(job))
+        .collect();
     if let Some(Job { dataset, number }) = missing.first() {
         return Err(Error::Input(format!(
             "{} of {} recordings are in no part, the first: {} {number}",

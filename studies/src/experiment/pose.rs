@@ -7,9 +7,10 @@ mod scores;
 mod sets;
 mod tables;
 
+use super::dataset::Dataset;
 use super::record::on_other_rigs;
 use super::recording::Recordings;
-use super::request::{Name, Request};
+use super::request::Request;
 use crate::page::Page;
 use crate::paper::pose::{ROWS, TEXTURE_ALONE};
 use host_sim::Error;
@@ -74,7 +75,7 @@ const IRREGULAR_S: f64 = 0.15;
 /// controller that is much less regular; and how much of the signal differs
 /// between textures.
 fn why(request: &Request, sets: &Sets) -> Result<String, Error> {
-    let (other, recordings) = on_other_rigs(request, Name::Pose, |other| {
+    let (other, recordings) = on_other_rigs(request, Dataset::Table, |other| {
         let table = &mut other.rigs.table;
         table.latency_spread_s = IRREGULAR_S.min(table.latency_s);
     })?;

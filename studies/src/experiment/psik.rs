@@ -11,7 +11,7 @@ use tactile::score::Confusion;
 use super::dataset::Dataset;
 use super::picture::{Curve, panel, percent};
 use super::record::pad::PAPERS;
-use super::recording::Recordings;
+use super::recording::{Recordings, of_set};
 use super::request::Request;
 use crate::chart::{Mark, linear};
 use crate::page::{Page, confusion, row};
@@ -36,7 +36,7 @@ pub(super) fn evaluate(
     request: &Request,
     recordings: &Recordings,
 ) -> Result<(), Error> {
-    let sweeps = Sweeps::new(request, &recordings.of(Dataset::Pad));
+    let sweeps = Sweeps::new(request, &of_set(recordings, Dataset::Pad));
     let (training, testing) = request.extent.sweeps();
     page.heading(2, "PSIK: many vibrissae");
     page.say(format_args!(

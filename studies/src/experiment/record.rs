@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::dataset::{Dataset, Job};
 use super::recording::{Recording, Recordings};
-use super::request::{Extent, Name, Request, Shard};
+use super::request::{Extent, Request, Shard};
 use crate::refused::within;
 use crate::rigs::seed_of;
 use host_sim::Error;
@@ -31,15 +31,18 @@ fn count(dataset: Dataset, extent: Extent) -> usize {
     }
 }
 
+/// The jobs of a data set.
+fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
+    (0..count(dataset, extent)).map(move |number| Job { dataset, number })
+}
+
 /// The jobs of all data sets that the experiments of a request need, each once.
 pub fn jobs(request: &Request) -> Vec<Job> {
     let names = request.names.iter();
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
     datasets.sort_unstable();
     datasets.dedup();
-    let of = |dataset: Dataset| {
-        (0..count(dataset, request.extent)).map(move |number| Job { dataset, number })
-    };
+    let of = |dataset| all(dataset, request.extent);
     datasets.into_iter().flat_map(of).collect()
 }
 
@@ -81,24 +84,19 @@ pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<R
         }
         Ok((*job, recording))
     };
-    jobs.par_iter()
-        .map(make)
-        .collect::<Result<Vec<_>, Error>>()
-        .map(Recordings::from_iter)
+    jobs.par_iter().map(make).collect()
 }
 
-/// Records one experiment anew, on rigs that `change` has changed.
+/// Records one data set anew, on rigs that `change` has changed.
 pub(crate) fn on_other_rigs(
     request: &Request,
-    name: Name,
+    dataset: Dataset,
     change: impl FnOnce(&mut Request),
 ) -> Result<(Request, Recordings), Error> {
-    let mut other = Request {
-        names: vec![name],
-        ..request.clone()
-    };
+    let mut other = request.clone();
     change(&mut other);
-    let recordings = record(&other, &jobs(&other), Verbosity::Quiet)?;
+    let jobs: Vec<Job> = all(dataset, other.extent).collect();
+    let recordings = record(&other, &jobs, Verbosity::Quiet)?;
     Ok((other, recordings))
 }
 

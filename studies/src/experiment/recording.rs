@@ -52,44 +52,10 @@ impl Recording {
 }
 
 /// All recordings of a request.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Recordings(BTreeMap<Job, Recording>);
+pub type Recordings = BTreeMap<Job, Recording>;
 
-impl FromIterator<(Job, Recording)> for Recordings {
-    fn from_iter<I: IntoIterator<Item = (Job, Recording)>>(all: I) -> Self {
-        Self(all.into_iter().collect())
-    }
-}
-
-impl Recordings {
-    /// The recordings of a set in the order of its jobs.
-    pub fn of(&self, dataset: Dataset) -> Vec<&Recording> {
-        let jobs = self.0.iter().filter(|(job, _)| job.dataset == dataset);
-        jobs.map(|(_, recording)| recording).collect()
-    }
-
-    /// Jobs and recordings in order.
-    pub fn iter(&self) -> impl Iterator<Item = (&Job, &Recording)> {
-        self.0.iter()
-    }
-
-    /// Whether a job's recording is there.
-    pub fn has(&self, job: &Job) -> bool {
-        self.0.contains_key(job)
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Adds a recording; gives back the job if there was one already.
-    pub fn add(&mut self, job: Job, recording: Recording) -> Option<Job> {
-        self.0.insert(job, recording).map(|_| job)
-    }
+/// The recordings of a set in the order of its jobs.
+pub(crate) fn of_set(all: &Recordings, dataset: Dataset) -> Vec<&Recording> {
+    let jobs = all.iter().filter(|(job, _)| job.dataset == dataset);
+    jobs.map(|(_, recording)| recording).collect()
 }

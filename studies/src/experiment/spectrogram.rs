@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use crate::chart::{Area, Fault, svg};
+use crate::chart::grid;
 use host_sim::Error;
 
 /// What is drawn white, below the most, dB.
@@ -33,16 +33,9 @@ fn shade(power: f64, most: f64) -> u8 {
 
 /// Spectrograms in so many columns, shaded alike.
 pub(super) fn draw(all: &[Spectrogram], columns: usize) -> Result<String, Error> {
-    let columns = columns.max(1);
-    let rows = all.len().div_ceil(columns).max(1);
-    let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
-    svg(size, |root| draw_on(root, all, (rows, columns)))
-}
-
-fn draw_on(root: &Area<'_>, all: &[Spectrogram], grid: (usize, usize)) -> Result<(), Fault> {
     let powers = all.iter().flat_map(|one| one.power.iter().flatten());
     let most = powers.copied().fold(f64::MIN_POSITIVE, f64::max);
-    for (one, area) in all.iter().zip(root.split_evenly(grid)) {
+    grid(all, columns, PANEL, |one, area| {
         let text =
             |text: String, at: (i32, i32)| area.draw(&Text::new(text, at, ("sans-serif", 13)));
         text(one.title.clone(), (10, 8))?;
@@ -67,8 +60,8 @@ fn draw_on(root: &Area<'_>, all: &[Spectrogram], grid: (usize, usize)) -> Result
         text(format!("{:.0} Hz", one.highest_hz), (2, top))?;
         text("0".to_owned(), (left - 14, bottom - 14))?;
         text(format!("{:.1} s", one.time_s), (right - 30, bottom + 6))?;
-    }
-    Ok(())
+        Ok(())
+    })
 }
 
 #[cfg(test)]

@@ -63,8 +63,6 @@ pub const OVERLAP_GAIN: f64 = 0.1;
 /// τ_z of the experiments as a share of the whisk period (section III-C).
 pub const TAU_Z_PERIODS: f64 = 0.25;
 
-/// Whisks recorded of each condition, and the most that are trained on.
-pub const WHISKS: usize = 12;
 /// Largest number of training whisks.
 pub const MOST_TRAINING: usize = 8;
 

@@ -8,18 +8,8 @@ use serde::de::DeserializeOwned;
 
 use host_sim::Error;
 
-/// A number of a rig that is out of its range.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OutOfRange {
-    /// The key.
-    pub key: &'static str,
-    /// What was found.
-    pub found: f64,
-    /// The least that is allowed.
-    pub low: f64,
-    /// The most.
-    pub high: f64,
-}
+/// A number of a rig that is out of its range: its key, and what is wrong.
+pub type OutOfRange = (&'static str, String);
 
 /// Keys of a file that can say whether their numbers are in range.
 pub trait Keys: DeserializeOwned {
@@ -74,18 +64,11 @@ pub(super) fn within(
     found: &impl Numbers,
     range: &RangeInclusive<f64>,
 ) -> Result<(), OutOfRange> {
-    let outside = |found: &f64| !range.contains(found);
-    let wrong = |found| OutOfRange {
-        key,
-        found,
-        low: *range.start(),
-        high: *range.end(),
-    };
-    found
-        .numbers()
-        .into_iter()
-        .find(outside)
-        .map_or(Ok(()), |found| Err(wrong(found)))
+    let (low, high) = (range.start(), range.end());
+    match found.numbers().iter().find(|found| !range.contains(found)) {
+        None => Ok(()),
+        Some(found) => Err((key, format!("found {found}, allowed {low} to {high}"))),
+    }
 }
 
 /// Declares the keys of a rig, or of a part of one that has no file: each with
@@ -152,16 +135,11 @@ pub fn parse<R: Rig>(path: &Path, text: &str) -> Result<R, Error> {
     })?;
     match rig.check() {
         Ok(()) => Ok(rig),
-        Err(OutOfRange {
-            key,
-            found,
-            low,
-            high,
-        }) => {
+        Err((key, fault)) => {
             let line = line_of(text, key);
             Err(Error::file(
                 path,
-                format_args!("line {line}: {key}: found {found}, allowed {low} to {high}"),
+                format_args!("line {line}: {key}: {fault}"),
             ))
         }
     }

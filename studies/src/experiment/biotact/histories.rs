@@ -8,7 +8,7 @@ use crate::chart::{Mark, linear};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::picture::{Curve, panel};
 use crate::experiment::record::head::number;
-use crate::experiment::recording::{Recording, Recordings};
+use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
 use crate::page::Page;
@@ -40,7 +40,7 @@ pub(super) fn section(
     request: &Request,
     recordings: &Recordings,
 ) -> Result<(), Error> {
-    let all = recordings.of(Dataset::Head);
+    let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let rate_hz = request.rigs.head.tick_hz;
     let mut panels = Vec::new();

@@ -3,7 +3,7 @@
 
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
-use crate::experiment::recording::{Recording, Recordings};
+use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
@@ -93,7 +93,7 @@ fn spread(visit: &Recording, ticks: usize, whisks: usize) -> f64 {
 }
 
 pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings, why: &str) {
-    let all = recordings.of(Dataset::Head);
+    let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let smooth = TEXTURES.len() - 1;
     let mut rows = Vec::new();

@@ -6,7 +6,7 @@ use tactile::train::{Options, Trainer};
 
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, number};
-use crate::experiment::recording::Recordings;
+use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::moments::range;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
@@ -89,7 +89,7 @@ pub(super) struct Visits {
 
 impl Visits {
     pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
-        let all = recordings.of(Dataset::Head);
+        let all = of_set(recordings, Dataset::Head);
         let ticks = request.rigs.head.whisk_ticks();
         let mut whisks = vec![vec![Vec::new(); request.extent.whisks()]; STRATEGIES.len()];
         for (strategy, whisks) in whisks.iter_mut().enumerate() {

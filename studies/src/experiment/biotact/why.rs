@@ -6,8 +6,8 @@ use super::whisks::{ALL, Task, Visits};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{early, number};
 use crate::experiment::record::on_other_rigs;
-use crate::experiment::recording::Recordings;
-use crate::experiment::request::{Name, Request};
+use crate::experiment::recording::{Recordings, of_set};
+use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::rigs::{CHANNELS, WhiskingHead};
@@ -67,7 +67,7 @@ impl Found {
             };
             (0..STRATEGIES.len()).map(rate).collect()
         };
-        let all = recordings.of(Dataset::Head);
+        let all = of_set(recordings, Dataset::Head);
         let ticks = request.rigs.head.whisk_ticks();
         let moved = |job: usize| all.get(job).map(|visit| movement(visit, ticks));
         let spread = |strategy| moved(number(strategy, TEXTURES.len() - 1, 1));
@@ -83,7 +83,7 @@ impl Found {
     }
 
     fn other(request: &Request, most: usize, change: fn(&mut WhiskingHead)) -> Result<Self, Error> {
-        let (other, recordings) = on_other_rigs(request, Name::Biotact, |other| {
+        let (other, recordings) = on_other_rigs(request, Dataset::Head, |other| {
             change(&mut other.rigs.head);
         })?;
         Self::of(&other, &recordings, most, SMOOTH)

@@ -51,6 +51,18 @@ pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
     Ok(tally.hits())
 }
 
+/// The power spectrum of a channel of a segment, without its mean.
+pub(super) fn power(
+    spectrum: &mut Spectrum,
+    segment: &[f64],
+    channel: usize,
+) -> Result<Vec<f64>, Error> {
+    let line = || segment.iter().skip(channel).step_by(CHANNELS);
+    let mean = line().sum::<f64>() / (segment.len() / CHANNELS) as f64;
+    let power = spectrum.of_samples(line().map(|x| x - mean), Measure::Power);
+    power.map_err(refused)
+}
+
 /// The inputs of the network for every segment of a stream, with its floor.
 fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<(usize, Vec<f64>)>, Error> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
@@ -61,10 +73,7 @@ fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<(usize, Vec<f64>)>, Error> 
     for segment in stream.samples.chunks_exact(block * CHANNELS) {
         let mut row = Vec::with_capacity(CHANNELS * bins.count);
         for channel in 0..CHANNELS {
-            let line = || segment.iter().skip(channel).step_by(CHANNELS);
-            let mean = line().sum::<f64>() / block as f64;
-            let power = spectrum.of_samples(line().map(|x| x - mean), Measure::Power);
-            row.extend(power.map_err(refused)?);
+            row.extend(power(&mut spectrum, segment, channel)?);
         }
         rows.push((stream.floor, row));
     }

@@ -1,9 +1,10 @@
 //! Why hit rates on the simulated floors differ from the paper's, measured.
 
 use super::groups::{Curves, Group};
+use crate::experiment::dataset::Dataset;
 use crate::experiment::floors::{CHANNELS, Floors, Stream};
 use crate::experiment::record::on_other_rigs;
-use crate::experiment::request::{Name, Request};
+use crate::experiment::request::Request;
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::TIME_S;
 use crate::refused::refused;
@@ -87,7 +88,7 @@ pub(super) fn distributions(group: &Group, rate_hz: f64) -> String {
 /// The same experiment on another robot: what a window of 200 ms and the
 /// sequential rule make of rotating motion, percent.
 fn variation(request: &Request, change: impl FnOnce(&mut Floor)) -> Result<[f64; 2], Error> {
-    let (other, recordings) = on_other_rigs(request, Name::Lep12, |other| {
+    let (other, recordings) = on_other_rigs(request, Dataset::Floor, |other| {
         change(&mut other.rigs.floor);
     })?;
     let floors = Floors::new(&other, &recordings);

@@ -2,7 +2,7 @@
 
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::table::{Contact, contacts};
-use crate::experiment::recording::Recordings;
+use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::paper::pose::TEXTURES;
 use crate::rigs::{Chance, seed_of};
@@ -20,7 +20,7 @@ pub(super) struct Sets {
 
 impl Sets {
     pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
-        let all = recordings.of(Dataset::Table);
+        let all = of_set(recordings, Dataset::Table);
         let contacts = contacts(request.extent);
         let poses = contacts.len() / 2;
         let mut chance = Chance::new(seed_of(request.seed, &[20]));

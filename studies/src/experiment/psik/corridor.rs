@@ -6,7 +6,7 @@ use tactile::score::Confusion;
 use super::sweeps::{PENALTIES, Row, mean_hit, train};
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
-use crate::experiment::recording::{Recording, Recordings};
+use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::{Page, confusion};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
@@ -26,7 +26,7 @@ pub(super) fn section(
     request: &Request,
     recordings: &Recordings,
 ) -> Result<(), Error> {
-    let runs = recordings.of(Dataset::Corridor);
+    let runs = of_set(recordings, Dataset::Corridor);
     let (training, tested, deciding) = request.extent.runs();
     let taught = training.saturating_sub(tested);
     let mut rows: Vec<Row> = Vec::new();

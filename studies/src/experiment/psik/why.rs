@@ -4,14 +4,14 @@
 
 use super::sweeps::{NAMES, Row, Sweeps, hit};
 use crate::experiment::dataset::Dataset;
+use crate::experiment::record::on_other_rigs;
 use crate::experiment::record::pad::PAPERS;
-use crate::experiment::record::{jobs, record};
-use crate::experiment::request::{Extent, Name, Request};
+use crate::experiment::recording::of_set;
+use crate::experiment::request::{Extent, Request};
 use crate::page::Page;
 use crate::paper::psik::ARCS;
 use crate::rigs::{Pad, seed_of};
 use host_sim::Error;
-use host_sim::progress::Verbosity;
 
 /// Another rig, and what is other.
 type Other = (&'static str, fn(&mut Pad));
@@ -72,14 +72,11 @@ fn few(sweeps: &Sweeps) -> Sweeps {
 
 /// Sweeps over another rig.
 fn swept(request: &Request, change: fn(&mut Pad)) -> Result<Sweeps, Error> {
-    let mut other = request.clone();
-    other.names = vec![Name::Psikharpax];
-    other.extent = Extent::Reduced;
-    change(&mut other.rigs.pad);
-    let mut jobs = jobs(&other);
-    jobs.retain(|job| job.dataset == Dataset::Pad);
-    let recordings = record(&other, &jobs, Verbosity::Quiet)?;
-    Ok(Sweeps::new(&other, &recordings.of(Dataset::Pad)))
+    let (other, recordings) = on_other_rigs(request, Dataset::Pad, |other| {
+        other.extent = Extent::Reduced;
+        change(&mut other.rigs.pad);
+    })?;
+    Ok(Sweeps::new(&other, &of_set(&recordings, Dataset::Pad)))
 }
 
 /// Says it on the page; the reason for claims that are not met.

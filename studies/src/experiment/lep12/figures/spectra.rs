@@ -1,10 +1,11 @@
 //! Fig. 9 of LEP12: the power spectra of the whisker on each floor.
 
-use classifiers::spectrum::{Bins, Measure, Spectrum};
+use classifiers::spectrum::{Bins, Spectrum};
 
 use crate::chart::{Mark, linear};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::lep12::groups::Group;
+use crate::experiment::lep12::spectral::power;
 use crate::experiment::picture::{Curve, panel, top};
 use crate::page::Page;
 use crate::paper::lep10::FLOORS;
@@ -26,12 +27,7 @@ pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(
             let mut count = 0.0;
             for stream in group.training.iter().filter(|stream| stream.floor == floor) {
                 for segment in stream.samples.chunks_exact(block * CHANNELS) {
-                    let line = segment.iter().skip(channel).step_by(CHANNELS).copied();
-                    let line: Vec<f64> = line.collect();
-                    let mean = line.iter().sum::<f64>() / block as f64;
-                    let power = spectrum
-                        .of_samples(line.iter().map(|x| x - mean), Measure::Power)
-                        .map_err(refused)?;
+                    let power = power(&mut spectrum, segment, channel)?;
                     for (sum, power) in sum.iter_mut().zip(power) {
                         *sum += power;
                     }
