@@ -55,9 +55,3 @@ pub(crate) fn complaint(text: &str) -> String {
         Err(problems) => problems.to_string(),
     }
 }
-
-/// Checks that replacing `old` by `new` draws exactly this complaint.
-#[track_caller]
-pub(crate) fn refuses(old: &str, new: &str, expected: &str) {
-    assert_eq!(complaint(&with(FULL, old, new)), expected);
-}
