@@ -1,5 +1,4 @@
 //! What the commands of the command line do, a file each.
 
 pub mod experiment;
-pub mod merge;
 pub mod report;

@@ -5,13 +5,12 @@
 //!
 //! - **data set**: recordings of one rig under all its conditions.
 //! - **job**: what one recording comes of: a trial, a visit, a contact, a sweep.
-//! - **part**: the recordings of a share of all jobs, in a file.
 //! - **claim**: something that must come out of the mechanism.
 //!
 //! A run records the data sets that the chosen experiments need, a job at a
 //! time on all cores, and then evaluates them. Recordings depend on the seed,
-//! the data set and the job alone; so parts made anywhere join to the same
-//! bytes as a run in one go.
+//! the data set and the job alone, so neither the number of cores nor what else is
+//! recorded changes a byte.
 
 mod biotact;
 mod costs;
@@ -20,7 +19,6 @@ mod floors;
 mod lep10;
 mod lep12;
 mod matrix;
-mod part;
 mod picture;
 mod pose;
 mod psik;
@@ -31,10 +29,9 @@ mod spectrogram;
 mod whole;
 
 pub use dataset::{Dataset, Job};
-pub use part::{bytes as part_bytes, first_line, join, write as write_part};
-pub use record::{jobs, record, share};
+pub use record::{jobs, record};
 pub use recording::{Recording, Recordings};
-pub use request::{Extent, Name, Request, Shard};
+pub use request::{Extent, Name, Request};
 pub use whole::report;
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use host_sim::progress::Verbosity;
 use host_sim::report::{exit, say};
 use studies::accuracy::LongRun;
 use studies::commands::experiment::{self, Options};
-use studies::commands::{merge, report};
+use studies::commands::report;
 use studies::experiment::Name;
 
 /// The laboratory: the papers' experiments on simulated rigs, and the accuracy
@@ -67,18 +67,6 @@ enum Which {
     Psikharpax(Options),
     /// All of them
     All(Options),
-    /// Joins the parts of all shards and evaluates them
-    Merge {
-        /// The parts, in any order
-        #[arg(required = true, value_name = "PART")]
-        parts: Vec<PathBuf>,
-        /// The folder of the rigs that the parts were made on; those built in if none
-        #[arg(long, value_name = "DIR")]
-        rigs: Option<PathBuf>,
-        /// Where to write
-        #[arg(long, value_name = "DIR", default_value = "out/experiments")]
-        out: PathBuf,
-    },
 }
 
 impl Which {
@@ -90,9 +78,6 @@ impl Which {
             Self::Pose(options) => (vec![Name::Pose], options),
             Self::Psikharpax(options) => (vec![Name::Psikharpax], options),
             Self::All(options) => (Name::ALL.to_vec(), options),
-            Self::Merge { parts, rigs, out } => {
-                return merge::merge(&parts, rigs.as_deref(), &out);
-            }
         };
         experiment::experiment(names, &options, verbosity)
     }

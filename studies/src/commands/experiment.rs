@@ -1,10 +1,8 @@
-//! `studies experiment`: records, and evaluates or writes a part.
+//! `studies experiment`: records, evaluates and writes the page.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::experiment::{
-    Extent, Name, Recordings, Request, Shard, jobs, record, report, share, write_part,
-};
+use crate::experiment::{Extent, Name, Request, jobs, record, report};
 use crate::rigs::Rigs;
 use host_sim::Error;
 use host_sim::output::write_whole;
@@ -19,9 +17,6 @@ pub struct Options {
     /// All chance comes from it
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Record only share i of n, into a part file
-    #[arg(long, value_name = "i/n")]
-    pub shard: Option<Shard>,
     /// The folder of the rigs' files (studies/rigs/*.toml); those built in if none
     #[arg(long, value_name = "DIR")]
     pub rigs: Option<PathBuf>,
@@ -30,8 +25,8 @@ pub struct Options {
     pub out: PathBuf,
 }
 
-/// Runs experiments. Writes `out/experiments.md` and its pictures, or for a
-/// shard `out/NAME-i-of-n.part`. Returns what was done.
+/// Runs experiments. Writes `out/experiments.md` and its pictures. Returns what
+/// was done.
 ///
 /// # Errors
 /// [`Error::Input`] for a bad rig, [`Error::Work`], [`Error::Write`].
@@ -50,39 +45,11 @@ pub fn experiment(
         seed: options.seed,
         rigs: Rigs::load(options.rigs.as_deref())?,
     };
-    if let Some(shard) = options.shard {
-        let recordings = record(&request, &share(&request, shard), verbosity)?;
-        let Shard { index, count } = shard;
-        let name = match request.names.as_slice() {
-            [one] => one.text(),
-            _ => "all",
-        };
-        let name = format!("{name}-{index}-of-{count}.part");
-        let path = options.out.join(name);
-        write_part(&path, &request, &recordings)?;
-        return Ok(format!(
-            "{}: {} recordings",
-            path.display(),
-            recordings.len()
-        ));
-    }
     let recordings = record(&request, &jobs(&request), verbosity)?;
-    written(&request, &recordings, &options.out)
-}
-
-/// Evaluates recordings and writes the page.
-///
-/// # Errors
-/// [`Error::Work`], [`Error::Write`].
-pub(super) fn written(
-    request: &Request,
-    recordings: &Recordings,
-    out: &Path,
-) -> Result<String, Error> {
-    let files = report(request, recordings)?;
+    let files = report(&request, &recordings)?;
     for (name, text) in &files {
-        write_whole(&out.join(name), text.as_bytes())?;
+        write_whole(&options.out.join(name), text.as_bytes())?;
     }
     let page = files.last().map_or("", |(name, _)| name);
-    Ok(format!("{}", out.join(page).display()))
+    Ok(format!("{}", options.out.join(page).display()))
 }

@@ -1,6 +1,6 @@
 //! The data sets: what is simulated once and used by one experiment or more.
 
-/// A set of recordings on one rig.
+/// A set of recordings on one rig. Their order is in the seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Dataset {
     /// The floor robot.
@@ -16,14 +16,6 @@ pub enum Dataset {
 }
 
 impl Dataset {
-    const ALL: [Self; 5] = [
-        Self::Floor,
-        Self::Head,
-        Self::Table,
-        Self::Pad,
-        Self::Corridor,
-    ];
-
     /// Its name.
     pub const fn text(self) -> &'static str {
         match self {
@@ -33,16 +25,6 @@ impl Dataset {
             Self::Pad => "pad",
             Self::Corridor => "corridor",
         }
-    }
-
-    /// Its number in part files and seeds.
-    pub const fn number(self) -> u32 {
-        self as u32
-    }
-
-    /// The set of a number.
-    pub fn from_number(number: u32) -> Option<Self> {
-        Self::ALL.get(number as usize).copied()
     }
 }
 

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::dataset::{Dataset, Job};
 use super::recording::{Recording, Recordings};
-use super::request::{Extent, Request, Shard};
+use super::request::{Extent, Request};
 use crate::refused::within;
 use crate::rigs::seed_of;
 use host_sim::Error;
@@ -46,18 +46,10 @@ pub fn jobs(request: &Request) -> Vec<Job> {
     datasets.into_iter().flat_map(of).collect()
 }
 
-/// The jobs of a shard: every `count`-th.
-pub fn share(request: &Request, shard: Shard) -> Vec<Job> {
-    let mine = jobs(request)
-        .into_iter()
-        .skip(shard.index.saturating_sub(1));
-    mine.step_by(shard.count.max(1)).collect()
-}
-
 /// Makes one recording. It depends on the seed, the rig and the job alone.
 fn one(request: &Request, job: Job) -> Result<Recording, Error> {
     let Job { dataset, number } = job;
-    let seed = seed_of(request.seed, &[u64::from(dataset.number()), number as u64]);
+    let seed = seed_of(request.seed, &[dataset as u64, number as u64]);
     let recording = match dataset {
         Dataset::Floor => floor::record(request, number, seed),
         Dataset::Head => head::record(request, number, seed),
@@ -98,24 +90,4 @@ pub(crate) fn on_other_rigs(
     let jobs: Vec<Job> = all(dataset, other.extent).collect();
     let recordings = record(&other, &jobs, Verbosity::Quiet)?;
     Ok((other, recordings))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{jobs, share};
-    use crate::experiment::{Name, Request, Shard};
-
-    #[test]
-    fn shards_parse_and_cover_every_job_once() {
-        for bad in ["", "1", "0/2", "3/2", "1/0", "a/b", "1/100001", "-1/2"] {
-            assert!(bad.parse::<Shard>().is_err(), "{bad}");
-        }
-        let request = Request::quick(&Name::ALL, 1);
-        let all = jobs(&request);
-        let mut found: Vec<_> = (1..=3)
-            .flat_map(|i| share(&request, format!("{i}/3").parse().unwrap()))
-            .collect();
-        found.sort_unstable();
-        assert_eq!(found, all);
-    }
 }

@@ -1,9 +1,6 @@
 //! What was asked for: which experiments, how much of them, from which seed
 //! and on which rigs.
 
-use std::fmt;
-use std::str::FromStr;
-
 use super::dataset::Dataset;
 use crate::rigs::Rigs;
 
@@ -51,36 +48,6 @@ impl Name {
             Self::Pose => &[Dataset::Table],
             Self::Psikharpax => &[Dataset::Pad, Dataset::Corridor],
         }
-    }
-}
-
-impl fmt::Display for Name {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text())
-    }
-}
-
-/// A share of the recordings: number `index` of `count`, from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// 1 to `count`.
-    pub index: usize,
-    /// How many shares there are, 1 to 100,000.
-    pub count: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("{text}: a shard is i/n with i from 1 to n and n up to 100000");
-        let (index, count) = text.split_once('/').ok_or_else(wrong)?;
-        let number = |text: &str| text.parse::<usize>().map_err(|_| wrong());
-        let (index, count) = (number(index)?, number(count)?);
-        if !(1..=100_000).contains(&count) || !(1..=count).contains(&index) {
-            return Err(wrong());
-        }
-        Ok(Self { index, count })
     }
 }
 
@@ -164,68 +131,6 @@ impl Request {
             extent: Extent::Quick,
             seed,
             rigs: Rigs::load(None).unwrap(),
-        }
-    }
-
-    /// One line that tells requests apart: parts of different ones are not
-    /// joined.
-    pub fn line(&self) -> String {
-        let names: Vec<&str> = self.names.iter().map(|name| name.text()).collect();
-        let rigs = format!("{:?}", self.rigs);
-        let sum = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC).checksum(rigs.as_bytes());
-        let quick = if self.extent == Extent::Quick {
-            " quick"
-        } else {
-            ""
-        };
-        format!(
-            "{}{quick} seed {} rigs {sum:08x}",
-            names.join("+"),
-            self.seed
-        )
-    }
-
-    /// The request that a line tells of, on these rigs.
-    pub fn from_line(line: &str, rigs: Rigs) -> Option<Self> {
-        let mut words = line.split(' ');
-        let names = words.next()?.split('+');
-        let name = |text: &str| Name::ALL.into_iter().find(|name| name.text() == text);
-        let names = names.map(name).collect::<Option<Vec<Name>>>()?;
-        let mut next = words.next()?;
-        let quick = next == "quick";
-        if quick {
-            next = words.next()?;
-        }
-        let seed = words.next()?.parse().ok()?;
-        (next == "seed").then_some(Self {
-            names,
-            extent: if quick { Extent::Quick } else { Extent::Full },
-            seed,
-            rigs,
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Extent, Name, Request};
-    use crate::rigs::Rigs;
-
-    #[test]
-    fn a_request_is_read_back_from_its_line() {
-        for (names, extent) in [
-            (&Name::ALL[..], Extent::Quick),
-            (&[Name::Pose], Extent::Full),
-        ] {
-            let request = Request {
-                extent,
-                ..Request::quick(names, 77)
-            };
-            let again = Request::from_line(&request.line(), request.rigs.clone());
-            assert_eq!(again, Some(request));
-        }
-        for bad in ["", "nose seed 1 rigs 0", "pose seed x rigs 0", "pose quick"] {
-            assert_eq!(Request::from_line(bad, Rigs::load(None).unwrap()), None);
         }
     }
 }
