@@ -23,7 +23,6 @@ mod functions;
 mod gates;
 mod integrators;
 mod long_run;
-pub(crate) mod misprints;
 mod reference;
 mod schemes;
 mod split;
@@ -83,7 +82,6 @@ pub fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Fi
     corners::section(&mut page)?;
     contact::section(&mut page, &contact::measure()?)?;
     long_run::section(&mut page, day.as_ref(), long_run == LongRun::Quick)?;
-    misprints::section(&mut page)?;
 
     let text = format!("{}\n", page.text.trim_end());
     let mut files = vec![("accuracy.md".to_owned(), text)];

@@ -2,6 +2,7 @@
 //! unmodulated and with two strengths of RCP; naive Bayes and the template by
 //! sum of squares after one to eight training whisks.
 
+mod figures;
 mod histories;
 mod movement;
 mod patterns;

@@ -80,6 +80,16 @@ fn printed(cia: Option<gate::Cia<f64>>, lift: &mut Gate<f64>, zeta: f64) {
     }
 }
 
+/// Eq. 13 as printed: g* = g + T/(τ_g (1 − g)).
+fn printed_return(cia: Option<gate::Cia<f64>>, lift: &mut Gate<f64>, zeta: f64) {
+    if let Some(cia) = cia {
+        let g = 1.0 + lift.value;
+        let returned = g + cia.decay.tick / (1.0 - g);
+        let g = returned.max(1.0 + cia.gain * zeta).clamp(0.0, 2.0);
+        *lift = Gate::new(g - 1.0);
+    }
+}
+
 /// The product's equations in f64 with one of them as `mass` and `excite` say,
 /// against the obstacles of the figure.
 fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
@@ -171,5 +181,18 @@ fn the_misprinted_excitation_does_not_find_the_right_obstacle() {
         let rows = whisk(&settings, settings.mass(), excite);
         let contacts = Quantity::ContactsPerWhisk(1).measure(&settings, &rows);
         assert_eq!(contacts, Some(expected));
+    }
+}
+
+#[test]
+fn the_misprinted_return_never_rests_at_the_nominal_gain() {
+    let settings = Settings {
+        obstacle: None,
+        ..Figure::Fig9.settings()
+    };
+    for (excite, rests) in [(mended as Excite, true), (printed_return, false)] {
+        let rows = whisk(&settings, settings.mass(), excite);
+        let mut steady = rows.iter().rev().take(5_000);
+        assert_eq!(steady.all(|row| (row.g[0] - 1.0).abs() < 5e-4), rests);
     }
 }

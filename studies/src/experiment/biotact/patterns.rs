@@ -1,10 +1,7 @@
 //! BIOTACT Figs. 6 to 9: the pattern generator before simulated obstacles
 //! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
-//!
-//! The runs are those of the report on misprints: forward Euler, 2 kHz, no
-//! noise.
 
-use crate::accuracy::misprints::figures::{FREQUENCY_HZ, Printed, Row, TICK_HZ, run};
+use super::figures::{FREQUENCY_HZ, TICK_HZ, run};
 use crate::chart::{Mark, linear};
 use crate::experiment::picture::{Curve, panel};
 use crate::moments::range;
@@ -19,21 +16,24 @@ const WHISKS: usize = 3;
 const LEFT: usize = 0;
 const RIGHT: usize = 1;
 
-/// The last whisks of a run, as read.
+/// A tick: θ' of both sides, degrees.
+type Row = [f64; 2];
+
+/// The last whisks of a run.
 fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
-    let rows = run(figure, Printed::Nothing)?;
+    let rows = run(figure)?;
     let from = rows.len().saturating_sub(WHISKS * WHISK);
     Ok(rows.into_iter().skip(from).collect())
 }
 
 /// Least and largest θ' of a side, degrees.
 fn angles(rows: &[Row], side: usize) -> (f64, f64) {
-    range(rows.iter().map(|row| row.theta_deg[side]))
+    range(rows.iter().map(|row| row[side]))
 }
 
 /// Contacts of a side a whisk: how often it comes past its obstacle.
 fn contacts(rows: &[Row], side: usize) -> f64 {
-    let beyond = |row: &Row| row.theta_deg[side] > OBSTACLES_DEG[side];
+    let beyond = |row: &Row| row[side] > OBSTACLES_DEG[side];
     let pairs = rows.iter().zip(rows.iter().skip(1));
     let count = pairs.filter(|(a, b)| !beyond(a) && beyond(b)).count();
     count as f64 / WHISKS as f64
@@ -42,7 +42,7 @@ fn contacts(rows: &[Row], side: usize) -> f64 {
 fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
     // Every tenth tick is plenty for a picture.
     let points = rows.iter().enumerate().step_by(10);
-    let points = points.map(|(n, row)| (n as f64 / TICK_HZ, row.theta_deg[side]));
+    let points = points.map(|(n, row)| (n as f64 / TICK_HZ, row[side]));
     Curve::new(name, points.collect())
 }
 
