@@ -93,10 +93,4 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
         }
         Ok(())
     }
-
-    fn off(&mut self) {
-        for servo in self.servos.iter_mut().flatten() {
-            servo.off();
-        }
-    }
 }

@@ -155,14 +155,6 @@ where
     {
         self.motion.command(place, command)
     }
-
-    /// Switches every motor off, until the next tick.
-    pub fn off(&mut self)
-    where
-        M: MotorControl<R>,
-    {
-        self.motion.off();
-    }
 }
 
 /// The normalised reading, (code − 8192)/8191 limited to −1: what

@@ -38,9 +38,6 @@ pub trait MotorControl<R> {
     /// # Errors
     /// [`NoActiveWhisker`] if there is none at `place`.
     fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>;
-
-    /// Switches every motor off, until the next tick.
-    fn off(&mut self);
 }
 
 /// Whiskers that hang still: no oscillator, muscle, motor or position control.
@@ -63,8 +60,6 @@ impl<R> MotorControl<R> for Passive {
     fn command(&mut self, _: Place, _: Command<R>) -> Result<(), NoActiveWhisker> {
         Err(NoActiveWhisker)
     }
-
-    fn off(&mut self) {}
 }
 
 /// Motion that is there or not at run time, for simulations of any scene. A
@@ -91,12 +86,6 @@ impl<R, M: MotorControl<R>> MotorControl<R> for Option<M> {
         match self {
             Some(motion) => motion.command(place, command),
             None => Err(NoActiveWhisker),
-        }
-    }
-
-    fn off(&mut self) {
-        if let Some(motion) = self {
-            motion.off();
         }
     }
 }

@@ -88,7 +88,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// Switches the motor off until the next tick; a rest goes on.
-    pub fn off(&mut self) {
+    fn off(&mut self) {
         self.motor.off();
         if let ServoState::Running { .. } = self.state {
             self.state = ServoState::Off;

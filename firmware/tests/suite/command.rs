@@ -1,14 +1,14 @@
 //! Commands between ticks: the nominal gain and the setpoint of a whisker.
 
 use firmware::{
-    Active, ActiveConfig, AngleInput, Command, Config, HoldLimits, Module, NoActiveWhisker,
-    Passive, Place, Servo, ServoConfig, ServoState,
+    Active, ActiveConfig, AngleInput, Command, Config, Module, NoActiveWhisker, Passive, Place,
+    Servo, ServoConfig, ServoState,
 };
 use mlx90333::Decoder;
 use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
 use whisking::{Absent, Fix, GateSettings, Integrator, Real, Settings, State, filter, pd};
 
-use crate::hardware::{Bent, NoClock};
+use crate::hardware::{AT_ONCE, Bent, NoClock, feeling};
 
 /// A motor that keeps what it is driven with.
 #[derive(Default)]
@@ -68,10 +68,7 @@ type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1,
 fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     let config = Config {
         decoder: Decoder::new(),
-        hold_limits: HoldLimits {
-            hold: 1,
-            recover: 1,
-        },
+        hold_limits: AT_ONCE,
         contact: Some(filter::Config::new(filter::CORNER_HZ, 2000.0).unwrap()),
         motion: ActiveConfig {
             whisking: SETTINGS.build().unwrap(),
@@ -168,16 +165,5 @@ fn whiskers_that_are_not_there_or_passive_are_refused() {
     let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
     let refused = passive.command(Place::new(0, 0), Command::Gain(1.0));
     assert_eq!(refused, Err(NoActiveWhisker));
-    let config = Config {
-        decoder: Decoder::new(),
-        hold_limits: HoldLimits {
-            hold: 1,
-            recover: 1,
-        },
-        contact: Absent,
-        motion: (),
-        perception: (),
-        period: 0,
-    };
-    passive.tick(&config, &mut |event| panic!("{event:?}"));
+    passive.tick(&feeling(Absent), &mut |event| panic!("{event:?}"));
 }

@@ -1,27 +1,17 @@
 //! Contact of a side (BIOTACT eq. 9): the largest |H50(x)| of its whiskers,
 //! whichever of them is bent and whichever way.
 
-use firmware::{Config, HoldLimits, Module, Passive};
-use mlx90333::Decoder;
+use firmware::{Module, Passive};
 use whisking::{Present, filter};
 
-use crate::hardware::{Bent, NoClock};
+use crate::hardware::{Bent, NoClock, feeling};
 
 const REST: u16 = 0x8000;
 
 /// Contact of both sides after one tick of whiskers at these words.
 fn contact(words: [[u16; 2]; 2]) -> [f64; 2] {
-    let config = Config {
-        decoder: Decoder::new(),
-        hold_limits: HoldLimits {
-            hold: 1,
-            recover: 1,
-        },
-        contact: Present(filter::Config::<f64>::new(50.0, 2000.0).unwrap()),
-        motion: (),
-        perception: (),
-        period: 0,
-    };
+    let h50 = filter::Config::<f64>::new(50.0, 2000.0).unwrap();
+    let config = feeling(Present(h50));
     let sources = words.map(|side| side.map(Bent));
     let mut module = Module::new(sources, Passive, (), NoClock);
     module.tick(&config, &mut |event| panic!("{event:?}"));
