@@ -86,10 +86,10 @@ impl Chip {
                 Timer::new(0xFFFF, true),
                 Timer::new(0xFFFF, true),
             ],
-            spi: Spi::new(),
+            spi: Spi::default(),
             dma: Dma::default(),
             watchdog: Watchdog::new(),
-            lines: SensorLines::new(0),
+            lines: SensorLines::default(),
             fault: None,
         })
     }
@@ -102,7 +102,7 @@ impl Chip {
         self.debug.reset();
         self.gpio.iter_mut().for_each(Gpio::reset);
         self.timers.iter_mut().for_each(Timer::reset);
-        self.spi = Spi::new();
+        self.spi = Spi::default();
         self.dma = Dma::default();
         self.watchdog = Watchdog::new();
         // /SS floats, with the sensor's own pull-up.

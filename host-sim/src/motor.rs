@@ -35,7 +35,7 @@ mod stage;
 use std::sync::Arc;
 
 pub use ideal::IdealMotor;
-use pins::Wires;
+use pins::{End, Wires};
 pub use pins::{PWM_MAX, SimEncoder, SimHall, SimPin, SimPwm, Wire};
 use rotor::Rotor;
 pub use settings::{BadMotorSetting, MotorSettings};
@@ -142,22 +142,28 @@ impl SimMotor {
 
     fn brushed_pins(&self) -> Brushed {
         Brushed {
-            pwm: SimPwm::new(&self.wires, 0),
-            dir: SimPin::new(&self.wires, 0),
-            encoder: SimEncoder::new(&self.wires),
+            pwm: SimPwm(self.end(0)),
+            dir: SimPin(self.end(0)),
+            encoder: self.encoder(),
         }
     }
 
     fn brushless_pins(&self) -> Brushless {
-        let pwm = |i| SimPwm::new(&self.wires, i);
-        let pin = |i| SimPin::new(&self.wires, i);
-        let hall = |i| SimHall::new(&self.wires, i);
+        let end = |i| self.end(i);
         Brushless {
-            pwms: (pwm(0), pwm(1), pwm(2)),
-            enables: (pin(0), pin(1), pin(2)),
-            halls: (hall(0), hall(1), hall(2)),
-            encoder: SimEncoder::new(&self.wires),
+            pwms: (SimPwm(end(0)), SimPwm(end(1)), SimPwm(end(2))),
+            enables: (SimPin(end(0)), SimPin(end(1)), SimPin(end(2))),
+            halls: (SimHall(end(0)), SimHall(end(1)), SimHall(end(2))),
+            encoder: self.encoder(),
         }
+    }
+
+    fn end(&self, i: usize) -> End {
+        End::new(&self.wires, i)
+    }
+
+    fn encoder(&self) -> SimEncoder {
+        SimEncoder(Arc::clone(&self.wires))
     }
 
     /// Lets `dt_s` seconds pass with the pins as they are; nothing happens

@@ -21,7 +21,10 @@ pub use surface::SurfaceSettings;
 pub use textured::{Textured, TexturedSettings, WhiskerSettings};
 pub use whisker::{Elastic, ElasticSettings};
 
+use core::fmt::Debug;
+
 use physics::BadSetting;
+use scene::Texture;
 
 /// How many whiskers there are, and where their obstacles stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +73,10 @@ impl Head {
 }
 
 /// What whiskers touch.
-pub trait Plant {
+pub trait Plant: Debug + Send {
+    /// Puts another texture before all whiskers; nothing where surfaces have none.
+    fn present(&mut self, _texture: Texture) {}
+
     /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
     /// that is not there.
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];

@@ -29,24 +29,26 @@ impl Recorder {
     pub fn take(&mut self, run: &mut Run) {
         let sample = run.sample().map(|codes| codes.map(f64::from));
         let (label, trial) = run.presented();
-        let trial = trial.to_string();
-        match self
-            .streams
-            .last_mut()
-            .filter(|last| last.label == label && last.trial == trial)
-        {
-            Some(stream) => stream.samples.extend(sample),
-            None => self.streams.push(Stream {
-                label: label.to_owned(),
-                trial,
-                samples: sample.into_iter().collect(),
-            }),
-        }
+        append(&mut self.streams, label, &trial.to_string(), sample);
     }
 
     /// The recorded streams.
     pub fn into_streams(self) -> Vec<Stream> {
         self.streams
+    }
+}
+
+/// Adds a sample, if there is one, to the last stream, or begins one where label or
+/// trial is another.
+fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<[f64; 2]>) {
+    let last = streams.last_mut();
+    match last.filter(|last| last.label == label && last.trial == trial) {
+        Some(stream) => stream.samples.extend(sample),
+        None => streams.push(Stream {
+            label: label.to_owned(),
+            trial: trial.to_owned(),
+            samples: sample.into_iter().collect(),
+        }),
     }
 }
 
@@ -130,17 +132,7 @@ fn parse(table: impl Read) -> Result<Vec<Stream>, String> {
         if label.is_empty() {
             return Err(format!("line {line}: the label is empty"));
         }
-        match streams
-            .last_mut()
-            .filter(|last| last.label == label && last.trial == trial)
-        {
-            Some(stream) => stream.samples.push(sample),
-            None => streams.push(Stream {
-                label: label.to_owned(),
-                trial: trial.to_owned(),
-                samples: vec![sample],
-            }),
-        }
+        append(&mut streams, label, trial, Some(sample));
     }
     if streams.is_empty() {
         return Err("no samples".to_owned());

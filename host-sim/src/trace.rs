@@ -25,6 +25,21 @@ pub struct Row {
     pub y: [f64; 2],
 }
 
+impl Row {
+    /// All its values but the time, in the order of the columns.
+    pub const fn pairs(&self) -> [[f64; 2]; 7] {
+        [
+            self.theta_deg,
+            self.z,
+            self.g,
+            self.contact,
+            self.angle_deg,
+            self.x,
+            self.y,
+        ]
+    }
+}
+
 /// The columns in order. The first nine are fixed: other programs read them.
 pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
 contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right";
@@ -58,11 +73,12 @@ impl<W: Write> TraceWriter<W> {
         let line = &mut self.line;
         line.clear();
         decimals::append(line, row.t_s, 9);
-        let precise = [row.theta_deg, row.z, row.g, row.contact, row.angle_deg];
-        for value in precise.as_flattened() {
+        let pairs = row.pairs();
+        let (precise, codes) = pairs.as_flattened().split_at(10);
+        for value in precise {
             cell(line, *value, 9);
         }
-        for value in [row.x, row.y].as_flattened() {
+        for value in codes {
             cell(line, *value, 0);
         }
         line.push(b'\n');

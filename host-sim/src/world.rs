@@ -5,21 +5,14 @@ use scene::{Driver, PlantKind, Scene, ShaftName, Texture};
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
-use physics::{Biotact, Follicle, Shaft};
+use physics::{BadSetting, Biotact, Follicle, Shaft};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
 pub struct World {
-    surface: Surface,
+    plant: Box<dyn Plant>,
     motors: Motors,
     angles_deg: Vec<f64>,
-}
-
-#[derive(Debug)]
-enum Surface {
-    Ideal(Ideal),
-    Textured(Box<Textured>),
-    Elastic(Box<Elastic>),
 }
 
 #[derive(Debug)]
@@ -38,49 +31,40 @@ impl World {
     /// # Errors
     /// [`Error::Work`] if the simulation refuses a setting.
     pub fn wired(scene: &Scene) -> Result<(Self, Vec<Pins>), Error> {
-        let broken = |error: &dyn std::error::Error| Error::Work(error.to_string());
+        let broken = |error: BadSetting| Error::Work(error.to_string());
         let sides = scene.head.sides.count();
         let mut head = plant::Head::free(sides, scene.head.whiskers_per_side);
         if let Some(obstacle) = &scene.plant.obstacle {
             head.obstacle_deg.clone_from(&obstacle.obstacle_deg);
             head.stiffness = obstacle.stiffness;
         }
-        let (surface, motors, pins) = match scene.plant.kind {
-            PlantKind::Ideal => {
-                let surface = Ideal::new(head).map_err(|error| broken(&error))?;
-                let (motors, pins) = ideal_motors(scene);
-                (Surface::Ideal(surface), motors, pins)
-            }
+        let plant: Box<dyn Plant> = match scene.plant.kind {
+            PlantKind::Ideal => Box::new(Ideal::new(head).map_err(broken)?),
             PlantKind::Textured => {
                 let settings = TexturedSettings::default();
-                let surface =
-                    Textured::new(head, settings, scene.seed).map_err(|error| broken(&error))?;
-                let (motors, pins) = real_motors(scene)?;
-                (Surface::Textured(Box::new(surface)), motors, pins)
+                Box::new(Textured::new(head, settings, scene.seed).map_err(broken)?)
             }
             PlantKind::Whisker => {
                 let settings = ElasticSettings::of(shaft(scene.plant.shaft));
-                let surface =
-                    Elastic::new(head, settings, scene.seed).map_err(|error| broken(&error))?;
-                let (motors, pins) = real_motors(scene)?;
-                (Surface::Elastic(Box::new(surface)), motors, pins)
+                Box::new(Elastic::new(head, settings, scene.seed).map_err(broken)?)
             }
         };
-        let angles_deg = vec![whisking::REST_DEG; scene.whiskers()];
-        Ok((
-            Self {
-                surface,
-                motors,
-                angles_deg,
-            },
-            pins,
-        ))
+        let (motors, pins) = match scene.plant.kind {
+            PlantKind::Ideal => ideal_motors(scene),
+            PlantKind::Textured | PlantKind::Whisker => real_motors(scene)?,
+        };
+        let world = Self {
+            plant,
+            motors,
+            angles_deg: vec![whisking::REST_DEG; scene.whiskers()],
+        };
+        Ok((world, pins))
     }
 
     /// Starts again with another seed, as newly made. Returns new ends of the
     /// motors' wires; the old ones are no longer connected.
     pub fn restart(&mut self, seed: u64) -> Vec<Pins> {
-        self.plant().restart(seed);
+        self.plant.restart(seed);
         self.angles_deg.fill(whisking::REST_DEG);
         match &mut self.motors {
             Motors::None => Vec::new(),
@@ -97,28 +81,12 @@ impl World {
 
     /// Puts another texture in place.
     pub fn present(&mut self, texture: Texture) {
-        match &mut self.surface {
-            Surface::Ideal(_) => {}
-            Surface::Textured(surface) => surface.present(texture),
-            Surface::Elastic(surface) => surface.present(texture),
-        }
-    }
-
-    fn plant(&mut self) -> &mut dyn Plant {
-        match &mut self.surface {
-            Surface::Ideal(ideal) => ideal,
-            Surface::Textured(textured) => textured.as_mut(),
-            Surface::Elastic(elastic) => elastic.as_mut(),
-        }
+        self.plant.present(texture);
     }
 
     /// Deflection at the sensor of a whisker now: x and y, each within ±1.
     pub fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
-        match &self.surface {
-            Surface::Ideal(ideal) => ideal.deflection(side, whisker),
-            Surface::Textured(textured) => textured.deflection(side, whisker),
-            Surface::Elastic(elastic) => elastic.deflection(side, whisker),
-        }
+        self.plant.deflection(side, whisker)
     }
 
     /// The whiskers' angles, left side first, degrees.
@@ -143,9 +111,7 @@ impl World {
                 }
             }
         }
-        let angles = std::mem::take(&mut self.angles_deg);
-        self.plant().advance(&angles, dt_s);
-        self.angles_deg = angles;
+        self.plant.advance(&self.angles_deg, dt_s);
     }
 }
 

@@ -58,17 +58,11 @@ impl Dma {
             s.cr &= !EN;
             self.flags[stream] |= TCIF;
         }
-        Some(if s.cr & (1 << 6) != 0 {
-            Move {
-                from: memory,
-                to: s.par,
-            }
-        } else {
-            Move {
-                from: s.par,
-                to: memory,
-            }
-        })
+        let (from, to) = match s.cr & (1 << 6) {
+            0 => (s.par, memory),
+            _ => (memory, s.par),
+        };
+        Some(Move { from, to })
     }
 
     pub(super) fn interrupts(&self, stream: usize) -> bool {

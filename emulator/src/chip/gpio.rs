@@ -23,15 +23,15 @@ pub(super) enum Role {
     Analogue,
 }
 
+/// Registers that keep what is written.
+const KEPT: [u32; 7] = [MODER, OTYPER, OSPEEDR, PUPDR, ODR, AFRL, AFRH];
+
 #[derive(Debug, Clone)]
 pub(super) struct Gpio {
+    /// MODER, OSPEEDR and PUPDR after a reset.
     reset: [u32; 3],
-    moder: u32,
-    otyper: u32,
-    ospeedr: u32,
-    pupdr: u32,
-    odr: u32,
-    alternate: [u32; 2],
+    /// By their offsets, a word each.
+    registers: [u32; 10],
     /// Levels from outside; what nobody drives reads high.
     outside: u32,
 }
@@ -42,14 +42,13 @@ impl Gpio {
         let [moder, ospeedr, pupdr] = reset;
         Self {
             reset,
-            moder,
-            otyper: 0,
-            ospeedr,
-            pupdr,
-            odr: 0,
-            alternate: [0; 2],
+            registers: [moder, 0, ospeedr, pupdr, 0, 0, 0, 0, 0, 0],
             outside: 0xFFFF,
         }
+    }
+
+    fn get(&self, offset: u32) -> u32 {
+        self.registers[offset as usize / 4]
     }
 
     pub(super) fn reset(&mut self) {
@@ -65,11 +64,11 @@ impl Gpio {
     }
 
     pub(super) fn role(&self, pin: u32) -> Role {
-        match (self.moder >> (2 * pin)) & 3 {
+        match (self.get(MODER) >> (2 * pin)) & 3 {
             0 => Role::Input,
-            1 => Role::Output(self.odr & (1 << pin) != 0),
+            1 => Role::Output(self.get(ODR) & (1 << pin) != 0),
             2 => {
-                let functions = self.alternate[usize::from(pin >= 8)];
+                let functions = self.get(if pin < 8 { AFRL } else { AFRH });
                 Role::Alternate((functions >> (4 * (pin % 8))) & 15)
             }
             _ => Role::Analogue,
@@ -77,7 +76,7 @@ impl Gpio {
     }
 
     pub(super) fn is_open_drain(&self, pin: u32) -> bool {
-        self.otyper & (1 << pin) != 0
+        self.get(OTYPER) & (1 << pin) != 0
     }
 
     fn levels(&self) -> u32 {
@@ -92,34 +91,25 @@ impl Gpio {
     }
 
     pub(super) fn read(&self, offset: u32) -> Option<u32> {
-        Some(match offset {
-            MODER => self.moder,
-            OTYPER => self.otyper,
-            OSPEEDR => self.ospeedr,
-            PUPDR => self.pupdr,
-            IDR => self.levels(),
-            ODR => self.odr,
-            BSRR => 0,
-            AFRL => self.alternate[0],
-            AFRH => self.alternate[1],
-            _ => return None,
-        })
+        match offset {
+            IDR => Some(self.levels()),
+            BSRR => Some(0),
+            _ => KEPT.contains(&offset).then(|| self.get(offset)),
+        }
     }
 
     /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
-        match offset {
-            MODER => self.moder = value,
-            OTYPER => self.otyper = value & 0xFFFF,
-            OSPEEDR => self.ospeedr = value,
-            PUPDR => self.pupdr = value,
-            ODR => self.odr = value & 0xFFFF,
+        let (kept, value) = match offset {
             // Set goes before reset.
-            BSRR => self.odr = self.odr & !(value >> 16) | value & 0xFFFF,
-            AFRL => self.alternate[0] = value,
-            AFRH => self.alternate[1] = value,
-            _ => return false,
+            BSRR => (ODR, self.get(ODR) & !(value >> 16) | value & 0xFFFF),
+            OTYPER | ODR => (offset, value & 0xFFFF),
+            _ => (offset, value),
+        };
+        let is_known = KEPT.contains(&kept);
+        if is_known {
+            self.registers[kept as usize / 4] = value;
         }
-        true
+        is_known
     }
 }

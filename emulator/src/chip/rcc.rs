@@ -65,7 +65,7 @@ pub(super) struct Clocks {
     pub(super) apb2: Ps,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Rcc {
     cr: u32,
     pllcfgr: u32,
@@ -82,11 +82,8 @@ impl Rcc {
         Self {
             cr: 0x83,
             pllcfgr: 0x2400_3010,
-            cfgr: 0,
-            resets: [0; 3],
-            gates: [0; 3],
             csr: ResetCause::Power.flags(),
-            pulsed: [0; 3],
+            ..Self::default()
         }
     }
 

@@ -152,7 +152,7 @@ impl Chip {
             }
             match unit {
                 Unit::Tim(n) => self.timers[n].reset(),
-                Unit::Spi1 => self.spi = Spi::new(),
+                Unit::Spi1 => self.spi = Spi::default(),
                 Unit::Gpio(n) => self.gpio[n].reset(),
                 Unit::Dma2 => self.dma = Dma::default(),
                 Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Debug => {}

@@ -22,7 +22,7 @@ const fn ps(nanoseconds: u32) -> Ps {
     nanoseconds as Ps * 1_000
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct SensorLines {
     selected: bool,
     /// No byte has been clocked since /SS fell.
@@ -31,20 +31,9 @@ pub(super) struct SensorLines {
     ended: Option<Ps>,
     /// When the byte that the sensor has been told of began.
     told: Option<Ps>,
-    powered: Ps,
 }
 
 impl SensorLines {
-    pub(super) const fn new(powered: Ps) -> Self {
-        Self {
-            selected: false,
-            fresh: false,
-            ended: None,
-            told: None,
-            powered,
-        }
-    }
-
     /// /SS is at this level now.
     pub(super) const fn select(&mut self, low: bool) {
         if low && !self.selected {
@@ -71,7 +60,7 @@ impl SensorLines {
         if bit * Ps::from(CLOCK_MAX_HZ) < 1_000_000_000_000 {
             return Err(Fault::Wires("the clock is too fast"));
         }
-        if began < self.powered + ps(START_UP_US * 1_000) {
+        if began < ps(START_UP_US * 1_000) {
             return Err(Fault::Wires("a frame within the sensor's start-up"));
         }
         let gap = self.ended.map(|ended| began.saturating_sub(ended));

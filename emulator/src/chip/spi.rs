@@ -31,7 +31,7 @@ pub(super) struct Shift {
     pub(super) ends: Ps,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Spi {
     cr1: u32,
     cr2: u32,
@@ -46,19 +46,6 @@ pub(super) struct Spi {
 }
 
 impl Spi {
-    pub(super) const fn new() -> Self {
-        Self {
-            cr1: 0,
-            cr2: 0,
-            shift: None,
-            waiting: None,
-            received: None,
-            last: 0,
-            overrun: false,
-            overrun_seen: false,
-        }
-    }
-
     /// Whether clock polarity, phase and bit order are those of SPI mode 1.
     pub(super) const fn is_mode_1(&self) -> bool {
         self.cr1 & (CPHA | CPOL | LSBFIRST) == CPHA
@@ -73,12 +60,8 @@ impl Spi {
         if self.shift.is_none()
             && let Some(sent) = self.waiting.take()
         {
-            let ends = now + 8 * self.bit(apb2);
-            self.shift = Some(Shift {
-                sent,
-                began: now,
-                ends,
-            });
+            let (began, ends) = (now, now + 8 * self.bit(apb2));
+            self.shift = Some(Shift { sent, began, ends });
         }
     }
 

@@ -32,7 +32,7 @@ const UDE: u32 = 1 << 8;
 const UIF: u32 = 1 << 0;
 const MOE: u32 = 1 << 15;
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Timer {
     /// Largest count: 16 or 32 bits.
     mask: u32,
@@ -67,23 +67,9 @@ impl Timer {
         Self {
             mask,
             advanced,
-            cr1: 0,
-            cr2: 0,
-            smcr: 0,
-            dier: 0,
-            sr: 0,
-            ccmr: [0; 2],
-            ccer: 0,
-            psc: 0,
             arr: mask,
-            ccr: [0; 4],
-            bdtr: 0,
             active: [0, mask],
-            count: 0,
-            since: 0,
-            updated: 0,
-            request: false,
-            position: 0,
+            ..Self::default()
         }
     }
 

@@ -12,7 +12,7 @@ const PR: u32 = 0x04;
 const RLR: u32 = 0x08;
 const SR: u32 = 0x0C;
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Watchdog {
     running: bool,
     unlocked: bool,
@@ -26,12 +26,8 @@ pub(super) struct Watchdog {
 impl Watchdog {
     pub(super) fn new() -> Self {
         Self {
-            running: false,
-            unlocked: false,
-            prescaler: 0,
             reload: 0xFFF,
-            settled: [0; 2],
-            fed: 0,
+            ..Self::default()
         }
     }
 

@@ -113,66 +113,43 @@ impl Wires {
     }
 }
 
-/// A PWM output of the module.
+/// The module's end of one of several like wires.
 #[derive(Debug)]
-pub struct SimPwm {
+pub(super) struct End {
     wires: Arc<Wires>,
     i: usize,
 }
 
+impl End {
+    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
+        let wires = Arc::clone(wires);
+        Self { wires, i }
+    }
+}
+
+/// A PWM output of the module.
+#[derive(Debug)]
+pub struct SimPwm(pub(super) End);
+
 /// A digital output of the module: a direction or an enable.
 #[derive(Debug)]
-pub struct SimPin {
-    wires: Arc<Wires>,
-    i: usize,
-}
+pub struct SimPin(pub(super) End);
 
 /// A digital input of the module: Hall sensor k, high while the rotor's magnet
 /// is within 90° of axis k.
 #[derive(Debug)]
-pub struct SimHall {
-    wires: Arc<Wires>,
-    i: usize,
-}
+pub struct SimHall(pub(super) End);
 
 /// The encoder's counter: 0 at rest, up with protraction, to the nearest count;
 /// wraps around.
 #[derive(Debug)]
-pub struct SimEncoder {
-    wires: Arc<Wires>,
-}
-
-impl SimPwm {
-    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
-        let wires = Arc::clone(wires);
-        Self { wires, i }
-    }
-}
+pub struct SimEncoder(pub(super) Arc<Wires>);
 
 impl SimPin {
-    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
-        let wires = Arc::clone(wires);
-        Self { wires, i }
-    }
-
     fn set(&self, high: bool) {
-        if let Some(place) = self.wires.high.get(self.i) {
+        if let Some(place) = self.0.wires.high.get(self.0.i) {
             place.store(high, Relaxed);
         }
-    }
-}
-
-impl SimHall {
-    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
-        let wires = Arc::clone(wires);
-        Self { wires, i }
-    }
-}
-
-impl SimEncoder {
-    pub(super) fn new(wires: &Arc<Wires>) -> Self {
-        let wires = Arc::clone(wires);
-        Self { wires }
     }
 }
 
@@ -186,7 +163,7 @@ impl SetDutyCycle for SimPwm {
     }
 
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        if let Some(place) = self.wires.duty.get(self.i) {
+        if let Some(place) = self.0.wires.duty.get(self.0.i) {
             place.store(duty.min(PWM_MAX), Relaxed);
         }
         Ok(())
@@ -215,8 +192,9 @@ impl digital::ErrorType for SimHall {
 
 impl InputPin for SimHall {
     fn is_high(&mut self) -> Result<bool, Infallible> {
-        let axis = TAU / 3.0 * self.i as f64;
-        Ok(self.wires.halls_cut.load(Relaxed) || libm::cos(self.wires.angle.get() - axis) > 0.0)
+        let End { wires, i } = &self.0;
+        let axis = TAU / 3.0 * *i as f64;
+        Ok(wires.halls_cut.load(Relaxed) || libm::cos(wires.angle.get() - axis) > 0.0)
     }
 
     fn is_low(&mut self) -> Result<bool, Infallible> {
@@ -226,8 +204,8 @@ impl InputPin for SimHall {
 
 impl AngleInput for SimEncoder {
     fn counts(&mut self) -> i32 {
-        let seen = self.wires.angle.get() - self.wires.missed.get();
+        let seen = self.0.angle.get() - self.0.missed.get();
         // Through i64, so that the count wraps as a counter does.
-        (seen * self.wires.counts_per_rad + 0.5).floor() as i64 as i32
+        (seen * self.0.counts_per_rad + 0.5).floor() as i64 as i32
     }
 }

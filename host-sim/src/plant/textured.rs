@@ -93,14 +93,10 @@ impl Textured {
         })
     }
 
-    /// Puts another surface before all whiskers; those in contact land anew.
-    pub fn present(&mut self, texture: Texture) {
-        self.present_surface(SurfaceSettings::of(texture));
-    }
-
-    /// As [`Textured::present`], with any surface. Its values are limited to 0
-    /// to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of grip and softness and
-    /// 10 of friction; one that is not a number counts as the lowest.
+    /// Puts any surface before all whiskers; those in contact land anew. Its
+    /// values are limited to 0 to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of
+    /// grip and softness and 10 of friction; one that is not a number counts as
+    /// the lowest.
     pub fn present_surface(&mut self, surface: SurfaceSettings) {
         // The larger of a number and NaN is the number.
         let limit = |value: f64, lo: f64, hi: f64| value.max(lo).min(hi);
@@ -223,6 +219,10 @@ impl Whisker {
 }
 
 impl Plant for Textured {
+    fn present(&mut self, texture: Texture) {
+        self.present_surface(SurfaceSettings::of(texture));
+    }
+
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         let whisker = self.head.index(side, whisker);
         let whisker = whisker.and_then(|i| self.whiskers.get(i));

@@ -139,13 +139,8 @@ impl Elastic {
         })
     }
 
-    /// Puts another surface before all whiskers, a new piece of it.
-    pub fn present(&mut self, texture: Texture) {
-        self.present_surface(Surface::of(material(texture)));
-    }
-
-    /// As [`Elastic::present`], with any surface but for its seed. Values out of
-    /// their ranges count as the nearest that is within.
+    /// Puts a new piece of any surface before all whiskers, whatever its seed.
+    /// Values out of their ranges count as the nearest that is within.
     pub fn present_surface(&mut self, surface: Surface) {
         self.pieces = self.pieces.wrapping_add(1);
         self.surface = surface;
@@ -175,6 +170,10 @@ impl Swung {
 }
 
 impl Plant for Elastic {
+    fn present(&mut self, texture: Texture) {
+        self.present_surface(Surface::of(material(texture)));
+    }
+
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         let whisker = self.head.index(side, whisker);
         let whisker = whisker.and_then(|i| self.whiskers.get(i));

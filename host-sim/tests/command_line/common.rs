@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use host_sim::decisions::Decided;
 use tactile::train::{Options, Trainer};
 use tempfile::TempDir;
 
@@ -217,16 +218,6 @@ pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
 /// The cells of a table, header first.
 pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
-}
-
-/// A decision as the file has it.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Decided {
-    pub(crate) label: String,
-    pub(crate) trial: String,
-    pub(crate) decision: String,
-    pub(crate) samples: u32,
-    pub(crate) posterior: f64,
 }
 
 /// Reads `decisions.csv`; checks its header.

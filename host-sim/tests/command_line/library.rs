@@ -53,17 +53,8 @@ fn see(run: &mut Run) -> Seen {
     };
     for _ in 0..run.ticks() {
         let row = run.tick();
-        let pairs = [
-            row.theta_deg,
-            row.z,
-            row.g,
-            row.contact,
-            row.angle_deg,
-            row.x,
-            row.y,
-        ];
         let mut bits = [row.t_s.to_bits(); 15];
-        for (bits, value) in bits[1..].iter_mut().zip(pairs.as_flattened()) {
+        for (bits, value) in bits[1..].iter_mut().zip(row.pairs().as_flattened()) {
             *bits = value.to_bits();
         }
         seen.rows.push(bits);

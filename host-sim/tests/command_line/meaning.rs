@@ -1,7 +1,9 @@
 //! What training and classifying mean, on recordings so small that the
 //! posterior has a closed form. The floor of a likelihood is 1e-6.
 
-use crate::common::{Decided, Place, decisions};
+use host_sim::decisions::Decided;
+
+use crate::common::{Place, decisions};
 
 /// Trains on `training` and classifies `test` with the options of each command.
 fn decide(training: &str, options: &str, test: &str, deciding: &str) -> Vec<Decided> {

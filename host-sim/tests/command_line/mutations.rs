@@ -5,6 +5,7 @@ use std::path::Path;
 
 use host_sim::classifier::Classifier;
 use host_sim::commands::{classify, train};
+use host_sim::decisions::Decided;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use proptest::collection::vec;
@@ -110,16 +111,7 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
     for _ in 0..run.ticks().min(ticks) {
         let row = run.tick();
         let sides = scene.head.sides.count();
-        let values = [
-            row.theta_deg,
-            row.z,
-            row.g,
-            row.contact,
-            row.angle_deg,
-            row.x,
-            row.y,
-        ];
-        for value in values.iter().flat_map(|pair| &pair[..sides]) {
+        for value in row.pairs().iter().flat_map(|pair| &pair[..sides]) {
             prop_assert!(value.is_finite(), "{row:?}: {text}");
         }
     }
@@ -155,7 +147,7 @@ fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), 
     Ok(())
 }
 
-fn parsed(path: &Path) -> Vec<crate::common::Decided> {
+fn parsed(path: &Path) -> Vec<Decided> {
     let text = std::fs::read_to_string(path).unwrap();
     // Labels may have become anything that a table can hold.
     if text.contains('"') {

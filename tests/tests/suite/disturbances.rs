@@ -64,7 +64,7 @@ fn a_disturbed_line_is_borne() {
         assert!(apart < 1.0, "{apart}");
     }
     for row in &played.rows {
-        let values = [row.theta_deg, row.z, row.g, row.contact, row.angle_deg];
+        let values = row.pairs();
         assert!(values.as_flattened().iter().all(|value| value.is_finite()));
     }
 
