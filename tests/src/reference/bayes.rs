@@ -6,6 +6,8 @@
 //! *Evidence*: summed log-likelihood of a class since the last decision. *Hit*: a
 //! decision that equals the label.
 
+use serde::Deserialize;
+
 use super::recording::{Sample, streams};
 
 /// Added to each smoothed, normalised bin before the logarithm.
@@ -50,7 +52,7 @@ pub fn train(recording: &[Sample], bins: usize, smooth: f64, block: usize) -> Mo
         }
     }
     let bins = [0, 1].map(|channel: usize| {
-        let values = || recording.iter().map(|sample| sample.channels[channel]);
+        let values = || recording.iter().map(|sample| sample.channels()[channel]);
         Bins {
             low: values().fold(f64::INFINITY, f64::min),
             high: values().fold(f64::NEG_INFINITY, f64::max),
@@ -63,7 +65,7 @@ pub fn train(recording: &[Sample], bins: usize, smooth: f64, block: usize) -> Mo
             [0, 1].map(|channel: usize| {
                 let mut counts = vec![0.0; bins[channel].count];
                 for sample in recording.iter().filter(|sample| sample.label == *class) {
-                    counts[bins[channel].of(sample.channels[channel])] += 1.0;
+                    counts[bins[channel].of(sample.channels()[channel])] += 1.0;
                 }
                 let smoothed = smoothed(&counts, smooth);
                 let total: f64 = smoothed.iter().sum();
@@ -113,7 +115,7 @@ pub enum Rule {
 }
 
 /// A decision.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Decision {
     /// True class.
     pub label: String,
@@ -132,7 +134,6 @@ pub struct Decision {
 pub fn classify(model: &Model, recording: &[Sample], rule: Rule) -> Vec<Decision> {
     let mut decisions = Vec::new();
     for stream in streams(recording) {
-        let stream = &recording[stream];
         let mut evidence = vec![0.0; model.classes.len()];
         let mut samples = 0;
         for block in stream.chunks_exact(model.block) {
@@ -165,7 +166,7 @@ fn mean_log_likelihood(model: &Model, class: usize, block: &[Sample]) -> f64 {
     let mut sum = 0.0;
     for sample in block {
         for channel in 0..2 {
-            let bin = model.bins[channel].of(sample.channels[channel]);
+            let bin = model.bins[channel].of(sample.channels()[channel]);
             sum += model.log_likelihood[class][channel][bin];
         }
     }

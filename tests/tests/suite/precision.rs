@@ -23,18 +23,18 @@ proptest! {
         let sample = |&(place, x, y): &(f64, i32, i32)| {
             let class = (place * classes as f64) as i32;
             // Classes differ in the spread of x and the level of y.
-            let channels = [f64::from(x / (1 + class)), f64::from(y / 2 + 200 * class)];
-            Sample { label: format!("k{class}"), trial: String::new(), channels }
+            let [x, y] = [f64::from(x / (1 + class)), f64::from(y / 2 + 200 * class)];
+            Sample { label: format!("k{class}"), trial: String::new(), x, y }
         };
         let recording: Vec<Sample> = data.iter().map(sample).collect();
         let mut trainer = Trainer::new(2, Options { bins, smooth, block: 5 }).unwrap();
         for sample in &recording {
-            trainer.add(&sample.label, &sample.channels).unwrap();
+            trainer.add(&sample.label, &sample.channels()).unwrap();
         }
         prop_assume!(trainer.names().len() == classes);
         let model = trainer.train().unwrap();
         let quantisers = [0, 1].map(|channel| model.quantiser(channel).unwrap());
-        let codes = |sample: &Sample| [0, 1].map(|c| quantisers[c].code_from_f64(sample.channels[c]));
+        let codes = |sample: &Sample| [0, 1].map(|c| quantisers[c].code_from_f64(sample.channels()[c]));
         // To be classified as one stream, whatever the labels.
         let unlabelled = |sample: &Sample| Sample { label: String::new(), ..sample.clone() };
         let stream: Vec<Sample> = recording.iter().map(unlabelled).collect();

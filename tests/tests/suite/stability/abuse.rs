@@ -2,9 +2,10 @@
 //! wrap-around (ten whisks long where the sides start in anti-phase), and gates
 //! that decay as their closed forms say.
 
+use rayon::prelude::*;
 use whisking::{Fix, Integrator, Settings};
 
-use super::axes::{Case, Worst, cases, on_all_cores};
+use super::axes::{Case, Worst, cases};
 use super::rig::{Abuse, Extreme, Module, start, widened};
 
 const ABUSE: usize = 300;
@@ -86,7 +87,7 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
 #[test]
 fn nothing_leaves_its_bounds_wraps_around_or_decays_otherwise() {
     let [single, fixed] = [Worst::default(), Worst::default()];
-    on_all_cores(&cases(), |&case| {
+    cases().into_par_iter().for_each(|case| {
         run::<f64>(case, &Worst::default());
         run::<f32>(case, &single);
         run::<Fix>(case, &fixed);

@@ -1,7 +1,6 @@
 //! The axes along which the module is run, and how their product is thinned.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use whisking::{GateSettings, Integrator, Settings, oscillator::Psi};
 
@@ -208,21 +207,6 @@ pub(crate) fn cases() -> Vec<Case> {
     let places = product(&LEVELS[..FULL]);
     let place = |full: Vec<usize>| [full, deal()].concat().try_into().unwrap();
     places.into_iter().map(place).map(Case).collect()
-}
-
-/// Runs `work` on every item, on two threads (or as many as there are).
-pub(crate) fn on_all_cores<T: Sync>(items: &[T], work: impl Fn(&T) + Sync) {
-    let next = AtomicUsize::new(0);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..cores {
-            scope.spawn(|| {
-                while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    work(item);
-                }
-            });
-        }
-    });
 }
 
 /// The largest value told so far.

@@ -1,9 +1,10 @@
 //! The strongest noise that a scene may ask for drives the oscillators into
 //! their limits and nothing out of its bounds; the papers' moves all formats alike.
 
+use rayon::prelude::*;
 use whisking::{Fix, Settings};
 
-use super::axes::{Case, Worst, on_all_cores};
+use super::axes::{Case, Worst};
 use super::rig::{Extreme, Module, start, widened};
 
 /// The papers' σ_η. All formats take their noise from the same integers, so
@@ -45,7 +46,7 @@ fn noise_stays_in_bounds() {
         }
     }
     let worst = Worst::default();
-    on_all_cores(&cases, |&case| {
+    cases.into_par_iter().for_each(|case| {
         for noise in [PAPERS, STRONGEST] {
             run::<f64>(case, noise, &worst);
             run::<f32>(case, noise, &worst);

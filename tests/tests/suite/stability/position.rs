@@ -12,9 +12,10 @@
 //! *Back* for H50: 200 ms after the last bad sample what is left of it is below
 //! 1e-6.
 
+use rayon::prelude::*;
 use whisking::{Fix, Real, filter, pd};
 
-use super::axes::{TICKS_HZ, Worst, on_all_cores};
+use super::axes::{TICKS_HZ, Worst};
 use super::rig::Extreme;
 
 /// Some encoder: 100 counts a degree, 10,000 a unit of protraction.
@@ -115,7 +116,7 @@ fn position_control_keeps_its_limits_and_comes_back() {
             cases.push((settings, tick_hz));
         }
     }
-    on_all_cores(&cases, |(settings, tick_hz)| {
+    cases.par_iter().for_each(|(settings, tick_hz)| {
         control::<f64>(settings, *tick_hz);
         control::<f32>(settings, *tick_hz);
         control::<Fix>(settings, *tick_hz);
@@ -187,7 +188,7 @@ fn smooth<R: Real>(tick_hz: f64, step_size: f64, input: impl Fn(usize) -> f64) -
 #[test]
 fn h50_holds_full_scale_at_any_rhythm_and_forgets_it() {
     let [single, fixed] = [Worst::default(), Worst::default()];
-    on_all_cores(&TICKS_HZ, |&tick_hz| {
+    TICKS_HZ.into_par_iter().for_each(|tick_hz| {
         for period in [1, 2, 3, 7, tick_hz as usize / 100, tick_hz as usize] {
             let square = |n: usize| {
                 if (n / period).is_multiple_of(2) {

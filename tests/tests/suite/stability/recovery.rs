@@ -9,9 +9,10 @@
 //! Where a gate takes longer than a whisk, three whisks are run and it must
 //! then be where its closed form says, within 1e-4.
 
+use rayon::prelude::*;
 use whisking::{Fix, Integrator};
 
-use super::axes::{Case, INPUTS, SIGMA_G, SIGMA_Z, STARTS, TAUS, Worst, dealt, on_all_cores};
+use super::axes::{Case, INPUTS, SIGMA_G, SIGMA_Z, STARTS, TAUS, Worst, dealt};
 use super::rig::{Abuse, Extreme, Module, start};
 
 const ABUSE: usize = 300;
@@ -76,7 +77,7 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
 /// its integrator can carry it.
 fn recovers<R: Extreme>(cases: &[Case]) {
     let worst = Worst::default();
-    on_all_cores(cases, |case| run::<R>(*case, &worst));
+    cases.par_iter().for_each(|case| run::<R>(*case, &worst));
     println!("largest distance from untouched: {} degrees", worst.value());
 }
 
@@ -103,11 +104,6 @@ fn cases(seed: u64) -> Vec<Case> {
             }
         }
     }
-    // The long ones first, so that both cores end together.
-    cases.sort_by(|a, b| {
-        let length = |case: &Case| case.tick_hz() / case.frequency_hz();
-        length(b).total_cmp(&length(a))
-    });
     cases
 }
 
