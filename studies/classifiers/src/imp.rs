@@ -1,5 +1,4 @@
-//! The instantaneous mean power (IMP) of a whisker pad, and what Psikharpax
-//! steers by (PSIK sections 3.1 and 3.3).
+//! The instantaneous mean power (IMP) of a whisker pad (PSIK section 3.1).
 //!
 //! # Glossary
 //!
@@ -9,7 +8,6 @@
 //! - **peak period** T: from one peak to the next, samples.
 //! - **IMP**: the mean of A/T over the peaks of a window; for a pure vibration
 //!   it is amplitude times frequency.
-//! - **arc**: vibrissae of one length, one behind the other; **pad**: all 33.
 //!
 //! # What it is of simple signals
 //!
@@ -41,10 +39,6 @@
 
 mod pad;
 mod peaks;
-mod steering;
 
 pub use pad::{Imp, ImpState, ImpSweep};
 pub use peaks::{Band, Peaks, deflection};
-pub use steering::{
-    ARC_LENGTHS_MM, ARC_SIZES, STEERING_GAIN, VIBRISSAE, arc_means, distance, steering,
-};

@@ -1,13 +1,13 @@
 //! Runs of the mobile robot through its corridors: the smoothed IMP of all
 //! vibrissae of both sides, window by window, and where the robot was.
 
-use classifiers::imp::{ARC_LENGTHS_MM, Band, Imp, arc_means, distance};
+use classifiers::imp::{Band, Imp};
 
 use super::pad;
 use super::whiskers;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
-use crate::paper::psik::{CORRIDORS, RATE_HZ, VIBRISSAE};
+use crate::paper::psik::{ARCS, CORRIDORS, RATE_HZ, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::{Chance, Robot, Vibrissa, seed_of};
 use host_sim::Error;
@@ -110,11 +110,20 @@ impl Side {
         }
         codes
     }
+}
 
-    /// D of eq. 1, mm.
-    fn distance_mm(&self) -> f64 {
-        f64::from(distance(&arc_means(&self.bent), &ARC_LENGTHS_MM))
-    }
+/// The distance of what a pad touches, D = (1/N) Σ_i (1 − V_i) L_i (PSIK eq. 1),
+/// mm: V_i is the mean of an arc over `bent`, the deflection of each vibrissa,
+/// arc by arc, 0 to 1.
+fn distance_mm(bent: &[f32; VIBRISSAE]) -> f64 {
+    let mut rest = bent.as_slice();
+    let arcs = ARCS.map(|(size, length_mm)| {
+        // The sizes add up to the vibrissae.
+        let (arc, after) = rest.split_at_checked(size).unwrap_or((rest, &[]));
+        rest = after;
+        (1.0 - arc.iter().sum::<f32>() / size as f32) * length_mm as f32
+    });
+    f64::from(arcs.iter().sum::<f32>() / ARCS.len() as f32)
 }
 
 /// Records a run: a sample of [`COLUMNS`] numbers a window.
@@ -153,7 +162,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
                 }
             }
         }
-        let [left, right] = [sides[0].distance_mm(), sides[1].distance_mm()];
+        let [left, right] = [distance_mm(&sides[0].bent), distance_mm(&sides[1].bent)];
         if ended {
             values.extend(sides.iter().flat_map(|half| half.power));
             values.push(robot.neck_m[1] as f32);
@@ -170,10 +179,21 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
 
 #[cfg(test)]
 mod tests {
-    use super::walls;
+    use super::{VIBRISSAE, distance_mm, walls};
 
     #[test]
     fn the_way_back_swaps_the_walls() {
         assert_eq!([0, 1, 2, 3].map(walls), [[0, 1], [1, 0], [2, 3], [3, 2]]);
+    }
+
+    #[test]
+    fn distance_is_the_paper_s_and_arcs_take_their_vibrissae_and_no_others() {
+        assert_eq!(distance_mm(&[0.0; VIBRISSAE]), 1035.0 / 8.0);
+        assert_eq!(distance_mm(&[1.0; VIBRISSAE]), 0.0);
+        let mut bent = [0.0; VIBRISSAE];
+        // The last of arc 5 (100 mm), two of arc 6 (90 mm), one of arc 8 (55 mm).
+        (bent[24], bent[25], bent[27], bent[32]) = (1.0, 0.25, 0.5, 1.0);
+        let expected = (1035.0 - 100.0 / 5.0 - 90.0 * 0.75 / 3.0 - 55.0 / 2.0) / 8.0;
+        assert!((distance_mm(&bent) - expected).abs() < 1e-4);
     }
 }
