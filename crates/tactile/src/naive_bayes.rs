@@ -62,6 +62,9 @@ impl<E> State<E> {
 }
 
 impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
+    /// Bytes that change as samples come in.
+    pub const STATE_BYTES: usize = size_of::<State<R::Evidence>>();
+
     /// Joins a model and a rule; nothing is seen yet, all classes are equal.
     ///
     /// # Errors

@@ -2,7 +2,9 @@
 
 use std::sync::LazyLock;
 
+use classifiers::Stationary;
 use serde::Deserialize;
+use tactile::{Sequential, Window};
 
 use crate::page::{Page, Score};
 use crate::paper::printed;
@@ -18,10 +20,32 @@ struct Form {
     /// Kernels, and how often each runs a sample: so many times in so many.
     kernels: Vec<(String, f64, f64)>,
     /// Bytes of state and of tables in flash.
-    bytes: (usize, usize),
+    bytes: (State, usize),
     /// What is to be said of it.
     #[serde(default)]
     note: String,
+}
+
+/// Bytes of state: so many, or those of naive Bayes under a rule.
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum State {
+    Sequential,
+    Window,
+    Stationary,
+    #[serde(untagged)]
+    Bytes(usize),
+}
+
+impl State {
+    const fn bytes(&self) -> usize {
+        match self {
+            Self::Sequential => <Sequential>::STATE_BYTES,
+            Self::Window => <Window>::STATE_BYTES,
+            Self::Stationary => <Stationary>::STATE_BYTES,
+            Self::Bytes(bytes) => *bytes,
+        }
+    }
 }
 
 static FORMS: LazyLock<Vec<Form>> = LazyLock::new(|| printed(include_str!("costs.toml"), "forms"));
@@ -60,7 +84,7 @@ pub(super) fn section(page: &mut Page, scores: &[Score]) {
                 score.task.clone(),
                 format!("**{:.1}**", score.hit),
                 cell(instructions.map(|n| format!("{n:.0}"))),
-                cell(form.map(|form| form.bytes.0.to_string())),
+                cell(form.map(|form| form.bytes.0.bytes().to_string())),
                 cell(form.map(|form| form.bytes.1.to_string())),
                 form.map_or("", |form| &form.note).to_owned(),
             ]
