@@ -213,12 +213,8 @@ impl Machine {
             }
             Err(fault) => return Err(fault),
         };
-        self.due = chip.next_event();
-        self.cycle = chip.cycle();
-        for (irq, up) in chip.interrupts() {
-            self.core.set_irq(irq, up);
-        }
         drop(chip);
+        self.follow_chip();
         if self.core.reset_requested() {
             self.core.clear_reset_request();
             return Ok(Some(ResetCause::Software));
@@ -233,15 +229,21 @@ impl Machine {
         // A core that was held knows nothing of the time since.
         self.now = chip.now;
         self.shared.set_now(self.now);
+        drop(chip);
+        self.follow_chip();
+        self.exception = 0;
+        self.ready = false;
+        Ok(())
+    }
+
+    /// Takes the chip's next event, clock and interrupt lines.
+    fn follow_chip(&mut self) {
+        let chip = self.shared.chip();
         self.due = chip.next_event();
         self.cycle = chip.cycle();
         for (irq, up) in chip.interrupts() {
             self.core.set_irq(irq, up);
         }
-        drop(chip);
-        self.exception = 0;
-        self.ready = false;
-        Ok(())
     }
 }
 

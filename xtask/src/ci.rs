@@ -38,12 +38,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
 /// host-sim without its command line, where there are no files, threads or clocks.
 fn web() -> Result<(), Fault> {
     let core = ["check", "--locked", "-p", "host-sim", "--lib"];
-    let web = [
-        "--no-default-features",
-        "--target",
-        "wasm32-unknown-unknown",
-    ];
-    run(cargo(&core).args(web))
+    let web = ["--target", "wasm32-unknown-unknown"];
+    run(cargo(&core).arg("--no-default-features").args(web))
 }
 
 fn lints() -> Result<(), Fault> {

@@ -11,13 +11,8 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
     cost::write_page(check)?;
-    let said = output(&mut cargo(&[
-        "run",
-        "--release",
-        "--quiet",
-        "-p",
-        "host-sim",
-    ]))?;
+    let simulator = ["run", "--release", "--quiet", "-p"];
+    let said = output(cargo(&simulator).arg("host-sim"))?;
     print!("{said}");
     document("docs/textures.md", main_job(&said)?.as_bytes(), check)?;
     for (made, name) in [

@@ -53,16 +53,8 @@ fn boards() -> Result<(), Fault> {
 }
 
 fn experiments() -> Result<(), Fault> {
-    let studies = [
-        "run",
-        "--release",
-        "--quiet",
-        "--locked",
-        "-p",
-        "studies",
-        "--",
-    ];
-    let all = ["--quiet", "experiment", "all", "--out"];
+    let studies = ["run", "--release", "--quiet", "--locked", "-p", "studies"];
+    let all = ["--", "--quiet", "experiment", "all", "--out"];
     run(cargo(&studies).args(all).arg(target().join("nightly")))
 }
 

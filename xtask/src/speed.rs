@@ -32,13 +32,8 @@ pub(crate) struct Choice {
 /// # Errors
 /// If host-sim cannot be built, or a program cannot be run.
 pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
-    run(&mut cargo(&[
-        "build",
-        "--release",
-        "--locked",
-        "-p",
-        "host-sim",
-    ]))?;
+    let build = ["build", "--release", "--locked"];
+    run(cargo(&build).args(["-p", "host-sim"]))?;
     let own = target().join("release/host-sim");
     println!(
         "µs a tick, least and median of {}: this tree{}",

@@ -80,35 +80,13 @@ mod tests {
     #[test]
     fn ties_zeros_limits_and_what_is_no_number_are_as_the_standard_library_has_them() {
         let limit = (1_u64 << 33) as f64;
-        for value in [
-            0.0,
-            0.5,
-            1.5,
-            2.5,
-            0.25,
-            0.35,
-            0.125,
-            0.0625,
-            1e-9,
-            5e-10,
-            4.9e-10,
-            1.5e-9,
-            1e-300,
-            5e-324,
-            f64::MIN_POSITIVE,
-            0.999_999_999_5,
-            9.999_999_999_9,
-            99.5,
-            100.0,
-            16383.0,
-            8191.5,
-            limit,
-            limit - 0.5,
-            limit + 0.5,
-            1e300,
-            f64::INFINITY,
-            f64::NAN,
-        ] {
+        let short = [
+            0.0, 0.5, 1.5, 2.5, 0.25, 0.35, 0.125, 0.0625, 1e-9, 5e-10, 4.9e-10, 1.5e-9, 1e-300,
+            5e-324, 99.5, 100.0, 16383.0, 8191.5, 1e300,
+        ];
+        let long = [0.999_999_999_5, 9.999_999_999_9, f64::MIN_POSITIVE];
+        let ends = [limit, limit - 0.5, limit + 0.5, f64::INFINITY, f64::NAN];
+        for &value in short.iter().chain(&long).chain(&ends) {
             same(value);
             same(-value);
         }
