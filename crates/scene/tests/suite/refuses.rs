@@ -1,11 +1,10 @@
-//! Faulty scenes, and what is said of them: the cases of refusals.toml, and problems
-//! of one key at a time.
+//! Faulty scenes, and what is said of them; refusals.toml has most of them.
 
 use crate::common::{FULL, complaint, with};
 use scene::Scene;
 use toml::{Table, Value};
 
-/// The cases: problems of one key at a time, and keys that do not go together.
+/// Edges of ranges, problems of one key at a time, and keys that do not go together.
 fn refusals() -> Table {
     let table = include_str!("refusals.toml").parse();
     table.expect("refusals.toml is a table")
