@@ -103,7 +103,7 @@ impl Extractor {
         // From the sample before contact.
         let time_s = (peak + 1).saturating_sub(contact).max(1) as f64 / settings.rate_hz;
 
-        let magnitudes = self.spectrum.of(&deflection, Measure::Magnitude)?;
+        let magnitudes = self.spectrum.of(deflection, Measure::Magnitude)?;
         let f4 = magnitudes.iter().copied().fold(0.0, f64::max);
         let centroid = magnitudes.iter().position(|&x| x == f4).unwrap_or(0);
         let f3 = settings.bins.frequency(centroid, settings.rate_hz);

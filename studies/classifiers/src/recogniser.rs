@@ -7,16 +7,12 @@
 //! - **segment**: the samples of one trial, whisk or window.
 //! - **outcome**: the class that a recogniser names, and after how many samples.
 //!
-//! [`Bayes`] wraps naive Bayes under three rules; [`Picked`] lets a recogniser
+//! [`Bayes`] wraps naive Bayes under any rule; [`Picked`] lets a recogniser
 //! take only some channels (x alone, y alone, one whisker).
 
 use std::vec::Vec;
 
-use tactile::{
-    Decision, Model, NaiveBayes, Posteriors, Quantiser, Sequential, SetupError, Threshold, Window,
-};
-
-use crate::stationary::Stationary;
+use tactile::{Decision, DecisionRule, Model, NaiveBayes, Posteriors, Quantiser, SetupError};
 
 /// What a recogniser found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,73 +100,32 @@ pub fn outcomes(
 /// Naive Bayes by the code of a board: samples become codes by the quantisers
 /// of the model.
 #[derive(Debug, Clone)]
-pub struct Bayes<'m> {
-    classifier: Rules<'m>,
+pub struct Bayes<'m, R: DecisionRule> {
+    classifier: NaiveBayes<R, &'m [u32]>,
     quantisers: Vec<Quantiser>,
     codes: Vec<i32>,
 }
 
-#[derive(Debug, Clone)]
-enum Rules<'m> {
-    Sequential(Sequential<&'m [u32]>),
-    Window(Window<&'m [u32]>),
-    Stationary(Stationary<&'m [u32]>),
-}
-
-/// The same expression of the classifier, whatever its rule.
-macro_rules! each_rule {
-    ($rules:expr, $classifier:ident => $do:expr) => {
-        match $rules {
-            Rules::Sequential($classifier) => $do,
-            Rules::Window($classifier) => $do,
-            Rules::Stationary($classifier) => $do,
-        }
-    };
-}
-
-impl<'m> Bayes<'m> {
-    /// Sequential analysis (LEP12); see [`tactile::Sequential`].
+impl<'m, R: DecisionRule> Bayes<'m, R> {
+    /// A model under a rule.
     ///
     /// # Errors
     ///
-    /// None for a parsed model.
-    pub fn sequential(model: Model<&'m [u32]>, threshold: Threshold) -> Result<Self, SetupError> {
-        NaiveBayes::new(model, threshold).map(|c| Self::new(&model, Rules::Sequential(c)))
-    }
-
-    /// Maximum likelihood over windows (LEP10); see [`tactile::Window`].
-    ///
-    /// # Errors
-    ///
-    /// The window is zero or not a multiple of the model's block.
-    pub fn window(model: Model<&'m [u32]>, window: u32) -> Result<Self, SetupError> {
-        NaiveBayes::new(model, window).map(|c| Self::new(&model, Rules::Window(c)))
-    }
-
-    /// Stationary naive Bayes (BIOTACT eq. 15–16), which decides at the end of
-    /// a segment; see [`Stationary`].
-    ///
-    /// # Errors
-    ///
-    /// None for a parsed model.
-    pub fn stationary(model: Model<&'m [u32]>) -> Result<Self, SetupError> {
-        NaiveBayes::new(model, ()).map(|c| Self::new(&model, Rules::Stationary(c)))
-    }
-
-    fn new(model: &Model<&[u32]>, classifier: Rules<'m>) -> Self {
+    /// The rule's settings do not fit the model.
+    pub fn new(model: Model<&'m [u32]>, settings: R::Settings) -> Result<Self, SetupError> {
         let quantisers: Vec<_> = (0..model.channels())
             .filter_map(|channel| model.quantiser(channel))
             .collect();
-        Self {
-            classifier,
+        Ok(Self {
+            classifier: NaiveBayes::new(model, settings)?,
             codes: Vec::with_capacity(quantisers.len()),
             quantisers,
-        }
+        })
     }
 
     /// Posterior of each class after the last full block.
     pub fn posteriors(&self) -> Posteriors {
-        each_rule!(&self.classifier, c => c.posteriors())
+        self.classifier.posteriors()
     }
 }
 
@@ -183,7 +138,7 @@ impl From<Decision> for Outcome {
     }
 }
 
-impl Recogniser for Bayes<'_> {
+impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
     fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
         if sample.len() != self.quantisers.len() {
             return None;
@@ -191,16 +146,16 @@ impl Recogniser for Bayes<'_> {
         self.codes.clear();
         let codes = self.quantisers.iter().zip(sample);
         self.codes.extend(codes.map(|(q, &x)| q.code_from_f64(x)));
-        let pushed = each_rule!(&mut self.classifier, c => c.push(&self.codes));
+        let pushed = self.classifier.push(&self.codes);
         pushed.ok().flatten().map(Outcome::from)
     }
 
     fn finish(&mut self) -> Option<Outcome> {
-        each_rule!(&mut self.classifier, c => c.finish()).map(Outcome::from)
+        self.classifier.finish().map(Outcome::from)
     }
 
     fn reset(&mut self) {
-        each_rule!(&mut self.classifier, c => c.reset());
+        self.classifier.reset();
     }
 }
 

@@ -29,7 +29,7 @@ fn spectra(
     let mut all = Vec::with_capacity(channels * spectrum.bins().count);
     for channel in 0..channels {
         let samples = block.iter().skip(channel).step_by(channels).copied();
-        all.extend(spectrum.of_samples(samples, measure)?);
+        all.extend(spectrum.of(samples, measure)?);
     }
     Ok(all)
 }

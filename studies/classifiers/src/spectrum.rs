@@ -111,13 +111,9 @@ impl Bins {
         if !(1..=MAX_POINTS).contains(&self.points) {
             return Err(Error::Points(self.points));
         }
-        let last = u64::try_from(self.count)
-            .ok()
-            .and_then(|count| count.checked_sub(1))
-            .and_then(|steps| steps.checked_mul(u64::from(self.step)))
-            .and_then(|reach| reach.checked_add(u64::from(self.first)));
-        match last {
-            Some(last) if self.step > 0 && last <= u64::from(self.points / 2) => Ok(()),
+        let reach = |steps: u128| u128::from(self.first) + steps * u128::from(self.step);
+        match (self.count as u128).checked_sub(1).map(reach) {
+            Some(last) if self.step > 0 && last <= u128::from(self.points / 2) => Ok(()),
             _ => Err(Error::Bins),
         }
     }

@@ -199,6 +199,7 @@ mod tests {
     use super::{Stream, Tally, train};
     use classifiers::recogniser::Bayes;
     use host_sim::Error;
+    use tactile::WindowRule;
 
     /// Floors that differ in x by 500 codes and not in y.
     fn streams() -> Vec<Stream> {
@@ -219,7 +220,7 @@ mod tests {
             let model = buf.view();
             assert_eq!(model.bins(), 49, "1596 codes in bins of 32.77");
             let tally = Tally::of(&streams, || {
-                let bayes = Bayes::window(model, 100);
+                let bayes = Bayes::<WindowRule>::new(model, 100);
                 let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
                 Ok(classifiers::recogniser::Picked::new(bayes, &picked))
             });

@@ -11,7 +11,7 @@ use crate::refused::refused;
 use crate::rigs::RobotMotion;
 use classifiers::recogniser::{Bayes, Picked};
 use host_sim::Error;
-use tactile::ModelBuf;
+use tactile::{ModelBuf, WindowRule};
 
 /// Windows of Fig. 4, samples: 0.5 ms to 1 s.
 const WINDOWS: [u32; 11] = [1, 2, 5, 10, 20, 50, 100, 200, 400, 1000, 2000];
@@ -31,7 +31,7 @@ fn windows(
 ) -> Result<Tally, Error> {
     let model = buf.view();
     Tally::of(validation, || {
-        let bayes = Bayes::window(model, window).map_err(refused)?;
+        let bayes = Bayes::<WindowRule>::new(model, window).map_err(refused)?;
         Ok(Picked::new(bayes, picked))
     })
 }

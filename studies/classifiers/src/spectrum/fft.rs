@@ -63,40 +63,22 @@ impl Spectrum {
     /// # Errors
     ///
     /// It has another number of samples.
-    pub fn of(&mut self, block: &[f64], measure: Measure) -> Result<Vec<f64>, Error> {
-        self.of_samples(block.iter().copied(), measure)
-    }
-
-    /// The same of samples that do not lie side by side, such as one channel
-    /// of several.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::of`].
-    pub fn of_samples(
+    pub fn of(
         &mut self,
         block: impl IntoIterator<Item = f64>,
         measure: Measure,
     ) -> Result<Vec<f64>, Error> {
+        self.input.fill(0.0);
+        let mut block = block.into_iter();
+        // The input is asked first, so that no sample beyond it is taken uncounted.
+        let taken = self.input.iter_mut().take(self.block).zip(&mut block);
+        let found = taken.map(|(input, x)| *input = x).count() + block.count();
         let wrong = Error::Block {
-            block: 0,
+            block: found,
             points: self.bins.points,
         };
-        let mut found = 0;
-        self.input.fill(0.0);
-        for (n, x) in block.into_iter().enumerate() {
-            found = n + 1;
-            if n < self.block
-                && let Some(input) = self.input.get_mut(n)
-            {
-                *input = x;
-            }
-        }
         if found != self.block {
-            return Err(Error::Block {
-                block: found,
-                points: self.bins.points,
-            });
+            return Err(wrong);
         }
         // The lengths are the plan's own, so it has nothing to refuse.
         self.plan

@@ -1,8 +1,9 @@
 //! Recognisers answer as what they wrap, and refuse what does not fit.
 
+use classifiers::StationaryRule;
 use classifiers::recogniser::{Bayes, Outcome, Picked, Recogniser, first_outcome, outcomes, pick};
 use tactile::train::{Options, Trainer};
-use tactile::{Sequential, Threshold};
+use tactile::{Sequential, SequentialRule, Threshold, WindowRule};
 
 /// Channel 0 tells nothing, channel 1 is 0 or 1 but for one sample in ten.
 fn samples(class: usize) -> Vec<f64> {
@@ -44,7 +45,7 @@ fn rules_answer_as_they_do_without_a_wrapper() {
                 direct.push(&codes).unwrap().map(Outcome::from)
             })
             .collect();
-        let mut sequential = Bayes::sequential(model, threshold).unwrap();
+        let mut sequential = Bayes::<SequentialRule>::new(model, threshold).unwrap();
         assert!(expected.len() > 10 && expected.iter().all(|o| o.class == class));
         assert_eq!(outcomes(&mut sequential, &segment, 2), expected);
         assert_eq!(
@@ -56,14 +57,14 @@ fn rules_answer_as_they_do_without_a_wrapper() {
             class,
             samples: 600,
         });
-        let mut stationary = Bayes::stationary(model).unwrap();
+        let mut stationary = Bayes::<StationaryRule>::new(model, ()).unwrap();
         assert_eq!(first_outcome(&mut stationary, &segment, 2), whole);
-        let mut y = Picked::new(Bayes::stationary(single).unwrap(), &[1]);
+        let mut y = Picked::new(Bayes::<StationaryRule>::new(single, ()).unwrap(), &[1]);
         assert_eq!(first_outcome(&mut y, &segment, 2), whole);
-        let mut x = Picked::new(Bayes::stationary(single).unwrap(), &[0]);
+        let mut x = Picked::new(Bayes::<StationaryRule>::new(single, ()).unwrap(), &[0]);
         assert_eq!(first_outcome(&mut x, &segment, 2).unwrap().class, 0);
 
-        let mut window = Bayes::window(model, 60).unwrap();
+        let mut window = Bayes::<WindowRule>::new(model, 60).unwrap();
         let windows = outcomes(&mut window, &segment, 2);
         assert_eq!(windows.len(), 10);
         assert!(windows.iter().all(|o| (o.class, o.samples) == (class, 60)));
@@ -76,7 +77,7 @@ fn a_sample_of_other_channels_is_not_taken() {
     trainer.add("a", &[0.0, 0.0]).unwrap();
     trainer.add("b", &[900.0, 900.0]).unwrap();
     let buf = trainer.train().unwrap();
-    let mut r = Bayes::stationary(buf.view()).unwrap();
+    let mut r = Bayes::<StationaryRule>::new(buf.view(), ()).unwrap();
     assert_eq!(r.push(&[0.0]), None);
     assert_eq!(r.push(&[0.0; 3]), None);
     assert_eq!(r.finish(), None, "nothing was taken");

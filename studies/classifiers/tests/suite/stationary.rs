@@ -1,27 +1,8 @@
 //! The stationary rule against closed forms and at its limits.
 
-use crate::common::model;
+use crate::common::{ln_ratio, model, two_normals};
 use classifiers::Stationary;
 use proptest::prelude::*;
-use tactile::ModelBuf;
-
-/// Two classes of normal codes, means 400 and 600, sd 150, in 100 bins. The
-/// likelihood ratio of code x in sd units is closed: (x − 500) · 200 / 150².
-fn two_normals(block: u32) -> ModelBuf {
-    model(2, 1, 100, block, |bin, _, class| {
-        let x = 10.0 * bin as f64 + 5.0;
-        let mean = [400.0, 600.0][class];
-        let z = (x - mean) / 150.0;
-        // Bin width over sd times the density.
-        (10.0 / 150.0 / (2.0 * std::f64::consts::PI).sqrt()).log2()
-            - 0.5 * z * z * std::f64::consts::LOG2_E
-    })
-}
-
-fn ln_ratio(code: i32) -> f64 {
-    let middle = 10.0 * f64::from(code / 10) + 5.0;
-    (middle - 500.0) * 200.0 / (150.0 * 150.0)
-}
 
 #[test]
 fn stationary_sums_whole_whisks() {

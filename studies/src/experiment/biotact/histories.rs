@@ -110,7 +110,7 @@ fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
             let away = (n as f64 - reach as f64) / (WINDOW_S * rate_hz);
             at.map_or(0.0, |x| (x - mean) * libm::exp(-0.5 * away * away))
         });
-        let power = spectrum.of_samples(block, Measure::Power);
+        let power = spectrum.of(block, Measure::Power);
         all.push(power.map_err(refused)?);
     }
     Ok(all)

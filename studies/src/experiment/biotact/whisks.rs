@@ -1,5 +1,6 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
+use classifiers::StationaryRule;
 use classifiers::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
 use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
@@ -172,7 +173,7 @@ impl Visits {
         }
         let buf = trainer.train().map_err(refused)?;
         let model = buf.view();
-        let bayes = Bayes::stationary(model).map_err(refused)?;
+        let bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
         let validation = self.some(strategy, validation);
         Ok(share(&mut Picked::new(bayes, picked), task, validation))
     }

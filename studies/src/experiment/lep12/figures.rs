@@ -3,7 +3,7 @@
 mod spectra;
 
 use classifiers::recogniser::{Bayes, Recogniser, outcomes};
-use tactile::Threshold;
+use tactile::{SequentialRule, Threshold};
 
 use super::groups::{BLOCK, Curves, Group, Point};
 use crate::chart::{Axis, Mark, Panel, linear};
@@ -127,7 +127,7 @@ fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
     let Some(stream) = group.validation.first() else {
         return Ok(());
     };
-    let mut bayes = Bayes::sequential(model, never).map_err(refused)?;
+    let mut bayes = Bayes::<SequentialRule>::new(model, never).map_err(refused)?;
     let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
     let mut passed = FIG7.map(|_| None);
     let block = BLOCK as usize;
@@ -186,7 +186,7 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Er
                 .iter()
                 .filter(|stream| stream.floor == *floor)
             {
-                let mut bayes = Bayes::sequential(model, threshold).map_err(refused)?;
+                let mut bayes = Bayes::<SequentialRule>::new(model, threshold).map_err(refused)?;
                 for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
                     let time_s = f64::from(outcome.samples) / rate_hz;
                     let bar = ((time_s / BAR_S) as usize).min(BARS - 1);

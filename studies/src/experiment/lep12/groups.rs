@@ -2,7 +2,7 @@
 //! curves of hit rate against time.
 
 use classifiers::recogniser::Bayes;
-use tactile::{ModelBuf, Threshold};
+use tactile::{ModelBuf, SequentialRule, Threshold, WindowRule};
 
 use crate::experiment::floors::{Floors, Half, Stream, Tally, train};
 use crate::paper::lep12::{MOTIONS, TIME_S};
@@ -63,7 +63,7 @@ impl Group {
         let model = self.model.view();
         let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
         let tally = Tally::of(&self.validation, || {
-            Bayes::sequential(model, threshold).map_err(refused)
+            Bayes::<SequentialRule>::new(model, threshold).map_err(refused)
         })?;
         Ok(Point {
             parameter: 1.0 - doubt,
@@ -75,7 +75,7 @@ impl Group {
     pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
         let model = self.model.view();
         let tally = Tally::of(&self.validation, || {
-            Bayes::window(model, window).map_err(refused)
+            Bayes::<WindowRule>::new(model, window).map_err(refused)
         })?;
         Ok(Point {
             parameter: f64::from(window),

@@ -59,7 +59,7 @@ pub(super) fn power(
 ) -> Result<Vec<f64>, Error> {
     let line = || segment.iter().skip(channel).step_by(CHANNELS);
     let mean = line().sum::<f64>() / (segment.len() / CHANNELS) as f64;
-    let power = spectrum.of_samples(line().map(|x| x - mean), Measure::Power);
+    let power = spectrum.of(line().map(|x| x - mean), Measure::Power);
     power.map_err(refused)
 }
 
