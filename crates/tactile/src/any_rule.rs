@@ -67,7 +67,7 @@ impl DecisionRule for AnyRule {
         }
     }
 
-    fn end_of_block(&self, sums: &[u32], evidence: &mut AnyEvidence) -> Option<Decision> {
+    fn end_of_block(&self, sums: &mut [u32], evidence: &mut AnyEvidence) -> Option<Decision> {
         match (self, evidence) {
             (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) => {
                 rule.end_of_block(sums, evidence)

@@ -28,8 +28,9 @@ pub trait DecisionRule: Sized {
     /// Evidence of equal priors.
     fn start(&self) -> Self::Evidence;
 
-    /// Takes in the sums of a full block; a decision starts again from the prior.
-    fn end_of_block(&self, sums: &[u32], evidence: &mut Self::Evidence) -> Option<Decision>;
+    /// Takes in the sums of a full block and leaves zeros; a decision starts again
+    /// from the prior.
+    fn end_of_block(&self, sums: &mut [u32], evidence: &mut Self::Evidence) -> Option<Decision>;
 
     /// The end of a whisk or of a recording, with `samples` in the open block.
     /// Rules that decide on the way drop what is left.

@@ -121,13 +121,19 @@ impl DecisionRule for SequentialRule {
     /// No overflow, however many blocks pass without a decision: sums are
     /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
     /// here fits an i32.
-    fn end_of_block(&self, sums: &[u32], evidence: &mut SequentialEvidence) -> Option<Decision> {
+    // Once a block: apart from the samples, which then need less of the stack.
+    #[inline(never)]
+    fn end_of_block(
+        &self,
+        sums: &mut [u32],
+        evidence: &mut SequentialEvidence,
+    ) -> Option<Decision> {
         let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
         let levels = sums.iter().zip(&evidence.deficits);
         let lead = levels.map(|(&sum, &deficit)| level(sum, deficit)).max()?;
         let mut near = 0;
-        for (deficit, &sum) in evidence.deficits.iter_mut().zip(sums) {
-            let behind = (lead - level(sum, *deficit)) as u32;
+        for (deficit, sum) in evidence.deficits.iter_mut().zip(&mut *sums) {
+            let behind = (lead - level(core::mem::take(sum), *deficit)) as u32;
             near += usize::from(behind < self.far);
             *deficit = behind.min(MAX_DEFICIT);
         }
@@ -137,7 +143,11 @@ impl DecisionRule for SequentialRule {
             return None;
         }
         let decision = self.decide(sums.len(), evidence)?;
-        *evidence = self.start();
+        // Those beyond the model's classes are always zero.
+        for (deficit, _) in evidence.deficits.iter_mut().zip(sums) {
+            *deficit = 0;
+        }
+        evidence.blocks = 0;
         Some(decision)
     }
 

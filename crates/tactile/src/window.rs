@@ -46,8 +46,9 @@ impl DecisionRule for WindowRule {
         Totals::default()
     }
 
-    fn end_of_block(&self, sums: &[u32], totals: &mut Totals) -> Option<Decision> {
+    fn end_of_block(&self, sums: &mut [u32], totals: &mut Totals) -> Option<Decision> {
         totals.add(sums, self.block);
+        sums.fill(0);
         if totals.samples() < self.window {
             return None;
         }

@@ -41,8 +41,9 @@ impl DecisionRule for StationaryRule {
         Totals::default()
     }
 
-    fn end_of_block(&self, sums: &[u32], totals: &mut Totals) -> Option<Decision> {
+    fn end_of_block(&self, sums: &mut [u32], totals: &mut Totals) -> Option<Decision> {
         totals.add(sums, self.interval);
+        sums.fill(0);
         None
     }
 
