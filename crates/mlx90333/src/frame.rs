@@ -217,14 +217,12 @@ impl Decoder {
     /// The first [`FrameError`] that applies, in the order they are listed.
     #[inline]
     pub const fn decode(&self, bytes: &[u8; FRAME_LEN]) -> Result<Frame, FrameError> {
+        let [start, b1, b2, b3, b4, b5, b6, found] = *bytes;
         match u64::from_le_bytes(*bytes) {
             u64::MAX => return Err(FrameError::NoSensor),
+            _ if start == START_BYTE => {}
             0 => return Err(FrameError::LineLow),
-            _ => {}
-        }
-        let [start, b1, b2, b3, b4, b5, b6, found] = *bytes;
-        if start != START_BYTE {
-            return Err(FrameError::BadStart(start));
+            _ => return Err(FrameError::BadStart(start)),
         }
         if let Some(expected) = self.sum_rule.expected(bytes)
             && expected != found

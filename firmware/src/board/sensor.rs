@@ -138,21 +138,21 @@ impl FrameSource for Frames {
     /// sensor begins anew, and the next call finds none.
     #[inline]
     fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        let mut taken = None;
-        if self.running {
-            self.running = false;
-            if !is_complete() {
-                self.abort();
-                return Err(BusError);
-            }
-            // In case the interrupt, and with it `end_of_frame`, is late.
-            self.stop();
-            compiler_fence(Ordering::Acquire);
-            let words = RECEIVED.each_ref().map(|word| word.load(Ordering::Relaxed));
-            let [[a, b, c, d], [e, f, g, h]] = words.map(u32::to_ne_bytes);
-            taken = Some([a, b, c, d, e, f, g, h]);
+        if !self.running {
+            self.start();
+            return Ok(None);
         }
+        self.running = false;
+        if !is_complete() {
+            self.abort();
+            return Err(BusError);
+        }
+        // In case the interrupt, and with it `end_of_frame`, is late.
+        self.stop();
+        compiler_fence(Ordering::Acquire);
+        let words = RECEIVED.each_ref().map(|word| word.load(Ordering::Relaxed));
         self.start();
-        Ok(taken)
+        let [low, high] = words.map(u64::from);
+        Ok(Some((high << 32 | low).to_le_bytes()))
     }
 }
