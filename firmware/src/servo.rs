@@ -97,7 +97,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
 
     /// One tick towards protraction `setpoint`, unless another was commanded;
     /// off while the whisker's sensor is not `valid`.
-    #[inline]
+    // Apart: a tick in one piece runs out of registers.
+    #[inline(never)]
     pub fn step(
         &mut self,
         config: &ServoConfig<R>,

@@ -14,22 +14,22 @@ impl Timing {
     /// A tick begins at `now`; one is due every `period` counts (0: not known).
     #[inline]
     pub fn begin(&mut self, now: u32, period: u32) {
-        if let Some(last) = self.begun
-            && period > 0
-        {
-            // Half a period of jitter is none; more means that whole ticks are lost.
+        if let Some(last) = self.begun {
+            // Up to a third more than a period, no tick can be lost.
             let elapsed = now.wrapping_sub(last);
-            if elapsed >= period.saturating_add(period / 2) {
+            if elapsed - elapsed / 4 > period {
                 self.miss(elapsed, period);
             }
         }
         self.begun = Some(now);
     }
 
+    /// Half a period of jitter is none; more means that whole ticks are lost.
     #[cold]
     fn miss(&mut self, elapsed: u32, period: u32) {
-        let late = elapsed.saturating_add(period / 2) / period;
-        self.missed = self.missed.saturating_add(late.saturating_sub(1));
+        let rounded = elapsed.saturating_add(period / 2);
+        let periods = rounded.checked_div(period).unwrap_or(0);
+        self.missed = self.missed.saturating_add(periods.saturating_sub(1));
     }
 
     /// The tick that began last ends at `now`.

@@ -5,6 +5,12 @@ use core::sync::atomic::{AtomicU32, Ordering};
 /// Ticks since the start. Only the tick counts it up.
 pub(crate) static TICKS: WrappingCounter = WrappingCounter::new();
 
+/// The longest tick of the last whole second, in counts of the clock, and the ticks
+/// missed since the start. Only the tick sets them.
+pub(crate) static WORST: WrappingCounter = WrappingCounter::new();
+/// See [`WORST`].
+pub(crate) static MISSED: WrappingCounter = WrappingCounter::new();
+
 /// A count; wraps around.
 pub(crate) struct WrappingCounter(AtomicU32);
 
@@ -14,11 +20,19 @@ impl WrappingCounter {
         Self(AtomicU32::new(0))
     }
 
-    /// One more, for the only writer. A load and a store, because a Cortex-M0+
-    /// has no instruction that does both.
+    /// One more, for the only writer; the new count. A load and a store, because a
+    /// Cortex-M0+ has no instruction that does both.
     #[inline]
-    pub(crate) fn increment(&self) {
-        self.0.store(self.get().wrapping_add(1), Ordering::Relaxed);
+    pub(crate) fn increment(&self) -> u32 {
+        let count = self.get().wrapping_add(1);
+        self.set(count);
+        count
+    }
+
+    /// Another count, from the only writer.
+    #[inline]
+    pub(crate) fn set(&self, count: u32) {
+        self.0.store(count, Ordering::Relaxed);
     }
 
     /// The count.

@@ -12,7 +12,7 @@
 use firmware::Event;
 use heapless::spsc::{Consumer, Producer};
 
-use super::counters::{TICKS, WrappingCounter};
+use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::scene::{self, Motion, Number, Perception, SETTINGS, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::watchdog::Watchdog;
@@ -25,6 +25,8 @@ pub struct Module {
     inner: firmware::Module<Number, Frames, Motion, Perception, Counter, 1, 1>,
     /// In RAM, where they can be changed.
     settings: Settings,
+    /// The next full second, in [`TICKS`].
+    second: u32,
 }
 
 /// Events that found the queue full. Only the tick counts them.
@@ -51,6 +53,7 @@ pub(crate) fn start(core: cortex_m::Peripherals) -> Module {
     Module {
         inner,
         settings: SETTINGS,
+        second: TICK_HZ,
     }
 }
 
@@ -62,13 +65,18 @@ pub(crate) fn tick(module: &mut Module, queue: &mut Producer<'static, Event>) {
             DROPPED.increment();
         }
     });
-    TICKS.increment();
+    if TICKS.increment() == module.second {
+        tell_timing(module);
+    }
 }
 
-/// The longest tick since the last call, and the ticks missed since the start.
-pub(crate) fn timing(module: &mut Module) -> (u32, u32) {
+/// Once a second: for [`Idle`], which has no access to the module.
+#[cold]
+fn tell_timing(module: &mut Module) {
+    module.second = module.second.wrapping_add(TICK_HZ);
     let timing = module.inner.timing_mut();
-    (timing.take_worst(), timing.missed())
+    WORST.set(timing.take_worst());
+    MISSED.set(timing.missed());
 }
 
 /// The sensor's frame has ended.
@@ -116,25 +124,23 @@ impl Idle {
         }
     }
 
-    /// What is to be done between two sleeps; `timing` asks the module for its
-    /// [`timing`].
-    pub(crate) fn run(&mut self, timing: impl FnOnce() -> (u32, u32)) {
-        while let Some(event) = self.events.dequeue() {
-            write(event);
-        }
+    /// What is to be done between two sleeps.
+    pub(crate) fn run(&mut self) {
         let now = TICKS.get();
         if now == self.fed {
             return;
         }
         self.fed = now;
+        while let Some(event) = self.events.dequeue() {
+            write(event);
+        }
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
         if now.wrapping_sub(self.logged) >= TICK_HZ {
             self.logged = now;
-            let (worst, missed) = timing();
             let health = log::Health {
-                worst,
-                missed,
+                worst: WORST.get(),
+                missed: MISSED.get(),
                 dropped: DROPPED.get(),
             };
             log::health(&health, &self.before);
@@ -165,6 +171,8 @@ macro_rules! program {
 
             #[shared]
             struct Shared {
+                // Its two tasks cannot interrupt each other.
+                #[lock_free]
                 module: Module,
             }
 
@@ -189,24 +197,20 @@ macro_rules! program {
             }
 
             #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, events])]
-            fn tick(mut cx: tick::Context) {
+            fn tick(cx: tick::Context) {
                 cx.local.tick_timer.acknowledge();
-                let events = cx.local.events;
-                cx.shared
-                    .module
-                    .lock(|module| program::tick(module, events));
+                program::tick(cx.shared.module, cx.local.events);
             }
 
             #[task(binds = $end_of_frame, priority = 2, shared = [module])]
-            fn end_of_frame(mut cx: end_of_frame::Context) {
-                cx.shared.module.lock(program::end_of_frame);
+            fn end_of_frame(cx: end_of_frame::Context) {
+                program::end_of_frame(cx.shared.module);
             }
 
-            #[idle(shared = [module], local = [idle])]
-            fn idle(mut cx: idle::Context) -> ! {
+            #[idle(local = [idle])]
+            fn idle(cx: idle::Context) -> ! {
                 loop {
-                    let idle = &mut *cx.local.idle;
-                    idle.run(|| cx.shared.module.lock(program::timing));
+                    cx.local.idle.run();
                     cortex_m::asm::wfi();
                 }
             }
