@@ -129,11 +129,6 @@ impl<const B: usize> Features<B> {
         }
     }
 
-    /// Forgets the open block.
-    pub fn reset(&self, state: &mut FeaturesState<B>) {
-        *state = self.state();
-    }
-
     #[inline(never)]
     fn take(&self, state: &mut FeaturesState<B>) -> [f32; 5] {
         let bins = self.bank.read(&state.bank, Measure::Magnitude);

@@ -155,11 +155,6 @@ impl Regression {
         terms.map(|(powers, c)| c * product(powers, &scaled)).sum()
     }
 
-    /// Number of features.
-    pub fn features(&self) -> usize {
-        self.centre.len()
-    }
-
     /// Powers and coefficients, of centred and scaled features.
     pub fn terms(&self) -> &[(Vec<u8>, f64)] {
         &self.terms

@@ -52,7 +52,9 @@ impl<'a, const C: usize, const B: usize, const K: usize> SpectralTemplate<'a, C,
         }
     }
 
-    /// Takes one sample of all channels; the last one of a block decides.
+    /// Takes one sample of all channels; the last one of a block decides. At
+    /// the end of a signal there is no decision: the spectrum of an open block is
+    /// another than those trained on, and the next signal takes a new state.
     #[inline]
     pub fn push(&self, state: &mut SpectralState<C, B>, sample: &[f32; C]) -> Option<Choice> {
         let mut complete = false;
@@ -60,13 +62,6 @@ impl<'a, const C: usize, const B: usize, const K: usize> SpectralTemplate<'a, C,
             complete = self.bank.push(bank, x);
         }
         if complete { self.decide(state) } else { None }
-    }
-
-    /// Forgets the open block: as long as it is not complete, its spectrum is
-    /// another than those trained on, so there is no decision at the end of a
-    /// signal.
-    pub fn reset(&self, state: &mut SpectralState<C, B>) {
-        *state = self.state();
     }
 
     #[inline(never)]

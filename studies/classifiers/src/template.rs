@@ -96,11 +96,6 @@ impl<'a, const C: usize, const K: usize> Template<'a, C, K> {
         *state = self.state();
         choice
     }
-
-    /// Forgets the samples.
-    pub fn reset(&self, state: &mut TemplateState<K>) {
-        *state = self.state();
-    }
 }
 
 impl<const K: usize> TemplateState<K> {

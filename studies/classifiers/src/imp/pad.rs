@@ -62,13 +62,8 @@ impl<const N: usize> Imp<N> {
     /// sample. The state is then as new.
     pub fn finish(&self, state: &mut ImpState<N>) -> Option<[u32; N]> {
         let found = (state.left < self.window).then(|| end(state));
-        self.reset(state);
-        found
-    }
-
-    /// Forgets all samples.
-    pub fn reset(&self, state: &mut ImpState<N>) {
         *state = self.state();
+        found
     }
 }
 

@@ -120,11 +120,6 @@ impl NetworkTrainer {
         Ok(())
     }
 
-    /// Class names, in order of first appearance.
-    pub fn names(&self) -> &[String] {
-        &self.names
-    }
-
     /// Rows so far.
     pub fn rows(&self) -> usize {
         self.classes.len()

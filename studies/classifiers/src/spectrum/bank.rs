@@ -136,11 +136,6 @@ impl<const B: usize> Bank<B> {
         }
         bins
     }
-
-    /// Forgets the open block.
-    pub fn reset(&self, state: &mut BankState<B>) {
-        *state = self.state();
-    }
 }
 
 /// Zero for what rounding took below it, and for what is no number. By hand, as
@@ -164,13 +159,6 @@ fn root(x: f32) -> f32 {
     let y = guess * (1.875 - w * (1.25 - 0.375 * w));
     let near = x * y;
     near + near * (0.5 - 0.5 * near * y)
-}
-
-impl<const B: usize> BankState<B> {
-    /// Samples in the open (or complete) block of this bank.
-    pub fn samples(&self, bank: &Bank<B>) -> u32 {
-        bank.block.saturating_sub(self.left)
-    }
 }
 
 #[cfg(test)]

@@ -103,7 +103,7 @@ fn board_and_pc_choose_the_same() {
                         wrong += usize::from(outcome.class != class);
                     }
                 }
-                board.reset(&mut state);
+                state = board.state();
                 assert_eq!(pc.finish(), None);
             }
         }

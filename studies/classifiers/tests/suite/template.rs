@@ -141,8 +141,7 @@ fn the_widest_window_of_codes_adds_up() {
     let template = Template::<24, 2>::new(&two).unwrap();
     template.push(&mut state, &[i16::MAX; 24]);
     assert_eq!(state.errors(), &[24 * 65535 * 65535; 2]);
-    template.reset(&mut state);
-    assert_eq!(template.finish(&mut state), None);
+    assert_eq!(template.finish(&mut template.state()), None);
 }
 
 #[test]

@@ -15,7 +15,6 @@ pub(crate) const TIMES: usize = 2;
 /// A contact's condition, as places in the paper's lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Contact {
-    pub(crate) time: usize,
     pub(crate) angle: usize,
     pub(crate) speed: usize,
     pub(crate) texture: usize,
@@ -31,21 +30,16 @@ pub(crate) fn speeds() -> Vec<f64> {
 /// All contacts in the order of the jobs.
 pub(crate) fn contacts(extent: Extent) -> Vec<Contact> {
     let mut contacts = Vec::new();
-    for time in 0..TIMES {
-        for angle in (0..ANGLES_DEG.len()).step_by(extent.stride()) {
-            for speed in (0..SPEEDS_MM_S.2).step_by(extent.stride()) {
-                for texture in 0..TEXTURES.len() {
-                    contacts.push(Contact {
-                        time,
-                        angle,
-                        speed,
-                        texture,
-                    });
-                }
-            }
+    for angle in (0..ANGLES_DEG.len()).step_by(extent.stride()) {
+        for speed in (0..SPEEDS_MM_S.2).step_by(extent.stride()) {
+            contacts.extend((0..TEXTURES.len()).map(|texture| Contact {
+                angle,
+                speed,
+                texture,
+            }));
         }
     }
-    contacts
+    contacts.repeat(TIMES)
 }
 
 /// How many contacts there are.
@@ -161,7 +155,6 @@ mod tests {
         assert_eq!((speeds.len(), speeds[0], speeds[10]), (11, 6.0, 106.0));
         let last = contacts(Extent::Full).pop();
         let expected = Contact {
-            time: 1,
             angle: 7,
             speed: 10,
             texture: 3,
