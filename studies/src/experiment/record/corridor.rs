@@ -65,16 +65,6 @@ impl Side {
         let rig = &request.rigs.corridor;
         let left = if side == 0 { 1.0 } else { -1.0 };
         let mut chance = Chance::new(seed_of(seed, &[0]));
-        let mut whiskers = Vec::with_capacity(VIBRISSAE);
-        for (n, vibrissa) in rig.layout.vibrissae().into_iter().enumerate() {
-            let seed = seed_of(seed, &[1, n as u64]);
-            let whisker = whiskers::vibrissa(
-                (vibrissa.arc, rig.layout.tip_diameter_m),
-                rig.full_scale_rad,
-                seed,
-            )?;
-            whiskers.push((vibrissa, whisker));
-        }
         Ok(Self {
             plate: Plate {
                 point_m: [chance.between(-0.01, 0.01), left * rig.width_m / 2.0, 0.0],
@@ -82,7 +72,7 @@ impl Side {
                 along: [1.0, 0.0, 0.0],
                 surface: whiskers::wall(texture),
             },
-            whiskers,
+            whiskers: whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?,
             bent: [0.0; VIBRISSAE],
             power: [0.0; VIBRISSAE],
         })

@@ -40,14 +40,6 @@ pub(crate) fn codes(reading: [f64; 2], bits: usize) -> [i16; 2] {
     reading.map(|x| sensor_code(most * x, most))
 }
 
-/// The codes of all vibrissae at a tick, in order.
-pub(crate) fn row(codes: &[Vec<[i16; 2]>], tick: usize) -> [[i16; 2]; VIBRISSAE] {
-    core::array::from_fn(|n| {
-        let one = codes.get(n).and_then(|codes| codes.get(tick));
-        one.copied().unwrap_or_default()
-    })
-}
-
 /// Records a sweep: one sample of 33 numbers.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
     let rig = &request.rigs.pad;
@@ -61,25 +53,17 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         along: [0.0, 1.0, 0.0],
         surface: whiskers::sandpaper(paper),
     };
-    let mut codes = Vec::with_capacity(VIBRISSAE);
-    for (n, vibrissa) in rig.layout.vibrissae().iter().enumerate() {
-        let seed = seed_of(seed, &[1, n as u64]);
-        let mut whisker = whiskers::vibrissa(
-            (vibrissa.arc, rig.layout.tip_diameter_m),
-            rig.full_scale_rad,
-            seed,
-        )?;
-        let ticks = (0..rig.ticks()).map(|tick| {
-            let pose = panned(&vibrissa.pose, rig.pan(tick));
-            whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
-            self::codes(whisker.reading(), rig.bits)
-        });
-        codes.push(ticks.collect::<Vec<_>>());
-    }
+    let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
     let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;
     let (mut state, mut sum) = (imp.state(), ImpSweep::default());
     for tick in 0..rig.ticks() {
-        if let Some(window) = imp.push(&mut state, &row(&codes, tick)) {
+        let mut all = [[0; 2]; VIBRISSAE];
+        for ((vibrissa, whisker), code) in whiskers.iter_mut().zip(&mut all) {
+            let pose = panned(&vibrissa.pose, rig.pan(tick));
+            whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
+            *code = codes(whisker.reading(), rig.bits);
+        }
+        if let Some(window) = imp.push(&mut state, &all) {
             sum.add(&window);
         }
     }

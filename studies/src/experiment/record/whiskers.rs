@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::paper::psik::ARCS;
 use crate::refused::refused;
+use crate::rigs::{Layout, Vibrissa, seed_of};
 use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 
@@ -96,7 +97,7 @@ fn arcs(tip_diameter_m: f64) -> Arcs {
 /// A vibrissa of an arc, from 0, with the diameter of its tip. The sensor of the
 /// longest has the gain that is given; the same push aside turns shorter ones the
 /// more, and their sensors have the less.
-pub(crate) fn vibrissa(
+fn vibrissa(
     (arc, tip_diameter_m): (usize, f64),
     full_scale_rad: f64,
     seed: u64,
@@ -112,6 +113,21 @@ pub(crate) fn vibrissa(
         ..sensor(full_scale_rad * longest / shaft.length_m)
     };
     TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
+}
+
+/// The vibrissae of a pad, arc by arc, each with a seed of its own.
+pub(crate) fn pad(
+    layout: &Layout,
+    full_scale_rad: f64,
+    seed: u64,
+) -> Result<Vec<(Vibrissa, TouchingWhisker)>, Error> {
+    let vibrissae = layout.vibrissae().into_iter().enumerate();
+    let make = |(n, of): (usize, Vibrissa)| {
+        let seed = seed_of(seed, &[1, n as u64]);
+        let whisker = vibrissa((of.arc, layout.tip_diameter_m), full_scale_rad, seed)?;
+        Ok((of, whisker))
+    };
+    vibrissae.map(make).collect()
 }
 
 /// The four walls of relief plexiglass, by number: their periods differ.
