@@ -9,6 +9,5 @@ pub mod experiment;
 mod moments;
 mod page;
 pub mod paper;
-mod peaks;
 mod refused;
 pub mod rigs;

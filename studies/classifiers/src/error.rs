@@ -39,12 +39,12 @@ pub enum Error {
         /// Channels.
         channels: usize,
     },
-    /// A slice or a row is not as long as it must be.
+    /// A slice, a row or the bins of a bank are not as many as they must be.
     #[error("{found} numbers; {expected} are needed")]
     Length {
-        /// By the shape.
+        /// By the shape or the bank.
         expected: usize,
-        /// In the slice.
+        /// In what was given.
         found: usize,
     },
     /// Nothing to train on.
@@ -78,14 +78,6 @@ pub enum Error {
         block: usize,
         /// Points of the transform.
         points: u32,
-    },
-    /// Another number of bins than the bank has.
-    #[error("{bins} bins in a bank of {bank}")]
-    Count {
-        /// Asked for.
-        bins: usize,
-        /// In the bank.
-        bank: usize,
     },
     /// The words of a table of templates are not a whole number of samples, at
     /// least one.

@@ -191,13 +191,6 @@ pub struct TemplateRecogniser<'t> {
     errors: Vec<u64>,
 }
 
-impl TemplateRecogniser<'_> {
-    /// The error of each class so far, in codes².
-    pub fn errors(&self) -> &[u64] {
-        &self.errors
-    }
-}
-
 impl Recogniser for TemplateRecogniser<'_> {
     fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
         let Templates {

@@ -20,20 +20,16 @@ use crate::rigs::seed_of;
 use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 
-/// How many recordings a data set has.
-fn count(dataset: Dataset, extent: Extent) -> usize {
-    match dataset {
+/// The jobs of a data set.
+fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
+    let count = match dataset {
         Dataset::Floor => floor::jobs(extent),
         Dataset::Head => head::jobs(),
         Dataset::Table => table::jobs(extent),
         Dataset::Pad => pad::jobs(extent),
         Dataset::Corridor => corridor::jobs(extent),
-    }
-}
-
-/// The jobs of a data set.
-fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
-    (0..count(dataset, extent)).map(move |number| Job { dataset, number })
+    };
+    (0..count).map(move |number| Job { dataset, number })
 }
 
 /// The jobs of all data sets that the experiments of a request need, each once.
@@ -50,14 +46,14 @@ pub fn jobs(request: &Request) -> Vec<Job> {
 fn one(request: &Request, job: Job) -> Result<Recording, Error> {
     let Job { dataset, number } = job;
     let seed = seed_of(request.seed, &[dataset as u64, number as u64]);
-    let recording = match dataset {
-        Dataset::Floor => floor::record(request, number, seed),
-        Dataset::Head => head::record(request, number, seed),
-        Dataset::Table => table::record(request, number, seed),
-        Dataset::Pad => pad::record(request, number, seed),
-        Dataset::Corridor => corridor::record(request, number, seed),
+    let record = match dataset {
+        Dataset::Floor => floor::record,
+        Dataset::Head => head::record,
+        Dataset::Table => table::record,
+        Dataset::Pad => pad::record,
+        Dataset::Corridor => corridor::record,
     };
-    recording.map_err(|error| within(dataset.text(), error))
+    record(request, number, seed).map_err(|error| within(dataset.text(), error))
 }
 
 /// Records `jobs` on all cores. The result depends on neither their order nor

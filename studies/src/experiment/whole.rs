@@ -48,7 +48,10 @@ fn introduction(page: &mut Page, request: &Request, claims: &[Claim]) {
          in BIOTACT's early visits, that its whiskers have motors that follow with errors, how \
          POSE's signals are aligned and what ends its approach. Made by \
          `studies experiment {}{}` from seed {}.",
-        names(&request.names),
+        match &*request.names {
+            [one] => one.text(),
+            _ => "all",
+        },
         if request.extent == Extent::Quick { " --quick" } else { "" },
         request.seed
     ));
@@ -119,12 +122,4 @@ fn reasons(page: &mut Page, claims: &[Claim]) {
     for (why, whats) in reasons {
         page.say(format_args!("- *{}*: {why}.", whats.join("*; *")));
     }
-}
-
-fn names(names: &[Name]) -> String {
-    if names == Name::ALL {
-        return "all".to_owned();
-    }
-    let names: Vec<&str> = names.iter().map(|name| name.text()).collect();
-    names.join(", ")
 }

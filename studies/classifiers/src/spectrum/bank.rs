@@ -44,9 +44,9 @@ impl<const B: usize> Bank<B> {
     pub fn new(bins: &Bins, block: u32) -> Result<Self, Error> {
         bins.check_block(block as usize)?;
         if bins.count != B {
-            return Err(Error::Count {
-                bins: bins.count,
-                bank: B,
+            return Err(Error::Length {
+                expected: B,
+                found: bins.count,
             });
         }
         let points = f64::from(bins.points);

@@ -10,11 +10,7 @@ fn options(hidden: usize) -> Options {
         hidden,
         iterations: 400,
         decay: 0.0,
-        held_out: 0.0,
-        patience: 1,
-        attempts: 10,
-        reliable: 0.25,
-        seed: 1,
+        ..Options::imp(1)
     }
 }
 
@@ -24,6 +20,17 @@ fn train(options: Options, rows: &[(&str, Vec<f64>)]) -> Result<Trained, Error> 
         trainer.add(label, row)?;
     }
     trainer.train()
+}
+
+/// So many rows, of classes a, b and so on in turn.
+fn rows_of(
+    count: usize,
+    classes: usize,
+    mut row: impl FnMut(usize) -> Vec<f64>,
+) -> Vec<(&'static str, Vec<f64>)> {
+    (0..count)
+        .map(|n| (["a", "b", "c"][n % classes], row(n)))
+        .collect()
 }
 
 /// The networks of tests/reference/mlp.py, which printed the outputs.
@@ -101,9 +108,7 @@ fn two_normal_classes_are_told_as_well_as_can_be() {
             .map(|i| scaled(i, shift + random.normal()))
             .collect()
     };
-    let rows: Vec<(&str, Vec<f64>)> = (0..4000)
-        .map(|n| (["a", "b"][n % 2], draw(n % 2, &mut random)))
-        .collect();
+    let rows = rows_of(4000, 2, |n| draw(n % 2, &mut random));
     let trained = train(
         Options {
             held_out: 0.15,
@@ -125,9 +130,7 @@ fn two_normal_classes_are_told_as_well_as_can_be() {
 #[test]
 fn the_same_seed_gives_the_same_bits_and_another_another() {
     let mut random = Random(3);
-    let rows: Vec<(&str, Vec<f64>)> = (0..60)
-        .map(|n| (["a", "b", "c"][n % 3], rows::imp(n % 3, 6, &mut random)))
-        .collect();
+    let rows = rows_of(60, 3, |n| rows::imp(n % 3, 6, &mut random));
     let once = train(options(4), &rows).unwrap();
     assert_eq!(once, train(options(4), &rows).unwrap());
     let other = Options {
@@ -140,9 +143,7 @@ fn the_same_seed_gives_the_same_bits_and_another_another() {
 #[test]
 fn a_penalty_shrinks_weights() {
     let mut random = Random(5);
-    let rows: Vec<(&str, Vec<f64>)> = (0..60)
-        .map(|n| (["a", "b"][n % 2], rows::imp(n % 2, 6, &mut random)))
-        .collect();
+    let rows = rows_of(60, 2, |n| rows::imp(n % 2, 6, &mut random));
     let size = |decay| {
         let with = Options {
             decay,
@@ -160,14 +161,7 @@ fn a_penalty_shrinks_weights() {
 #[test]
 fn holding_out_stops_memorising() {
     let mut random = Random(11);
-    let rows: Vec<(&str, Vec<f64>)> = (0..120)
-        .map(|n| {
-            (
-                ["a", "b"][n % 2],
-                (0..30).map(|_| random.normal()).collect(),
-            )
-        })
-        .collect();
+    let rows = rows_of(120, 2, |_| (0..30).map(|_| random.normal()).collect());
     let mean = |options| {
         let rates = train(options, &rows).unwrap().hit_rates;
         rates.iter().sum::<f64>() / rates.len() as f64
@@ -184,14 +178,7 @@ fn holding_out_stops_memorising() {
 
 #[test]
 fn an_input_that_is_constant_in_training_is_left_out() {
-    let rows: Vec<(&str, Vec<f64>)> = (0..40)
-        .map(|n| {
-            (
-                ["a", "b"][n % 2],
-                vec![(n % 2) as f64 + 0.01 * n as f64, 0.1],
-            )
-        })
-        .collect();
+    let rows = rows_of(40, 2, |n| vec![(n % 2) as f64 + 0.01 * n as f64, 0.1]);
     let trained = train(options(3), &rows).unwrap();
     assert_eq!(trained.network.gain()[1], 0.0);
     let y = |constant| trained.network.outputs(&[0.5, constant]).unwrap();

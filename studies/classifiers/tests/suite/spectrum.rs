@@ -213,6 +213,9 @@ fn what_is_wrong_is_named() {
     let mut spectrum = Spectrum::new(all, 8).unwrap();
     assert_eq!(spectrum.of([0.0; 7], Measure::Power), Err(block(7)));
     assert_eq!(spectrum.of([0.0; 9], Measure::Power), Err(block(9)));
-    let count = Error::Count { bins: 5, bank: 4 };
-    assert_eq!(Bank::<4>::new(&all, 8).err(), Some(count));
+    let length = Error::Length {
+        expected: 4,
+        found: 5,
+    };
+    assert_eq!(Bank::<4>::new(&all, 8).err(), Some(length));
 }

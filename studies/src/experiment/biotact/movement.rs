@@ -7,7 +7,6 @@ use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
-use crate::peaks::peaks;
 use crate::rigs::CHANNELS;
 
 /// Mean of some visits.
@@ -25,6 +24,30 @@ pub(super) struct Movement {
     pub(super) deflection: f64,
     /// Spread of x between whisks at the same time of the whisk, codes.
     pub(super) spread: f64,
+}
+
+/// A rise and fall of θ' that makes a maximum a peak, degrees: θ' is smooth, and
+/// an unmodulated whisk has no dip at all.
+const PROMINENCE_DEG: f64 = 0.5;
+
+/// Maxima of angles that are parted by dips of half a degree or more. What comes
+/// before the first rise does not count: a recording may begin on the way down
+/// from a peak that is not its own.
+fn peaks(angles: impl Iterator<Item = f64>) -> usize {
+    let (mut count, mut rising, mut extreme) = (0, false, f64::INFINITY);
+    for angle in angles {
+        extreme = if rising {
+            extreme.max(angle)
+        } else {
+            extreme.min(angle)
+        };
+        if rising && angle <= extreme - PROMINENCE_DEG {
+            (count, rising, extreme) = (count + 1, false, angle);
+        } else if !rising && angle >= extreme + PROMINENCE_DEG {
+            (rising, extreme) = (true, angle);
+        }
+    }
+    count
 }
 
 /// Contacts, given whether there is one at each tick; shorter gaps than `least`
@@ -96,8 +119,28 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
     let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let smooth = TEXTURES.len() - 1;
+    let classified = STRATEGIES
+        .iter()
+        .enumerate()
+        .flat_map(|(strategy, (name, _))| {
+            let places = DISTANCES_MM.iter().enumerate();
+            places.map(move |(n, mm)| (*name, format!("{mm:.0} mm"), number(strategy, smooth, n)))
+        });
+    let names = STRATEGIES.iter().map(|strategy| strategy.0);
+    let names = names.chain(["strong and fast RCP"]).enumerate();
+    let met = names.map(|(n, name)| (name, format!("at {EARLY_DEG:.0} degrees"), early(n)));
     let mut rows = Vec::new();
-    let mut add = |name: &str, place: String, found: Movement| {
+    let (mut gentle, mut strong) = (0.0_f64, Movement::default());
+    for (name, place, job) in classified.chain(met) {
+        let Some(visit) = all.get(job) else {
+            continue;
+        };
+        let found = movement(visit, ticks);
+        if job == early(STRATEGIES.len()) {
+            strong = found;
+        } else {
+            gentle = gentle.max(found.biphasic);
+        }
         rows.push(vec![
             name.to_owned(),
             place,
@@ -108,28 +151,6 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
             format!("{:.0}", found.biphasic),
             format!("{:.1}", found.contacts),
         ]);
-    };
-    let (mut gentle, mut strong) = (0.0_f64, Movement::default());
-    for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
-        for (distance, mm) in DISTANCES_MM.iter().enumerate() {
-            if let Some(visit) = all.get(number(strategy, smooth, distance)) {
-                let found = movement(visit, ticks);
-                gentle = gentle.max(found.biphasic);
-                add(name, format!("{mm:.0} mm"), found);
-            }
-        }
-    }
-    let names = STRATEGIES.iter().map(|strategy| strategy.0);
-    for (strategy, name) in names.chain(["strong and fast RCP"]).enumerate() {
-        if let Some(visit) = all.get(early(strategy)) {
-            let found = movement(visit, ticks);
-            if strategy < STRATEGIES.len() {
-                gentle = gentle.max(found.biphasic);
-            } else {
-                strong = found;
-            }
-            add(name, format!("at {EARLY_DEG:.0} degrees"), found);
-        }
     }
     page.say(
         "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \
@@ -156,7 +177,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
 
 #[cfg(test)]
 mod tests {
-    use super::contacts;
+    use super::{contacts, peaks};
 
     #[test]
     fn contacts_are_parted_by_long_gaps_only() {
@@ -164,5 +185,20 @@ mod tests {
         assert_eq!(contacts(&touching, 3), 2);
         assert_eq!(contacts(&touching, 1), 3);
         assert_eq!(contacts(&[0.0; 5], 1), 0);
+    }
+
+    #[test]
+    fn peaks_are_counted_by_the_dips_between_them() {
+        let wave = |depth: f64| {
+            (0..1000).map(move |n| {
+                let t = f64::from(n) / 1000.0 * core::f64::consts::TAU;
+                100.0 - 30.0 * t.cos() - depth * (2.0 * t).cos()
+            })
+        };
+        assert_eq!(peaks(wave(0.0)), 1);
+        // Maxima at cos t = −30/(4 depth), the dip at t = π between them is
+        // (4 depth − 30)²/(8 depth): 0.24 degrees for 8.5, 3.4 for 12.
+        assert_eq!(peaks(wave(8.5)), 1);
+        assert_eq!(peaks(wave(12.0)), 2);
     }
 }
