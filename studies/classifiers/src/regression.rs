@@ -101,16 +101,12 @@ impl Regression {
             let square: f64 = column().map(|x| (x - *centre) * (x - *centre) / n).sum();
             let sd = square.sqrt();
             let most = column().fold(0.0_f64, |most, x| most.max(x.abs()));
-            if !(centre.is_finite() && sd.is_finite()) {
-                return Err(Error::Range);
-            }
             // A feature that is the same in all examples, but for the rounding
             // of its mean, says nothing.
             *scale = if sd > SAME * most { sd.recip() } else { 0.0 };
-        }
-        let finite = |x: &f64| x.is_finite();
-        if !scale.iter().all(finite) {
-            return Err(Error::Range);
+            if ![*centre, sd, *scale].iter().all(|x| x.is_finite()) {
+                return Err(Error::Range);
+            }
         }
         let mut fitted = Self {
             centre,
@@ -131,7 +127,7 @@ impl Regression {
         let coefficients = svd
             .solve(&targets, RANK * most)
             .map_err(|_| Error::Singular)?;
-        if !coefficients.iter().all(finite) {
+        if !coefficients.iter().all(|x| x.is_finite()) {
             return Err(Error::Singular);
         }
         fitted.terms = powers
