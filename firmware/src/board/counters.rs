@@ -5,10 +5,11 @@ use core::sync::atomic::{AtomicU32, Ordering};
 /// Ticks since the start. Only the tick counts it up.
 pub(crate) static TICKS: WrappingCounter = WrappingCounter::new();
 
-/// The longest tick of the last whole second, in counts of the clock, and the ticks
-/// missed since the start. Only the tick sets them.
+/// The longest tick of the last whole second, in counts of the clock. Only the tick
+/// sets it.
 pub(crate) static WORST: WrappingCounter = WrappingCounter::new();
-/// See [`WORST`].
+
+/// Ticks missed since the start, as of the last whole second. Only the tick sets it.
 pub(crate) static MISSED: WrappingCounter = WrappingCounter::new();
 
 /// A count; wraps around.

@@ -6,8 +6,9 @@
 //! | `end_of_frame` | 2 | raises /SS after the sensor's last byte |
 //! | `idle` | 0 | writes the log, feeds the watchdog, sleeps |
 //!
-//! The first two have one priority: they work on the same registers. They are
-//! bound to a board's interrupts by [`program!`](crate::program).
+//! The first two have one priority, as they work on the same registers: neither can
+//! interrupt the other, and they share the module without a lock. They are bound to
+//! a board's interrupts by [`program!`](crate::program).
 
 use firmware::Event;
 use heapless::spsc::{Consumer, Producer};
@@ -131,6 +132,7 @@ impl Idle {
             return;
         }
         self.fed = now;
+        // A tick queues its events before it counts itself.
         while let Some(event) = self.events.dequeue() {
             write(event);
         }

@@ -21,8 +21,8 @@ pub(crate) const TABLE: Table = Table {
 /// 24 KiB and 1024 were met by settings in flash and a class count as a type.
 /// Settings in RAM make the scales of fixed-point products run-time values, which
 /// takes scene `full` to 25,256 bytes of flash on the G071. The bound of the stack is
-/// widest there too, 1448 in scene `active`: a core without 64-bit products calls for
-/// them from within the tick.
+/// widest there too, 1448 in scene `active`, of 36 KiB of RAM; which call it grew by was
+/// not looked for.
 const PASSIVE_FLASH: u64 = 8 * 1024;
 const ACTIVE_FLASH: u64 = 25 * 1024;
 const RAM: u64 = 4 * 1024;
