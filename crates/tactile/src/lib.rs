@@ -45,7 +45,7 @@
 //!
 //! # Features
 //!
-//! - `std`: `train` (a histogram model from a recording, f64), `score` (how good
+//! - `std`: `train` (models from recordings, f64), `score` (how good
 //!   a classifier is) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
 

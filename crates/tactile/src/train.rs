@@ -9,6 +9,8 @@
 //! Samples are binned by the quantiser that the module will use, so that
 //! training and use agree to the last edge.
 
+pub mod joint;
+
 use std::borrow::ToOwned;
 use std::string::String;
 use std::vec;

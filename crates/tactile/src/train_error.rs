@@ -1,10 +1,12 @@
 //! What can be wrong with training data or its options.
 
+use std::string::String;
+
 use crate::error::ModelError;
 use crate::format::{MAX_CLASSES, MAX_NAME_BYTES};
 
 /// Why no model can be trained.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrainError {
     /// A sample that is infinite or not a number.
@@ -48,6 +50,24 @@ pub enum TrainError {
     Range {
         /// The channel, from zero.
         channel: usize,
+    },
+    /// An option of the joint trainer is out of its range.
+    #[error("{name} {found}; {low} to {high} is allowed")]
+    Option {
+        /// Which.
+        name: &'static str,
+        /// As it was given.
+        found: f64,
+        /// Least that is allowed.
+        low: f64,
+        /// Most that is allowed.
+        high: f64,
+    },
+    /// A class that was not felt for two blocks of samples.
+    #[error("{name}: less than two blocks of samples with contact")]
+    TooShort {
+        /// The class.
+        name: String,
     },
     /// A setting that no model file can hold.
     #[error(transparent)]

@@ -2,6 +2,7 @@
 
 mod channels;
 mod common;
+mod joint;
 mod model_file;
 mod rules;
 mod score;

@@ -1,0 +1,81 @@
+//! What the joint trainer is given.
+
+use std::string::String;
+use std::vec::Vec;
+
+use crate::format::MAX_BLOCK;
+use crate::train_error::TrainError;
+
+/// Channels of a sample.
+pub const CHANNELS: usize = 2;
+/// How to train.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Bins an axis, 2 to 128.
+    pub bins: usize,
+    /// Standard deviation of the smoothing, bins; 0 (none) to 128.
+    pub smooth: f64,
+    /// Samples in a block, 1 to 10000.
+    pub block: u32,
+    /// Samples without contact after which another touch begins.
+    pub gap: u32,
+    /// Most that a class may lie behind at the onset of a touch, bits.
+    pub limit_bits: f64,
+    /// Posterior at which the report and the floors let the rule decide.
+    pub threshold: f64,
+    /// Share of right decisions that the floors may refuse; 0: no floors.
+    pub refused: f64,
+}
+
+impl Default for Options {
+    /// As studied; the gap is 100 ms at 2 kHz.
+    fn default() -> Self {
+        Self {
+            bins: 32,
+            smooth: 0.7,
+            block: 20,
+            gap: 200,
+            limit_bits: 2.0,
+            threshold: 0.99,
+            refused: 0.05,
+        }
+    }
+}
+
+impl Options {
+    pub(super) fn check(&self) -> Result<(), TrainError> {
+        let option = |name, found: f64, low: f64, high: f64| {
+            // Not a number is outside, too.
+            if (low..=high).contains(&found) {
+                return Ok(());
+            }
+            Err(TrainError::Option {
+                name,
+                found,
+                low,
+                high,
+            })
+        };
+        option("bins", self.bins as f64, 2.0, 128.0)?;
+        option("smooth", self.smooth, 0.0, 128.0)?;
+        option("block", f64::from(self.block), 1.0, f64::from(MAX_BLOCK))?;
+        option("gap", f64::from(self.gap), 1.0, 1e9)?;
+        option("limit", self.limit_bits, 0.0, 1000.0)?;
+        option("threshold", self.threshold, 0.5, 1.0 - 1e-12)?;
+        option("refused", self.refused, 0.0, 0.5)
+    }
+}
+
+/// What was felt of one class without a break.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trial {
+    /// Its class.
+    pub label: String,
+    /// The recording that it is of: a run of a scene, a drive, a day.
+    pub recording: String,
+    /// x and y, in any unit, in time order; those in the air among them.
+    pub samples: Vec<[f64; CHANNELS]>,
+    /// Of each sample whether it counts: contact is at least the gate. What
+    /// has no such flag does not count.
+    pub counts: Vec<bool>,
+}

@@ -1,0 +1,229 @@
+//! How much each table weighs: samples are not independent of one another, nor
+//! tables of one another.
+//!
+//! The weights minimise the mean of −log₂ p(class | stretch) over stretches of 4, 8,
+//! 16 and 32 blocks, p being proportional to 2^(Σ wₜ Fₜ) with Fₜ the table's sum over
+//! the stretch. Each class and each length counts alike. The loss is convex in w: Newton.
+
+use core::f64::consts::LN_2;
+use std::vec;
+use std::vec::Vec;
+
+use super::tables::Evidence;
+
+/// Most that a table may weigh; an entry, w · (log₂ p + 20) · 1024, then fits 16 bits.
+pub const MAX_WEIGHT: f64 = 3.0;
+
+/// Lengths of stretches, blocks.
+pub(super) const LENGTHS: [usize; 4] = [4, 8, 16, 32];
+const STEPS: usize = 60;
+
+/// A stretch of blocks.
+struct Stretch {
+    class: usize,
+    /// What it counts for.
+    share: f64,
+    /// Sums, `[table][class]`.
+    sums: Vec<f64>,
+}
+
+/// The weights of the tables, each from 0 to [`MAX_WEIGHT`].
+pub(super) fn fitted(evidence: &[Evidence]) -> Vec<f64> {
+    let Some(first) = evidence.first() else {
+        return Vec::new();
+    };
+    let problem = Problem {
+        tables: first.tables,
+        classes: first.classes,
+        stretches: stretches(evidence, first.classes),
+    };
+    problem.solved()
+}
+
+/// All stretches of blocks of one piece, from every block on; where a trial is shorter
+/// than the shortest, the whole of it.
+fn stretches(evidence: &[Evidence], classes: usize) -> Vec<Stretch> {
+    let mut all = Vec::new();
+    for length in LENGTHS {
+        let from = all.len();
+        for piece in evidence {
+            all.extend(sums(piece, length).map(|sums| Stretch {
+                class: piece.class,
+                share: 0.0,
+                sums,
+            }));
+        }
+        let mut counts = vec![0_u32; classes];
+        for stretch in &all[from..] {
+            counts[stretch.class] += 1;
+        }
+        for stretch in &mut all[from..] {
+            stretch.share = 1.0 / f64::from(counts[stretch.class]);
+        }
+    }
+    let total: f64 = all.iter().map(|stretch| stretch.share).sum();
+    for stretch in &mut all {
+        stretch.share /= total;
+    }
+    all
+}
+
+/// The sums of each run of `length` blocks of a piece, `[table][class]`.
+pub(super) fn sums(piece: &Evidence, length: usize) -> impl Iterator<Item = Vec<f64>> {
+    let width = piece.tables * piece.classes;
+    let length = match piece.means.len() / width {
+        blocks if blocks < LENGTHS[0] && length == LENGTHS[0] => blocks.max(1),
+        _ => length,
+    };
+    piece
+        .means
+        .windows(width * length)
+        .step_by(width)
+        .map(move |blocks| {
+            let mut sums = vec![0.0; width];
+            for block in blocks.chunks_exact(width) {
+                for (sum, mean) in sums.iter_mut().zip(block) {
+                    *sum += mean;
+                }
+            }
+            sums
+        })
+}
+
+struct Problem {
+    tables: usize,
+    classes: usize,
+    stretches: Vec<Stretch>,
+}
+
+/// Loss, gradient and curvature at some weights.
+struct Local {
+    loss: f64,
+    gradient: Vec<f64>,
+    curvature: Vec<Vec<f64>>,
+}
+
+impl Problem {
+    fn solved(&self) -> Vec<f64> {
+        let mut weights = vec![0.5; self.tables];
+        let mut here = self.local(&weights);
+        for _ in 0..STEPS {
+            // Weights at an end of their range from which the loss falls outwards stay.
+            let held: Vec<bool> = weights
+                .iter()
+                .zip(&here.gradient)
+                .map(|(&w, &g)| (w <= 0.0 && g > 0.0) || (w >= MAX_WEIGHT && g < 0.0))
+                .collect();
+            let step = newton(&here, &held);
+            let Some((next, there)) = self.better(&weights, &step, here.loss) else {
+                break;
+            };
+            let gained = here.loss - there.loss;
+            (weights, here) = (next, there);
+            if gained < 1e-12 {
+                break;
+            }
+        }
+        weights
+    }
+
+    /// The first point along a step, halved until it is, with a smaller loss.
+    fn better(&self, from: &[f64], step: &[f64], loss: f64) -> Option<(Vec<f64>, Local)> {
+        let mut scale = 1.0;
+        for _ in 0..40 {
+            let point = from.iter().zip(step);
+            let point: Vec<f64> = point
+                .map(|(w, s)| (w + scale * s).clamp(0.0, MAX_WEIGHT))
+                .collect();
+            let there = self.local(&point);
+            if there.loss < loss {
+                return Some((point, there));
+            }
+            scale /= 2.0;
+        }
+        None
+    }
+
+    fn local(&self, weights: &[f64]) -> Local {
+        let mut local = Local {
+            loss: 0.0,
+            gradient: vec![0.0; self.tables],
+            curvature: vec![vec![0.0; self.tables]; self.tables],
+        };
+        let mut p = vec![0.0; self.classes];
+        let mut means = vec![0.0; self.tables];
+        for stretch in &self.stretches {
+            let table = |t: usize| &stretch.sums[t * self.classes..][..self.classes];
+            p.fill(0.0);
+            for (t, w) in weights.iter().enumerate() {
+                for (z, sum) in p.iter_mut().zip(table(t)) {
+                    *z += w * sum;
+                }
+            }
+            let own = p[stretch.class];
+            let highest = p.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            for z in &mut p {
+                *z = (*z - highest).exp2();
+            }
+            let total: f64 = p.iter().sum();
+            local.loss += stretch.share * (total.log2() + highest - own);
+            for z in &mut p {
+                *z /= total;
+            }
+            for (t, mean) in means.iter_mut().enumerate() {
+                *mean = p.iter().zip(table(t)).map(|(p, sum)| p * sum).sum();
+                local.gradient[t] += stretch.share * (*mean - table(t)[stretch.class]);
+            }
+            for t in 0..self.tables {
+                for u in 0..=t {
+                    let products = table(t).iter().zip(table(u)).zip(&p);
+                    let product: f64 = products.map(|((a, b), p)| a * b * p).sum();
+                    local.curvature[t][u] += stretch.share * LN_2 * (product - means[t] * means[u]);
+                }
+            }
+        }
+        for t in 0..self.tables {
+            for u in 0..t {
+                local.curvature[u][t] = local.curvature[t][u];
+            }
+        }
+        local
+    }
+}
+
+/// The step to where the local quadratic is least, with some weights held. A
+/// trace of a ridge makes tables that say the same share their weight.
+fn newton(local: &Local, held: &[bool]) -> Vec<f64> {
+    let free: Vec<usize> = (0..held.len()).filter(|&t| !held[t]).collect();
+    let trace: f64 = free.iter().map(|&t| local.curvature[t][t]).sum();
+    let ridge = 1e-9 * trace + 1e-300;
+    // Rows of the system, the right side last.
+    let mut rows: Vec<Vec<f64>> = free
+        .iter()
+        .map(|&t| {
+            let entries = free.iter();
+            let mut row: Vec<f64> = entries
+                .map(|&u| local.curvature[t][u] + if t == u { ridge } else { 0.0 })
+                .collect();
+            row.push(-local.gradient[t]);
+            row
+        })
+        .collect();
+    // Positive definite: no pivoting is needed.
+    let n = rows.len();
+    for pivot in 0..n {
+        let top = rows[pivot].clone();
+        for row in rows.iter_mut().skip(pivot + 1) {
+            let factor = row[pivot] / top[pivot];
+            for (x, t) in row.iter_mut().zip(&top) {
+                *x -= factor * t;
+            }
+        }
+    }
+    let mut step = vec![0.0; held.len()];
+    for at in (0..n).rev() {
+        let known: f64 = (at + 1..n).map(|u| rows[at][u] * step[free[u]]).sum();
+        step[free[at]] = (rows[at][n] - known) / rows[at][at];
+    }
+    step
+}

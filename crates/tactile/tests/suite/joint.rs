@@ -1,0 +1,140 @@
+//! The joint trainer on problems whose answer is known.
+
+use tactile::train::TrainError;
+use tactile::train::joint::{Options, TableSource, Trial, Warning, train};
+
+/// Uniform in 0 to 1.
+fn roll(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Normal: the sum of twelve uniform numbers.
+fn normal(state: &mut u64) -> f64 {
+    (0..12).map(|_| roll(state)).sum::<f64>() - 6.0
+}
+
+/// A trial of normal x and y of sd 100, independent from sample to sample, about a mean.
+fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64) -> Trial {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let samples = (0..length).map(|_| mean.map(|m| (m + 100.0 * normal(&mut state)).round()));
+    Trial {
+        label: label.to_owned(),
+        recording: recording.to_owned(),
+        samples: samples.collect(),
+        counts: vec![true; length],
+    }
+}
+
+/// Five trials each of two classes whose means are `apart` standard deviations apart.
+fn two(apart: f64, length: usize) -> Vec<Trial> {
+    let means = [[-50.0 * apart, 0.0], [50.0 * apart, 0.0]];
+    let class = |n: usize| (["a", "b"][n % 2], means[n % 2]);
+    (0..10)
+        .map(|n| {
+            let (label, mean) = class(n);
+            trial(label, "one", mean, length, n as u64 + 1)
+        })
+        .collect()
+}
+
+#[test]
+fn two_normals_have_their_likelihood_ratio_and_posterior() {
+    // Blocks of one sample: each is a step of evidence of its own, as in theory.
+    let options = Options {
+        block: 1,
+        refused: 0.0,
+        ..Options::default()
+    };
+    let trained = train(&two(0.5, 8_000), &options).unwrap();
+    assert_eq!(trained.names, ["a", "b"]);
+    let table = &trained.tables[0];
+    assert_eq!(table.source, TableSource::Samples);
+    // ln p(b)/p(a) of code x is x · 50/100² here.
+    let range = table.axes[0].range;
+    let width = f64::from(range.high - range.low) / 32.0;
+    for bin in 6..26 {
+        let x = f64::from(range.low) + (bin as f64 + 0.5) * width;
+        let exact = x * 50.0 / 1e4 / std::f64::consts::LN_2;
+        let cell = 2 * (bin * 32 + 16);
+        let found = table.log2_p[cell + 1] - table.log2_p[cell];
+        assert!((found - exact).abs() < 0.35, "{x}: {found} {exact}");
+    }
+    // Samples are independent, and roughness adds nothing to them.
+    let [samples, roughness] = trained.weights[..] else {
+        panic!("{:?}", trained.weights);
+    };
+    assert!((0.85..=1.05).contains(&samples), "{samples}");
+    assert!(roughness < 0.1, "{roughness}");
+    for at in &trained.report.calibration {
+        let (found, stated) = (at.found, at.stated);
+        assert!(found.count > 500, "{at:?}");
+        assert!((found.share - stated).abs() < 0.015, "{at:?}");
+    }
+    // Wald's mean number of samples to a posterior of 99 % from ratios of 1/8 nat each:
+    // (0.98 ln 99)/0.125, and less than two more of overshoot.
+    let at = trained.report.calibration[4];
+    assert_eq!(at.threshold, 0.99);
+    assert!((34.0..=46.0).contains(&at.samples), "{at:?}");
+}
+
+#[test]
+fn warnings_say_what_the_trials_cannot_tell() {
+    // Two classes from the same source, one far away in a single trial.
+    let mut trials = two(0.0, 2_000);
+    trials.push(trial("c", "one", [0.0, 2_000.0], 2_000, 99));
+    let trained = train(&trials, &Options::default()).unwrap();
+    let warnings = &trained.report.warnings;
+    let c = || "c".to_owned();
+    assert!(warnings.contains(&Warning::Halved { name: c() }));
+    assert!(warnings.contains(&Warning::FewTrials {
+        name: c(),
+        trials: 1
+    }));
+    assert!(warnings.contains(&Warning::OneRecording));
+    let alike: Vec<_> = warnings
+        .iter()
+        .filter_map(|warning| match warning {
+            Warning::Alike { names, .. } => Some(names.clone()),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(alike, [["a".to_owned(), "b".to_owned()]]);
+
+    let mut trials = two(2.0, 2_000);
+    for (n, trial) in trials.iter_mut().enumerate() {
+        trial.recording = (n / 4).to_string();
+    }
+    let warnings = train(&trials, &Options::default()).unwrap().report.warnings;
+    assert!(!warnings.contains(&Warning::OneRecording));
+    assert!(!warnings.contains(&Warning::NotAcrossRecordings));
+}
+
+#[test]
+fn faults_are_named() {
+    let trained = |trials: &[Trial]| train(trials, &Options::default()).unwrap_err();
+    assert_eq!(trained(&[]), TrainError::NoSamples);
+    assert_eq!(trained(&two(1.0, 100)[..1]), TrainError::OneClass);
+    let name = "b".to_owned();
+    let mut trials = two(1.0, 100);
+    trials
+        .iter_mut()
+        .skip(1)
+        .step_by(2)
+        .for_each(|trial| trial.counts.fill(false));
+    assert_eq!(trained(&trials), TrainError::TooShort { name });
+    let mut trials = two(1.0, 100);
+    trials[3].samples[5][1] = f64::NAN;
+    assert_eq!(trained(&trials), TrainError::NotFinite { channel: 1 });
+    let mut trials = two(1.0, 100);
+    trials[3].label.clear();
+    assert_eq!(trained(&trials), TrainError::NameEmpty);
+    let options = Options {
+        bins: 1,
+        ..Options::default()
+    };
+    let error = train(&two(1.0, 100), &options).unwrap_err();
+    assert_eq!(error.to_string(), "bins 1; 2 to 128 is allowed");
+}
