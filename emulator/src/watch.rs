@@ -42,6 +42,7 @@ mod name {
     pub(super) const DECISION: &str = "Decision";
     pub(super) const SAMPLES: &str = "samples";
     pub(super) const PACKED: &str = "packed";
+    pub(super) const TOUCH: &str = "touch";
 }
 
 /// A number at an address.
@@ -76,8 +77,7 @@ struct Queue {
     /// In an event: where its tag stands and what it is for a decision, and
     /// where the decision's words stand.
     tag: (u32, u8),
-    samples: u32,
-    packed: u32,
+    words: [u32; 3],
     seen: u32,
 }
 
@@ -216,15 +216,18 @@ impl Queue {
         let first = buffer.element(0)?;
         let (tag, value, decision) = first.variant(name::DECISION)?;
         let offset =
-            |place: Place<'_>| -> Result<u32, Fault> { Ok(place.scalar()?.0 - first.address) };
+            |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
             tail: queue.member(name::TAIL)?.address,
             length: buffer.length()?,
             buffer: first.address,
             stride: first.size()?,
             tag: (tag - first.address, value),
-            samples: offset(decision.member(name::SAMPLES)?)?,
-            packed: offset(decision.member(name::PACKED)?)?,
+            words: [
+                offset(name::SAMPLES)?,
+                offset(name::PACKED)?,
+                offset(name::TOUCH)?,
+            ],
             seen: 0,
         })
     }
@@ -237,9 +240,12 @@ impl Queue {
             let mut tag = [0];
             ram.read(event + self.tag.0, &mut tag)?;
             if tag == [self.tag.1] {
-                let samples = ram.word(event + self.samples)?;
-                let packed = ram.word(event + self.packed)?;
-                decisions.extend(Decision::from_memory(samples, packed));
+                let [samples, packed, touch] = self.words;
+                decisions.extend(Decision::from_memory(
+                    ram.word(event + samples)?,
+                    ram.word(event + packed)?,
+                    ram.word(event + touch)?,
+                ));
             }
             self.seen = (self.seen + 1) % self.length;
         }

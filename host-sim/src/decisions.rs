@@ -3,7 +3,17 @@
 use std::fmt;
 use std::io::{self, Write};
 
+use tactile::Decision;
 use tactile::score::Confusion;
+
+/// What a decision says where what was felt is none of the model's classes.
+pub const UNKNOWN: &str = "unknown";
+
+/// The name of a decision.
+pub fn name(decision: Decision, classes: &[String]) -> &str {
+    let class = decision.class().and_then(|class| classes.get(class));
+    class.map_or(UNKNOWN, String::as_str)
+}
 
 /// One decision and the true class.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +22,7 @@ pub struct Decided {
     pub label: String,
     /// Which stream of that label.
     pub trial: String,
-    /// The class decided for.
+    /// The class decided for, or [`UNKNOWN`].
     pub decision: String,
     /// How many samples it used.
     pub samples: u32,
@@ -63,9 +73,9 @@ impl Score {
         let place = |name: &String| names.iter().position(|other| other == name);
         let mut confusion = Confusion::new(names.len());
         for d in decisions {
-            if let (Some(truth), Some(named)) = (place(&d.label), place(&d.decision)) {
-                // Both are among the names.
-                let _ = confusion.add(truth, Some(named));
+            if let Some(truth) = place(&d.label) {
+                // Both are among the names, but for what is unknown.
+                let _ = confusion.add(truth, place(&d.decision));
             }
         }
         let samples = decisions.iter().map(|d| u64::from(d.samples)).sum();

@@ -5,7 +5,7 @@ use scene::Rule;
 use tactile::{AnyRule, ModelBuf, NaiveBayes, Quantiser, WrongChannels};
 
 use crate::classifier::{self, Fault};
-use crate::decisions::Decided;
+use crate::decisions::{self, Decided};
 use crate::recording::Stream;
 
 /// A classifier of recordings. Their samples may be any numbers: the model's
@@ -51,11 +51,10 @@ impl Replay {
             let Some(decision) = self.bayes.push(&codes)? else {
                 continue;
             };
-            let name = self.classes.get(decision.class()).cloned();
             decided.push(Decided {
                 label: stream.label.clone(),
                 trial: stream.trial.clone(),
-                decision: name.unwrap_or_default(),
+                decision: decisions::name(decision, &self.classes).to_owned(),
                 samples: decision.samples(),
                 posterior: decision.posterior().to_f64(),
             });

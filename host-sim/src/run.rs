@@ -9,7 +9,7 @@ use crate::Error;
 use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
 use crate::classifier::Classifier;
-use crate::decisions::Decided;
+use crate::decisions::{self, Decided};
 use crate::trace::Row;
 use crate::world::World;
 
@@ -289,11 +289,10 @@ impl<B: Bench + ?Sized> Run<B> {
             let Event::Decision(decision) = event else {
                 return None;
             };
-            let name = self.classes.get(decision.class()).cloned();
             Some(Decided {
                 label: self.presented.label.to_owned(),
                 trial: self.presented.trial.to_string(),
-                decision: name.unwrap_or_default(),
+                decision: decisions::name(*decision, &self.classes).to_owned(),
                 samples: decision.samples(),
                 posterior: decision.posterior().to_f64(),
             })

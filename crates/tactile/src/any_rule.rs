@@ -80,6 +80,12 @@ impl DecisionRule for AnyRule {
         }
     }
 
+    fn limit(&self, evidence: &mut AnyEvidence, limit: u32) {
+        if let (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) = (self, evidence) {
+            rule.limit(evidence, limit);
+        }
+    }
+
     fn deficits(&self, evidence: &AnyEvidence, deficits: &mut [u32]) {
         match (self, evidence) {
             (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) => {

@@ -4,15 +4,19 @@ use core::num::NonZeroU32;
 
 use crate::exp2::TERM_BITS;
 
-/// A decision. Two words, and no more in an `Option`, so that the step returns
-/// it in registers.
+/// A decision. Three words, and no more in an `Option`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decision {
     // Never zero.
     samples: NonZeroU32,
     /// The posterior, and the class in the five bits above.
     packed: u32,
+    /// The touch, and above its 16 bits whether it is none of the classes.
+    touch: u32,
 }
+
+/// Set in [`Decision::touch`] where what was felt is none of the classes.
+const UNKNOWN: u32 = 1 << 16;
 
 impl Decision {
     #[inline]
@@ -21,19 +25,44 @@ impl Decision {
             samples: NonZeroU32::new(samples).unwrap_or(NonZeroU32::MIN),
             // Classes are at most 32.
             packed: posterior.odds | ((class as u32) << ODDS_BITS),
+            touch: 0,
         }
     }
 
-    /// The decision whose two words a debugger reads as `samples` and `packed`;
-    /// `None` if `samples` is zero.
-    pub fn from_memory(samples: u32, packed: u32) -> Option<Self> {
-        let samples = NonZeroU32::new(samples)?;
-        Some(Self { samples, packed })
+    /// The same, which fell in this touch, and whether what was felt is unknown.
+    #[inline]
+    pub(crate) fn in_touch(self, touch: u16, is_unknown: bool) -> Self {
+        let flag = if is_unknown { UNKNOWN } else { 0 };
+        Self {
+            touch: u32::from(touch) | flag,
+            ..self
+        }
     }
 
-    /// The class decided for: its index in the model.
-    pub fn class(&self) -> usize {
+    /// The decision whose words a debugger reads as `samples`, `packed` and `touch`;
+    /// `None` if `samples` is zero.
+    pub fn from_memory(samples: u32, packed: u32, touch: u32) -> Option<Self> {
+        Some(Self {
+            samples: NonZeroU32::new(samples)?,
+            packed,
+            touch,
+        })
+    }
+
+    /// The class decided for: its index in the model. `None`: unknown, what was felt
+    /// is less like the nearest class than that class is like itself.
+    pub fn class(&self) -> Option<usize> {
+        (self.touch & UNKNOWN == 0).then_some(self.leader())
+    }
+
+    /// The class whose posterior exceeded the threshold, though it may be unknown.
+    pub fn leader(&self) -> usize {
         (self.packed >> ODDS_BITS) as usize
+    }
+
+    /// The number of the touch it fell in, wrapping; 0 where touches are not told.
+    pub fn touch(&self) -> u16 {
+        self.touch as u16
     }
 
     /// Decision time: how many samples it used, saturated at 2³² − 1.
@@ -138,10 +167,16 @@ mod tests {
                 let exact = f64::from(against) / 2.0_f64.powi(26 + i32::from(gain));
                 assert!(found <= exact && exact - found <= exact * 2.0_f64.powi(-20));
                 let decision = Decision::new(31, 9, Posterior::from_odds_against(against, gain));
-                let Decision { samples, packed } = decision;
-                let read = Decision::from_memory(samples.get(), packed);
+                let decision = decision.in_touch(0xffff, gain > 0);
+                let Decision {
+                    samples,
+                    packed,
+                    touch,
+                } = decision;
+                let read = Decision::from_memory(samples.get(), packed, touch);
                 assert_eq!(read, Some(decision));
-                assert_eq!(decision.class(), 31);
+                assert_eq!(decision.class(), (gain == 0).then_some(31));
+                assert_eq!((decision.leader(), decision.touch()), (31, 0xffff));
                 assert_eq!(
                     decision.posterior(),
                     Posterior::from_odds_against(against, gain)
@@ -152,7 +187,7 @@ mod tests {
 
     #[test]
     fn an_option_takes_no_extra_word() {
-        assert_eq!(size_of::<Option<Decision>>(), 8);
+        assert_eq!(size_of::<Option<Decision>>(), 12);
         assert_eq!(size_of::<Option<Decision>>(), size_of::<Decision>());
     }
 }

@@ -16,7 +16,7 @@ pub enum ModelError {
     #[error("not a likelihood model: it does not begin with WLIK")]
     BadMagic,
     /// Written by another version of the format.
-    #[error("model format version {0}; version {VERSION} is understood")]
+    #[error("model format version {0}; version {VERSION} is understood: train it anew")]
     UnknownVersion(u16),
     /// More bytes than its header announces.
     #[error("bytes follow the end of the model")]
@@ -36,6 +36,15 @@ pub enum ModelError {
     /// The number of channels is not 1 to 24.
     #[error("{0} channels; 1 to 24 are allowed")]
     Channels(usize),
+    /// There is no table of samples, or more than 24 tables.
+    #[error("{0} tables; 1 to 24 are allowed, one of them of samples")]
+    Tables(usize),
+    /// More than two axes of roughness.
+    #[error("more than two axes of roughness")]
+    RoughAxes,
+    /// The rule of touches is out of range.
+    #[error("the gate of touches is not 0 to 1, or stands without a limit")]
+    TouchRule,
     /// The number of bins is not 1 to 4096.
     #[error("{0} bins; 1 to 4096 are allowed")]
     Bins(usize),
@@ -68,8 +77,8 @@ pub enum ModelError {
     /// Bytes that the format keeps at zero are not.
     #[error("bytes reserved as zero are not zero")]
     Padding,
-    /// A log-likelihood lies outside its range.
-    #[error("a log-likelihood lies outside its range")]
+    /// The log-likelihoods of a block can sum up to too much.
+    #[error("the log-likelihoods of a block can overflow: a shorter block is needed")]
     TableEntry,
 }
 

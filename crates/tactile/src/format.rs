@@ -1,37 +1,50 @@
-//! The model file, byte for byte (version 1, little-endian throughout).
+//! The model file, byte for byte (version 2, little-endian throughout).
 //!
 //! | bytes | content |
 //! |---|---|
 //! | 4 | magic `WLIK` |
-//! | u16 | version, 1 |
+//! | u16 | version, 2 |
 //! | u8, u8 | classes K (2–32), channels C (1–24) |
-//! | u16, u16 | bins B (1–4096), block (1–10000 samples; block · C ≤ 65535) |
+//! | u8, u8 | tables of samples, at least one; of roughness (both together at most 24) |
+//! | u16 | block, 1–10000 samples |
 //! | u32 | length of the whole file in bytes |
+//! | u32, f32, u32 | rule of touches: limit of a deficit at an onset, 1/1024 bit; gate, 0 to 1; gap, samples; or 2³² − 1, 0, 0: none |
+//! | u32 | 1 if there are floors, else 0 |
 //! | C × 20 | per channel: origin f64, low i32, high i32, exponent i16, zero u16 (see [`crate::Quantiser`]) |
+//! | T × 40 | per table: source u8 (0 samples, 1 roughness), axes u8 (1 or 2), zero u16, first word of its rows u32; two axes, of one the second is zero: channel u8, zero u8, bins − 1 u16 (to 4095), high i32, low i32, slope u32 (see [`crate::Binner`]) |
+//! | K × 4 | floors, if any, per class: of samples u16, of roughness u16 |
 //! | K names | per class: length u8 (not zero), UTF-8; then zeros up to a multiple of four |
-//! | B × C × ⌈K/2⌉ × 4 | table of u16: `[bin][channel][class]`, a zero after an odd K |
+//! | rows | per table u16: `[bin of axis 1][bin of axis 2][class]`, a zero after an odd K |
 //! | u32 | CRC-32 (ISO-HDLC) of all before |
 //!
-//! A table entry is round((log2 p + 20) · 1024), from 0 to 20480; the offset of
-//! 20 bit is common to all classes and cancels in the posterior. Rows are whole
-//! words, so that a core without unaligned loads reads them as fast.
+//! A table entry is round(w (log2 p + 20) · 1024) with the table's weight w; the
+//! offset is common to all classes and cancels in the posterior. The papers' models
+//! have a table of samples a channel with w = 1, no rule of touches and no floors.
+//! Rows are whole words, so that a core without unaligned loads reads them as fast.
 
-use zerocopy::byteorder::little_endian::{F64, I16, I32, U16, U32};
+use zerocopy::byteorder::little_endian::{F32, F64, I16, I32, U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use crate::binner::Binner;
 
 /// First bytes of a model file.
 pub(crate) const MAGIC: [u8; 4] = *b"WLIK";
 /// Version of the format.
-pub const VERSION: u16 = 1;
+pub const VERSION: u16 = 2;
 /// Most classes.
 pub const MAX_CLASSES: usize = 32;
 /// Most channels: x and y of twelve whiskers.
 pub const MAX_CHANNELS: usize = 24;
-/// Most bins a channel.
+/// Most tables.
+pub const MAX_TABLES: usize = 24;
+/// Most axes of roughness over all tables.
+pub const MAX_ROUGH_AXES: usize = 2;
+/// Most bins an axis.
 pub const MAX_BINS: usize = 4096;
 /// Longest block, samples.
 pub const MAX_BLOCK: u32 = 10_000;
-/// Most lookups in one block: 65535 · [`ENTRY_MAX`] < 2³¹ keeps sums in a word.
+/// Most lookups of the papers' models in one block: 65535 · [`ENTRY_MAX`] < 2³¹ keeps
+/// sums in a word.
 pub const MAX_SAMPLES_TIMES_CHANNELS: u32 = 65_535;
 /// Longest class name, bytes of UTF-8.
 pub const MAX_NAME_BYTES: usize = 255;
@@ -42,8 +55,14 @@ pub const LOG_FLOOR: f64 = 1e-6;
 pub const ENTRIES_PER_BIT: u32 = 1024;
 /// Offset of the table entries: log2 of the floor is −19.93.
 pub const ENTRY_OFFSET_BITS: u32 = 20;
-/// The entry of probability one, and the largest.
+/// The entry of probability one where the weight is one.
 pub const ENTRY_MAX: u16 = (ENTRY_OFFSET_BITS * ENTRIES_PER_BIT) as u16;
+
+/// The most that the largest entries of all tables may sum up to in a block, so that
+/// with 2²⁹ of deficit it stays below 2³¹.
+pub(crate) const MAX_BLOCK_SUM: u64 = MAX_SAMPLES_TIMES_CHANNELS as u64 * ENTRY_MAX as u64;
+/// [`Header::limit`] of a model without a rule of touches.
+pub(crate) const NO_LIMIT: u32 = u32::MAX;
 
 /// Bytes of the checksum at the end.
 pub const CRC_BYTES: usize = 4;
@@ -55,9 +74,14 @@ pub(crate) struct Header {
     pub(crate) version: U16,
     pub(crate) classes: u8,
     pub(crate) channels: u8,
-    pub(crate) bins: U16,
+    pub(crate) sample_tables: u8,
+    pub(crate) rough_tables: u8,
     pub(crate) block: U16,
     pub(crate) length: U32,
+    pub(crate) limit: U32,
+    pub(crate) gate: F32,
+    pub(crate) gap: U32,
+    pub(crate) floors: U32,
 }
 
 #[derive(Debug, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
@@ -69,6 +93,37 @@ pub(crate) struct ChannelRecord {
     pub(crate) exponent: I16,
     pub(crate) reserved: U16,
 }
+
+/// A table, as it is read in place: of whole words.
+#[derive(Debug, Clone, Copy, FromBytes, IntoBytes, KnownLayout, Immutable)]
+#[repr(C)]
+pub(crate) struct TableRecord {
+    pub(crate) source: u8,
+    pub(crate) axes: u8,
+    pub(crate) reserved: u16,
+    /// The word of the file at which its rows begin.
+    pub(crate) first: u32,
+    pub(crate) axis: [AxisRecord; 2],
+}
+
+/// An axis of a table.
+#[derive(Debug, Clone, Copy, Default, FromBytes, IntoBytes, KnownLayout, Immutable)]
+#[repr(C)]
+pub(crate) struct AxisRecord {
+    pub(crate) channel: u8,
+    pub(crate) reserved: u8,
+    pub(crate) last_bin: u16,
+    pub(crate) high: i32,
+    pub(crate) binner: Binner,
+}
+
+/// Words of a table's record.
+pub(crate) const TABLE_WORDS: usize = size_of::<TableRecord>() / size_of::<u32>();
+
+/// [`TableRecord::source`] of a table that is looked up each sample.
+pub(crate) const OF_SAMPLES: u8 = 0;
+/// Of one that is looked up once a block, by the roughness of its channels.
+pub(crate) const OF_ROUGHNESS: u8 = 1;
 
 /// Words of one row: two classes a word.
 pub(crate) const fn row_words(classes: usize) -> usize {

@@ -1,31 +1,51 @@
 //! Checking the bytes of a model file, and where in it things lie.
 
-use zerocopy::FromBytes;
+use zerocopy::{FromBytes, transmute};
 
 use crate::error::ModelError;
 use crate::format::{
-    CRC_BYTES, ChannelRecord, ENTRY_MAX, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_CHANNELS,
-    MAX_CLASSES, MAX_SAMPLES_TIMES_CHANNELS, VERSION, checksum, row_words,
+    CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
+    MAX_CLASSES, MAX_ROUGH_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
+    OF_SAMPLES, TableRecord, VERSION, checksum, row_words,
 };
 use crate::quantiser::Quantiser;
 
 /// Counts of a checked model and where its parts begin, in words of four bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Layout {
     pub(crate) classes: usize,
     pub(crate) channels: usize,
-    /// Bins a channel, less one.
-    pub(crate) last_bin: usize,
-    /// Words of a row of the table.
+    /// Tables of samples.
+    pub(crate) sample_tables: usize,
+    /// Tables of roughness, which follow them.
+    pub(crate) rough_tables: usize,
+    /// Words of a row of a table.
     pub(crate) row_words: usize,
     /// Samples.
     pub(crate) block: u32,
-    /// The channels' records end and the names begin.
+    pub(crate) touch: Option<TouchRule>,
+    /// The channels' records end and the tables' begin.
+    pub(crate) tables: usize,
+    /// The tables' records end and the floors begin, if there are any.
+    pub(crate) floors: usize,
+    /// The floors end and the names begin.
     pub(crate) names: usize,
-    /// The names end and the table begins.
-    pub(crate) table: usize,
-    /// The table ends and the checksum begins.
+    /// The names end and the rows of the tables begin.
+    pub(crate) rows: usize,
+    /// The rows end and the checksum begins.
     pub(crate) end: usize,
+}
+
+/// What a touch means for the evidence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TouchRule {
+    /// To how much a touch limits what came before, in 1/1024 bit: no class is left
+    /// further behind the leader. The surface may have changed in the air.
+    pub limit: u32,
+    /// Contact π from which a sample counts, 0 to 1.
+    pub gate: f32,
+    /// Samples without contact after which the next contact is another touch.
+    pub gap: u32,
 }
 
 /// The word at which the channels' records begin.
@@ -39,18 +59,25 @@ impl Layout {
     ///
     /// The first thing found wrong.
     pub(crate) fn check(bytes: &[u8]) -> Result<Self, ModelError> {
-        let (header, _) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
-        if header.magic != MAGIC {
+        let (magic, _) = bytes.split_first_chunk::<4>().ok_or(ModelError::TooShort)?;
+        if *magic != MAGIC {
             return Err(ModelError::BadMagic);
         }
+        let (header, rest) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
         if header.version.get() != VERSION {
             return Err(ModelError::UnknownVersion(header.version.get()));
         }
         let classes = usize::from(header.classes);
         let channels = usize::from(header.channels);
-        let bins = usize::from(header.bins.get());
+        let sample_tables = usize::from(header.sample_tables);
+        let rough_tables = usize::from(header.rough_tables);
+        let count = sample_tables + rough_tables;
         let block = u32::from(header.block.get());
-        check_counts(classes, channels, bins, block)?;
+        check_counts(classes, channels, block)?;
+        if sample_tables == 0 || count > MAX_TABLES {
+            return Err(ModelError::Tables(count));
+        }
+        let touch = touch_rule(header)?;
 
         let length = header.length.get() as usize;
         if bytes.len() < length {
@@ -66,31 +93,69 @@ impl Layout {
             return Err(ModelError::Checksum);
         }
 
-        let rest = body.get(size_of::<Header>()..).ok_or(ModelError::Length)?;
+        let rest = rest
+            .get(..rest.len() - CRC_BYTES)
+            .ok_or(ModelError::Length)?;
         let (records, rest) = <[ChannelRecord]>::ref_from_prefix_with_elems(rest, channels)
             .map_err(|_| ModelError::Length)?;
-        check_records(records, bins)?;
-        // Counts are checked: at most 6.3 MB.
-        let table_bytes = bins * channels * row_words(classes) * size_of::<u32>();
+        check_channels(records)?;
+        let words = |bytes: &[u8]| bytes.len() / size_of::<u32>();
+        let tables = words(body) - words(rest);
+        let (records, rest) = rest
+            .split_at_checked(count * size_of::<TableRecord>())
+            .ok_or(ModelError::Length)?;
+        let floors = words(body) - words(rest);
+        let floor_bytes = match header.floors.get() {
+            0 => 0,
+            1 => classes * size_of::<u32>(),
+            _ => return Err(ModelError::Padding),
+        };
+        let (_, rest) = rest
+            .split_at_checked(floor_bytes)
+            .ok_or(ModelError::Length)?;
+
+        // Counts are checked: at most 2³² words a table.
+        let records = records.as_chunks().0.iter().map(record);
+        let row_words = row_words(classes);
+        let mut table_words = 0;
+        for (n, record) in records.clone().enumerate() {
+            let source = [OF_SAMPLES, OF_ROUGHNESS][usize::from(n >= sample_tables)];
+            check_table_record(&record, source, channels)?;
+            table_words += rows(&record) * row_words as u64;
+        }
+        let rough_axes = records
+            .clone()
+            .skip(sample_tables)
+            .map(|r| usize::from(r.axes));
+        if rough_axes.sum::<usize>() > MAX_ROUGH_AXES {
+            return Err(ModelError::RoughAxes);
+        }
+        let table_bytes = usize::try_from(table_words * 4).map_err(|_| ModelError::Length)?;
         let (names, table) = rest
             .len()
             .checked_sub(table_bytes)
             .and_then(|at| rest.split_at_checked(at))
             .ok_or(ModelError::Length)?;
         check_names(names, classes)?;
-        check_table(table, classes)?;
+
         // The names are padded to whole words, and all other parts are such.
-        let words = |bytes: &[u8]| bytes.len() / size_of::<u32>();
-        Ok(Self {
+        let first = words(body) - words(table);
+        let layout = Self {
             classes,
             channels,
-            last_bin: bins - 1,
-            row_words: row_words(classes),
+            sample_tables,
+            rough_tables,
+            row_words,
             block,
-            names: words(body) - words(rest),
-            table: words(body) - words(table),
+            touch,
+            tables,
+            floors,
+            names: floors + floor_bytes / size_of::<u32>(),
+            rows: first,
             end: words(body),
-        })
+        };
+        check_rows(table, first, records, &layout)?;
+        Ok(layout)
     }
 }
 
@@ -105,21 +170,35 @@ impl ChannelRecord {
     }
 }
 
+/// A record wherever it lies.
+fn record(bytes: &[u8; size_of::<TableRecord>()]) -> TableRecord {
+    transmute!(*bytes)
+}
+
+/// Rows of a table.
+fn rows(record: &TableRecord) -> u64 {
+    let [a, b] = record.axis.map(|axis| u64::from(axis.last_bin) + 1);
+    a * b
+}
+
+fn touch_rule(header: &Header) -> Result<Option<TouchRule>, ModelError> {
+    let (limit, gate, gap) = (header.limit.get(), header.gate.get(), header.gap.get());
+    if limit == NO_LIMIT {
+        let none = gate.to_bits() == 0 && gap == 0;
+        return none.then_some(None).ok_or(ModelError::TouchRule);
+    }
+    let fits = (0.0..=1.0).contains(&gate);
+    let rule = TouchRule { limit, gate, gap };
+    fits.then_some(Some(rule)).ok_or(ModelError::TouchRule)
+}
+
 /// The ranges of the header's counts.
-pub(crate) fn check_counts(
-    classes: usize,
-    channels: usize,
-    bins: usize,
-    block: u32,
-) -> Result<(), ModelError> {
+pub(crate) fn check_counts(classes: usize, channels: usize, block: u32) -> Result<(), ModelError> {
     if !(2..=MAX_CLASSES).contains(&classes) {
         return Err(ModelError::Classes(classes));
     }
     if !(1..=MAX_CHANNELS).contains(&channels) {
         return Err(ModelError::Channels(channels));
-    }
-    if !(1..=MAX_BINS).contains(&bins) {
-        return Err(ModelError::Bins(bins));
     }
     if !(1..=MAX_BLOCK).contains(&block) {
         return Err(ModelError::Block(block));
@@ -131,13 +210,49 @@ pub(crate) fn check_counts(
     Ok(())
 }
 
-fn check_records(records: &[ChannelRecord], bins: usize) -> Result<(), ModelError> {
+/// The range of a table's bins.
+pub(crate) fn check_bins(bins: usize) -> Result<(), ModelError> {
+    if !(1..=MAX_BINS).contains(&bins) {
+        return Err(ModelError::Bins(bins));
+    }
+    Ok(())
+}
+
+fn check_channels(records: &[ChannelRecord]) -> Result<(), ModelError> {
     for (channel, record) in records.iter().enumerate() {
         record
             .quantiser()
-            .check(bins)
+            .check(1)
             .map_err(|reason| ModelError::Quantiser { channel, reason })?;
         if record.reserved.get() != 0 {
+            return Err(ModelError::Padding);
+        }
+    }
+    Ok(())
+}
+
+fn check_table_record(record: &TableRecord, source: u8, channels: usize) -> Result<(), ModelError> {
+    if record.source != source || !(1..=2).contains(&record.axes) || record.reserved != 0 {
+        return Err(ModelError::Padding);
+    }
+    for (n, axis) in record.axis.iter().enumerate() {
+        let channel = usize::from(axis.channel);
+        let bins = usize::from(axis.last_bin) + 1;
+        check_bins(bins)?;
+        if axis.reserved != 0 || channel >= channels {
+            return Err(ModelError::Padding);
+        }
+        let quantiser = Quantiser {
+            origin: 0.0,
+            exponent: 0,
+            low: axis.binner.low(),
+            high: axis.high,
+        };
+        let binner = quantiser
+            .binner(bins)
+            .map_err(|reason| ModelError::Quantiser { channel, reason })?;
+        let is_unused = n >= usize::from(record.axes);
+        if binner != axis.binner || is_unused && (bins, channel, axis.high) != (1, 0, 0) {
             return Err(ModelError::Padding);
         }
     }
@@ -177,17 +292,39 @@ fn check_names(bytes: &[u8], classes: usize) -> Result<(), ModelError> {
     Ok(())
 }
 
-/// Larger entries could overflow the sums of a block.
-fn check_table(bytes: &[u8], classes: usize) -> Result<(), ModelError> {
-    let (entries, _) = bytes.as_chunks::<2>();
-    let entry = |bytes: &[u8; 2]| u16::from_le_bytes(*bytes);
-    if entries.iter().any(|e| entry(e) > ENTRY_MAX) {
+/// The rows of all tables: each table's begin where its record says, and no block can
+/// sum up to too much.
+fn check_rows(
+    mut bytes: &[u8],
+    mut first: usize,
+    records: impl Iterator<Item = TableRecord>,
+    layout: &Layout,
+) -> Result<(), ModelError> {
+    let mut most = 0;
+    for record in records {
+        if record.first as usize != first {
+            return Err(ModelError::Length);
+        }
+        // The length of all was checked.
+        let size = rows(&record) as usize * layout.row_words;
+        let (entries, rest) = bytes.split_at_checked(4 * size).ok_or(ModelError::Length)?;
+        most += u64::from(largest_entry(entries, layout.classes)?);
+        (bytes, first) = (rest, first + size);
+    }
+    if most * u64::from(layout.block) > MAX_BLOCK_SUM {
         return Err(ModelError::TableEntry);
     }
+    Ok(())
+}
+
+/// The largest entry of a table's rows, which may have nothing in their gaps.
+fn largest_entry(bytes: &[u8], classes: usize) -> Result<u16, ModelError> {
+    let (entries, _) = bytes.as_chunks::<2>();
+    let entry = |bytes: &[u8; 2]| u16::from_le_bytes(*bytes);
     let odd = classes % 2 == 1;
     let mut rows = entries.chunks(2 * row_words(classes));
     if odd && rows.any(|row| row.last().is_some_and(|e| entry(e) != 0)) {
         return Err(ModelError::Padding);
     }
-    Ok(())
+    Ok(entries.iter().map(entry).max().unwrap_or(0))
 }

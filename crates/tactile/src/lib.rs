@@ -56,6 +56,7 @@ extern crate std;
 compile_error!("models are little-endian and read in place: big-endian targets are not supported");
 
 mod any_rule;
+mod binner;
 mod decision;
 mod error;
 mod evidence;
@@ -67,6 +68,7 @@ mod model;
 mod model_buf;
 mod naive_bayes;
 mod quantiser;
+mod roughness;
 mod rule;
 #[cfg(feature = "std")]
 pub mod score;
@@ -79,18 +81,22 @@ mod train_error;
 mod window;
 
 pub use any_rule::{AnyEvidence, AnyRule, AnyRuleSettings};
+pub use binner::Binner;
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
-    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLES_TIMES_CHANNELS, VERSION, checksum,
+    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_ROUGH_AXES, MAX_SAMPLES_TIMES_CHANNELS,
+    MAX_TABLES, VERSION, checksum,
 };
-pub use model::{Aligned, Model};
+pub use layout::TouchRule;
+pub use model::{Aligned, Floors, Model};
 #[cfg(feature = "std")]
-pub use model_buf::{ModelBuf, ModelParts};
+pub use model_buf::{Axis, ModelBuf, ModelParts, TableParts, TableSource};
 pub use naive_bayes::{NaiveBayes, Posteriors, WrongChannels};
-pub use quantiser::{Binner, Quantiser};
+pub use quantiser::Quantiser;
+pub use roughness::Roughness;
 pub use rule::DecisionRule;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
 pub use totals::Totals;

@@ -8,14 +8,25 @@
 use zerocopy::{FromBytes, IntoBytes};
 
 use crate::error::ModelError;
-use crate::format::{ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS};
-use crate::layout::{Layout, RECORDS, names};
+use crate::format::{
+    AxisRecord, ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, TABLE_WORDS, TableRecord,
+};
+use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::quantiser::Quantiser;
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(4))]
 pub struct Aligned<B: ?Sized>(pub B);
+
+/// The mean entries of a class below which what is felt is none of the classes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Floors {
+    /// Of the tables of samples together, a sample.
+    pub samples: u16,
+    /// Of the tables of roughness together, a block.
+    pub roughness: u16,
+}
 
 /// The bytes of a model file, linked into the program and aligned:
 /// `Model::parse(include_model!("example.model"))`. The path is relative to
@@ -30,7 +41,7 @@ macro_rules! include_model {
 
 /// A checked model. `W` holds the words of the file: a slice on a board, which
 /// reads its flash, or `Box<[u32]>` ([`crate::ModelBuf`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model<W = &'static [u32]> {
     words: W,
     layout: Layout,
@@ -85,32 +96,37 @@ impl<W: AsRef<[u32]>> Model<W> {
         self.layout.channels
     }
 
-    /// Bins a channel B, 1 to 4096.
-    pub const fn bins(&self) -> usize {
-        self.layout.last_bin + 1
-    }
-
-    /// The last bin of a channel.
-    #[inline]
-    pub(crate) const fn last_bin(&self) -> usize {
-        self.layout.last_bin
-    }
-
     /// Samples in a block, 1 to 10000.
     pub const fn block(&self) -> u32 {
         self.layout.block
     }
 
-    /// The quantiser of a channel.
+    /// What a touch means, if anything.
+    pub const fn touch_rule(&self) -> Option<TouchRule> {
+        self.layout.touch
+    }
+
+    /// The scale of a channel's codes, and its range in training.
     pub fn quantiser(&self, channel: usize) -> Option<Quantiser> {
-        let records = self.part(RECORDS, self.layout.names).as_bytes();
+        let records = self.part(RECORDS, self.layout.tables).as_bytes();
         let records = <[ChannelRecord]>::ref_from_bytes(records).ok()?;
         records.get(channel).map(ChannelRecord::quantiser)
     }
 
+    /// The floors of a class, if there are any.
+    pub fn floors(&self, class: usize) -> Option<Floors> {
+        let word = *self
+            .part(self.layout.floors, self.layout.names)
+            .get(class)?;
+        Some(Floors {
+            samples: word as u16,
+            roughness: (word >> 16) as u16,
+        })
+    }
+
     /// The names of the classes, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        names(self.part(self.layout.names, self.layout.table).as_bytes())
+        names(self.part(self.layout.names, self.layout.rows).as_bytes())
             .take(self.layout.classes)
             .map(|name| core::str::from_utf8(name).unwrap_or(""))
     }
@@ -120,29 +136,70 @@ impl<W: AsRef<[u32]>> Model<W> {
         self.names().nth(class)
     }
 
-    /// log2 of the smoothed probability of a bin, −19.93 to 0, to 2⁻¹¹ bit.
+    /// Bins of the table of one channel's samples alone, if there is one.
+    pub fn bins(&self, channel: usize) -> Option<usize> {
+        Some(usize::from(self.single(channel)?.axis[0].last_bin) + 1)
+    }
+
+    /// In that table, log2 of the smoothed probability of a bin, −19.93 to 0, to
+    /// 2⁻¹¹ bit; of a table with another weight than one not that.
     pub fn log2_likelihood(&self, channel: usize, bin: usize, class: usize) -> Option<f32> {
-        if channel >= self.channels() || bin >= self.bins() || class >= self.classes() {
+        if bin >= self.bins(channel)? || class >= self.classes() {
             return None;
         }
-        let word = *self.row(bin, channel).get(class / 2)?;
+        let word = *self.row(self.single(channel)?, bin).get(class / 2)?;
         let entry = (word >> (16 * (class % 2))) as u16;
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
-    /// Words of a row of the table, two classes each.
+    fn single(&self, channel: usize) -> Option<&TableRecord> {
+        let of_it = |r: &&TableRecord| r.axes == 1 && usize::from(r.axis[0].channel) == channel;
+        self.sample_tables().iter().find(of_it)
+    }
+
+    /// The tables that are looked up each sample.
+    #[inline]
+    pub(crate) fn sample_tables(&self) -> &[TableRecord] {
+        self.tables(self.layout.tables, self.layout.sample_tables)
+    }
+
+    /// The tables that are looked up once a block.
+    pub(crate) fn rough_tables(&self) -> &[TableRecord] {
+        let before = self.layout.sample_tables * TABLE_WORDS;
+        self.tables(self.layout.tables + before, self.layout.rough_tables)
+    }
+
+    /// Whether there are any.
+    #[inline]
+    pub(crate) const fn has_roughness(&self) -> bool {
+        self.layout.rough_tables > 0
+    }
+
+    /// Whether classes have floors.
+    #[inline]
+    pub(crate) const fn has_floors(&self) -> bool {
+        self.layout.names > self.layout.floors
+    }
+
+    /// Words of a row of a table, two classes each.
     #[inline]
     pub(crate) const fn row_words(&self) -> usize {
         self.layout.row_words
     }
 
-    /// The words from the row on that says of each class what a channel in a bin
-    /// says of it: table entries, two classes a word, the even one in its lower
-    /// half. Empty outside the model.
     #[inline]
-    pub(crate) fn row(&self, bin: usize, channel: usize) -> &[u32] {
-        let row = bin * self.layout.channels + channel;
-        let first = self.layout.table + row * self.layout.row_words;
+    fn tables(&self, first: usize, count: usize) -> &[TableRecord] {
+        let words = self.words.as_ref().get(first..).unwrap_or_default();
+        let tables = <[TableRecord]>::ref_from_prefix_with_elems(words.as_bytes(), count);
+        tables.map_or(&[], |(tables, _)| tables)
+    }
+
+    /// The words from a row of a table on that says of each class what its cell says
+    /// of it: table entries, two classes a word, the even one in its lower half.
+    /// Empty outside the model.
+    #[inline]
+    pub(crate) fn row(&self, table: &TableRecord, cell: usize) -> &[u32] {
+        let first = table.first as usize + cell * self.layout.row_words;
         self.words.as_ref().get(first..).unwrap_or_default()
     }
 
@@ -150,5 +207,33 @@ impl<W: AsRef<[u32]>> Model<W> {
     fn part(&self, first: usize, end: usize) -> &[u32] {
         let words = self.words.as_ref();
         words.get(first..end).unwrap_or_default()
+    }
+}
+
+impl TableRecord {
+    /// The channels of its axes.
+    #[inline]
+    pub(crate) fn channels(&self) -> impl Iterator<Item = usize> {
+        let axes = self.axis.iter().take(usize::from(self.axes));
+        axes.map(|axis| usize::from(axis.channel))
+    }
+
+    /// The cell of the values `code` gives for an axis's place, 0 or 1, and channel.
+    #[inline]
+    pub(crate) fn cell(&self, code: impl Fn(usize, usize) -> i32) -> usize {
+        let [a, b] = &self.axis;
+        let first = a.bin(code(0, usize::from(a.channel)));
+        if self.axes == 1 {
+            return first;
+        }
+        let second = b.bin(code(1, usize::from(b.channel)));
+        first * (usize::from(b.last_bin) + 1) + second
+    }
+}
+
+impl AxisRecord {
+    #[inline]
+    fn bin(&self, code: i32) -> usize {
+        self.binner.bin(code, usize::from(self.last_bin))
     }
 }

@@ -8,10 +8,11 @@ use zerocopy::IntoBytes;
 
 use crate::error::ModelError;
 use crate::format::{
-    CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_NAME_BYTES, VERSION, checksum, row_words,
+    AxisRecord, CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_NAME_BYTES, MAX_TABLES, NO_LIMIT,
+    OF_ROUGHNESS, OF_SAMPLES, TableRecord, VERSION, checksum, row_words,
 };
-use crate::layout::{Layout, check_counts};
-use crate::model::Model;
+use crate::layout::{Layout, TouchRule, check_bins, check_counts};
+use crate::model::{Floors, Model};
 use crate::quantiser::Quantiser;
 
 /// What a model is made of.
@@ -21,13 +22,107 @@ pub struct ModelParts<'p> {
     pub names: &'p [String],
     /// Samples in a block.
     pub block: u32,
-    /// Bins a channel.
-    pub bins: usize,
-    /// A quantiser a channel.
-    pub quantisers: &'p [Quantiser],
-    /// Table entries, `[bin][channel][class]` without gaps:
-    /// round((log2 p + 20) · 1024).
+    /// A quantiser a channel: the scale of its codes, and its range in training.
+    pub channels: &'p [Quantiser],
+    /// The tables; those of samples come first.
+    pub tables: &'p [TableParts<'p>],
+    /// The floors of each class.
+    pub floors: Option<&'p [Floors]>,
+    /// What a touch means.
+    pub touch: Option<TouchRule>,
+}
+
+/// What a table is looked up by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableSource {
+    /// The codes of each sample.
+    Samples,
+    /// The roughness of each block (see [`crate::Roughness`]).
+    Roughness,
+}
+
+/// A table.
+#[derive(Debug, Clone, Copy)]
+pub struct TableParts<'p> {
+    /// What it is looked up by.
+    pub source: TableSource,
+    /// One axis or two.
+    pub axes: &'p [Axis],
+    /// Entries, `[bin of the first axis][bin of the second][class]` without gaps:
+    /// round(w (log2 p + 20) · 1024).
     pub entries: &'p [u16],
+}
+
+/// An axis of a table: equal bins over a range of codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Axis {
+    /// Of which channel.
+    pub channel: usize,
+    /// 1 to 4096.
+    pub bins: usize,
+    /// Code of the lower edge of the first bin.
+    pub low: i32,
+    /// Code of the upper edge of the last bin (see [`Quantiser`]).
+    pub high: i32,
+}
+
+impl Axis {
+    fn record(&self) -> Result<AxisRecord, ModelError> {
+        let Self { channel, bins, .. } = *self;
+        check_bins(bins)?;
+        let quantiser = Quantiser {
+            origin: 0.0,
+            exponent: 0,
+            low: self.low,
+            high: self.high,
+        };
+        let binner = quantiser.binner(bins);
+        Ok(AxisRecord {
+            channel: u8::try_from(channel).map_err(|_| ModelError::Channels(channel))?,
+            reserved: 0,
+            // Checked: at most 4095.
+            last_bin: (bins - 1) as u16,
+            high: self.high,
+            binner: binner.map_err(|reason| ModelError::Quantiser { channel, reason })?,
+        })
+    }
+}
+
+impl<'p> TableParts<'p> {
+    /// A table of the samples of one channel, as the papers have them.
+    pub fn of_channel(axis: &'p Axis, entries: &'p [u16]) -> Self {
+        Self {
+            source: TableSource::Samples,
+            axes: std::slice::from_ref(axis),
+            entries,
+        }
+    }
+
+    /// Its record, whose rows begin at word `first`.
+    fn record(&self, first: usize) -> Result<TableRecord, ModelError> {
+        let mut axis = [AxisRecord::default(); 2];
+        if !(1..=axis.len()).contains(&self.axes.len()) {
+            return Err(ModelError::Length);
+        }
+        for (record, axis) in axis.iter_mut().zip(self.axes) {
+            *record = axis.record()?;
+        }
+        Ok(TableRecord {
+            source: match self.source {
+                TableSource::Samples => OF_SAMPLES,
+                TableSource::Roughness => OF_ROUGHNESS,
+            },
+            // At most two.
+            axes: self.axes.len() as u8,
+            reserved: 0,
+            first: u32::try_from(first).map_err(|_| ModelError::Length)?,
+            axis,
+        })
+    }
+
+    fn cells(&self) -> usize {
+        self.axes.iter().map(|axis| axis.bins).product()
+    }
 }
 
 /// A model that owns its words.
@@ -41,14 +136,17 @@ impl ModelBuf {
     /// As [`Model::parse`]: whatever could not be read back.
     pub fn new(parts: &ModelParts<'_>) -> Result<Self, ModelError> {
         let classes = parts.names.len();
-        let channels = parts.quantisers.len();
-        check_counts(classes, channels, parts.bins, parts.block)?;
-        if parts.entries.len() != parts.bins * channels * classes {
-            return Err(ModelError::Length);
+        let channels = parts.channels.len();
+        check_counts(classes, channels, parts.block)?;
+        let of_roughness = |table: &&TableParts<'_>| table.source == TableSource::Roughness;
+        let rough_tables = parts.tables.iter().filter(of_roughness).count();
+        if parts.tables.len() > MAX_TABLES {
+            return Err(ModelError::Tables(parts.tables.len()));
         }
+
         let mut body = Vec::new();
-        for (channel, q) in parts.quantisers.iter().enumerate() {
-            q.check(parts.bins)
+        for (channel, q) in parts.channels.iter().enumerate() {
+            q.check(1)
                 .map_err(|reason| ModelError::Quantiser { channel, reason })?;
             let record = ChannelRecord {
                 origin: q.origin.into(),
@@ -60,29 +158,61 @@ impl ModelBuf {
             };
             body.extend_from_slice(record.as_bytes());
         }
+        let mut tail = Vec::new();
+        if let Some(floors) = parts.floors {
+            if floors.len() != classes {
+                return Err(ModelError::Length);
+            }
+            let words = |floors: &Floors| [floors.samples, floors.roughness].map(u16::to_le_bytes);
+            tail.extend(floors.iter().flat_map(words).flatten());
+        }
         for (class, name) in parts.names.iter().enumerate() {
             if name.is_empty() || name.len() > MAX_NAME_BYTES {
                 return Err(ModelError::NameLength { class });
             }
-            body.push(name.len() as u8);
-            body.extend_from_slice(name.as_bytes());
+            tail.push(name.len() as u8);
+            tail.extend_from_slice(name.as_bytes());
         }
-        body.resize(body.len().next_multiple_of(4), 0);
-        for row in parts.entries.chunks(classes) {
+        tail.resize(tail.len().next_multiple_of(4), 0);
+
+        let before_rows = body.len() + parts.tables.len() * size_of::<TableRecord>() + tail.len();
+        let mut first = (size_of::<Header>() + before_rows) / size_of::<u32>();
+        for table in parts.tables {
+            body.extend_from_slice(table.record(first)?.as_bytes());
+            if table.entries.len() != table.cells() * classes {
+                return Err(ModelError::Length);
+            }
+            first += table.cells() * row_words(classes);
+        }
+        body.append(&mut tail);
+        for row in parts
+            .tables
+            .iter()
+            .flat_map(|table| table.entries.chunks(classes))
+        {
             let row_bytes = row_words(classes) * size_of::<u32>();
             let end = body.len() + row_bytes;
             body.extend(row.iter().flat_map(|e| e.to_le_bytes()));
             body.resize(end, 0);
         }
-        // Counts are checked: the fields fit, and the whole is below 7 MB.
+        let length = size_of::<Header>() + body.len() + CRC_BYTES;
+        let touch = parts.touch;
+        // Counts are checked: the fields fit.
         let header = Header {
             magic: MAGIC,
             version: VERSION.into(),
             classes: classes as u8,
             channels: channels as u8,
-            bins: (parts.bins as u16).into(),
+            sample_tables: (parts.tables.len() - rough_tables) as u8,
+            rough_tables: rough_tables as u8,
             block: (parts.block as u16).into(),
-            length: ((size_of::<Header>() + body.len() + CRC_BYTES) as u32).into(),
+            length: u32::try_from(length)
+                .map_err(|_| ModelError::Length)?
+                .into(),
+            limit: touch.map_or(NO_LIMIT, |touch| touch.limit).into(),
+            gate: touch.map_or(0.0, |touch| touch.gate).into(),
+            gap: touch.map_or(0, |touch| touch.gap).into(),
+            floors: u32::from(parts.floors.is_some()).into(),
         };
         let mut bytes = header.as_bytes().to_vec();
         bytes.append(&mut body);

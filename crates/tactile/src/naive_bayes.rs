@@ -1,13 +1,13 @@
-//! The step that all rules share: look up each channel's log-likelihoods, add
-//! them to the sums of the open block, and at its end ask the rule.
+//! The step that all rules share: look up the log-likelihoods of a sample, add them to
+//! the sums of the open block, at its end those of its roughness, and ask the rule.
 
 use core::fmt;
 
 use crate::decision::Decision;
 use crate::error::SetupError;
-use crate::format::{MAX_CHANNELS, MAX_CLASSES};
+use crate::format::{MAX_CLASSES, TableRecord};
 use crate::model::Model;
-use crate::quantiser::Binner;
+use crate::roughness::Roughness;
 use crate::rule::DecisionRule;
 
 /// Words of a row of three or four classes.
@@ -20,8 +20,6 @@ const FEW: usize = 2;
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     model: Model<W>,
     rule: R,
-    /// Of the model's channels; the others are not used.
-    binners: [Binner; MAX_CHANNELS],
     state: State<R::Evidence>,
 }
 
@@ -30,10 +28,15 @@ pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
 struct State<E> {
     /// Samples to the end of the open block; not zero.
     left: u32,
-    /// Sums of the open block. At most [`crate::MAX_SAMPLES_TIMES_CHANNELS`]
-    /// entries are in one, which stays below 2³¹.
+    /// Sums of the open block; the check of the model keeps them below 2³¹.
     sums: [u32; MAX_CLASSES],
     evidence: E,
+    roughness: Roughness,
+    /// By how much each class exceeds its floors since the touch began: in samples,
+    /// in roughness. Saturates.
+    excess: [[i32; MAX_CLASSES]; 2],
+    /// The number of the touch.
+    touch: u16,
 }
 
 /// A sample with another number of channels than the model.
@@ -55,11 +58,14 @@ impl fmt::Display for WrongChannels {
 impl core::error::Error for WrongChannels {}
 
 impl<E> State<E> {
-    const fn new(left: u32, evidence: E) -> Self {
+    fn new(left: u32, evidence: E) -> Self {
         Self {
             left,
             sums: [0; MAX_CLASSES],
             evidence,
+            roughness: Roughness::default(),
+            excess: [[0; MAX_CLASSES]; 2],
+            touch: 0,
         }
     }
 }
@@ -75,10 +81,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     /// The rule's settings do not fit the model.
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let rule = R::new(&model, settings)?;
-        // The model's check has made sure that each channel has one.
-        let binner = |channel| model.quantiser(channel)?.binner(model.bins()).ok();
         Ok(Self {
-            binners: core::array::from_fn(|channel| binner(channel).unwrap_or_default()),
             state: State::new(rule.interval(), rule.start()),
             model,
             rule,
@@ -99,10 +102,14 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     /// is then not taken.
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
-        let expected = self.model.channels();
-        let found = codes.len();
-        if found != expected {
-            return Err(WrongChannels { expected, found });
+        self.check(codes)?;
+        if self.model.has_roughness() {
+            feel(
+                self.model.rough_tables(),
+                codes,
+                true,
+                &mut self.state.roughness,
+            );
         }
         self.add(codes);
         if self.state.left > 1 {
@@ -112,45 +119,96 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
         Ok(self.end_of_block())
     }
 
-    /// Adds what each channel's code says of the classes to their sums.
+    /// Takes a sample that does not count, as nothing is touched: it is seen by the
+    /// differences of which roughness is made.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::push`].
     #[inline]
-    fn add(&mut self, codes: &[i32]) {
-        // The sums of three or four classes stay in registers: 48 instructions less
-        // on a Cortex-M4F, 7 % of a tick.
-        if self.model.row_words() == FEW {
-            self.add_few(codes);
-            return;
+    pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
+        self.check(codes)?;
+        if self.model.has_roughness() {
+            feel(
+                self.model.rough_tables(),
+                codes,
+                false,
+                &mut self.state.roughness,
+            );
         }
-        let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
-        let pairs = pairs.get_mut(..self.model.row_words()).unwrap_or_default();
-        for (channel, (binner, &code)) in self.binners.iter().zip(codes).enumerate() {
-            let bin = binner.bin(code, self.model.last_bin());
-            add_row(pairs, self.model.row(bin, channel));
+        Ok(())
+    }
+
+    /// A touch begins, whose `number` its decisions bear. Where the model has a
+    /// [`TouchRule`](crate::TouchRule), the open block is dropped and what came before
+    /// is limited: the surface may have changed.
+    pub fn touch(&mut self, number: u16) {
+        self.state.touch = number;
+        let Some(touch) = self.model.touch_rule() else {
+            return;
+        };
+        let limit = touch.limit.saturating_mul(self.model.block());
+        self.rule.limit(&mut self.state.evidence, limit);
+        self.state.left = self.rule.interval();
+        self.state.sums = [0; MAX_CLASSES];
+        self.state.excess = [[0; MAX_CLASSES]; 2];
+        self.state.roughness.clear();
+    }
+
+    #[inline]
+    const fn check(&self, codes: &[i32]) -> Result<(), WrongChannels> {
+        let expected = self.model.channels();
+        let found = codes.len();
+        if found == expected {
+            Ok(())
+        } else {
+            Err(WrongChannels { expected, found })
         }
     }
 
-    /// The same for rows of [`FEW`] words.
+    /// Adds what each table of samples says of the classes to their sums.
     #[inline]
-    fn add_few(&mut self, codes: &[i32]) {
+    fn add(&mut self, codes: &[i32]) {
+        let code = |_, channel: usize| codes.get(channel).copied().unwrap_or(0);
         let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
-        let Some(pairs) = pairs.first_chunk_mut::<FEW>() else {
+        // The sums of three or four classes stay in registers: 48 instructions less
+        // on a Cortex-M4F, 7 % of a tick.
+        if self.model.row_words() == FEW
+            && let Some(pairs) = pairs.first_chunk_mut::<FEW>()
+        {
+            let mut sums = *pairs;
+            for table in self.model.sample_tables() {
+                add_words(&mut sums, self.model.row(table, table.cell(code)));
+            }
+            *pairs = sums;
             return;
-        };
-        let mut sums = *pairs;
-        for (channel, (binner, &code)) in self.binners.iter().zip(codes).enumerate() {
-            let bin = binner.bin(code, self.model.last_bin());
-            add_words(&mut sums, self.model.row(bin, channel));
         }
-        *pairs = sums;
+        let pairs = pairs.get_mut(..self.model.row_words()).unwrap_or_default();
+        for table in self.model.sample_tables() {
+            add_row(pairs, self.model.row(table, table.cell(code)));
+        }
     }
 
     #[inline]
     fn end_of_block(&mut self) -> Option<Decision> {
-        let State { sums, evidence, .. } = &mut self.state;
+        let State {
+            left,
+            sums,
+            evidence,
+            roughness,
+            excess,
+            touch,
+        } = &mut self.state;
+        if self.model.has_roughness() || self.model.has_floors() {
+            add_roughness(&self.model.view(), roughness, sums, excess);
+        }
         let sums = sums.get_mut(..self.model.classes()).unwrap_or_default();
         let decision = self.rule.end_of_block(sums, evidence);
-        self.state.left = self.rule.interval();
-        decision
+        *left = self.rule.interval();
+        let decision = decision?;
+        let below =
+            |excess: &[i32; MAX_CLASSES]| excess.get(decision.leader()).is_some_and(|e| *e < 0);
+        Some(decision.in_touch(*touch, excess.iter().any(below)))
     }
 
     /// The end of a whisk or of a recording: rules that wait for it decide here
@@ -184,7 +242,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     }
 }
 
-/// Adds the entries of a row of the table to the sums of their classes.
+/// Adds the entries of a row of a table to the sums of their classes.
 // A function of its own: within the tick it would be unrolled for many classes.
 #[inline(never)]
 fn add_row(sums: &mut [[u32; 2]], row: &[u32]) {
@@ -195,10 +253,52 @@ fn add_row(sums: &mut [[u32; 2]], row: &[u32]) {
 #[inline]
 fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
     for ([even, odd], word) in sums.iter_mut().zip(row) {
-        // See `MAX_SAMPLES_TIMES_CHANNELS`: no sum wraps.
+        // No sum wraps: the check of the model sees to that.
         *even = even.wrapping_add(word & 0xffff);
         *odd = odd.wrapping_add(word >> 16);
     }
+}
+
+/// Takes a sample of the channels of roughness.
+// A function of its own: a tick in one piece runs out of registers.
+#[inline(never)]
+fn feel(tables: &[TableRecord], codes: &[i32], counts: bool, roughness: &mut Roughness) {
+    let channels = tables.iter().flat_map(TableRecord::channels);
+    let code = |channel: usize| codes.get(channel).copied().unwrap_or(0);
+    roughness.push(channels.map(code), counts);
+}
+
+/// Compares the sums of a block with their floors, adds what its roughness says of the
+/// classes, which weighs as much as the mean of its samples, and begins another.
+#[inline(never)]
+fn add_roughness(
+    model: &Model<&[u32]>,
+    roughness: &mut Roughness,
+    sums: &mut [u32; MAX_CLASSES],
+    excess: &mut [[i32; MAX_CLASSES]; 2],
+) {
+    let [of_samples, of_roughness] = excess;
+    let floor = |class| model.floors(class).unwrap_or_default();
+    for (class, (excess, sum)) in of_samples.iter_mut().zip(&*sums).enumerate() {
+        let floor = u32::from(floor(class).samples) * model.block();
+        *excess = excess.saturating_add(sum.wrapping_sub(floor).cast_signed());
+    }
+    let mut place = 0;
+    let mut entries = [0; MAX_CLASSES];
+    let (pairs, _) = entries.as_chunks_mut::<2>();
+    let pairs = pairs.get_mut(..model.row_words()).unwrap_or_default();
+    for table in model.rough_tables() {
+        let cell = table.cell(|axis, _| roughness.code(place + axis));
+        add_words(pairs, model.row(table, cell));
+        place += usize::from(table.axes);
+    }
+    let each = of_roughness.iter_mut().zip(entries).zip(sums).enumerate();
+    for (class, ((excess, entry), sum)) in each.take(model.classes()) {
+        let floor = u32::from(floor(class).roughness);
+        *excess = excess.saturating_add(entry.wrapping_sub(floor).cast_signed());
+        *sum = sum.wrapping_add(entry.wrapping_mul(model.block()));
+    }
+    roughness.clear();
 }
 
 /// Posterior probability of each class of a model.
@@ -230,10 +330,11 @@ mod tests {
 
     use super::*;
     use crate::format::{ENTRY_MAX, MAX_SAMPLES_TIMES_CHANNELS};
-    use crate::model_buf::{ModelBuf, ModelParts};
+    use crate::model_buf::{Axis, ModelBuf, ModelParts, TableParts};
     use crate::quantiser::Quantiser;
     use crate::window::WindowRule;
 
+    /// Channels of codes 0 to 999; entries `[bin][channel][class]`.
     fn model(
         classes: usize,
         channels: usize,
@@ -248,12 +349,29 @@ mod tests {
             low: 0,
             high: 1000,
         };
+        let axis = |channel| Axis {
+            channel,
+            bins,
+            low: 0,
+            high: 1000,
+        };
+        let axes: Vec<Axis> = (0..channels).map(axis).collect();
+        let rows = |channel| entries.chunks(classes).skip(channel).step_by(channels);
+        let of_channels: Vec<Vec<u16>> = (0..channels)
+            .map(|c| rows(c).flatten().copied().collect())
+            .collect();
+        let tables: Vec<TableParts<'_>> = axes
+            .iter()
+            .zip(&of_channels)
+            .map(|(axis, entries)| TableParts::of_channel(axis, entries))
+            .collect();
         ModelBuf::new(&ModelParts {
             names: &names,
             block,
-            bins,
-            quantisers: &std::vec![quantiser; channels],
-            entries,
+            channels: &std::vec![quantiser; channels],
+            tables: &tables,
+            floors: None,
+            touch: None,
         })
         .unwrap()
     }
@@ -273,7 +391,7 @@ mod tests {
         assert_eq!(c.state.sums[..5], [full, full, 0, full, samples * 3]);
         assert_eq!(c.state.sums[5..], [0; 27]);
         let decision = c.push(&[1; 7]).unwrap().unwrap();
-        assert_eq!((decision.class(), decision.samples()), (0, block));
+        assert_eq!((decision.class(), decision.samples()), (Some(0), block));
         assert_eq!(c.state.sums, [0; MAX_CLASSES]);
     }
 

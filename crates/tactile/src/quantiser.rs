@@ -5,6 +5,7 @@
 //! is floor((code − low) · B / (high − low)); the upper edge belongs to the last
 //! bin, and what lies outside goes to the edge bin.
 
+use crate::binner::Binner;
 use crate::error::QuantiserError;
 
 /// Largest magnitude of [`Quantiser::exponent`].
@@ -97,37 +98,7 @@ impl Quantiser {
             .checked_add(span.saturating_sub(1))
             .and_then(|numerator| numerator.checked_div(span))
             .unwrap_or(0);
-        Ok(Binner {
-            low: self.low,
-            slope: slope as u32,
-        })
-    }
-}
-
-/// Finds a bin by one multiplication: floor((code − low) · slope / 2³²) with
-/// slope = ⌈B · 2³² / span⌉.
-///
-/// Equal to the exact floor for spans up to 2¹⁶ codes: the slope is too large
-/// by less than one unit, which adds less than d / 2³² ≤ 1 / span to the
-/// quotient, and its fraction is at most 1 − 1 / span. For wider spans an edge
-/// may come early by at most span / 2³² of a bin.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Binner {
-    low: i32,
-    /// Below 2³¹.
-    slope: u32,
-}
-
-impl Binner {
-    /// The bin, 0 to `last`: codes outside the range go to its edges.
-    #[inline]
-    pub fn bin(&self, code: i32, last: usize) -> usize {
-        if code < self.low {
-            return 0;
-        }
-        let d = code.abs_diff(self.low);
-        let bin = (u64::from(d) * u64::from(self.slope)) >> 32;
-        (bin as usize).min(last)
+        Ok(Binner::new(self.low, slope as u32))
     }
 }
 

@@ -32,6 +32,10 @@ pub trait DecisionRule: Sized {
     /// from the prior.
     fn end_of_block(&self, sums: &mut [u32], evidence: &mut Self::Evidence) -> Option<Decision>;
 
+    /// A touch begins: no class is left further behind the leader than `limit`, in
+    /// units of [`Self::scale`]. Rules of the papers know no touches.
+    fn limit(&self, _evidence: &mut Self::Evidence, _limit: u32) {}
+
     /// The end of a whisk or of a recording, with `samples` in the open block.
     /// Rules that decide on the way drop what is left.
     fn finish(&self, _sums: &[u32], _samples: u32, _evidence: Self::Evidence) -> Option<Decision> {

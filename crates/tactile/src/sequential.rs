@@ -151,6 +151,12 @@ impl DecisionRule for SequentialRule {
         Some(decision)
     }
 
+    fn limit(&self, evidence: &mut SequentialEvidence, limit: u32) {
+        for deficit in &mut evidence.deficits {
+            *deficit = (*deficit).min(limit);
+        }
+    }
+
     fn deficits(&self, evidence: &SequentialEvidence, deficits: &mut [u32]) {
         for (to, from) in deficits.iter_mut().zip(&evidence.deficits) {
             *to = *from;

@@ -64,7 +64,7 @@ mod tests {
         totals.deficits(&mut deficits);
         assert_eq!(deficits, [0, MAX_DEFICIT]);
         let decision = totals.decide(2, EvidenceScale::per_samples(1));
-        assert_eq!(decision.class(), 0);
+        assert_eq!(decision.class(), Some(0));
         assert_eq!(decision.posterior().q32(), u32::MAX);
     }
 }

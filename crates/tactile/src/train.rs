@@ -16,13 +16,14 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
+use crate::binner::Binner;
 use crate::error::ModelError;
 use crate::format::{
     ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_CLASSES, MAX_NAME_BYTES,
 };
-use crate::layout::check_counts;
-use crate::model_buf::{ModelBuf, ModelParts};
-use crate::quantiser::{Binner, Quantiser};
+use crate::layout::{check_bins, check_counts};
+use crate::model_buf::{Axis, ModelBuf, ModelParts, TableParts};
+use crate::quantiser::Quantiser;
 pub use crate::train_error::TrainError;
 
 /// How to train.
@@ -66,7 +67,8 @@ impl Trainer {
     ///
     /// An option or the number of channels is out of range.
     pub fn new(channels: usize, options: Options) -> Result<Self, TrainError> {
-        check_counts(MAX_CLASSES, channels, options.bins, options.block)?;
+        check_counts(MAX_CLASSES, channels, options.block)?;
+        check_bins(options.bins)?;
         if !(0.0..=4096.0).contains(&options.smooth) {
             return Err(TrainError::Smooth(options.smooth));
         }
@@ -165,19 +167,37 @@ impl Trainer {
             }
         }
         let kernel = gaussian(self.options.smooth);
-        let mut entries = vec![0; bins * self.channels * classes];
-        for (row, histogram) in counts.iter().enumerate() {
-            let p = smoothed(histogram, &kernel);
-            for (bin, &p) in p.iter().enumerate() {
-                entries[bin * self.channels * classes + row] = entry(p);
-            }
-        }
+        let tables: Vec<(Axis, Vec<u16>)> = counts
+            .chunks_exact(classes)
+            .zip(&quantisers)
+            .enumerate()
+            .map(|(channel, (counts, q))| {
+                let axis = Axis {
+                    channel,
+                    bins,
+                    low: q.low,
+                    high: q.high,
+                };
+                let mut entries = vec![0; bins * classes];
+                for (class, histogram) in counts.iter().enumerate() {
+                    for (bin, &p) in smoothed(histogram, &kernel).iter().enumerate() {
+                        entries[bin * classes + class] = entry(p);
+                    }
+                }
+                (axis, entries)
+            })
+            .collect();
+        let tables: Vec<TableParts<'_>> = tables
+            .iter()
+            .map(|(axis, entries)| TableParts::of_channel(axis, entries))
+            .collect();
         Ok(ModelBuf::new(&ModelParts {
             names: &self.names,
             block,
-            bins,
-            quantisers: &quantisers,
-            entries: &entries,
+            channels: &quantisers,
+            tables: &tables,
+            floors: None,
+            touch: None,
         })?)
     }
 

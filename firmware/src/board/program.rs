@@ -92,8 +92,9 @@ pub(crate) fn end_of_frame(module: &mut Module) {
 fn write(event: Event) {
     match event {
         Event::Decision(decision) if !scene::CLASS_NAMES.is_empty() => {
-            let name = scene::CLASS_NAMES.get(decision.class());
-            log::decision(name.unwrap_or(&"?"), decision);
+            let class = decision.class();
+            let name = class.and_then(|class| scene::CLASS_NAMES.get(class));
+            log::decision(name.unwrap_or(&"unknown"), decision);
         }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
         Event::SensorBack(place) => log::sensor_back(place),

@@ -132,7 +132,7 @@ impl<'m, R: DecisionRule> Bayes<'m, R> {
 impl From<Decision> for Outcome {
     fn from(decision: Decision) -> Self {
         Self {
-            class: decision.class(),
+            class: decision.leader(),
             samples: decision.samples(),
         }
     }

@@ -218,7 +218,7 @@ mod tests {
         for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0)] {
             let buf = train(&streams, &picked, 1).unwrap();
             let model = buf.view();
-            assert_eq!(model.bins(), 49, "1596 codes in bins of 32.77");
+            assert_eq!(model.bins(0), Some(49), "1596 codes in bins of 32.77");
             let tally = Tally::of(&streams, || {
                 let bayes = Bayes::<WindowRule>::new(model, 100);
                 let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;

@@ -52,7 +52,7 @@ proptest! {
             // its posterior may not.
             prop_assert_eq!(f.samples() as usize, e.samples);
             prop_assert!((f.posterior().to_f64() - e.posterior).abs() < 1.1e-3);
-            if trainer.names()[f.class()] != e.decision {
+            if trainer.names()[f.leader()] != e.decision {
                 prop_assert!(e.posterior < 0.502);
             }
         }

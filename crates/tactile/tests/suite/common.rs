@@ -1,6 +1,8 @@
 //! Shared by the tests: models made to measure.
 
-use tactile::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser};
+use tactile::{
+    Axis, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser, TableParts,
+};
 
 /// The table entry of a log2-likelihood.
 pub(crate) fn entry(log2_p: f64) -> u16 {
@@ -23,18 +25,34 @@ pub(crate) fn model(
         low: 0,
         high: 1000,
     };
-    let mut entries = Vec::new();
-    for bin in 0..bins {
-        for channel in 0..channels {
-            entries.extend((0..classes).map(|class| entry(log2_p(bin, channel, class))));
-        }
-    }
+    let axis = |channel| Axis {
+        channel,
+        bins,
+        low: quantiser.low,
+        high: quantiser.high,
+    };
+    let axes: Vec<Axis> = (0..channels).map(axis).collect();
+    let entries: Vec<Vec<u16>> = (0..channels)
+        .map(|channel| {
+            let classes = |bin| (0..classes).map(move |class| (bin, class));
+            let cells = (0..bins).flat_map(classes);
+            cells
+                .map(|(bin, class)| entry(log2_p(bin, channel, class)))
+                .collect()
+        })
+        .collect();
+    let tables: Vec<TableParts<'_>> = axes
+        .iter()
+        .zip(&entries)
+        .map(|(axis, entries)| TableParts::of_channel(axis, entries))
+        .collect();
     ModelBuf::new(&ModelParts {
         names: &names,
         block,
-        bins,
-        quantisers: &vec![quantiser; channels],
-        entries: &entries,
+        channels: &vec![quantiser; channels],
+        tables: &tables,
+        floors: None,
+        touch: None,
     })
     .unwrap()
 }

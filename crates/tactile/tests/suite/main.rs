@@ -6,4 +6,5 @@ mod joint;
 mod model_file;
 mod rules;
 mod score;
+mod touches;
 mod training;

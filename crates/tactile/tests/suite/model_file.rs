@@ -3,7 +3,9 @@
 
 use crate::common;
 use proptest::prelude::*;
-use tactile::{Aligned, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError};
+use tactile::{
+    Aligned, Axis, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError, TableParts,
+};
 
 fn example() -> ModelBuf {
     common::model(3, 2, 5, 20, |bin, channel, class| {
@@ -26,7 +28,9 @@ fn content_survives() {
     let buf = example();
     let model = buf.view();
     assert_eq!((model.classes(), model.channels()), (3, 2));
-    assert_eq!((model.bins(), model.block()), (5, 20));
+    assert_eq!((model.bins(1), model.block()), (Some(5), 20));
+    assert_eq!((model.bins(2), model.touch_rule()), (None, None));
+    assert_eq!(model.floors(0), None);
     let names: Vec<_> = model.names().collect();
     assert_eq!(names, ["class 0", "class 1", "class 2"]);
     assert_eq!((model.name(2), model.name(3)), (Some("class 2"), None));
@@ -46,11 +50,20 @@ fn the_header_is_laid_out_as_documented() {
     let buf = example();
     let b = buf.as_bytes();
     assert_eq!(b[..4], *b"WLIK");
-    assert_eq!(b[4..8], [1, 0, 3, 2]);
-    assert_eq!(b[8..12], [5, 0, 20, 0]);
+    assert_eq!(b[4..12], [2, 0, 3, 2, 2, 0, 20, 0]);
     assert_eq!(b[12..16], (b.len() as u32).to_le_bytes());
-    // Header, two channels, three names of seven bytes, ten rows of two words.
-    assert_eq!(b.len(), 16 + 40 + 24 + 80 + 4);
+    // No touches, no floors.
+    assert_eq!(b[16..20], [0xff; 4]);
+    assert_eq!(b[20..32], [0; 12]);
+    // The second table: of samples, one axis, its rows five after the first's.
+    let rows = (32 + 40 + 80 + 24) / 4;
+    assert_eq!(b[112..116], [0, 1, 0, 0]);
+    assert_eq!(b[116..120], (rows + 10_u32).to_le_bytes());
+    // Channel 1, five bins, 1000 to 0 codes.
+    assert_eq!(b[120..124], [1, 0, 4, 0]);
+    assert_eq!(b[124..132], [0xe8, 3, 0, 0, 0, 0, 0, 0]);
+    // Header, two channels, two tables, three names of seven bytes, ten rows of two words.
+    assert_eq!(b.len(), 32 + 40 + 80 + 24 + 80 + 4);
 }
 
 #[test]
@@ -67,34 +80,44 @@ fn damage_is_named() {
     assert_eq!(parse(b"label,trial,x,y\nice,0,1,2\n"), ModelError::BadMagic);
 
     let set = |at: usize, value: u8| resealed(|b| b[at] = value).unwrap_err();
-    assert_eq!(set(4, 2), ModelError::UnknownVersion(2));
+    assert_eq!(set(4, 1), ModelError::UnknownVersion(1));
     assert_eq!(set(6, 1), ModelError::Classes(1));
     assert_eq!(set(6, 33), ModelError::Classes(33));
     assert_eq!(set(7, 0), ModelError::Channels(0));
     assert_eq!(set(7, 25), ModelError::Channels(25));
-    assert_eq!(set(8, 0), ModelError::Bins(0));
-    assert_eq!(set(9, 17), ModelError::Bins(17 * 256 + 5));
+    assert_eq!(set(8, 0), ModelError::Tables(0));
+    assert_eq!(set(9, 23), ModelError::Tables(25));
     assert_eq!(set(10, 0), ModelError::Block(0));
     assert_eq!(set(11, 64), ModelError::Block(64 * 256 + 20));
+    // A gap or a gate without a limit, a limit with no gate that is one.
+    assert_eq!(set(24, 1), ModelError::TouchRule);
+    assert_eq!(set(28, 2), ModelError::Padding);
     // Counts within their ranges that do not add up.
-    assert_eq!(set(8, 6), ModelError::Length);
-    assert_eq!(set(8, 4), ModelError::Length);
+    assert_eq!(set(28, 1), ModelError::Length);
     assert_eq!(set(6, 5), ModelError::Length);
     // Channel 1: its upper edge below the lower; its scale; a reserved byte.
     let quantiser = |reason| ModelError::Quantiser { channel: 1, reason };
-    assert_eq!(set(16 + 20 + 15, 0x80), quantiser(QuantiserError::Reversed));
+    assert_eq!(set(32 + 20 + 15, 0x80), quantiser(QuantiserError::Reversed));
     assert_eq!(
-        set(16 + 20 + 17, 4),
+        set(32 + 20 + 17, 4),
         quantiser(QuantiserError::Exponent(1024))
     );
-    assert_eq!(set(16 + 20 + 18, 1), ModelError::Padding);
+    assert_eq!(set(32 + 20 + 18, 1), ModelError::Padding);
+    // Table 1: its source, axes, rows, channel, bins, range, slope, unused axis.
+    assert_eq!(set(112, 1), ModelError::Padding);
+    assert_eq!(set(113, 3), ModelError::Padding);
+    assert_eq!(set(116, 1), ModelError::Length);
+    assert_eq!(set(120, 2), ModelError::Padding);
+    assert_eq!(set(123, 16), ModelError::Bins(4096 + 5));
+    assert_eq!(set(127, 0x80), quantiser(QuantiserError::Reversed));
+    assert_eq!(set(132, 1), ModelError::Padding);
+    assert_eq!(set(136, 1), ModelError::Padding);
     // Names: empty, not UTF-8, one that eats the next.
-    assert_eq!(set(56, 0), ModelError::NameLength { class: 0 });
-    assert_eq!(set(66, 0xff), ModelError::NameNotUtf8 { class: 1 });
-    assert_eq!(set(72, 200), ModelError::Length);
-    // Table: above the range, and a value where an odd row has a gap.
-    assert_eq!(set(81, 0x51), ModelError::TableEntry);
-    assert_eq!(set(86, 1), ModelError::Padding);
+    assert_eq!(set(152, 0), ModelError::NameLength { class: 0 });
+    assert_eq!(set(162, 0xff), ModelError::NameNotUtf8 { class: 1 });
+    assert_eq!(set(168, 200), ModelError::Length);
+    // A value where an odd row has a gap.
+    assert_eq!(set(182, 1), ModelError::Padding);
 
     let mut flipped = b.to_vec();
     flipped[100] ^= 1;
@@ -150,21 +173,52 @@ fn what_could_not_be_read_is_not_written() {
         low: 0,
         high: 10,
     };
+    let axis = Axis {
+        channel: 0,
+        bins: 2,
+        low: 0,
+        high: 10,
+    };
+    let tables = [TableParts::of_channel(&axis, &[1, 2, 3, 4])];
     let parts = ModelParts {
         names: &names,
-        block: 20,
-        bins: 2,
-        quantisers: &[quantiser],
-        entries: &[1, 2, 3, 4],
+        block: 10_000,
+        channels: &[quantiser],
+        tables: &tables,
+        floors: None,
+        touch: None,
     };
     assert!(ModelBuf::new(&parts).is_ok());
     let long = ["a".to_owned(), "b".repeat(256)];
-    let (block, bins, entries) = (0, 3, &[1, 2, 3, 20_481]);
     let long_name = ModelError::NameLength { class: 1 };
+    let more_bins = Axis { bins: 3, ..axis };
+    let tables = [TableParts::of_channel(&more_bins, &[1, 2, 3, 4])];
+    let (block, too_short) = (
+        0,
+        ModelParts {
+            tables: &tables,
+            ..parts
+        },
+    );
+    // Of two tables that each could stand alone the sum is too much.
+    let full = [TableParts::of_channel(&axis, &[1, 2, 3, u16::MAX]); 3];
     for (parts, error) in [
         (ModelParts { block, ..parts }, ModelError::Block(0)),
-        (ModelParts { bins, ..parts }, ModelError::Length),
-        (ModelParts { entries, ..parts }, ModelError::TableEntry),
+        (too_short, ModelError::Length),
+        (
+            ModelParts {
+                tables: &[],
+                ..parts
+            },
+            ModelError::Tables(0),
+        ),
+        (
+            ModelParts {
+                tables: &full,
+                ..parts
+            },
+            ModelError::TableEntry,
+        ),
         (
             ModelParts {
                 names: &long,

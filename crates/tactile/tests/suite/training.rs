@@ -133,7 +133,7 @@ fn a_channel_that_never_changes_is_allowed_and_says_nothing() {
     let mut c = Window::new(model, 1).unwrap();
     for (x, class) in [(0, 0), (29, 1)] {
         let code = model.quantiser(0).unwrap().code_from_raw(x);
-        assert_eq!(c.push(&[code, 123_456]).unwrap().unwrap().class(), class);
+        assert_eq!(c.push(&[code, 123_456]).unwrap().unwrap().leader(), class);
     }
 }
 

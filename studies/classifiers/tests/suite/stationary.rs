@@ -17,7 +17,7 @@ fn stationary_sums_whole_whisks() {
         assert_eq!(c.push(&[code]).unwrap(), None);
     }
     let decision = c.finish().unwrap();
-    assert_eq!(decision.class(), usize::from(ratio > 0.0));
+    assert_eq!(decision.leader(), usize::from(ratio > 0.0));
     assert_eq!(decision.samples(), 7);
     let p = 1.0 / (1.0 + (-ratio.abs()).exp());
     assert!((decision.posterior().to_f64() - p).abs() < 2e-3);
@@ -25,7 +25,7 @@ fn stationary_sums_whole_whisks() {
     assert_eq!(c.finish(), None);
     c.push(&[700]).unwrap();
     let decision = c.finish().unwrap();
-    assert_eq!((decision.class(), decision.samples()), (1, 1));
+    assert_eq!((decision.leader(), decision.samples()), (1, 1));
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn stationary_outlasts_a_word() {
         c.push(&[3; 12]).unwrap();
     }
     let decision = c.finish().unwrap();
-    assert_eq!((decision.class(), decision.samples()), (1, samples));
+    assert_eq!((decision.leader(), decision.samples()), (1, samples));
     assert!(decision.posterior().odds_against() < 1e-15);
     for _ in 0..10 {
         c.push(&[3; 12]).unwrap();

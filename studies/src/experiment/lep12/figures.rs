@@ -45,7 +45,7 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
             let Some(q) = model.quantiser(channel) else {
                 continue;
             };
-            let bins = model.bins();
+            let bins = model.bins(channel).unwrap_or(1);
             let unit = libm::exp2(-f64::from(q.exponent));
             let volts = |bin: usize| {
                 let share = (bin as f64 + 0.5) / bins as f64;
