@@ -5,8 +5,9 @@ use std::vec::Vec;
 
 use super::pieces::Piece;
 use super::trial::CHANNELS;
+use crate::binner::Binner;
 use crate::format::LOG_FLOOR;
-use crate::quantiser::{Binner, Quantiser};
+use crate::quantiser::Quantiser;
 use crate::train::gaussian;
 use crate::train_error::TrainError;
 
