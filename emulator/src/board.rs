@@ -83,7 +83,6 @@ impl Board {
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
             Stop::Tick | Stop::Time => return Err(Fault::Asleep),
         }
-        board.watch.keep_evidence(&board.machine.memories)?;
         Ok(board)
     }
 
@@ -232,13 +231,6 @@ impl Bench for Emulated {
         self.attempt(|emulated| {
             let board = &emulated.board;
             board.watch.look(&board.machine.memories, snapshot)
-        });
-    }
-
-    fn forget(&mut self) {
-        self.attempt(|emulated| {
-            let board = &emulated.board;
-            board.watch.forget(&board.machine.memories)
         });
     }
 

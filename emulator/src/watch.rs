@@ -33,8 +33,6 @@ mod name {
     pub(super) const NOMINAL: &str = "nominal";
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
-    /// What the classifier has heard.
-    pub(super) const EVIDENCE: [&str; 4] = ["perception", "classifier", "bayes", "state"];
     /// In the queue.
     pub(super) const TAIL: &str = "tail";
     pub(super) const BUFFER: &str = "buffer";
@@ -81,13 +79,6 @@ struct Queue {
     seen: u32,
 }
 
-/// A stretch of memory.
-#[derive(Debug)]
-struct Block {
-    address: u32,
-    bytes: Vec<u8>,
-}
-
 /// Where everything is.
 #[derive(Debug)]
 pub(crate) struct Watch {
@@ -98,7 +89,6 @@ pub(crate) struct Watch {
     gain: Vec<[Variable; 2]>,
     missed: u32,
     queue: Queue,
-    evidence: Option<Block>,
 }
 
 fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Option<Place<'d>>, Fault> {
@@ -132,7 +122,6 @@ impl Watch {
             theta: Vec::new(),
             gain: Vec::new(),
             queue: Queue::new(&info)?,
-            evidence: None,
         };
         if let Some(state) = along(module, &name::STATE)? {
             watch.z = numbers(state.member(name::Z)?)?;
@@ -148,12 +137,6 @@ impl Watch {
                     }
                 }
             }
-        }
-        if let Some(evidence) = along(module, &name::EVIDENCE)? {
-            watch.evidence = Some(Block {
-                address: evidence.address,
-                bytes: vec![0; evidence.size()? as usize],
-            });
         }
         Ok(watch)
     }
@@ -185,22 +168,6 @@ impl Watch {
     /// The program starts anew, with an empty queue.
     pub(crate) const fn restart(&mut self) {
         self.queue.seen = 0;
-    }
-
-    /// Keeps the classifier's evidence as it is before the first tick.
-    pub(crate) fn keep_evidence(&mut self, ram: &Memories) -> Result<(), Fault> {
-        match &mut self.evidence {
-            Some(Block { address, bytes }) => ram.read(*address, bytes),
-            None => Ok(()),
-        }
-    }
-
-    /// Puts the evidence back to that.
-    pub(crate) fn forget(&self, ram: &Memories) -> Result<(), Fault> {
-        match &self.evidence {
-            Some(Block { address, bytes }) => ram.write(*address, bytes),
-            None => Ok(()),
-        }
     }
 
     /// The decisions that have been queued since the last call.

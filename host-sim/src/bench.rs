@@ -4,7 +4,7 @@
 use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
-    NoActiveWhisker, Place, Polled, SampleClassifier, Servo, ServoConfig,
+    NoActiveWhisker, Place, Polled, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
@@ -49,9 +49,6 @@ pub trait Bench {
 
     /// Fills in `snapshot`; `theta_deg` has a place for every whisker.
     fn look(&mut self, snapshot: &mut Snapshot);
-
-    /// Makes the classifier forget its evidence.
-    fn forget(&mut self);
 
     /// The sensor of whisker `n`, counted from 0, left side first.
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave>;
@@ -120,12 +117,6 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
         }
         for (place, whiskers) in snapshot.g.iter_mut().zip(&state.whiskers) {
             *place = whiskers.first().map_or(f64::NAN, whisking::Whisker::gain);
-        }
-    }
-
-    fn forget(&mut self) {
-        if let Some(perception) = self.module.perception_mut() {
-            perception.classifier_mut().reset();
         }
     }
 

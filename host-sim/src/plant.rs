@@ -77,6 +77,11 @@ pub trait Plant: Debug + Send {
     /// Puts another texture before all whiskers; nothing where surfaces have none.
     fn present(&mut self, _texture: Texture) {}
 
+    /// Whether any whisker touches a surface that can be exchanged.
+    fn touches(&self) -> bool {
+        false
+    }
+
     /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
     /// that is not there.
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];

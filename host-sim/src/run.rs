@@ -2,7 +2,7 @@
 
 use firmware::{Command, Event};
 use mlx90333::Word;
-use scene::{PlantKind, Scene, Texture};
+use scene::{Exchanged, PlantKind, Scene, Texture};
 use tactile::Posteriors;
 
 use crate::Error;
@@ -39,9 +39,19 @@ struct Presented {
     textures: Vec<Texture>,
     /// Ticks a presentation.
     length: u64,
+    /// Ticks without touch before a texture is exchanged; `None`: whatever it touches.
+    air: Option<u64>,
+    /// The last tick with touch.
+    touched: u64,
+    /// Presentations that have begun.
+    begun: u64,
     label: &'static str,
     trial: u64,
 }
+
+/// How long nothing may have been touched before a texture is exchanged, s: a period
+/// of the slowest vibration, lest it is done while the whisker bounces.
+const AIR_S: f64 = 0.02;
 
 impl Presented {
     fn new(scene: &Scene) -> Self {
@@ -49,17 +59,18 @@ impl Presented {
             PlantKind::Ideal if scene.plant.obstacle.is_some() => "obstacle",
             _ => "free",
         };
-        let (textures, length) = match &scene.plant.textured {
-            Some(textured) => {
-                let ticks = (textured.present_s * f64::from(scene.tick_hz)).round();
-                (textured.textures.clone(), (ticks as u64).max(1))
-            }
-            None => (Vec::new(), u64::MAX),
-        };
+        let ticks = |seconds: f64| ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
+        let textured = scene.plant.textured.as_ref();
+        let length = textured.map_or(u64::MAX, |textured| ticks(textured.present_s));
+        let textures = textured.map(|textured| textured.textures.clone());
+        let in_air = textured.is_some_and(|textured| textured.exchange == Exchanged::Air);
         Self {
             first: label,
-            textures,
+            textures: textures.unwrap_or_default(),
             length,
+            air: in_air.then(|| ticks(AIR_S)),
+            touched: 0,
+            begun: 0,
             label,
             trial: 0,
         }
@@ -68,14 +79,22 @@ impl Presented {
     fn restart(&mut self) {
         self.label = self.first;
         self.trial = 0;
+        self.touched = 0;
+        self.begun = 0;
     }
 
-    /// The texture to put in place before tick `done + 1`, if it changes there.
-    fn change(&mut self, done: u64) -> Option<Texture> {
-        if !done.is_multiple_of(self.length) {
-            return None;
+    /// The texture to put in place before tick `done + 1`, if it changes there;
+    /// `touches`: whether the present one is touched.
+    fn change(&mut self, done: u64, touches: bool) -> Option<Texture> {
+        if touches {
+            self.touched = done;
         }
         let count = done / self.length;
+        let may = |air| self.begun == 0 || done - self.touched >= air;
+        if count < self.begun || !self.air.is_none_or(may) {
+            return None;
+        }
+        self.begun = count + 1;
         let among = self.textures.len() as u64;
         let texture = *self.textures.get(count.checked_rem(among)? as usize)?;
         self.label = texture.name();
@@ -224,6 +243,11 @@ impl<B: Bench + ?Sized> Run<B> {
         (self.presented.label, self.presented.trial)
     }
 
+    /// Whether any whisker touches a texture: the truth, which no module knows.
+    pub fn touches(&self) -> bool {
+        self.world.touches()
+    }
+
     /// The names of the classes that its decisions are among.
     pub fn classes(&self) -> &[String] {
         &self.classes
@@ -243,9 +267,8 @@ impl<B: Bench + ?Sized> Run<B> {
     /// motors and plant move on. Returns the row of the trace.
     pub fn tick(&mut self) -> Row {
         self.events.clear();
-        if let Some(texture) = self.presented.change(self.done) {
+        if let Some(texture) = self.presented.change(self.done, self.world.touches()) {
             self.world.present(texture);
-            self.bench.forget();
         }
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {

@@ -84,6 +84,11 @@ impl World {
         self.plant.present(texture);
     }
 
+    /// Whether any whisker touches a texture.
+    pub fn touches(&self) -> bool {
+        self.plant.touches()
+    }
+
     /// Deflection at the sensor of a whisker now: x and y, each within ±1.
     pub fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         self.plant.deflection(side, whisker)

@@ -54,7 +54,7 @@ mod values;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
-    ClassifierSection, Driver, HeadSection, MotorSection, Numbers, Obstacles, PlantKind,
+    ClassifierSection, Driver, Exchanged, HeadSection, MotorSection, Numbers, Obstacles, PlantKind,
     PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture,
     WhiskingSection,
 };

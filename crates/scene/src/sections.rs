@@ -16,7 +16,9 @@ mod whisking;
 pub use classifier::{ClassifierSection, Rule};
 pub use head::{HeadSection, Sides};
 pub use motor::{Driver, MotorSection};
-pub use plant::{Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture};
+pub use plant::{
+    Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
+};
 pub use scene::Scene;
 pub use shaft::{ShaftName, ShaftNumbers};
 pub use whisking::{Numbers, WhiskingSection};

@@ -223,6 +223,10 @@ impl Plant for Textured {
         self.present_surface(SurfaceSettings::of(texture));
     }
 
+    fn touches(&self) -> bool {
+        self.whiskers.iter().any(|whisker| whisker.touching)
+    }
+
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         let whisker = self.head.index(side, whisker);
         let whisker = whisker.and_then(|i| self.whiskers.get(i));

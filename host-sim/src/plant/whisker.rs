@@ -174,6 +174,10 @@ impl Plant for Elastic {
         self.present_surface(Surface::of(material(texture)));
     }
 
+    fn touches(&self) -> bool {
+        self.whiskers.iter().any(|swung| swung.whisker.contact())
+    }
+
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         let whisker = self.head.index(side, whisker);
         let whisker = whisker.and_then(|i| self.whiskers.get(i));

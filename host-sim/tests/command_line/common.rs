@@ -32,6 +32,7 @@ obstacle_deg = [80.0]
 stiffness = 0.1
 textures = ["smooth", "carpet"]
 present_s = 0.125
+exchange = "timed"
 "#;
 
 /// What makes [`TEXTURED`] classify.

@@ -195,3 +195,26 @@ fn a_recording_is_what_a_classifier_gets() {
     assert_eq!(decided.samples, recorded.samples);
     assert!(recorded.samples.iter().all(Option::is_some));
 }
+
+#[test]
+fn textures_are_exchanged_in_the_air() {
+    let timed = Scene::from_str("s.toml", TEXTURED).unwrap();
+    let air = TEXTURED.replace("exchange = \"timed\"\n", "");
+    let air =
+        Scene::from_str("s.toml", &air.replace("duration_s = 0.5", "duration_s = 2")).unwrap();
+    for scene in [timed, air] {
+        let mut run = Run::new(&scene, None).unwrap();
+        let (mut label, mut still, mut late) = ("free", 0, Vec::new());
+        for n in 0..run.ticks() {
+            still = if run.touches() { 0 } else { still + 1 };
+            run.tick();
+            if run.presented().0 != label {
+                label = run.presented().0;
+                late.push((n, still));
+            }
+        }
+        let on_time = late.iter().all(|(n, _)| n % 250 == 0);
+        let in_air = late[1..].iter().all(|(_, still)| *still >= 40);
+        assert!(late.len() > 2 && on_time != in_air, "{late:?}");
+    }
+}

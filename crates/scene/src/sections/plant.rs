@@ -39,6 +39,16 @@ choice! {
     }
 }
 
+choice! {
+    /// When one surface takes the place of another.
+    pub enum Exchanged {
+        /// Once its time has come and no whisker has touched the old one for a while.
+        Air = "air",
+        /// At its time, under a bent whisker too.
+        Timed = "timed",
+    }
+}
+
 const TEXTURED: Condition = Is("kind", PlantKind::Textured.name());
 const ELASTIC: Condition = Is("kind", PlantKind::Whisker.name());
 
@@ -92,6 +102,10 @@ keys! {
             .unit("s")
             .required_if(TEXTURES, "no texture")
             .only_if(TEXTURES),
+
+        /// When the next texture is put in place: `air`, once its time has come and no
+        /// whisker has touched for 20 ms; `timed`, at its time, under a bent whisker too.
+        exchange: Exchanged = word().default("\"air\"").only_if(TEXTURES),
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::common::{FULL, with};
 use scene::{
-    ClassifierSection, Driver, GateSettings, HeadSection, Integrator, MotorSection, Numbers,
-    Obstacles, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
+    ClassifierSection, Driver, Exchanged, GateSettings, HeadSection, Integrator, MotorSection,
+    Numbers, Obstacles, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
     ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
@@ -144,6 +144,7 @@ fn textured_surfaces_keep_their_order() {
     let expected = Presentation {
         textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
         present_s: 1.0,
+        exchange: Exchanged::Air,
     };
     assert_eq!(
         (plant.kind, plant.textured),

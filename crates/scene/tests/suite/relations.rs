@@ -10,8 +10,8 @@ fn missing_keys_and_tables() {
     assert_eq!(
         complaint(PASSIVE),
         "s.toml:1: [plant]: missing; required: a table with the keys \
-         kind, obstacle_deg, stiffness, textures, present_s, shaft, length_m, hub_diameter_m, \
-         tip_diameter_m, youngs_pa, density_kg_m3, damping_ratio, follicle_n_m_rad"
+         kind, obstacle_deg, stiffness, textures, present_s, exchange, shaft, length_m, \
+         hub_diameter_m, tip_diameter_m, youngs_pa, density_kg_m3, damping_ratio, follicle_n_m_rad"
     );
     let all = "s.toml:1: name: missing\ns.toml:1: tick_hz: missing\ns.toml:1: duration_s: missing\n\
                s.toml:1: seed: missing\ns.toml:1: [head]: missing\ns.toml:1: [plant]: missing";
