@@ -45,11 +45,11 @@ fn models_that_have_suffered() {
         refused_by_both(&valid[..kept], "cut short");
     }
     refused_by_both(&[&valid[..], b"\0"].concat(), "bytes follow");
-    // In the header, a quantiser, a name, the table and the checksum.
+    // In the header, a channel, a name, the table and the checksum.
     for (at, naming) in [
         (0, "WLIK"),
         (4, "version"),
-        (20, "CRC-32"),
+        (20, "gate"),
         (58, "CRC-32"),
         (valid.len() / 2, "CRC-32"),
         (valid.len() - 1, "CRC-32"),
