@@ -15,8 +15,10 @@
 //! recording is left out, otherwise a trial of each class; of a class's only trial
 //! each half in turn.
 
+mod axes;
 mod blocks;
 mod floors;
+mod model;
 mod pieces;
 mod report;
 mod run;
@@ -26,34 +28,20 @@ mod tests;
 mod trial;
 mod weights;
 
-use std::string::String;
 use std::vec::Vec;
 
 use crate::train_error::TrainError;
+use axes::{Axes, Layout};
 use blocks::Blocks;
 pub use floors::Floor;
-use pieces::{Piece, folded, names};
+pub use model::JointModel;
+use pieces::{Folded, Piece, names};
 pub use report::{AtThreshold, ClassReport, Interval, Report, Warning};
 use run::{Rule, decisions};
-use tables::{Axes, Layout, Tables};
-pub use tables::{Axis, LogTable, TableSource};
+pub use tables::LogTable;
+use tables::Tables;
 pub use trial::{CHANNELS, Options, Trial};
 pub use weights::MAX_WEIGHT;
-
-/// What training gives.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JointModel {
-    /// Class names, as they first appear.
-    pub names: Vec<String>,
-    /// Tables of log-likelihoods, not yet weighted.
-    pub tables: Vec<LogTable>,
-    /// Weight of each table, 0 to [`MAX_WEIGHT`].
-    pub weights: Vec<f64>,
-    /// A floor a class; none where none was wanted.
-    pub floors: Option<Vec<Floor>>,
-    /// What held-out trials say of all this.
-    pub report: Report,
-}
 
 /// Trains from trials in the order in which they were felt.
 ///
@@ -79,36 +67,38 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
             });
         }
     }
-    let (pieces, halved) = folded(pieces, &names)?;
+    let folded = Folded::new(pieces, &names)?;
+    let pieces = &folded.pieces;
 
-    let axes = Axes::of(&pieces, scales, options.bins)?;
+    let axes = Axes::of(pieces, options.bins);
     let layout = Layout::joint(&axes, options.block);
-    let tables = Tables::count(&layout, &pieces, names.len(), options.smooth);
-    let evidence = tables.held_out(&pieces);
-    let weights = weights::fitted(&evidence);
-
-    let rule = |threshold| Rule {
-        threshold,
+    let tables = Tables::count(&layout, pieces, names.len(), options.smooth);
+    let evidence = tables.held_out(pieces);
+    let mut rule = Rule {
+        threshold: options.threshold,
         limit_bits: options.limit_bits,
         block: options.block,
-        weights: &weights,
+        weights: Vec::new(),
         sources: layout.sources(),
     };
-    let found = decisions(&pieces, &evidence, &rule(options.threshold));
+    let lengths = weights::lengths(&folded, names.len());
+    rule.weights = weights::fitted(&evidence, &lengths);
+    let found = decisions(pieces, &evidence, &rule);
     let floors = (options.refused > 0.0).then(|| floors::of(&found, names.len(), options.refused));
     let report = report::Maker {
         names: &names,
         trials,
-        pieces: &pieces,
-        halved: &halved,
+        folded: &folded,
         evidence: &evidence,
         floors: floors.as_deref(),
     }
-    .report(&weights, options.threshold, rule);
+    .report(&rule);
     Ok(JointModel {
         tables: tables.finished(),
+        options: options.clone(),
         names,
-        weights,
+        scales,
+        weights: rule.weights,
         floors,
         report,
     })

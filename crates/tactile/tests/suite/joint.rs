@@ -1,7 +1,8 @@
 //! The joint trainer on problems whose answer is known.
 
 use tactile::train::TrainError;
-use tactile::train::joint::{Options, TableSource, Trial, Warning, train};
+use tactile::train::joint::{Options, Trial, Warning, train};
+use tactile::{Sequential, TableSource, Threshold};
 
 /// Uniform in 0 to 1.
 fn roll(state: &mut u64) -> f64 {
@@ -53,7 +54,7 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
     let table = &trained.tables[0];
     assert_eq!(table.source, TableSource::Samples);
     // ln p(b)/p(a) of code x is x · 50/100² here.
-    let range = table.axes[0].range;
+    let range = table.axes[0];
     let width = f64::from(range.high - range.low) / 32.0;
     for bin in 6..26 {
         let x = f64::from(range.low) + (bin as f64 + 0.5) * width;
@@ -137,4 +138,40 @@ fn faults_are_named() {
     };
     let error = train(&two(1.0, 100), &options).unwrap_err();
     assert_eq!(error.to_string(), "bins 1; 2 to 128 is allowed");
+}
+
+#[test]
+fn the_model_file_decides_as_the_report_says() {
+    let trained = train(&two(0.5, 8_000), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    let rule = model.touch_rule().unwrap();
+    assert_eq!((rule.limit, rule.gap), (2048, 200));
+    let threshold = Threshold::new(0.99).unwrap();
+    let mut classifier = Sequential::new(model, threshold).unwrap();
+    let (mut decided, mut right, mut samples) = (0, 0, 0.0);
+    for (n, fresh) in two(0.5, 8_000).iter().enumerate() {
+        // The same means, other samples.
+        let mean = [if n % 2 == 0 { -25.0 } else { 25.0 }, 0.0];
+        let other = trial(&fresh.label, "two", mean, 8_000, n as u64 + 100);
+        classifier.touch(n as u16);
+        for sample in &other.samples {
+            let codes =
+                [0, 1].map(|channel| trained.scales[channel].code_from_f64(sample[channel]));
+            if let Some(decision) = classifier.push(&codes).unwrap() {
+                decided += 1;
+                right += usize::from(decision.leader() == n % 2);
+                samples += f64::from(decision.samples());
+            }
+        }
+    }
+    let at = trained.report.calibration[4];
+    assert!(
+        decided > 200 && right as f64 > 0.98 * f64::from(decided),
+        "{right} of {decided}"
+    );
+    let samples = samples / f64::from(decided);
+    assert!(
+        (samples / at.samples - 1.0).abs() < 0.15,
+        "{samples} {at:?}"
+    );
 }

@@ -44,58 +44,69 @@ pub(super) fn names(trials: &[Trial]) -> Result<Vec<String>, TrainError> {
     }
 }
 
-/// Says what is held out together, and splits the only trial of a class. Returns
-/// the classes that it was done to as well.
-pub(super) fn folded<'t>(
-    pieces: Vec<Piece<'t>>,
-    names: &[String],
-) -> Result<(Vec<Piece<'t>>, Vec<usize>), TrainError> {
-    let mut recordings: Vec<&str> = pieces.iter().map(|piece| piece.recording).collect();
-    recordings.sort_unstable();
-    recordings.dedup();
-    let of_class = |class| {
-        pieces
-            .iter()
-            .filter(move |piece: &&Piece<'_>| piece.class == class)
-    };
-    let in_several = |class| {
-        let first = of_class(class).next().map(|piece| piece.recording);
-        of_class(class).any(|piece| Some(piece.recording) != first)
-    };
-    let by_recording = (0..names.len()).all(in_several);
-    let mut halved = Vec::new();
-    for (class, name) in names.iter().enumerate() {
-        let trials = of_class(class).count();
-        let blocks: usize = of_class(class).map(|piece| piece.blocks.len()).sum();
-        if blocks < 2 {
-            return Err(TrainError::TooShort { name: name.clone() });
+/// Pieces, and how they are held out.
+pub(super) struct Folded<'t> {
+    /// In the order in which they were felt.
+    pub(super) pieces: Vec<Piece<'t>>,
+    /// Whether recordings are held out, not trials.
+    pub(super) by_recording: bool,
+    /// The classes whose only trial was cut in halves.
+    pub(super) halved: Vec<usize>,
+}
+
+impl<'t> Folded<'t> {
+    /// Says what is held out together, and splits the only trial of a class.
+    ///
+    /// # Errors
+    ///
+    /// A class of fewer than two blocks.
+    pub(super) fn new(pieces: Vec<Piece<'t>>, names: &[String]) -> Result<Self, TrainError> {
+        let of_class = |class| pieces.iter().filter(move |p: &&Piece<'_>| p.class == class);
+        for (class, name) in names.iter().enumerate() {
+            let blocks: usize = of_class(class).map(|piece| piece.blocks.len()).sum();
+            if blocks < 2 {
+                return Err(TrainError::TooShort { name: name.clone() });
+            }
         }
-        if trials == 1 {
-            halved.push(class);
+        let in_several = |class| {
+            let first = of_class(class).next().map(|piece| piece.recording);
+            of_class(class).any(|piece| Some(piece.recording) != first)
+        };
+        let by_recording = (0..names.len()).all(in_several);
+        let halved = (0..names.len()).filter(|&class| of_class(class).count() == 1);
+        let mut folded = Self {
+            by_recording,
+            halved: halved.collect(),
+            pieces: Vec::new(),
+        };
+        let mut recordings: Vec<&str> = pieces.iter().map(|piece| piece.recording).collect();
+        recordings.sort_unstable();
+        recordings.dedup();
+        let mut seen = vec![0; names.len()];
+        for piece in pieces {
+            let fold = if by_recording {
+                recordings
+                    .binary_search(&piece.recording)
+                    .unwrap_or_default()
+            } else {
+                seen[piece.class] += 1;
+                seen[piece.class] - 1
+            };
+            folded.push(Piece { fold, ..piece });
         }
+        Ok(folded)
     }
-    let mut seen = vec![0; names.len()];
-    let mut folded = Vec::new();
-    for mut piece in pieces {
-        if by_recording {
-            let place = recordings.binary_search(&piece.recording);
-            piece.fold = place.unwrap_or_default();
-        } else {
-            piece.fold = seen[piece.class];
-            seen[piece.class] += 1;
+
+    fn push(&mut self, mut piece: Piece<'t>) {
+        if !self.halved.contains(&piece.class) {
+            self.pieces.push(piece);
+            return;
         }
-        if halved.contains(&piece.class) {
-            let rest = piece.blocks.split_off(piece.blocks.len() / 2);
-            folded.push(Piece {
-                fold: piece.fold + 1,
-                blocks: rest,
-                ..piece
-            });
-            let at = folded.len() - 1;
-            folded.insert(at, piece);
-        } else {
-            folded.push(piece);
-        }
+        let second = Piece {
+            fold: piece.fold + 1,
+            blocks: piece.blocks.split_off(piece.blocks.len() / 2),
+            ..piece
+        };
+        self.pieces.extend([piece, second]);
     }
-    Ok((folded, halved))
 }

@@ -5,17 +5,19 @@ use std::vec;
 use std::vec::Vec;
 
 use super::floors::Floor;
-use super::pieces::Piece;
+use super::pieces::Folded;
 use super::run::{Decided, Rule, decisions};
 use super::tables::Evidence;
 use super::trial::Trial;
-use super::weights::{LENGTHS, MAX_WEIGHT, sums};
+use super::weights::{MAX_WEIGHT, sums};
 
 /// Thresholds at which the rule is tried.
 const THRESHOLDS: [f64; 7] = [0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.999];
 /// Trials of a class below which a warning is due.
 const FEW_TRIALS: usize = 3;
-/// Share of the longest stretches that may be taken for another class before two cannot
+/// Lengths of stretches, blocks, by which classes are compared: the longest that there are.
+const COMPARED: [usize; 4] = [32, 16, 8, 4];
+/// Share of those that may be taken for another class before two cannot
 /// be told.
 const MISTAKEN: f64 = 0.25;
 
@@ -159,21 +161,22 @@ pub struct Report {
 pub(super) struct Maker<'a> {
     pub(super) names: &'a [String],
     pub(super) trials: &'a [Trial],
-    pub(super) pieces: &'a [Piece<'a>],
-    pub(super) halved: &'a [usize],
+    pub(super) folded: &'a Folded<'a>,
     pub(super) evidence: &'a [Evidence],
     pub(super) floors: Option<&'a [Floor]>,
 }
 
 impl Maker<'_> {
     /// By the rule at a threshold.
-    pub(super) fn report<'w>(
-        &self,
-        weights: &[f64],
-        threshold: f64,
-        rule: impl Fn(f64) -> Rule<'w>,
-    ) -> Report {
-        let run = |threshold| decisions(self.pieces, self.evidence, &rule(threshold));
+    pub(super) fn report(&self, rule: &Rule) -> Report {
+        let threshold = rule.threshold;
+        let run = |threshold| {
+            let rule = Rule {
+                threshold,
+                ..rule.clone()
+            };
+            decisions(&self.folded.pieces, self.evidence, &rule)
+        };
         let calibration = THRESHOLDS.map(|threshold| self.at(threshold, &run(threshold)));
         let found = run(threshold);
         Report {
@@ -182,7 +185,7 @@ impl Maker<'_> {
                 .map(|class| self.class(class, &found))
                 .collect(),
             calibration: calibration.to_vec(),
-            warnings: self.warnings(weights),
+            warnings: self.warnings(&rule.weights),
         }
     }
 
@@ -193,8 +196,8 @@ impl Maker<'_> {
 
     /// Pieces, of all classes or of one, without a decision that names a class.
     fn undecided(&self, found: &[Decided], class: Option<usize>) -> Interval {
-        let of = |n: usize| class.is_none_or(|class| self.pieces[n].class == class);
-        let mut silent = vec![true; self.pieces.len()];
+        let of = |n: usize| class.is_none_or(|class| self.folded.pieces[n].class == class);
+        let mut silent = vec![true; self.folded.pieces.len()];
         for decided in found.iter().filter(|d| !self.refused(d)) {
             silent[decided.piece] = false;
         }
@@ -251,11 +254,12 @@ impl Maker<'_> {
         for (class, name) in self.names.iter().enumerate() {
             let name = || name.clone();
             let pieces = self
+                .folded
                 .pieces
                 .iter()
                 .filter(|piece| piece.class == class)
                 .count();
-            let halved = self.halved.contains(&class);
+            let halved = self.folded.halved.contains(&class);
             let felt = if halved { 1 } else { pieces };
             let trials = self.trials_of(class).count();
             if felt < FEW_TRIALS {
@@ -277,11 +281,7 @@ impl Maker<'_> {
         let first = &self.trials[0].recording;
         if self.trials.iter().all(|trial| trial.recording == *first) {
             warnings.push(Warning::OneRecording);
-        } else if self
-            .pieces
-            .iter()
-            .any(|piece| !self.held_by_recording(piece))
-        {
+        } else if !self.folded.by_recording {
             warnings.push(Warning::NotAcrossRecordings);
         }
         let weighty = weights.iter().enumerate();
@@ -303,19 +303,10 @@ impl Maker<'_> {
         warnings
     }
 
-    /// Whether all pieces of its recording are of its fold.
-    fn held_by_recording(&self, piece: &Piece<'_>) -> bool {
-        let same = self
-            .pieces
-            .iter()
-            .filter(|p| p.recording == piece.recording);
-        same.clone().count() == same.filter(|p| p.fold == piece.fold).count()
-    }
-
     /// Share of the longest stretches of a class in which another one's evidence is
     /// larger.
     fn mistaken(&self, weights: &[f64], class: usize, other: usize) -> f64 {
-        for length in LENGTHS.into_iter().rev() {
+        for length in COMPARED {
             let (mut lost, mut all) = (0_u32, 0_u32);
             for piece in self.evidence.iter().filter(|piece| piece.class == class) {
                 for stretch in sums(piece, length) {

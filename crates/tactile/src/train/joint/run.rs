@@ -4,18 +4,20 @@ use std::vec;
 use std::vec::Vec;
 
 use super::pieces::Piece;
-use super::tables::{Evidence, TableSource};
+use super::tables::Evidence;
 use crate::format::ENTRY_OFFSET_BITS;
+use crate::model_buf::TableSource;
 
 /// When to decide.
-pub(super) struct Rule<'w> {
+#[derive(Clone)]
+pub(super) struct Rule {
     /// On the posterior.
     pub(super) threshold: f64,
     /// On a deficit at the onset of a touch.
     pub(super) limit_bits: f64,
     /// Samples of a block.
     pub(super) block: u32,
-    pub(super) weights: &'w [f64],
+    pub(super) weights: Vec<f64>,
     /// Of each table.
     pub(super) sources: Vec<TableSource>,
 }
@@ -36,11 +38,7 @@ pub(super) struct Decided {
 
 /// The decisions over the pieces, one after the other. Within a recording evidence
 /// goes on: a piece begins with the onset of a touch, and that is all that is known.
-pub(super) fn decisions(
-    pieces: &[Piece<'_>],
-    evidence: &[Evidence],
-    rule: &Rule<'_>,
-) -> Vec<Decided> {
+pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule) -> Vec<Decided> {
     let mut found = Vec::new();
     let mut state: Option<State<'_>> = None;
     let mut last = None;
@@ -73,7 +71,7 @@ pub(super) fn decisions(
 
 /// Evidence so far.
 struct State<'r> {
-    rule: &'r Rule<'r>,
+    rule: &'r Rule,
     /// Bits behind the leader.
     deficits: Vec<f64>,
     /// Blocks since a decision.
@@ -84,7 +82,7 @@ struct State<'r> {
 }
 
 impl<'r> State<'r> {
-    fn new(rule: &'r Rule<'r>, classes: usize) -> Self {
+    fn new(rule: &'r Rule, classes: usize) -> Self {
         Self {
             rule,
             deficits: vec![0.0; classes],
@@ -105,7 +103,7 @@ impl<'r> State<'r> {
     /// Adds a block, `[table][class]`; class, posterior and blocks of a decision.
     fn block(&mut self, means: &[f64]) -> Option<(usize, f64, u32)> {
         let classes = self.deficits.len();
-        let tables = means.chunks_exact(classes).zip(self.rule.weights);
+        let tables = means.chunks_exact(classes).zip(&self.rule.weights);
         for ((table, weight), source) in tables.zip(&self.rule.sources) {
             let sums = &mut self.sums[*source as usize];
             let of_classes = self.deficits.iter_mut().zip(sums).zip(table);

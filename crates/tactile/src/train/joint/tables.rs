@@ -3,37 +3,12 @@
 use std::vec;
 use std::vec::Vec;
 
+use super::axes::{Layout, Shape};
 use super::pieces::Piece;
 use super::trial::CHANNELS;
-use crate::binner::Binner;
 use crate::format::LOG_FLOOR;
-use crate::quantiser::Quantiser;
+use crate::model_buf::{Axis, TableSource};
 use crate::train::gaussian;
-use crate::train_error::TrainError;
-
-/// The share of codes that lies below, and above, a table's range.
-const OUTSIDE: f64 = 0.002;
-
-/// What a table is looked up by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TableSource {
-    /// The codes of a sample; its log-likelihoods are averaged over a block.
-    Samples,
-    /// The codes of the roughness of a block.
-    Roughness,
-}
-
-/// An axis of a table: equal bins over a range of codes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
-    /// The channel.
-    pub channel: usize,
-    /// How many bins.
-    pub bins: usize,
-    /// The scale of the channel's codes, and the range of the axis in codes: of the
-    /// channel, or of its roughness.
-    pub range: Quantiser,
-}
 
 /// A table of log₂ p.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,127 +20,6 @@ pub struct LogTable {
     /// log₂ p, `[bin of the first axis][bin of the second][class]`, at least that
     /// of [`LOG_FLOOR`].
     pub log2_p: Vec<f64>,
-}
-
-/// The axes of the tables of samples and of roughness.
-pub(super) struct Axes {
-    samples: [Axis; CHANNELS],
-    roughness: [Axis; CHANNELS],
-}
-
-impl Axes {
-    /// Ranges from the quantiles of what was felt.
-    pub(super) fn of(
-        pieces: &[Piece<'_>],
-        scales: [Quantiser; CHANNELS],
-        bins: usize,
-    ) -> Result<Self, TrainError> {
-        let axis = |channel: usize, codes: Vec<i32>| -> Result<Axis, TrainError> {
-            let (low, high) = range(codes, bins);
-            let range = Quantiser {
-                low,
-                high,
-                ..scales[channel]
-            };
-            range
-                .check(bins)
-                .map_err(|_| TrainError::Range { channel })?;
-            Ok(Axis {
-                channel,
-                bins,
-                range,
-            })
-        };
-        let samples = |channel: usize| {
-            let codes = pieces.iter().flat_map(|piece| &piece.blocks.samples);
-            axis(channel, codes.map(|codes| codes[channel]).collect())
-        };
-        let roughness = |channel: usize| {
-            let codes = pieces.iter().flat_map(|piece| &piece.blocks.roughness);
-            axis(channel, codes.map(|codes| codes[channel]).collect())
-        };
-        Ok(Self {
-            samples: [samples(0)?, samples(1)?],
-            roughness: [roughness(0)?, roughness(1)?],
-        })
-    }
-}
-
-/// The range between the quantiles, widened where bins would be narrower than the
-/// two codes that the module's binning needs.
-fn range(mut codes: Vec<i32>, bins: usize) -> (i32, i32) {
-    codes.sort_unstable();
-    let last = codes.len().saturating_sub(1);
-    let below = (OUTSIDE * last as f64) as usize;
-    let (low, high) = (codes[below], codes[last - below]);
-    let least = 2 * bins as i32 + 1;
-    let span = high.saturating_sub(low);
-    if span >= least {
-        return (low, high);
-    }
-    let low = low.saturating_sub((least - span) / 2);
-    (low, low.saturating_add(least))
-}
-
-/// A table without its content.
-pub(super) struct Shape {
-    source: TableSource,
-    axes: [Axis; CHANNELS],
-    binners: [Binner; CHANNELS],
-    /// How often it is looked up in a block.
-    lookups: usize,
-}
-
-impl Shape {
-    fn new(source: TableSource, axes: [Axis; CHANNELS], lookups: usize) -> Self {
-        Self {
-            source,
-            axes,
-            // The ranges are checked.
-            binners: axes.map(|axis| axis.range.binner(axis.bins).unwrap_or_default()),
-            lookups,
-        }
-    }
-
-    fn cells(&self) -> usize {
-        self.axes.iter().map(|axis| axis.bins).product()
-    }
-
-    fn cell(&self, codes: [i32; CHANNELS]) -> usize {
-        let bin = |n: usize| self.binners[n].bin(codes[n], self.axes[n].bins - 1);
-        bin(0) * self.axes[1].bins + bin(1)
-    }
-
-    /// The cells that it is looked up at, block after block.
-    fn cells_of(&self, piece: &Piece<'_>) -> Vec<usize> {
-        let codes = match self.source {
-            TableSource::Samples => &piece.blocks.samples,
-            TableSource::Roughness => &piece.blocks.roughness,
-        };
-        codes.iter().map(|codes| self.cell(*codes)).collect()
-    }
-}
-
-/// The tables of a model.
-pub(super) struct Layout {
-    shapes: Vec<Shape>,
-}
-
-impl Layout {
-    /// x and y together, and their roughness together.
-    pub(super) fn joint(axes: &Axes, block: u32) -> Self {
-        Self {
-            shapes: vec![
-                Shape::new(TableSource::Samples, axes.samples, block as usize),
-                Shape::new(TableSource::Roughness, axes.roughness, 1),
-            ],
-        }
-    }
-
-    /// What each table is looked up by.
-    pub(super) fn sources(&self) -> Vec<TableSource> {
-        self.shapes.iter().map(|shape| shape.source).collect()
-    }
 }
 
 /// What the tables say of the blocks of a piece.

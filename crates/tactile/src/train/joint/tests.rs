@@ -82,6 +82,8 @@ fn a_touch_drops_the_open_block() {
     assert!(found.roughness[1..].iter().all(|codes| *codes == [0, 0]));
 }
 
+const LENGTHS: [usize; 4] = [4, 8, 16, 32];
+
 /// Evidence of two classes: in each block the right one is ahead by a normal number.
 fn evidence(seed: u64, tables: usize) -> Vec<Evidence> {
     let mut dice = Dice(seed);
@@ -111,7 +113,7 @@ fn weights_turn_evidence_into_probability() {
     // Normal differences of mean m and variance v: the log-likelihood ratio of a
     // stretch of any length is 2 m/v times their sum, in natural units.
     let expected = 2.0 * 0.2 / core::f64::consts::LN_2;
-    let found = weights::fitted(&evidence(1, 1));
+    let found = weights::fitted(&evidence(1, 1), &LENGTHS);
     assert!(
         (found[0] / expected - 1.0).abs() < 0.15,
         "{found:?} {expected}"
@@ -120,8 +122,8 @@ fn weights_turn_evidence_into_probability() {
 
 #[test]
 fn tables_that_say_the_same_share_their_weight() {
-    let alone = weights::fitted(&evidence(2, 1));
-    let twice = weights::fitted(&evidence(2, 2));
+    let alone = weights::fitted(&evidence(2, 1), &LENGTHS);
+    let twice = weights::fitted(&evidence(2, 2), &LENGTHS);
     assert!((twice[0] - twice[1]).abs() < 1e-6, "{twice:?}");
     assert!(
         (twice[0] + twice[1] - alone[0]).abs() < 1e-6,
@@ -138,7 +140,7 @@ fn a_table_that_misleads_weighs_nothing() {
             block[3] = -block[3];
         }
     }
-    let found = weights::fitted(&misleading);
+    let found = weights::fitted(&misleading, &LENGTHS);
     assert!(found[0] > 0.3 && found[1] >= 0.0, "{found:?}");
     for piece in &mut misleading {
         // Noise in the place of the first table.
@@ -147,7 +149,7 @@ fn a_table_that_misleads_weighs_nothing() {
             block[1] = (n % 3) as f64;
         }
     }
-    assert_eq!(weights::fitted(&misleading)[1], 0.0);
+    assert_eq!(weights::fitted(&misleading, &LENGTHS)[1], 0.0);
 }
 
 #[test]

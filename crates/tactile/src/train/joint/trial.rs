@@ -17,6 +17,9 @@ pub struct Options {
     pub smooth: f64,
     /// Samples in a block, 1 to 10000.
     pub block: u32,
+    /// Contact from which a sample counts, 0 to 1: what trials' flags were made by, and
+    /// what the module is to gate by.
+    pub gate: f64,
     /// Samples without contact after which another touch begins.
     pub gap: u32,
     /// Most that a class may lie behind at the onset of a touch, bits.
@@ -34,6 +37,7 @@ impl Default for Options {
             bins: 32,
             smooth: 0.7,
             block: 20,
+            gate: 0.05,
             gap: 200,
             limit_bits: 2.0,
             threshold: 0.99,
@@ -59,6 +63,7 @@ impl Options {
         option("bins", self.bins as f64, 2.0, 128.0)?;
         option("smooth", self.smooth, 0.0, 128.0)?;
         option("block", f64::from(self.block), 1.0, f64::from(MAX_BLOCK))?;
+        option("gate", self.gate, 0.0, 1.0)?;
         option("gap", f64::from(self.gap), 1.0, 1e9)?;
         option("limit", self.limit_bits, 0.0, 1000.0)?;
         option("threshold", self.threshold, 0.5, 1.0 - 1e-12)?;

@@ -1,21 +1,20 @@
 //! How much each table weighs: samples are not independent of one another, nor
 //! tables of one another.
 //!
-//! The weights minimise the mean of −log₂ p(class | stretch) over stretches of 4, 8,
-//! 16 and 32 blocks, p being proportional to 2^(Σ wₜ Fₜ) with Fₜ the table's sum over
-//! the stretch. Each class and each length counts alike. The loss is convex in w: Newton.
+//! The weights minimise the mean of −log₂ p(class | stretch) over stretches of blocks, p
+//! being proportional to 2^(Σ wₜ Fₜ) with Fₜ the table's sum over the stretch. Each class
+//! and each length counts alike. The loss is convex in w: Newton.
 
 use core::f64::consts::LN_2;
 use std::vec;
 use std::vec::Vec;
 
+use super::pieces::Folded;
 use super::tables::Evidence;
 
 /// Most that a table may weigh; an entry, w · (log₂ p + 20) · 1024, then fits 16 bits.
 pub const MAX_WEIGHT: f64 = 3.0;
 
-/// Lengths of stretches, blocks.
-pub(super) const LENGTHS: [usize; 4] = [4, 8, 16, 32];
 const STEPS: usize = 60;
 
 /// A stretch of blocks.
@@ -27,24 +26,41 @@ struct Stretch {
     sums: Vec<f64>,
 }
 
+/// Lengths of stretches, doubled from the shortest to the longest that each class has.
+/// What sets recordings apart stays the same within one, and shows only in stretches
+/// that are long: where those are held out, the shortest is four blocks instead of one.
+pub(super) fn lengths(folded: &Folded<'_>, classes: usize) -> Vec<usize> {
+    let of_class = |class| {
+        let pieces = folded
+            .pieces
+            .iter()
+            .filter(move |piece| piece.class == class);
+        pieces.map(|piece| piece.blocks.len()).max()
+    };
+    let longest = (0..classes).filter_map(of_class).min().unwrap_or(1);
+    let shortest = if folded.by_recording { 4 } else { 1 };
+    let first = Some(shortest.min(longest));
+    let doubled = core::iter::successors(first, |length| Some(2 * length));
+    doubled.take_while(|&length| length <= longest).collect()
+}
+
 /// The weights of the tables, each from 0 to [`MAX_WEIGHT`].
-pub(super) fn fitted(evidence: &[Evidence]) -> Vec<f64> {
+pub(super) fn fitted(evidence: &[Evidence], lengths: &[usize]) -> Vec<f64> {
     let Some(first) = evidence.first() else {
         return Vec::new();
     };
     let problem = Problem {
         tables: first.tables,
         classes: first.classes,
-        stretches: stretches(evidence, first.classes),
+        stretches: stretches(evidence, lengths, first.classes),
     };
     problem.solved()
 }
 
-/// All stretches of blocks of one piece, from every block on; where a trial is shorter
-/// than the shortest, the whole of it.
-fn stretches(evidence: &[Evidence], classes: usize) -> Vec<Stretch> {
+/// All stretches of blocks of one piece, from every block on.
+fn stretches(evidence: &[Evidence], lengths: &[usize], classes: usize) -> Vec<Stretch> {
     let mut all = Vec::new();
-    for length in LENGTHS {
+    for &length in lengths {
         let from = all.len();
         for piece in evidence {
             all.extend(sums(piece, length).map(|sums| Stretch {
@@ -71,10 +87,6 @@ fn stretches(evidence: &[Evidence], classes: usize) -> Vec<Stretch> {
 /// The sums of each run of `length` blocks of a piece, `[table][class]`.
 pub(super) fn sums(piece: &Evidence, length: usize) -> impl Iterator<Item = Vec<f64>> {
     let width = piece.tables * piece.classes;
-    let length = match piece.means.len() / width {
-        blocks if blocks < LENGTHS[0] && length == LENGTHS[0] => blocks.max(1),
-        _ => length,
-    };
     piece
         .means
         .windows(width * length)

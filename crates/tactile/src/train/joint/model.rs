@@ -1,0 +1,89 @@
+//! What training gives, and the model file that comes of it.
+
+use std::string::String;
+use std::vec::Vec;
+
+use super::floors::Floor;
+use super::report::Report;
+use super::tables::LogTable;
+use super::trial::{CHANNELS, Options};
+use crate::error::ModelError;
+use crate::format::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS};
+use crate::layout::TouchRule;
+use crate::model::Floors;
+use crate::model_buf::{ModelBuf, ModelParts, TableParts};
+use crate::quantiser::Quantiser;
+
+/// What training gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointModel {
+    /// Class names, as they first appear.
+    pub names: Vec<String>,
+    /// How it was trained.
+    pub options: Options,
+    /// The scale of the codes of each channel.
+    pub scales: [Quantiser; CHANNELS],
+    /// Tables of log-likelihoods, not yet weighted.
+    pub tables: Vec<LogTable>,
+    /// Weight of each table, 0 to [`MAX_WEIGHT`].
+    pub weights: Vec<f64>,
+    /// A floor a class; none where none was wanted.
+    pub floors: Option<Vec<Floor>>,
+    /// What held-out trials say of all this.
+    pub report: Report,
+}
+
+impl JointModel {
+    /// The model for the module: weights go into the entries, which are
+    /// round(w (log₂ p + 20) · 1024).
+    ///
+    /// # Errors
+    ///
+    /// A setting that no model file can hold.
+    pub fn model(&self) -> Result<ModelBuf, ModelError> {
+        let unit = f64::from(ENTRIES_PER_BIT);
+        // `as` saturates; weights are limited so that it need not.
+        let entry = |bits: f64| (bits * unit).round() as u16;
+        let entries: Vec<Vec<u16>> = self
+            .tables
+            .iter()
+            .zip(&self.weights)
+            .map(|(table, weight)| {
+                let offset = f64::from(ENTRY_OFFSET_BITS);
+                let log2_p = table.log2_p.iter();
+                log2_p
+                    .map(|log2_p| entry(weight * (log2_p + offset)))
+                    .collect()
+            })
+            .collect();
+        let tables: Vec<TableParts<'_>> = self
+            .tables
+            .iter()
+            .zip(&entries)
+            .map(|(table, entries)| TableParts {
+                source: table.source,
+                axes: &table.axes,
+                entries,
+            })
+            .collect();
+        let floors = self.floors.as_ref().map(|floors| {
+            let floors = floors.iter().map(|floor| Floors {
+                samples: entry(floor.samples),
+                roughness: entry(floor.roughness),
+            });
+            floors.collect::<Vec<_>>()
+        });
+        ModelBuf::new(&ModelParts {
+            names: &self.names,
+            block: self.options.block,
+            channels: &self.scales,
+            tables: &tables,
+            floors: floors.as_deref(),
+            touch: Some(TouchRule {
+                limit: (self.options.limit_bits * unit).round() as u32,
+                gate: self.options.gate as f32,
+                gap: self.options.gap,
+            }),
+        })
+    }
+}
