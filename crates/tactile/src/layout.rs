@@ -6,7 +6,7 @@ use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
     MAX_CLASSES, MAX_ROUGH_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
-    OF_SAMPLES, TableRecord, VERSION, checksum, row_words,
+    OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
 };
 use crate::quantiser::Quantiser;
 
@@ -15,17 +15,15 @@ use crate::quantiser::Quantiser;
 pub(crate) struct Layout {
     pub(crate) classes: usize,
     pub(crate) channels: usize,
-    /// Tables of samples.
-    pub(crate) sample_tables: usize,
-    /// Tables of roughness, which follow them.
-    pub(crate) rough_tables: usize,
     /// Words of a row of a table.
     pub(crate) row_words: usize,
     /// Samples.
     pub(crate) block: u32,
     pub(crate) touch: Option<TouchRule>,
-    /// The channels' records end and the tables' begin.
+    /// The channels' records end and those of the tables of samples begin.
     pub(crate) tables: usize,
+    /// Those of the tables of roughness begin.
+    pub(crate) rough_tables: usize,
     /// The tables' records end and the floors begin, if there are any.
     pub(crate) floors: usize,
     /// The floors end and the names begin.
@@ -70,8 +68,7 @@ impl Layout {
         let classes = usize::from(header.classes);
         let channels = usize::from(header.channels);
         let sample_tables = usize::from(header.sample_tables);
-        let rough_tables = usize::from(header.rough_tables);
-        let count = sample_tables + rough_tables;
+        let count = sample_tables + usize::from(header.rough_tables);
         let block = u32::from(header.block.get());
         check_counts(classes, channels, block)?;
         if sample_tables == 0 || count > MAX_TABLES {
@@ -143,12 +140,11 @@ impl Layout {
         let layout = Self {
             classes,
             channels,
-            sample_tables,
-            rough_tables,
             row_words,
             block,
             touch,
             tables,
+            rough_tables: tables + sample_tables * TABLE_WORDS,
             floors,
             names: floors + floor_bytes / size_of::<u32>(),
             rows: first,

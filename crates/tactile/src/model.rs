@@ -5,7 +5,7 @@
 //! for the file. A model linked into a program comes by
 //! [`crate::include_model`], which also sees to its alignment.
 
-use zerocopy::{FromBytes, IntoBytes};
+use zerocopy::{FromBytes, IntoBytes, transmute_ref};
 
 use crate::error::ModelError;
 use crate::format::{
@@ -154,25 +154,25 @@ impl<W: AsRef<[u32]>> Model<W> {
 
     fn single(&self, channel: usize) -> Option<&TableRecord> {
         let of_it = |r: &&TableRecord| r.axes == 1 && usize::from(r.axis[0].channel) == channel;
-        self.sample_tables().iter().find(of_it)
+        self.sample_tables().find(of_it)
     }
 
     /// The tables that are looked up each sample.
     #[inline]
-    pub(crate) fn sample_tables(&self) -> &[TableRecord] {
-        self.tables(self.layout.tables, self.layout.sample_tables)
+    pub(crate) fn sample_tables(&self) -> impl Iterator<Item = &TableRecord> {
+        self.tables(self.layout.tables, self.layout.rough_tables)
     }
 
     /// The tables that are looked up once a block.
-    pub(crate) fn rough_tables(&self) -> &[TableRecord] {
-        let before = self.layout.sample_tables * TABLE_WORDS;
-        self.tables(self.layout.tables + before, self.layout.rough_tables)
+    #[inline]
+    pub(crate) fn rough_tables(&self) -> impl Iterator<Item = &TableRecord> {
+        self.tables(self.layout.rough_tables, self.layout.floors)
     }
 
     /// Whether there are any.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
-        self.layout.rough_tables > 0
+        self.layout.floors > self.layout.rough_tables
     }
 
     /// Whether classes have floors.
@@ -188,10 +188,17 @@ impl<W: AsRef<[u32]>> Model<W> {
     }
 
     #[inline]
-    fn tables(&self, first: usize, count: usize) -> &[TableRecord] {
-        let words = self.words.as_ref().get(first..).unwrap_or_default();
-        let tables = <[TableRecord]>::ref_from_prefix_with_elems(words.as_bytes(), count);
-        tables.map_or(&[], |(tables, _)| tables)
+    fn tables(&self, first: usize, end: usize) -> impl Iterator<Item = &TableRecord> {
+        let mut at = first;
+        core::iter::from_fn(move || {
+            let words = self
+                .words
+                .as_ref()
+                .get(at..end)?
+                .first_chunk::<TABLE_WORDS>()?;
+            at += TABLE_WORDS;
+            Some(transmute_ref!(words))
+        })
     }
 
     /// The words from a row of a table on that says of each class what its cell says

@@ -104,12 +104,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         self.check(codes)?;
         if self.model.has_roughness() {
-            feel(
-                self.model.rough_tables(),
-                codes,
-                true,
-                &mut self.state.roughness,
-            );
+            feel(&self.model.view(), codes, true, &mut self.state.roughness);
         }
         self.add(codes);
         if self.state.left > 1 {
@@ -129,12 +124,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
         self.check(codes)?;
         if self.model.has_roughness() {
-            feel(
-                self.model.rough_tables(),
-                codes,
-                false,
-                &mut self.state.roughness,
-            );
+            feel(&self.model.view(), codes, false, &mut self.state.roughness);
         }
         Ok(())
     }
@@ -262,8 +252,8 @@ fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
 /// Takes a sample of the channels of roughness.
 // A function of its own: a tick in one piece runs out of registers.
 #[inline(never)]
-fn feel(tables: &[TableRecord], codes: &[i32], counts: bool, roughness: &mut Roughness) {
-    let channels = tables.iter().flat_map(TableRecord::channels);
+fn feel(model: &Model<&[u32]>, codes: &[i32], counts: bool, roughness: &mut Roughness) {
+    let channels = model.rough_tables().flat_map(TableRecord::channels);
     let code = |channel: usize| codes.get(channel).copied().unwrap_or(0);
     roughness.push(channels.map(code), counts);
 }
