@@ -38,6 +38,7 @@ struct Board {
     name: &'static str,
     clocks: Clocks,
     has_fpu: bool,
+    max_classes: usize,
 }
 
 macro_rules! boards {
@@ -48,6 +49,7 @@ macro_rules! boards {
             name: board::$module::NAME,
             clocks: board::$module::CLOCKS,
             has_fpu: board::$module::HAS_FPU,
+            max_classes: board::$module::MAX_CLASSES,
         }),*]
     };
 }
@@ -120,6 +122,14 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
             let path = workspace()?.join(path);
             println!("cargo::rerun-if-changed={}", path.display());
             let model = model::read(&path, classifier)?;
+            let (found, most) = (model.classes(), board.max_classes);
+            if found > most {
+                let reason = format!(
+                    "classifier.model: found {found} classes; allowed on the {}: 2 to {most}",
+                    board.name
+                );
+                return Err(wrong(reason).into());
+            }
             fs::copy(&path, output("touch.model")?)?;
             Some(model)
         }

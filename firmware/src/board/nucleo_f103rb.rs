@@ -14,6 +14,9 @@ use crate::board::timing::Clocks;
 pub(crate) const NAME: &str = "NUCLEO-F103RB";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = false;
+/// Most classes of a model: its two tables of 32 by 32 bins then take 24 KiB of the
+/// 128 KiB of flash.
+pub(crate) const MAX_CLASSES: usize = 6;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;

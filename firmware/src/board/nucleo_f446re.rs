@@ -14,6 +14,9 @@ use crate::board::timing::Clocks;
 pub(crate) const NAME: &str = "NUCLEO-F446RE";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = true;
+/// Most classes of a model: its two tables of 32 by 32 bins then take 64 KiB of the
+/// 512 KiB of flash.
+pub(crate) const MAX_CLASSES: usize = 16;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;

@@ -14,6 +14,9 @@ use crate::board::timing::Clocks;
 pub(crate) const NAME: &str = "NUCLEO-G071RB";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = false;
+/// Most classes of a model: its two tables of 32 by 32 bins then take 24 KiB of the
+/// 128 KiB of flash.
+pub(crate) const MAX_CLASSES: usize = 6;
 
 /// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
 /// board comes without a clock on the HSE input; so the tick is as exact as this.
