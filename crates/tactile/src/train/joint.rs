@@ -26,6 +26,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod warnings;
 mod weights;
 
 use std::vec::Vec;
@@ -36,11 +37,13 @@ use blocks::Blocks;
 pub use floors::Floor;
 pub use model::JointModel;
 use pieces::{Folded, Piece, names};
-pub use report::{AtThreshold, ClassReport, Interval, Report, Warning};
+pub use report::{AtThreshold, ClassReport, Interval, Report};
 use run::{Rule, decisions};
 pub use tables::LogTable;
 use tables::Tables;
 pub use trial::{CHANNELS, Options, Trial};
+use warnings::Doubts;
+pub use warnings::Warning;
 pub use weights::MAX_WEIGHT;
 
 /// Trains from trials in the order in which they were felt.
@@ -85,12 +88,21 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
     rule.weights = weights::fitted(&evidence, &lengths);
     let found = decisions(pieces, &evidence, &rule);
     let floors = (options.refused > 0.0).then(|| floors::of(&found, names.len(), options.refused));
+    let warnings = Doubts {
+        names: &names,
+        trials,
+        folded: &folded,
+        evidence: &evidence,
+        weights: &rule.weights,
+    }
+    .warnings();
     let report = report::Maker {
         names: &names,
         trials,
         folded: &folded,
         evidence: &evidence,
         floors: floors.as_deref(),
+        warnings,
     }
     .report(&rule);
     Ok(JointModel {

@@ -26,7 +26,8 @@ pub struct Options {
     pub limit_bits: f64,
     /// Posterior at which the report and the floors let the rule decide.
     pub threshold: f64,
-    /// Share of right decisions that the floors may refuse; 0: no floors.
+    /// Share of right decisions that the floors may refuse; 0: no floors. Of other recordings
+    /// they refuse somewhat more: 4 % became 5 and 7 % on two simulated scenes.
     pub refused: f64,
 }
 
@@ -41,7 +42,7 @@ impl Default for Options {
             gap: 200,
             limit_bits: 2.0,
             threshold: 0.99,
-            refused: 0.05,
+            refused: 0.04,
         }
     }
 }

@@ -57,7 +57,7 @@ pub(super) fn fitted(evidence: &[Evidence], lengths: &[usize]) -> Vec<f64> {
     problem.solved()
 }
 
-/// All stretches of blocks of one piece, from every block on.
+/// Stretches of blocks, each of one piece.
 fn stretches(evidence: &[Evidence], lengths: &[usize], classes: usize) -> Vec<Stretch> {
     let mut all = Vec::new();
     for &length in lengths {
@@ -84,22 +84,25 @@ fn stretches(evidence: &[Evidence], lengths: &[usize], classes: usize) -> Vec<St
     all
 }
 
-/// The sums of each run of `length` blocks of a piece, `[table][class]`.
+/// The sums of runs of `length` blocks of a piece, `[table][class]`: of all, or where they
+/// are longer than eight blocks of those that begin an eighth of their length apart.
 pub(super) fn sums(piece: &Evidence, length: usize) -> impl Iterator<Item = Vec<f64>> {
     let width = piece.tables * piece.classes;
-    piece
-        .means
-        .windows(width * length)
-        .step_by(width)
-        .map(move |blocks| {
-            let mut sums = vec![0.0; width];
-            for block in blocks.chunks_exact(width) {
-                for (sum, mean) in sums.iter_mut().zip(block) {
-                    *sum += mean;
-                }
-            }
-            sums
-        })
+    // Of all blocks before each.
+    let mut total = vec![0.0; width];
+    let mut before = total.clone();
+    for block in piece.blocks() {
+        for (total, mean) in total.iter_mut().zip(block) {
+            *total += mean;
+        }
+        before.extend(&total);
+    }
+    let blocks = piece.blocks().count();
+    let firsts = (0..(blocks + 1).saturating_sub(length)).step_by(length.div_ceil(8));
+    firsts.map(move |first| {
+        let [from, to] = [first, first + length].map(|at| &before[at * width..][..width]);
+        to.iter().zip(from).map(|(to, from)| to - from).collect()
+    })
 }
 
 struct Problem {

@@ -1,0 +1,148 @@
+//! What a user has to know before trusting a model.
+
+use std::string::String;
+use std::vec::Vec;
+
+use super::pieces::Folded;
+use super::tables::Evidence;
+use super::trial::Trial;
+use super::weights::{MAX_WEIGHT, sums};
+
+/// Trials of a class below which a warning is due.
+const FEW_TRIALS: usize = 3;
+/// Lengths of stretches, blocks, by which classes are compared: the longest that there are.
+const COMPARED: [usize; 4] = [32, 16, 8, 4];
+/// Share of those that may be taken for another class before two cannot
+/// be told.
+const MISTAKEN: f64 = 0.25;
+
+/// What a user has to know before trusting the model.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// So few trials of a class that its figures are worth little.
+    FewTrials {
+        /// The class.
+        name: String,
+        /// How many.
+        trials: usize,
+    },
+    /// Trials that were too short for a block.
+    Empty {
+        /// The class.
+        name: String,
+        /// How many.
+        trials: usize,
+    },
+    /// The only trial of a class was cut in halves.
+    Halved {
+        /// The class.
+        name: String,
+    },
+    /// All is of one recording: what the report says of another one is unknown.
+    OneRecording,
+    /// Not every class is in several recordings: trials were held out, not recordings.
+    NotAcrossRecordings,
+    /// Two classes are taken for one another.
+    Alike {
+        /// Their names.
+        names: [String; 2],
+        /// Share of the longest stretches that the other class wins.
+        mistaken: f64,
+    },
+    /// A table's weight is zero, or the most there is.
+    Weight {
+        /// The table.
+        table: usize,
+        /// Its weight.
+        weight: f64,
+    },
+}
+
+/// What doubts are raised by.
+pub(super) struct Doubts<'a> {
+    pub(super) names: &'a [String],
+    pub(super) trials: &'a [Trial],
+    pub(super) folded: &'a Folded<'a>,
+    pub(super) evidence: &'a [Evidence],
+    pub(super) weights: &'a [f64],
+}
+
+impl Doubts<'_> {
+    /// What is doubtful.
+    pub(super) fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (class, name) in self.names.iter().enumerate() {
+            let pieces = self
+                .folded
+                .pieces
+                .iter()
+                .filter(|piece| piece.class == class)
+                .count();
+            let halved = self.folded.halved.contains(&class);
+            let felt = if halved { 1 } else { pieces };
+            let trials = self
+                .trials
+                .iter()
+                .filter(|trial| trial.label == *name)
+                .count();
+            if felt < FEW_TRIALS {
+                warnings.push(Warning::FewTrials {
+                    name: name.clone(),
+                    trials: felt,
+                });
+            }
+            if felt < trials {
+                warnings.push(Warning::Empty {
+                    name: name.clone(),
+                    trials: trials - felt,
+                });
+            }
+            if halved {
+                warnings.push(Warning::Halved { name: name.clone() });
+            }
+        }
+        let first = &self.trials[0].recording;
+        if self.trials.iter().all(|trial| trial.recording == *first) {
+            warnings.push(Warning::OneRecording);
+        } else if !self.folded.by_recording {
+            warnings.push(Warning::NotAcrossRecordings);
+        }
+        let weighty = self.weights.iter().enumerate();
+        warnings.extend(
+            weighty
+                .filter(|&(_, &weight)| weight <= 0.0 || weight >= MAX_WEIGHT)
+                .map(|(table, &weight)| Warning::Weight { table, weight }),
+        );
+        for a in 0..self.names.len() {
+            for b in 0..a {
+                let mistaken = f64::midpoint(self.mistaken(a, b), self.mistaken(b, a));
+                if mistaken > MISTAKEN {
+                    let names = [b, a].map(|class| self.names[class].clone());
+                    warnings.push(Warning::Alike { names, mistaken });
+                }
+            }
+        }
+        warnings
+    }
+
+    /// Share of the longest stretches of a class in which another one's evidence is
+    /// larger.
+    fn mistaken(&self, class: usize, other: usize) -> f64 {
+        for length in COMPARED {
+            let (mut lost, mut all) = (0_u32, 0_u32);
+            for piece in self.evidence.iter().filter(|piece| piece.class == class) {
+                for stretch in sums(piece, length) {
+                    let rows = stretch.chunks_exact(piece.classes).zip(self.weights);
+                    let ahead: f64 = rows.map(|(sums, w)| w * (sums[class] - sums[other])).sum();
+                    lost += u32::from(ahead <= 0.0);
+                    all += 1;
+                }
+            }
+            if all > 0 {
+                return f64::from(lost) / f64::from(all);
+            }
+        }
+        0.0
+    }
+}
