@@ -25,7 +25,7 @@ pub struct JointModel {
     pub scales: [Quantiser; CHANNELS],
     /// Tables of log-likelihoods, not yet weighted.
     pub tables: Vec<LogTable>,
-    /// Weight of each table, 0 to [`MAX_WEIGHT`].
+    /// Weight of each table, 0 to [`MAX_WEIGHT`](super::MAX_WEIGHT).
     pub weights: Vec<f64>,
     /// A floor a class; none where none was wanted.
     pub floors: Option<Vec<Floor>>,
