@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::{env, fs};
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use tactile::train::{Options, Trainer};
+use tactile::train::{Options, Trainer, joint};
 use whisking::{GateSettings, Integrator, Real, Settings, filter, muscle, oscillator, pd};
 
 /// Ticks a second: BIOTACT's.
@@ -43,6 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     fs::write(output("single4.model")?, model(1, 4, 10_000)?)?;
+    fs::write(output("joint4.model")?, joint_model(4)?)?;
     Ok(())
 }
 
@@ -197,8 +198,40 @@ fn model(channels: usize, classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn E
         ..Options::default()
     };
     let mut trainer = Trainer::new(channels, options)?;
+    let mut sample = samples();
+    for class in 0..classes {
+        let name = format!("class {class}");
+        for _ in 0..500 {
+            let sample = sample(class);
+            trainer.add(&name, sample.get(..channels).unwrap_or(&sample))?;
+        }
+    }
+    Ok(trainer.train()?.as_bytes().to_vec())
+}
+
+/// A joint model of the same.
+fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut sample = samples();
+    let mut trials = Vec::new();
+    for class in 0..classes {
+        for _ in 0..4 {
+            let samples: Vec<[f64; 2]> = (0..400).map(|_| sample(class)).collect();
+            trials.push(joint::Trial {
+                label: format!("class {class}"),
+                recording: String::new(),
+                counts: vec![true; samples.len()],
+                samples,
+            });
+        }
+    }
+    let trained = joint::train(&trials, &joint::Options::default())?;
+    Ok(trained.model()?.as_bytes().to_vec())
+}
+
+/// Sensor codes x and y of a class.
+fn samples() -> impl FnMut(u32) -> [f64; 2] {
     let mut random = 1_u32;
-    let mut code = |middle: u32| {
+    let mut code = move |middle: u32| {
         // The sum of two is a triangle around the middle; a common generator
         // for a quick recording (Numerical Recipes, 7.1).
         let mut part = || {
@@ -207,12 +240,5 @@ fn model(channels: usize, classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn E
         };
         f64::from(middle + part() + part())
     };
-    for class in 0..classes {
-        let name = format!("class {class}");
-        for _ in 0..500 {
-            let sample = [code(2_000 + 400 * class), code(5_000 - 300 * class)];
-            trainer.add(&name, sample.get(..channels).unwrap_or(&sample))?;
-        }
-    }
-    Ok(trainer.train()?.as_bytes().to_vec())
+    move |class| [code(2_000 + 400 * class), code(5_000 - 300 * class)]
 }

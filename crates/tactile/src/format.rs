@@ -37,6 +37,8 @@ pub const MAX_CLASSES: usize = 32;
 pub const MAX_CHANNELS: usize = 24;
 /// Most tables.
 pub const MAX_TABLES: usize = 24;
+/// Most axes of the tables of samples together.
+pub const MAX_SAMPLE_AXES: usize = 24;
 /// Most axes of roughness over all tables.
 pub const MAX_ROUGH_AXES: usize = 2;
 /// Most bins an axis.

@@ -5,8 +5,8 @@ use zerocopy::{FromBytes, transmute};
 use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
-    MAX_CLASSES, MAX_ROUGH_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
-    OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
+    MAX_CLASSES, MAX_ROUGH_AXES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT,
+    OF_ROUGHNESS, OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
 };
 use crate::quantiser::Quantiser;
 
@@ -120,12 +120,11 @@ impl Layout {
             check_table_record(&record, source, channels)?;
             table_words += rows(&record) * row_words as u64;
         }
-        let rough_axes = records
-            .clone()
-            .skip(sample_tables)
-            .map(|r| usize::from(r.axes));
-        if rough_axes.sum::<usize>() > MAX_ROUGH_AXES {
-            return Err(ModelError::RoughAxes);
+        let axes = records.clone().map(|record| usize::from(record.axes));
+        let of_samples: usize = axes.clone().take(sample_tables).sum();
+        let of_roughness: usize = axes.skip(sample_tables).sum();
+        if of_samples > MAX_SAMPLE_AXES || of_roughness > MAX_ROUGH_AXES {
+            return Err(ModelError::Axes);
         }
         let table_bytes = usize::try_from(table_words * 4).map_err(|_| ModelError::Length)?;
         let (names, table) = rest

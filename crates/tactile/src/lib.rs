@@ -63,6 +63,7 @@ mod evidence;
 mod exp2;
 mod format;
 mod layout;
+mod lookup;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;
@@ -87,8 +88,8 @@ pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
-    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_ROUGH_AXES, MAX_SAMPLES_TIMES_CHANNELS,
-    MAX_TABLES, VERSION, checksum,
+    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_ROUGH_AXES, MAX_SAMPLE_AXES,
+    MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, VERSION, checksum,
 };
 pub use layout::TouchRule;
 pub use model::{Aligned, Floors, Model};

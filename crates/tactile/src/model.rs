@@ -13,6 +13,7 @@ use crate::format::{
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::quantiser::Quantiser;
+use crate::roughness::Roughness;
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
@@ -115,13 +116,22 @@ impl<W: AsRef<[u32]>> Model<W> {
 
     /// The floors of a class, if there are any.
     pub fn floors(&self, class: usize) -> Option<Floors> {
-        let word = *self
-            .part(self.layout.floors, self.layout.names)
-            .get(class)?;
+        let word = *self.all_floors().get(class)?;
         Some(Floors {
             samples: word as u16,
             roughness: (word >> 16) as u16,
         })
+    }
+
+    /// The floors of the classes, a word each; none where there are none.
+    #[inline]
+    pub(crate) fn all_floors(&self) -> &[u32] {
+        self.part(self.layout.floors, self.layout.names)
+    }
+
+    /// What is kept of the channels of roughness, before the first sample.
+    pub(crate) fn roughness(&self) -> Roughness {
+        Roughness::of(self.rough_tables().flat_map(TableRecord::channels))
     }
 
     /// The names of the classes, in order.
@@ -206,7 +216,12 @@ impl<W: AsRef<[u32]>> Model<W> {
     /// Empty outside the model.
     #[inline]
     pub(crate) fn row(&self, table: &TableRecord, cell: usize) -> &[u32] {
-        let first = table.first as usize + cell * self.layout.row_words;
+        self.words_from(table.first as usize + cell * self.layout.row_words)
+    }
+
+    /// The words from one on.
+    #[inline]
+    pub(crate) fn words_from(&self, first: usize) -> &[u32] {
         self.words.as_ref().get(first..).unwrap_or_default()
     }
 
@@ -220,9 +235,9 @@ impl<W: AsRef<[u32]>> Model<W> {
 impl TableRecord {
     /// The channels of its axes.
     #[inline]
-    pub(crate) fn channels(&self) -> impl Iterator<Item = usize> {
+    fn channels(&self) -> impl Iterator<Item = u8> {
         let axes = self.axis.iter().take(usize::from(self.axes));
-        axes.map(|axis| usize::from(axis.channel))
+        axes.map(|axis| axis.channel)
     }
 
     /// The cell of the values `code` gives for an axis's place, 0 or 1, and channel.

@@ -5,7 +5,8 @@ use core::fmt;
 
 use crate::decision::Decision;
 use crate::error::SetupError;
-use crate::format::{MAX_CLASSES, TableRecord};
+use crate::format::MAX_CLASSES;
+use crate::lookup::Lookup;
 use crate::model::Model;
 use crate::roughness::Roughness;
 use crate::rule::DecisionRule;
@@ -20,6 +21,7 @@ const FEW: usize = 2;
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     model: Model<W>,
     rule: R,
+    lookup: Lookup,
     state: State<R::Evidence>,
 }
 
@@ -58,12 +60,12 @@ impl fmt::Display for WrongChannels {
 impl core::error::Error for WrongChannels {}
 
 impl<E> State<E> {
-    fn new(left: u32, evidence: E) -> Self {
+    const fn new(left: u32, evidence: E, roughness: Roughness) -> Self {
         Self {
             left,
             sums: [0; MAX_CLASSES],
             evidence,
-            roughness: Roughness::default(),
+            roughness,
             excess: [[0; MAX_CLASSES]; 2],
             touch: 0,
         }
@@ -82,7 +84,8 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let rule = R::new(&model, settings)?;
         Ok(Self {
-            state: State::new(rule.interval(), rule.start()),
+            lookup: Lookup::new(model.sample_tables(), model.row_words()),
+            state: State::new(rule.interval(), rule.start(), model.roughness()),
             model,
             rule,
         })
@@ -104,7 +107,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         self.check(codes)?;
         if self.model.has_roughness() {
-            feel(&self.model.view(), codes, true, &mut self.state.roughness);
+            self.state.roughness.push(codes, true);
         }
         self.add(codes);
         if self.state.left > 1 {
@@ -124,7 +127,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
         self.check(codes)?;
         if self.model.has_roughness() {
-            feel(&self.model.view(), codes, false, &mut self.state.roughness);
+            self.state.roughness.push(codes, false);
         }
         Ok(())
     }
@@ -159,7 +162,6 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     /// Adds what each table of samples says of the classes to their sums.
     #[inline]
     fn add(&mut self, codes: &[i32]) {
-        let code = |_, channel: usize| codes.get(channel).copied().unwrap_or(0);
         let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
         // The sums of three or four classes stay in registers: 48 instructions less
         // on a Cortex-M4F, 7 % of a tick.
@@ -167,16 +169,25 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
             && let Some(pairs) = pairs.first_chunk_mut::<FEW>()
         {
             let mut sums = *pairs;
-            for table in self.model.sample_tables() {
-                add_words(&mut sums, self.model.row(table, table.cell(code)));
+            for row in self.lookup.rows(codes) {
+                add_words(&mut sums, self.model.words_from(row));
             }
             *pairs = sums;
             return;
         }
         let pairs = pairs.get_mut(..self.model.row_words()).unwrap_or_default();
-        for table in self.model.sample_tables() {
-            add_row(pairs, self.model.row(table, table.cell(code)));
+        for row in self.lookup.rows(codes) {
+            add_row(pairs, self.model.words_from(row));
         }
+    }
+
+    /// Nothing seen yet.
+    fn fresh(&self) -> State<R::Evidence> {
+        State::new(
+            self.rule.interval(),
+            self.rule.start(),
+            self.model.roughness(),
+        )
     }
 
     #[inline]
@@ -205,7 +216,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     /// (None if there was no sample), the others drop what they have. All
     /// evidence is then forgotten.
     pub fn finish(&mut self) -> Option<Decision> {
-        let fresh = State::new(self.rule.interval(), self.rule.start());
+        let fresh = self.fresh();
         let state = core::mem::replace(&mut self.state, fresh);
         let samples = self.rule.interval().saturating_sub(state.left);
         let sums = state.sums.get(..self.model.classes()).unwrap_or_default();
@@ -214,7 +225,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
 
     /// Forgets all evidence.
     pub fn reset(&mut self) {
-        self.state = State::new(self.rule.interval(), self.rule.start());
+        self.state = self.fresh();
     }
 
     /// Posterior of each class after the last full block. For display: costs
@@ -249,15 +260,6 @@ fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
     }
 }
 
-/// Takes a sample of the channels of roughness.
-// A function of its own: a tick in one piece runs out of registers.
-#[inline(never)]
-fn feel(model: &Model<&[u32]>, codes: &[i32], counts: bool, roughness: &mut Roughness) {
-    let channels = model.rough_tables().flat_map(TableRecord::channels);
-    let code = |channel: usize| codes.get(channel).copied().unwrap_or(0);
-    roughness.push(channels.map(code), counts);
-}
-
 /// Compares the sums of a block with their floors, adds what its roughness says of the
 /// classes, which weighs as much as the mean of its samples, and begins another.
 #[inline(never)]
@@ -268,9 +270,9 @@ fn add_roughness(
     excess: &mut [[i32; MAX_CLASSES]; 2],
 ) {
     let [of_samples, of_roughness] = excess;
-    let floor = |class| model.floors(class).unwrap_or_default();
-    for (class, (excess, sum)) in of_samples.iter_mut().zip(&*sums).enumerate() {
-        let floor = u32::from(floor(class).samples) * model.block();
+    let (floors, block) = (model.all_floors(), model.block());
+    for ((excess, sum), floors) in of_samples.iter_mut().zip(&*sums).zip(floors) {
+        let floor = (floors & 0xffff) * block;
         *excess = excess.saturating_add(sum.wrapping_sub(floor).cast_signed());
     }
     let mut place = 0;
@@ -282,11 +284,12 @@ fn add_roughness(
         add_words(pairs, model.row(table, cell));
         place += usize::from(table.axes);
     }
-    let each = of_roughness.iter_mut().zip(entries).zip(sums).enumerate();
-    for (class, ((excess, entry), sum)) in each.take(model.classes()) {
-        let floor = u32::from(floor(class).roughness);
+    for ((excess, entry), floors) in of_roughness.iter_mut().zip(entries).zip(floors) {
+        let floor = floors >> 16;
         *excess = excess.saturating_add(entry.wrapping_sub(floor).cast_signed());
-        *sum = sum.wrapping_add(entry.wrapping_mul(model.block()));
+    }
+    for (sum, entry) in sums.iter_mut().zip(entries).take(model.classes()) {
+        *sum = sum.wrapping_add(entry.wrapping_mul(block));
     }
     roughness.clear();
 }

@@ -20,6 +20,8 @@ const FRACTION_BITS: u32 = 6;
 /// open block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Roughness {
+    channels: [u8; MAX_ROUGH_AXES],
+    count: usize,
     lines: [[i32; KEPT]; MAX_ROUGH_AXES],
     sums: [u32; MAX_ROUGH_AXES],
     /// The oldest sample of each line.
@@ -28,28 +30,34 @@ pub struct Roughness {
     missing: usize,
 }
 
-impl Default for Roughness {
-    fn default() -> Self {
+impl Roughness {
+    /// Of these channels; those beyond [`MAX_ROUGH_AXES`] are left out.
+    pub fn of(channels: impl Iterator<Item = u8>) -> Self {
+        let mut kept = [0; MAX_ROUGH_AXES];
+        let places = kept.iter_mut().zip(channels);
+        let count = places.map(|(place, channel)| *place = channel).count();
         Self {
+            channels: kept,
+            count,
             lines: [[0; KEPT]; MAX_ROUGH_AXES],
             sums: [0; MAX_ROUGH_AXES],
             oldest: 0,
             missing: KEPT,
         }
     }
-}
 
-impl Roughness {
-    /// Takes a sample of each channel, in the same order each time. The delay lines
-    /// run on with those that do not count; until they are full there is no
-    /// difference.
-    #[inline]
-    pub fn push(&mut self, codes: impl Iterator<Item = i32>, counts: bool) {
+    /// Takes a sample, of all channels of the model. The delay lines run on with those
+    /// that do not count; until they are full there is no difference.
+    // Apart: a tick in one piece runs out of registers.
+    #[inline(never)]
+    pub fn push(&mut self, codes: &[i32], counts: bool) {
         let counts = counts && self.missing == 0;
         self.missing = self.missing.saturating_sub(1);
         let (oldest, middle) = (self.oldest % KEPT, (self.oldest + DELAY) % KEPT);
         self.oldest = (oldest + 1) % KEPT;
-        for ((line, sum), code) in self.lines.iter_mut().zip(&mut self.sums).zip(codes) {
+        let lines = self.lines.iter_mut().zip(&mut self.sums);
+        for ((line, sum), channel) in lines.zip(self.channels).take(self.count) {
+            let code = codes.get(usize::from(channel)).copied().unwrap_or(0);
             let code = code.clamp(-LARGEST, LARGEST);
             let difference = code - 2 * line[middle] + line[oldest];
             line[oldest] = code;
@@ -88,9 +96,9 @@ mod tests {
     use super::{KEPT, Roughness, octaves};
 
     fn code(samples: &[i32]) -> i32 {
-        let mut roughness = Roughness::default();
+        let mut roughness = Roughness::of([0].into_iter());
         for &x in samples {
-            roughness.push([x].into_iter(), true);
+            roughness.push(&[x], true);
         }
         roughness.code(0)
     }
@@ -113,9 +121,9 @@ mod tests {
     fn a_rest_and_a_ramp_are_smooth_and_a_step_is_not() {
         assert_eq!(code(&[5_000; 20]), 0);
         let ramp: Vec<i32> = (0..100).map(|n| 7 * n).collect();
-        let mut roughness = Roughness::default();
+        let mut roughness = Roughness::of([0].into_iter());
         for (n, &x) in ramp.iter().enumerate() {
-            roughness.push([x].into_iter(), n >= KEPT);
+            roughness.push(&[x], n >= KEPT);
         }
         assert_eq!(roughness.code(0), 0);
         // A step of 10: four differences of 10, then four of −10.
@@ -125,13 +133,13 @@ mod tests {
 
     #[test]
     fn samples_in_the_air_keep_the_line_but_do_not_count() {
-        let mut roughness = Roughness::default();
+        let mut roughness = Roughness::of([0].into_iter());
         for n in 0..8 {
-            roughness.push([100 * (n % 2)].into_iter(), false);
+            roughness.push(&[100 * (n % 2)], false);
         }
         assert_eq!(roughness.code(0), 0);
         // v[n - 8] = v[n - 4] = 0.
-        roughness.push([50].into_iter(), true);
+        roughness.push(&[50], true);
         assert_eq!(roughness.code(0), octaves(51));
         roughness.clear();
         assert_eq!(roughness.code(0), 0);

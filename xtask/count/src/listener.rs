@@ -40,6 +40,11 @@ pub fn block_9() -> &'static [u8] {
     model!("block9")
 }
 
+/// A joint model of four classes, with blocks of 20.
+pub fn joint_4() -> &'static [u8] {
+    model!("joint4")
+}
+
 /// A sequential classifier of samples of `C` channels.
 #[derive(Debug)]
 pub struct Listener<const C: usize>(Sequential);
@@ -53,6 +58,12 @@ impl<const C: usize> Listener<C> {
         let model = Model::parse(model).expect("a model");
         assert_eq!(model.channels(), C);
         Self(Sequential::new(model, THRESHOLD).expect("any model has this rule"))
+    }
+
+    /// A sample in the air.
+    #[inline]
+    pub fn pass(&mut self, codes: [i32; C]) -> u32 {
+        self.0.pass(&codes).is_ok().into()
     }
 
     /// The samples that a decision used; 0: none fell.

@@ -216,9 +216,9 @@ fn floors_look_back_to_the_onset_of_the_touch() {
 
 #[test]
 fn roughness_is_that_of_the_samples_that_count() {
-    let mut roughness = Roughness::default();
+    let mut roughness = Roughness::of([0, 1].into_iter());
     for n in 0..40 {
-        roughness.push([10 * (n % 4), 0].into_iter(), n % 2 == 0);
+        roughness.push(&[10 * (n % 4), 0], n % 2 == 0);
     }
     // A period of four samples: all differences are zero.
     assert_eq!((roughness.code(0), roughness.code(1)), (0, 0));

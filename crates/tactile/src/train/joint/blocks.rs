@@ -33,12 +33,12 @@ impl Blocks {
             touches: Vec::new(),
         };
         let mut open = Vec::with_capacity(length);
-        let mut roughness = Roughness::default();
+        let mut roughness = Roughness::of(0..CHANNELS as u8);
         let (mut touch, mut away) = (0, options.gap);
         for (sample, &counts) in trial.samples.iter().zip(&trial.counts) {
             let codes: [i32; CHANNELS] =
                 core::array::from_fn(|channel| scales[channel].code_from_f64(sample[channel]));
-            roughness.push(codes.into_iter(), counts);
+            roughness.push(&codes, counts);
             if !counts {
                 away = away.saturating_add(1);
                 continue;
