@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use tactile::Decision;
-use tactile::score::Confusion;
+use tactile::score::{Confusion, Statistics};
 
 /// What a decision says where what was felt is none of the model's classes.
 pub const UNKNOWN: &str = "unknown";
@@ -28,6 +28,13 @@ pub struct Decided {
     pub samples: u32,
     /// Posterior probability of the class decided for.
     pub posterior: f64,
+}
+
+impl Decided {
+    /// Whether it named the true class.
+    pub fn is_right(&self) -> bool {
+        self.label == self.decision
+    }
 }
 
 /// Writes `decisions.csv`.
@@ -63,22 +70,27 @@ pub struct Score {
 impl Score {
     /// Counts `decisions` among `classes`; labels that the model does not know
     /// get a row of their own below.
-    pub fn new(classes: &[String], decisions: &[Decided]) -> Self {
+    pub fn new<'d>(classes: &[String], decisions: impl IntoIterator<Item = &'d Decided>) -> Self {
+        let decisions: Vec<&Decided> = decisions.into_iter().collect();
         let mut names = classes.to_vec();
-        for d in decisions {
+        for d in &decisions {
             if !names.contains(&d.label) {
                 names.push(d.label.clone());
             }
         }
         let place = |name: &String| names.iter().position(|other| other == name);
         let mut confusion = Confusion::new(names.len());
+        let mut samples = 0;
         for d in decisions {
+            let named = place(&d.decision);
             if let Some(truth) = place(&d.label) {
                 // Both are among the names, but for what is unknown.
-                let _ = confusion.add(truth, place(&d.decision));
+                let _ = confusion.add(truth, named);
+            }
+            if named.is_some() {
+                samples += u64::from(d.samples);
             }
         }
-        let samples = decisions.iter().map(|d| u64::from(d.samples)).sum();
         Self {
             names,
             classes: classes.len(),
@@ -87,15 +99,26 @@ impl Score {
         }
     }
 
-    /// Decisions in all.
+    /// Decisions that named a class.
     pub fn decisions(&self) -> u64 {
         self.confusion.named()
     }
 
-    /// Share of right decisions for each class that was presented, averaged
-    /// over those classes; `None` without a decision.
+    /// Decisions that said "unknown".
+    pub fn unknown(&self) -> u64 {
+        self.confusion.trials() - self.confusion.named()
+    }
+
+    /// Of the decisions that named a class the share that was right, for each surface
+    /// that was presented, averaged over those; `None` without a decision.
     pub fn hit_rate(&self) -> Option<f64> {
-        self.confusion.mean_hit_rate()
+        let rates = (0..self.names.len()).filter_map(|truth| {
+            let named: u64 = (0..self.classes)
+                .map(|class| self.confusion.count(truth, class))
+                .sum();
+            (named > 0).then(|| self.confusion.count(truth, truth) as f64 / named as f64)
+        });
+        Statistics::of(rates).map(|rates| rates.mean)
     }
 
     /// Mean decision time in samples; `None` without a decision.
@@ -108,7 +131,11 @@ impl Score {
 /// The confusion matrix.
 impl fmt::Display for Score {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.confusion.table(&self.names, self.classes))
+        let Self {
+            names, confusion, ..
+        } = self;
+        let missed = (self.unknown() > 0).then_some(UNKNOWN);
+        write!(f, "{}", confusion.table(names, self.classes, missed))
     }
 }
 
@@ -145,6 +172,22 @@ mod tests {
         let score = Score::new(&names, &[decided("mud", "ice", 20)]);
         assert_eq!(score.hit_rate(), Some(0.0));
         assert_eq!(Score::new(&names, &[]).hit_rate(), None);
+    }
+
+    #[test]
+    fn unknown_is_neither_right_nor_wrong() {
+        let names = ["ice".to_owned(), "loam".to_owned()];
+        let decisions = [
+            decided("ice", "ice", 20),
+            decided("ice", super::UNKNOWN, 900),
+            decided("loam", "loam", 40),
+        ];
+        let score = Score::new(&names, &decisions);
+        assert_eq!((score.decisions(), score.unknown()), (2, 1));
+        assert_eq!(score.hit_rate(), Some(1.0));
+        assert_eq!(score.mean_samples(), Some(30.0));
+        let text = score.to_string();
+        assert!(text.contains("    ice |       1       0       1"), "{text}");
     }
 
     #[test]

@@ -9,10 +9,16 @@
 //!   (P_O − P_E)/(1 − P_E); 1 is perfect, 0 chance, below 0 worse than chance.
 //! - **missed**: a trial in which no class was named; it counts as no hit, and
 //!   κ, which is about classes named, leaves it out.
+//! - **stated**: the posterior with which a decision was made; **found**: the share
+//!   of such decisions that was right.
 //! - **error** of ordered classes (angle, speed): value named minus true value.
 
+mod calibration;
 mod confusion;
+mod interval;
 mod statistics;
 
+pub use calibration::{Calibration, CalibrationBin};
 pub use confusion::{Confusion, ScoreError};
+pub use interval::Interval;
 pub use statistics::Statistics;

@@ -167,8 +167,13 @@ impl Confusion {
     }
 
     /// The counts as lines of text, a row a true class, with a column for each
-    /// of the first `columns` classes.
-    pub fn table(&self, names: &[String], columns: usize) -> impl fmt::Display {
+    /// of the first `columns` classes and, where it has a title, one of those missed.
+    pub fn table<'a>(
+        &'a self,
+        names: &'a [String],
+        columns: usize,
+        missed: Option<&'a str>,
+    ) -> impl fmt::Display {
         fmt::from_fn(move |f| {
             let longest = names.iter().map(|name| name.chars().count()).max();
             let width = longest.unwrap_or(0).max("decided".len());
@@ -176,11 +181,17 @@ impl Confusion {
             for name in names.iter().take(columns) {
                 write!(f, " {name:>width$}")?;
             }
+            if let Some(missed) = missed {
+                write!(f, " {missed:>width$}")?;
+            }
             writeln!(f, "   <- decided")?;
             for (truth, name) in names.iter().enumerate() {
                 write!(f, "{name:>width$} |")?;
                 for named in 0..columns {
                     write!(f, " {:>width$}", self.count(truth, named))?;
+                }
+                if missed.is_some() {
+                    write!(f, " {:>width$}", self.missed(truth))?;
                 }
                 writeln!(f)?;
             }

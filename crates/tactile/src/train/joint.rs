@@ -37,7 +37,7 @@ use blocks::Blocks;
 pub use floors::Floor;
 pub use model::JointModel;
 use pieces::{Folded, Piece, names};
-pub use report::{AtThreshold, ClassReport, Interval, Report};
+pub use report::{AtThreshold, ClassReport, Report};
 use run::{Rule, decisions};
 pub use tables::LogTable;
 use tables::Tables;

@@ -1,6 +1,6 @@
 //! Scores against tables worked by hand.
 
-use tactile::score::{Confusion, ScoreError, Statistics};
+use tactile::score::{Calibration, Confusion, Interval, ScoreError, Statistics};
 
 fn matrix(rows: &[&[u64]]) -> Confusion {
     let mut confusion = Confusion::new(rows.len());
@@ -96,4 +96,40 @@ fn classes_that_are_not_there_are_refused() {
     assert_eq!(merged, Err(ScoreError::Classes { ours, theirs }));
     assert_eq!((confusion.count(5, 0), confusion.count(0, 5)), (0, 0));
     assert_eq!(confusion.missed(9), 0);
+}
+
+/// Wilson's intervals of tables: 8 of 10 and 0 of 10.
+#[test]
+fn intervals_are_those_of_wilson() {
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 5e-5, "{found}");
+    let interval = Interval::of(8, 10);
+    near(interval.low, 0.4902);
+    near(interval.high, 0.9433);
+    let none = Interval::of(0, 10);
+    near(none.low, 0.0);
+    near(none.high, 0.2775);
+    let nothing = Interval::of(0, 0);
+    assert!(nothing.share.is_nan());
+    assert_eq!((nothing.low, nothing.high), (0.0, 1.0));
+}
+
+/// Four decisions of 0.96, two of 0.992: stated (4 · 0.96 + 2 · 0.992)/6, found 5/6, and
+/// apart by 0.21 in the one bin and by 0.008 in the other.
+#[test]
+fn calibration_of_a_worked_table() {
+    let four = [true, true, true, false].map(|right| (0.96, right));
+    let two = [(0.992, true); 2];
+    let calibration = Calibration::of(four.into_iter().chain(two));
+    assert!((calibration.stated - (4.0 * 0.96 + 2.0 * 0.992) / 6.0).abs() < 1e-12);
+    assert_eq!(calibration.found, Interval::of(5, 6));
+    let bins: Vec<_> = calibration
+        .bins
+        .iter()
+        .map(|bin| (bin.low, bin.high, bin.found.count))
+        .collect();
+    assert_eq!(bins, [(0.95, 0.98, 4), (0.99, 0.995, 2)]);
+    assert!((calibration.error() - (4.0 * 0.21 + 2.0 * 0.008) / 6.0).abs() < 1e-12);
+    let certain = Calibration::of([(1.0, true)].into_iter());
+    assert_eq!(certain.error(), 0.0);
+    assert!(Calibration::of([].into_iter()).error().is_nan());
 }
