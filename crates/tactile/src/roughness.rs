@@ -11,57 +11,56 @@ use crate::format::MAX_ROUGH_AXES;
 const DELAY: usize = 4;
 /// Samples that are kept.
 const KEPT: usize = 2 * DELAY;
-/// Codes are held within ±2²⁸, so that the difference is one.
-const LARGEST: i32 = 1 << 28;
 /// Bits of a code's fraction: 1/64 octave.
 const FRACTION_BITS: u32 = 6;
 
-/// The delay lines of up to [`MAX_ROUGH_AXES`] channels, and their sums over the
-/// open block.
+/// The delay line of [`MAX_ROUGH_AXES`] channels, and their sums over the open block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Roughness {
     channels: [u8; MAX_ROUGH_AXES],
-    count: usize,
-    lines: [[i32; KEPT]; MAX_ROUGH_AXES],
+    line: [[i32; MAX_ROUGH_AXES]; KEPT],
     sums: [u32; MAX_ROUGH_AXES],
-    /// The oldest sample of each line.
+    /// The oldest sample of the line.
     oldest: usize,
-    /// Samples until the lines are full.
+    /// Samples until the line is full.
     missing: usize,
 }
 
 impl Roughness {
-    /// Of these channels; those beyond [`MAX_ROUGH_AXES`] are left out.
+    /// Of these channels; those beyond [`MAX_ROUGH_AXES`] are left out, and what
+    /// remains is channel 0 again.
     pub fn of(channels: impl Iterator<Item = u8>) -> Self {
         let mut kept = [0; MAX_ROUGH_AXES];
-        let places = kept.iter_mut().zip(channels);
-        let count = places.map(|(place, channel)| *place = channel).count();
+        for (place, channel) in kept.iter_mut().zip(channels) {
+            *place = channel;
+        }
         Self {
             channels: kept,
-            count,
-            lines: [[0; KEPT]; MAX_ROUGH_AXES],
+            line: [[0; MAX_ROUGH_AXES]; KEPT],
             sums: [0; MAX_ROUGH_AXES],
             oldest: 0,
             missing: KEPT,
         }
     }
 
-    /// Takes a sample, of all channels of the model. The delay lines run on with those
-    /// that do not count; until they are full there is no difference.
-    // Apart: a tick in one piece runs out of registers.
-    #[inline(never)]
+    /// Takes a sample, of all channels of the model. The delay line runs on with those
+    /// that do not count; until it is full there is no difference. That of codes beyond
+    /// ±2²⁹ wraps around.
+    #[inline]
     pub fn push(&mut self, codes: &[i32], counts: bool) {
-        let counts = counts && self.missing == 0;
-        self.missing = self.missing.saturating_sub(1);
-        let (oldest, middle) = (self.oldest % KEPT, (self.oldest + DELAY) % KEPT);
-        self.oldest = (oldest + 1) % KEPT;
-        let lines = self.lines.iter_mut().zip(&mut self.sums);
-        for ((line, sum), channel) in lines.zip(self.channels).take(self.count) {
-            let code = codes.get(usize::from(channel)).copied().unwrap_or(0);
-            let code = code.clamp(-LARGEST, LARGEST);
-            let difference = code - 2 * line[middle] + line[oldest];
-            line[oldest] = code;
-            if counts {
+        let code = |channel: u8| codes.get(usize::from(channel)).copied().unwrap_or(0);
+        let new = self.channels.map(code);
+        let middle = self.line[(self.oldest + DELAY) % KEPT];
+        let oldest = core::mem::replace(&mut self.line[self.oldest % KEPT], new);
+        self.oldest = (self.oldest + 1) % KEPT;
+        if self.missing > 0 {
+            self.missing -= 1;
+        } else if counts {
+            let differences = new.iter().zip(middle).zip(oldest);
+            for (sum, ((new, middle), oldest)) in self.sums.iter_mut().zip(differences) {
+                let difference = new
+                    .wrapping_add(oldest)
+                    .wrapping_sub(middle.wrapping_mul(2));
                 *sum = sum.saturating_add(difference.unsigned_abs());
             }
         }
@@ -147,9 +146,14 @@ mod tests {
 
     #[test]
     fn extremes_do_not_overflow() {
+        let step = (1 << 29) - 1;
         let wild: Vec<i32> = (0..4_000)
-            .map(|n| if n % 8 < 4 { i32::MIN } else { i32::MAX })
+            .map(|n| if n % 8 < 4 { -step } else { step })
             .collect();
         assert_eq!(code(&wild), 2047);
+        for x in [i32::MIN, i32::MAX] {
+            assert_eq!(code(&[x; 20]), 0);
+            code(&[x, 0, -1, 1, x, x, 0, x, x, 0, 0, 0, x]);
+        }
     }
 }
