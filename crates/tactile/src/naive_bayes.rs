@@ -201,7 +201,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
             touch,
         } = &mut self.state;
         if self.model.has_roughness() || self.model.has_floors() {
-            add_roughness(&self.model.view(), roughness, sums, excess);
+            add_roughness(&self.model, roughness, sums, excess);
         }
         let sums = sums.get_mut(..self.model.classes()).unwrap_or_default();
         let decision = self.rule.end_of_block(sums, evidence);
@@ -263,8 +263,8 @@ fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
 /// Compares the sums of a block with their floors, adds what its roughness says of the
 /// classes, which weighs as much as the mean of its samples, and begins another.
 #[inline(never)]
-fn add_roughness(
-    model: &Model<&[u32]>,
+fn add_roughness<W: AsRef<[u32]>>(
+    model: &Model<W>,
     roughness: &mut Roughness,
     sums: &mut [u32; MAX_CLASSES],
     excess: &mut [[i32; MAX_CLASSES]; 2],
