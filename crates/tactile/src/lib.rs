@@ -75,6 +75,7 @@ mod rule;
 pub mod score;
 mod sequential;
 mod totals;
+mod touch;
 #[cfg(feature = "std")]
 pub mod train;
 #[cfg(feature = "std")]
@@ -101,4 +102,5 @@ pub use roughness::Roughness;
 pub use rule::DecisionRule;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
 pub use totals::Totals;
+pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};

@@ -6,5 +6,6 @@ mod joint;
 mod model_file;
 mod rules;
 mod score;
+mod touch_detector;
 mod touches;
 mod training;

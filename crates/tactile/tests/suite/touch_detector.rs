@@ -1,0 +1,111 @@
+//! Touches from codes: in noise, at steps, on ramps, under drift, at the ends of the range.
+
+use proptest::prelude::*;
+use tactile::{TouchDetector, Touching};
+
+const GAP: u32 = 200;
+const REST: f64 = 8192.0;
+
+/// Near enough to normal noise with a standard deviation of four codes.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        let uniform = |state: &mut u64| {
+            *state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (*state >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        4.0 * (0..12).map(|_| uniform(&mut self.0)).sum::<f64>()
+    }
+}
+
+/// Onsets, and ends of touches, in samples of x around rest with noise.
+fn told(seed: u64, x: impl Iterator<Item = f64>, gate: bool) -> (Vec<usize>, Vec<usize>) {
+    let mut noise = Noise(seed);
+    let mut detector = TouchDetector::new();
+    let (mut onsets, mut ends, mut last) = (Vec::new(), Vec::new(), 0);
+    for (n, x) in x.enumerate() {
+        let code = |x: f64| (x + noise.next()).round().clamp(0.0, 16383.0) as u16;
+        let codes = [REST + x, REST].map(code);
+        let Touching { number, is_onset } = detector.step(codes, gate, GAP);
+        if is_onset {
+            onsets.push(n);
+            assert_eq!(number as usize, onsets.len());
+        }
+        if number == 0 && last != 0 {
+            ends.push(n);
+        }
+        last = number;
+    }
+    (onsets, ends)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    #[test]
+    fn noise_and_drift_are_no_touch(seed: u64, drift in -0.02..0.02_f64) {
+        let (onsets, _) = told(seed, (0..40_000).map(|n| drift * f64::from(n)), false);
+        prop_assert!(onsets.is_empty(), "{onsets:?}");
+    }
+
+    #[test]
+    fn its_own_motion_is_no_touch(seed: u64, hz in 1.0..10.0_f64, codes in 0.0..4000.0_f64) {
+        let turn = core::f64::consts::TAU * hz / 2000.0;
+        let motion = (0..40_000).map(|n| codes * (turn * f64::from(n)).sin());
+        let (onsets, _) = told(seed, motion, true);
+        prop_assert!(onsets.is_empty(), "{onsets:?}");
+    }
+
+    #[test]
+    fn a_step_is_told_at_once_and_ends_after_the_gap(seed: u64, codes in 150.0..8000.0_f64) {
+        let step = (0..9000).map(|n| if (4000..5000).contains(&n) { codes } else { 0.0 });
+        let (onsets, ends) = told(seed, step, false);
+        prop_assert_eq!(onsets, [4000]);
+        // The rest has not moved, and what is left of the step has gone with it.
+        prop_assert!(ends.len() == 1 && (5200..5240).contains(&ends[0]), "{ends:?}");
+    }
+
+    #[test]
+    fn a_ramp_is_told_soon(seed: u64, slope in 5.0..200.0_f64) {
+        let ramp = (0..5000).map(|n| slope * f64::from((n - 4000).clamp(0, 40)));
+        let (onsets, _) = told(seed, ramp, false);
+        // Change and deflection stand out from 110 codes on.
+        let latest = 4002 + (110.0 / slope) as usize;
+        prop_assert!(onsets.len() == 1 && (4000..=latest).contains(&onsets[0]), "{onsets:?}");
+    }
+
+    #[test]
+    fn any_codes_are_taken(codes in proptest::collection::vec(any::<([u16; 2], bool)>(), 3000)) {
+        let mut detector = TouchDetector::new();
+        for (codes, gate) in codes {
+            let Touching { number, is_onset } = detector.step(codes, gate, GAP);
+            prop_assert!(number != 0 || !is_onset);
+        }
+    }
+}
+
+#[test]
+fn what_does_not_move_for_long_is_let_go() {
+    let step = (0..40_000).map(|n| if n >= 4000 { 4000.0 } else { 0.0 });
+    let (onsets, ends) = told(1, step, false);
+    assert!(onsets == [4000] && ends.len() == 1, "{onsets:?} {ends:?}");
+    assert!((10_000..30_000).contains(&ends[0]), "{ends:?}");
+}
+
+#[test]
+fn a_step_that_saturates_is_a_touch() {
+    let mut detector = TouchDetector::new();
+    let mut onsets = 0;
+    for n in 0..6000 {
+        let codes = if n < 3000 {
+            [8192, 8190 + n % 5]
+        } else {
+            [u16::MAX, 0]
+        };
+        onsets += u32::from(detector.step(codes, true, GAP).is_onset);
+    }
+    assert_eq!(onsets, 1);
+}
