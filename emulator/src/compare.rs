@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use host_sim::Error;
+use host_sim::classifier::Classifier;
 use host_sim::commands::run::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
@@ -46,8 +47,11 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
         whisking.numbers = Numbers::Single;
     }
     let scene = &loaded.scene;
-    let feels = matches!(plan::contact::<f32>(scene), Ok(Some(_)));
-    let mut host = Run::new(scene, loaded.classifier()?)?;
+    let classifier = loaded.classifier()?;
+    let touch = classifier.as_ref().and_then(Classifier::touch_rule);
+    let listens = plan::contact_min(scene, touch.map(|touch| touch.gate)).is_some();
+    let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
+    let mut host = Run::new(scene, classifier)?;
     let program = Program::load(program)?;
     let mut target = start(scene, host.classes().to_vec(), &program)?;
 
@@ -59,6 +63,9 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
         if !feels {
             expected.contact = [0.0; 2];
             found.contact = [0.0; 2];
+        }
+        if scene.classifier.is_none() {
+            expected.touch = 0;
         }
         if let Some(column) = difference(&expected, &found) {
             return Err(Error::Work(format!(
@@ -93,6 +100,9 @@ fn difference(a: &Row, b: &Row) -> Option<&'static str> {
     let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     if !same(a.t_s, b.t_s) {
         return Some("t");
+    }
+    if a.touch != b.touch {
+        return Some("touch");
     }
     let columns = ["theta", "z", "g", "contact", "angle", "x", "y"];
     let pairs = a.pairs().into_iter().zip(b.pairs()).zip(columns);

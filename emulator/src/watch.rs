@@ -33,6 +33,8 @@ mod name {
     pub(super) const NOMINAL: &str = "nominal";
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
+    /// The number of the touch.
+    pub(super) const TOUCHING: [&str; 4] = ["perception", "touches", "touching", "number"];
     /// In the queue.
     pub(super) const TAIL: &str = "tail";
     pub(super) const BUFFER: &str = "buffer";
@@ -88,6 +90,7 @@ pub(crate) struct Watch {
     theta: Vec<Variable>,
     gain: Vec<[Variable; 2]>,
     missed: u32,
+    touch: Option<u32>,
     queue: Queue,
 }
 
@@ -117,6 +120,7 @@ impl Watch {
         let missed = along(module, &name::MISSED)?.ok_or_else(|| missing("count of ticks"))?;
         let mut watch = Self {
             missed: missed.scalar()?.0,
+            touch: along(module, &name::TOUCHING)?.map(|number| number.address),
             contact: numbers(module.member(name::CONTACT)?)?,
             z: Vec::new(),
             theta: Vec::new(),
@@ -156,6 +160,11 @@ impl Watch {
         }
         for (place, theta) in snapshot.theta_deg.iter_mut().zip(&self.theta) {
             *place = whisking::degrees(theta.read(ram)?);
+        }
+        if let Some(address) = self.touch {
+            let mut number = [0; 2];
+            ram.read(address, &mut number)?;
+            snapshot.touch = u16::from_le_bytes(number);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
 use scene::{Driver, Rule, Scene};
-use tactile::ModelBuf;
+use tactile::{Model, ModelBuf, TouchRule};
 use whisking::{Real, Source};
 
 /// Writes the source in number format `R`, which the firmware calls `number`.
@@ -18,13 +18,15 @@ pub(crate) fn source<R: Real>(
     number: &TokenStream,
 ) -> Result<String, Box<dyn Error>> {
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
+    let touch = model.and_then(Model::touch_rule);
+    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate));
     let contact = Source::optional(
-        plan::contact::<R>(scene)?.as_ref(),
+        plan::contact::<R>(scene, contact_min.is_some())?.as_ref(),
         &quote! { whisking::filter::Config<Number> },
         &CrateEnv::default(),
     );
     let motion = motion::<R>(scene)?;
-    let perception = perception::<R>(scene, model);
+    let perception = perception::<R>(scene, model, contact_min);
 
     let (contact_type, contact_value) = (contact.of_type, contact.value);
     let (motion_type, motion_value) = (motion.config.of_type, motion.config.value);
@@ -128,7 +130,7 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
 }
 
 /// The classifier and its model.
-fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Part {
+fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Option<f64>) -> Part {
     let (Some(classifier), Some(model)) = (&scene.classifier, model) else {
         let items = vec![
             quote! { pub(crate) const CLASS_NAMES: &[&str] = &[]; },
@@ -157,11 +159,16 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Part {
         Rule::Window { samples } => (quote! { WindowRule }, quote! { u32 }, quote! { #samples }),
     };
     let contact_min = Source::optional(
-        classifier.contact_min.map(R::from_f64).as_ref(),
+        contact_min.map(R::from_f64).as_ref(),
         &quote! { Number },
         &CrateEnv::default(),
     );
     let (contact_min_type, contact_min) = (contact_min.of_type, contact_min.value);
+    let gap = if let Some(TouchRule { gap, .. }) = model.touch_rule() {
+        quote! { #gap }
+    } else {
+        quote! { firmware::design_parameters::touch_gap(TICK_HZ) }
+    };
     let items = vec![
         quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
         quote! {
@@ -181,7 +188,11 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>) -> Part {
     let config = Source {
         of_type: quote! { firmware::ClassifyingConfig<#contact_min_type, #rule_type> },
         value: quote! {
-            firmware::ClassifyingConfig { contact_min: #contact_min, rule: #rule_value }
+            firmware::ClassifyingConfig {
+                contact_min: #contact_min,
+                gap: #gap,
+                rule: #rule_value,
+            }
         },
     };
     Part { items, config }

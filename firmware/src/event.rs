@@ -56,6 +56,20 @@ impl SensorFault {
 /// Something worth a line in the log.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
+    /// A whisker touches something.
+    Touch {
+        /// Which one.
+        place: Place,
+        /// The number of the touch, from 1.
+        number: u16,
+    },
+    /// It has not touched anything for a while.
+    TouchEnd {
+        /// Which one.
+        place: Place,
+        /// The number of the touch that has ended.
+        number: u16,
+    },
     /// A decision fell.
     Decision(Decision),
     /// Readings of a whisker have been bad for longer than they may be: its

@@ -38,7 +38,8 @@ pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
 pub use module::{Config, Module};
 pub use motion::{Command, Motion, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
-    Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, SampleClassifier, shifts,
+    Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, Sample, SampleClassifier,
+    shifts,
 };
 pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
 pub use servo::{Servo, ServoConfig, ServoState};

@@ -76,12 +76,8 @@ where
         }
         self.motion
             .step(&config.motion, self.contact, &readings, events);
-        if let Some(decision) = self
-            .perception
-            .step(&config.perception, self.contact, &readings)
-        {
-            events(Event::Decision(decision));
-        }
+        self.perception
+            .step(&config.perception, self.contact, &readings, events);
 
         self.timing.end(self.clock.now());
     }

@@ -1,19 +1,22 @@
 //! What decides about what a module touches, or does not.
 
-use tactile::{Decision, DecisionRule, Model, NaiveBayes};
+use tactile::{Decision, DecisionRule, Model, NaiveBayes, TouchDetector, Touching};
 use whisking::{Optional, Real};
 
 use crate::sensing::Reading;
+use crate::{Event, Place};
 
 /// Decides from the readings of a module by the constants `C`, or does not.
 pub trait Perception<R, C, const S: usize, const N: usize> {
-    /// One tick: contact π of each side and the readings it came from.
+    /// One tick: contact π of each side and the readings it came from. `events` gets
+    /// touches and decisions.
     fn step(
         &mut self,
         config: &C,
         contact: [R; S],
         readings: &[[Reading; N]; S],
-    ) -> Option<Decision>;
+        events: &mut impl FnMut(Event),
+    );
 }
 
 /// No perception.
@@ -24,8 +27,8 @@ impl<R, const S: usize, const N: usize> Perception<R, (), S, N> for () {
         (): &(),
         _contact: [R; S],
         _readings: &[[Reading; N]; S],
-    ) -> Option<Decision> {
-        None
+        _events: &mut impl FnMut(Event),
+    ) {
     }
 }
 
@@ -41,17 +44,31 @@ where
         config: &Option<C>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
-    ) -> Option<Decision> {
-        self.as_mut()?.step(config.as_ref()?, contact, readings)
+        events: &mut impl FnMut(Event),
+    ) {
+        if let (Some(perception), Some(config)) = (self, config) {
+            perception.step(config, contact, readings, events);
+        }
     }
+}
+
+/// A sample of one whisker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sample {
+    /// The sensor's codes of x and y, 0 to 16383.
+    pub codes: [u16; 2],
+    /// Whether contact is at least the scene's, or the model's, least.
+    pub counts: bool,
+    /// The number of the touch; 0 in the air.
+    pub touch: u16,
 }
 
 /// A classifier of the two channels of one whisker, and its state.
 pub trait SampleClassifier {
-    /// Takes one sample as the sensor's codes, 0 to 16383; a decision may fall.
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision>;
+    /// Takes the sample of every tick with a valid reading; a decision may fall.
+    fn push(&mut self, sample: Sample) -> Option<Decision>;
 
-    /// Forgets all evidence: something else is being touched.
+    /// Starts anew.
     fn reset(&mut self);
 }
 
@@ -61,6 +78,8 @@ pub struct ClassifyingConfig<T, D> {
     /// Samples count only while contact π of the whisker's side is at least
     /// this; absent: always.
     pub contact_min: T,
+    /// Ticks without contact after which a touch ends.
+    pub gap: u32,
     /// Settings of the decision rule, with which the classifier is made.
     pub rule: D,
 }
@@ -73,17 +92,36 @@ pub struct ClassifyingConfig<T, D> {
 #[derive(Debug)]
 pub struct Classifying<L> {
     classifier: L,
+    touches: TouchDetector,
 }
 
 impl<L> Classifying<L> {
     /// With this classifier.
     pub const fn new(classifier: L) -> Self {
-        Self { classifier }
+        Self {
+            classifier,
+            touches: TouchDetector::new(),
+        }
+    }
+
+    /// As before the first tick.
+    #[must_use]
+    pub fn restarted(mut self) -> Self
+    where
+        L: SampleClassifier,
+    {
+        self.classifier.reset();
+        Self::new(self.classifier)
     }
 
     /// The classifier.
     pub const fn classifier_mut(&mut self) -> &mut L {
         &mut self.classifier
+    }
+
+    /// What the whisker touches.
+    pub const fn touching(&self) -> Touching {
+        self.touches.touching()
     }
 }
 
@@ -100,18 +138,36 @@ where
         config: &ClassifyingConfig<T, D>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
-    ) -> Option<Decision> {
-        let reading = readings.first()?.first()?;
-        let contact = *contact.first()?;
-        let touching = config
-            .contact_min
-            .part()
-            .is_none_or(|least| contact >= *least);
-        if !reading.valid || !touching {
-            return None;
+        events: &mut impl FnMut(Event),
+    ) {
+        let reading = readings.first().and_then(|side| side.first());
+        let (Some(reading), Some(contact)) = (reading, contact.first()) else {
+            return;
+        };
+        if !reading.valid {
+            return;
         }
-        self.classifier
-            .push([reading.x.code14(), reading.y.code14()])
+        let codes = [reading.x.code14(), reading.y.code14()];
+        let least = config.contact_min.part();
+        let counts = least.is_none_or(|least| contact >= least);
+        let Touching { number: last, .. } = self.touches.touching();
+        let gate = least.is_some() && counts;
+        let Touching { number, is_onset } = self.touches.step(codes, gate, config.gap);
+        let place = Place::new(0, 0);
+        if is_onset {
+            events(Event::Touch { place, number });
+        } else if number == 0 && last != 0 {
+            let number = last;
+            events(Event::TouchEnd { place, number });
+        }
+        let sample = Sample {
+            codes,
+            counts,
+            touch: number,
+        };
+        if let Some(decision) = self.classifier.push(sample) {
+            events(Event::Decision(decision));
+        }
     }
 }
 
@@ -122,6 +178,10 @@ pub struct CodeClassifier<R: DecisionRule, W = &'static [u32]> {
     bayes: NaiveBayes<R, W>,
     /// The model's codes a code of the sensor: powers of two.
     factors: [i32; 2],
+    /// Whether samples count only while something is touched.
+    needs_touch: bool,
+    /// The last touch.
+    touch: u16,
 }
 
 /// The model was not trained on the integer codes of a sensor's two channels,
@@ -156,7 +216,13 @@ impl<R: DecisionRule, W: AsRef<[u32]>> CodeClassifier<R, W> {
     pub fn new(bayes: NaiveBayes<R, W>) -> Result<Self, NotCodes> {
         // At most 17 bits.
         let factors = shifts(bayes.model())?.map(|shift| 1 << shift);
-        Ok(Self { bayes, factors })
+        let needs_touch = bayes.model().touch_rule().is_some();
+        Ok(Self {
+            bayes,
+            factors,
+            needs_touch,
+            touch: 0,
+        })
     }
 
     /// The classifier: its model, and posteriors.
@@ -167,17 +233,26 @@ impl<R: DecisionRule, W: AsRef<[u32]>> CodeClassifier<R, W> {
 
 impl<R: DecisionRule, W: AsRef<[u32]>> SampleClassifier for CodeClassifier<R, W> {
     #[inline]
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
-        let [x, y] = codes;
+    fn push(&mut self, sample: Sample) -> Option<Decision> {
+        let [x, y] = sample.codes;
+        if sample.touch != 0 && sample.touch != self.touch {
+            self.touch = sample.touch;
+            self.bayes.touch(sample.touch);
+        }
         let codes = [
             i32::from(x).wrapping_mul(self.factors[0]),
             i32::from(y).wrapping_mul(self.factors[1]),
         ];
         // Two channels, as `new` has made sure.
-        self.bayes.push(&codes).ok().flatten()
+        if sample.counts && (sample.touch != 0 || !self.needs_touch) {
+            return self.bayes.push(&codes).ok().flatten();
+        }
+        let _ = self.bayes.pass(&codes);
+        None
     }
 
     fn reset(&mut self) {
+        self.touch = 0;
         self.bayes.reset();
     }
 }

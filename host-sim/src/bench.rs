@@ -1,7 +1,7 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use firmware::design_parameters::{hold_limits, retry, stall};
+use firmware::design_parameters::{hold_limits, retry, stall, touch_gap};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
     NoActiveWhisker, Place, Polled, Servo, ServoConfig,
@@ -40,6 +40,8 @@ pub struct Snapshot {
     pub g: [f64; 2],
     /// Contact π of each side.
     pub contact: [f64; 2],
+    /// The number of the first whisker's touch; 0 in the air.
+    pub touch: u16,
 }
 
 /// A module as a run sees it.
@@ -97,6 +99,9 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
+        if let Some(perception) = self.module.perception_mut() {
+            snapshot.touch = perception.touching().number;
+        }
         for (place, pi) in snapshot.contact.iter_mut().zip(self.module.contact()) {
             *place = pi.to_f64();
         }
@@ -136,10 +141,8 @@ where
             (Some(start), Some(stall)) => Some(motors(start, stall, seed, pins)?),
             _ => None,
         };
-        let mut perception = self.module.perception_mut().take();
-        if let Some(perception) = &mut perception {
-            perception.classifier_mut().restart();
-        }
+        let perception = self.module.perception_mut().take();
+        let perception = perception.map(Classifying::restarted);
         self.module = Module::new(sensors()?, motors, perception, NoClock);
         Ok(())
     }
@@ -232,14 +235,16 @@ where
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
 
     // The trace shows contact wherever there is something to touch.
-    let contact = match plan::contact(scene).map_err(broken)? {
+    let tap = Tap::new(classifier);
+    let touch = tap.touch_rule();
+    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate));
+    let contact = match plan::contact(scene, contact_min.is_some()).map_err(broken)? {
         None if scene.plant.obstacle.is_some() => {
             let h50 = filter::Config::new(filter::CORNER_HZ, tick_hz);
             Some(h50.map_err(|error| Error::Work(error.to_string()))?)
         }
         contact => contact,
     };
-    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
     let start = plan.as_ref().map(|plan| plan.start);
     let config = Config {
         decoder: Decoder::new(),
@@ -255,6 +260,7 @@ where
         }),
         perception: Some(ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),
+            gap: touch.map_or(touch_gap(scene.tick_hz), |touch| touch.gap),
             rule: (),
         }),
         period: 0,
@@ -263,7 +269,7 @@ where
         (Some(start), Some(motion)) => Some(motors(start, motion.servo.stall, scene.seed, pins)?),
         _ => None,
     };
-    let perception = Some(Classifying::new(Tap::new(classifier)));
+    let perception = Some(Classifying::new(tap));
     let module = Module::new(sensors()?, motors, perception, NoClock);
     Ok(Box::new(Shaped {
         module,

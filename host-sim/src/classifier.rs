@@ -2,11 +2,11 @@
 
 use std::fmt::Display;
 
-use firmware::{CodeClassifier, SampleClassifier};
+use firmware::{CodeClassifier, Sample, SampleClassifier};
 use scene::Rule;
 use tactile::{
     AnyRule, AnyRuleSettings, Decision, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
-    Threshold,
+    Threshold, TouchRule,
 };
 
 /// The classifier that a board runs, with its model.
@@ -38,6 +38,11 @@ impl Classifier {
         &self.classes
     }
 
+    /// What a touch means to its model.
+    pub fn touch_rule(&self) -> Option<TouchRule> {
+        self.codes.bayes().model().touch_rule()
+    }
+
     /// Posterior of each class after the last full block.
     pub fn posteriors(&self) -> Posteriors {
         self.codes.bayes().posteriors()
@@ -47,8 +52,8 @@ impl Classifier {
 /// What stands between the first whisker and its classifier, if there is one:
 /// it keeps the last sample, for recordings.
 pub struct Tap {
-    /// The codes x and y of the last tick, if the classifier was given any.
-    pub(crate) sample: Option<[u16; 2]>,
+    /// The sample of the last tick, if there was one.
+    pub(crate) sample: Option<Sample>,
     classifier: Option<Classifier>,
 }
 
@@ -60,25 +65,25 @@ impl Tap {
         }
     }
 
+    /// What a touch means to the classifier's model, if there is one.
+    pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
+        self.classifier.as_ref()?.touch_rule()
+    }
+
     /// Posteriors of the classifier, if there is one.
     pub(crate) fn posteriors(&self) -> Option<Posteriors> {
         self.classifier.as_ref().map(Classifier::posteriors)
     }
-
-    /// As before the first tick.
-    pub(crate) fn restart(&mut self) {
-        self.sample = None;
-        self.reset();
-    }
 }
 
 impl SampleClassifier for Tap {
-    fn push(&mut self, codes: [u16; 2]) -> Option<Decision> {
-        self.sample = Some(codes);
-        self.classifier.as_mut()?.codes.push(codes)
+    fn push(&mut self, sample: Sample) -> Option<Decision> {
+        self.sample = Some(sample);
+        self.classifier.as_mut()?.codes.push(sample)
     }
 
     fn reset(&mut self) {
+        self.sample = None;
         if let Some(classifier) = &mut self.classifier {
             classifier.codes.reset();
         }

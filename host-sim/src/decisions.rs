@@ -28,6 +28,8 @@ pub struct Decided {
     pub samples: u32,
     /// Posterior probability of the class decided for.
     pub posterior: f64,
+    /// The number of the touch in which it fell, or of the last one; 0 before the first.
+    pub touch: u16,
 }
 
 impl Decided {
@@ -43,7 +45,14 @@ impl Decided {
 /// Any error of the writer.
 pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
-    table.write_record(["label", "trial", "decision", "samples", "posterior"])?;
+    table.write_record([
+        "label",
+        "trial",
+        "decision",
+        "samples",
+        "posterior",
+        "touch",
+    ])?;
     for d in decisions {
         table.write_record([
             d.label.as_str(),
@@ -51,6 +60,7 @@ pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
             &d.decision,
             &d.samples.to_string(),
             &format!("{:.9}", d.posterior),
+            &d.touch.to_string(),
         ])?;
     }
     table.flush()
@@ -150,6 +160,7 @@ mod tests {
             decision: decision.into(),
             samples,
             posterior: 0.995,
+            touch: 3,
         }
     }
 
@@ -197,7 +208,8 @@ mod tests {
         let text = String::from_utf8(table).unwrap();
         assert_eq!(
             text,
-            "label,trial,decision,samples,posterior\n\"sand, wet\",1,ice,20,0.995000000\n"
+            "label,trial,decision,samples,posterior,touch\n\
+             \"sand, wet\",1,ice,20,0.995000000,3\n"
         );
     }
 }

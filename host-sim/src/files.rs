@@ -11,13 +11,13 @@ use crate::output::Output;
 use crate::recording::{self, Stream};
 use crate::trace::{Row, TraceWriter};
 
-/// Reads a recording.
+/// Reads a recording whose channels are the columns `channels`.
 ///
 /// # Errors
 /// [`Error::Input`] names the file, the line and what is wrong with it.
-pub fn read_recording(path: &Path) -> Result<Vec<Stream>, Error> {
+pub fn read_recording(path: &Path, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
     let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    recording::read(bytes.as_slice()).map_err(|fault| Error::file(path, fault))
+    recording::read(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
 }
 
 /// Writes a recording, completely or not at all.

@@ -54,9 +54,12 @@ enum Command {
     /// Trains a likelihood model from a recording
     #[command(allow_negative_numbers = true)]
     Train {
-        /// The recording: label,trial,x,y
+        /// The recording: label,trial,x,y, and contact where samples are of the air too
         #[arg(long, value_name = "FILE.csv")]
         data: PathBuf,
+        /// Two other columns in place of x,y
+        #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = channels)]
+        channels: [String; 2],
         /// Where to write the model
         #[arg(long, value_name = "MODEL")]
         out: PathBuf,
@@ -77,9 +80,12 @@ enum Command {
         /// The model
         #[arg(long)]
         model: PathBuf,
-        /// The recording: label,trial,x,y
+        /// The recording: label,trial,x,y, and contact where samples are of the air too
         #[arg(long, value_name = "FILE.csv")]
         data: PathBuf,
+        /// Two other columns in place of x,y
+        #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = channels)]
+        channels: [String; 2],
         /// When to decide
         #[arg(long, value_enum)]
         rule: RuleName,
@@ -101,6 +107,15 @@ enum RuleName {
     Sequential,
     /// By maximum likelihood over fixed windows
     Window,
+}
+
+fn channels(text: &str) -> Result<[String; 2], String> {
+    match text.split_once(',') {
+        Some((a, b)) if !a.is_empty() && !b.is_empty() && !b.contains(',') => {
+            Ok([a.to_owned(), b.to_owned()])
+        }
+        _ => Err("allowed: two names, such as x,y".to_owned()),
+    }
 }
 
 fn rule(name: RuleName, threshold: Option<f64>, window: Option<u32>) -> Result<Rule, Error> {
@@ -125,21 +140,30 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Some(Command::Train {
             data,
+            channels: [a, b],
             out,
             bins,
             smooth,
             block,
-        }) => Some(train::train(&data, &out, bins, smooth, block)?),
+        }) => Some(train::train(&data, [&a, &b], &out, bins, smooth, block)?),
         Some(Command::Classify {
             model,
             data,
+            channels: [a, b],
             rule: name,
             threshold,
             window,
             out,
         }) => {
             let rule = rule(name, threshold, window)?;
-            Some(classify::classify(&model, &data, rule, &out, verbosity)?)
+            Some(classify::classify(
+                &model,
+                &data,
+                [&a, &b],
+                rule,
+                &out,
+                verbosity,
+            )?)
         }
     };
     if let Some(summary) = summary {

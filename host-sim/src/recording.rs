@@ -1,5 +1,6 @@
-//! A recording: `label,trial,x,y` rows; rows of one label and trial that
-//! follow each other are one stream in time order.
+//! A recording: `label,trial,x,y,contact` rows; rows of one label and trial that
+//! follow each other are one stream in time order. A sample counts while contact is at
+//! least the model's gate; without the column each does.
 
 use std::io::{self, Read, Write};
 
@@ -15,10 +16,27 @@ pub struct Stream {
     pub trial: String,
     /// x and y of each sample.
     pub samples: Vec<[f64; 2]>,
+    /// Contact π of each sample; none: all are of contact.
+    pub contact: Option<Vec<f64>>,
 }
 
-/// Collects the samples that the classifier of a run gets, tick by tick, one
-/// stream for each presentation. The run needs no classifier for it.
+/// The channels of a recording, unless said otherwise.
+pub const CHANNELS: [&str; 2] = ["x", "y"];
+
+/// Contact from which a sample counts, unless the model says otherwise.
+pub const GATE: f64 = 0.05;
+
+impl Stream {
+    /// Whether each sample counts where contact must be at least `gate`.
+    pub fn counts(&self, gate: f64) -> impl Iterator<Item = bool> {
+        let contact = |n| self.contact.as_ref().map(|contact| contact.get(n).copied());
+        (0..self.samples.len())
+            .map(move |n| contact(n).is_none_or(|pi| pi.is_some_and(|pi: f64| pi >= gate)))
+    }
+}
+
+/// Collects the samples that the classifier of a run gets, in the air too, tick by
+/// tick, one stream for each presentation. The run needs no classifier for it.
 #[derive(Debug, Default)]
 pub struct Recorder {
     streams: Vec<Stream>,
@@ -27,7 +45,12 @@ pub struct Recorder {
 impl Recorder {
     /// Takes the sample of the run's last tick, if there was one.
     pub fn take(&mut self, run: &mut Run) {
-        let sample = run.sample().map(|codes| codes.map(f64::from));
+        let [contact, _] = run.row().contact;
+        let sample = run.sample().map(|sample| Cells {
+            channels: sample.codes.map(f64::from),
+            // As the board computes it, or nearer: more digits say nothing.
+            contact: Some(f64::from(contact as f32)),
+        });
         let (label, trial) = run.presented();
         append(&mut self.streams, label, &trial.to_string(), sample);
     }
@@ -38,26 +61,39 @@ impl Recorder {
     }
 }
 
+/// The numbers of a row.
+struct Cells {
+    channels: [f64; 2],
+    contact: Option<f64>,
+}
+
 /// Adds a sample, if there is one, to the last stream, or begins one where label or
 /// trial is another.
-fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<[f64; 2]>) {
-    let last = streams.last_mut();
-    match last.filter(|last| last.label == label && last.trial == trial) {
-        Some(stream) => stream.samples.extend(sample),
-        None => streams.push(Stream {
+fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Cells>) {
+    let is_same = |last: &Stream| last.label == label && last.trial == trial;
+    if !streams.last().is_some_and(is_same) {
+        streams.push(Stream {
             label: label.to_owned(),
             trial: trial.to_owned(),
-            samples: sample.into_iter().collect(),
-        }),
+            samples: Vec::new(),
+            contact: None,
+        });
+    }
+    if let (Some(stream), Some(cells)) = (streams.last_mut(), sample) {
+        stream.samples.push(cells.channels);
+        if let Some(contact) = cells.contact {
+            stream.contact.get_or_insert_default().push(contact);
+        }
     }
 }
 
-/// Reads a recording. More columns than the four are ignored, their order is free.
+/// Reads a recording whose channels are the columns `channels`. More columns are
+/// ignored, their order is free.
 ///
 /// # Errors
 /// [`Error::Input`] names the line and what is wrong with it.
-pub fn read(table: impl Read) -> Result<Vec<Stream>, Error> {
-    parse(table).map_err(Error::Input)
+pub fn read(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
+    parse(table, channels).map_err(Error::Input)
 }
 
 /// Writes a recording.
@@ -66,10 +102,18 @@ pub fn read(table: impl Read) -> Result<Vec<Stream>, Error> {
 /// Any error of the writer.
 pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
-    table.write_record(["label", "trial", "x", "y"])?;
+    let has_contact = streams.iter().any(|stream| stream.contact.is_some());
+    let header = ["label", "trial", "x", "y", "contact"];
+    let columns = if has_contact { 5 } else { 4 };
+    table.write_record(&header[..columns])?;
     for stream in streams {
-        for [x, y] in &stream.samples {
-            table.write_record([&stream.label, &stream.trial, &x.to_string(), &y.to_string()])?;
+        for (n, [x, y]) in stream.samples.iter().enumerate() {
+            let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
+            let contact = contact.map_or(1.0, |contact| *contact) as f32;
+            let numbers = [x.to_string(), y.to_string(), contact.to_string()];
+            let numbers = numbers.iter().map(String::as_str);
+            let cells = [stream.label.as_str(), &stream.trial];
+            table.write_record(cells.into_iter().chain(numbers).take(columns))?;
         }
     }
     table.flush()
@@ -91,27 +135,31 @@ fn broken(error: &csv::Error) -> String {
     }
 }
 
-fn parse(table: impl Read) -> Result<Vec<Stream>, String> {
+fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_reader(table);
     let header = table.headers().map_err(|e| broken(&e))?.clone();
-    let column = |name: &str| {
+    let optional = |name: &str| {
         let mut found = header.iter().enumerate().filter(|(_, cell)| *cell == name);
         match (found.next(), found.next()) {
-            (Some((place, _)), None) => Ok(place),
-            (None, _) => Err(format!(
-                "line 1: no column {name:?}; a recording has label,trial,x,y"
-            )),
-            (Some(_), Some(_)) => Err(format!("line 1: two columns {name:?}")),
+            (place, None) => Ok(place.map(|(place, _)| place)),
+            (_, Some(_)) => Err(format!("line 1: two columns {name:?}")),
         }
+    };
+    let [x_name, y_name] = channels;
+    let column = |name: &str| {
+        optional(name)?.ok_or_else(|| {
+            format!("line 1: no column {name:?}; a recording has label,trial,{x_name},{y_name}")
+        })
     };
     let (label, trial, x, y) = (
         column("label")?,
         column("trial")?,
-        column("x")?,
-        column("y")?,
+        column(x_name)?,
+        column(y_name)?,
     );
+    let contact = optional("contact")?;
 
     let mut streams: Vec<Stream> = Vec::new();
     let mut record = csv::StringRecord::new();
@@ -127,7 +175,10 @@ fn parse(table: impl Read) -> Result<Vec<Stream>, String> {
                 )),
             }
         };
-        let sample = [number("x", x)?, number("y", y)?];
+        let sample = Cells {
+            channels: [number(x_name, x)?, number(y_name, y)?],
+            contact: contact.map(|place| number("contact", place)).transpose()?,
+        };
         let (label, trial) = (cell(label), cell(trial));
         if label.is_empty() {
             return Err(format!("line {line}: the label is empty"));
@@ -142,7 +193,27 @@ fn parse(table: impl Read) -> Result<Vec<Stream>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::parse;
+    use super::{CHANNELS, GATE, Stream};
+
+    fn parse(table: &[u8]) -> Result<Vec<Stream>, String> {
+        super::parse(table, CHANNELS)
+    }
+
+    #[test]
+    fn contact_says_which_samples_count() {
+        let text = "label,trial,u,contact,v,x\na,1,2,0.04,3,9\na,1,4,0.05,5,9\n";
+        let streams = super::parse(text.as_bytes(), ["u", "v"]).unwrap();
+        assert_eq!(streams[0].samples, [[2.0, 3.0], [4.0, 5.0]]);
+        let counts: Vec<_> = streams[0].counts(GATE).collect();
+        assert_eq!(counts, [false, true]);
+        let mut written = Vec::new();
+        super::write(&mut written, &streams).unwrap();
+        let text = String::from_utf8(written).unwrap();
+        assert_eq!(
+            text,
+            "label,trial,x,y,contact\na,1,2,3,0.04\na,1,4,5,0.05\n"
+        );
+    }
 
     #[test]
     fn rows_that_follow_each_other_are_a_stream() {

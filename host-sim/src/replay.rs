@@ -6,7 +6,7 @@ use tactile::{AnyRule, ModelBuf, NaiveBayes, Quantiser, WrongChannels};
 
 use crate::classifier::{self, Fault};
 use crate::decisions::{self, Decided};
-use crate::recording::Stream;
+use crate::recording::{GATE, Stream};
 
 /// A classifier of recordings. Their samples may be any numbers: the model's
 /// quantisers make codes of them.
@@ -15,7 +15,16 @@ pub struct Replay {
     bayes: NaiveBayes<AnyRule, Box<[u32]>>,
     quantisers: [Quantiser; 2],
     classes: Vec<String>,
+    /// Contact from which a sample counts, and samples without it that end a touch.
+    gate: f64,
+    gap: u32,
+    /// The number of the last touch.
+    touch: u16,
 }
+
+/// Samples without contact that end a touch where the model does not say: 100 ms at
+/// 2 kHz.
+const GAP: u32 = 200;
 
 impl Replay {
     /// A classifier by a rule.
@@ -26,10 +35,14 @@ impl Replay {
     pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
         let quantisers = classifier::quantisers(&model)?;
         let classes = classifier::names(&model);
+        let touch = model.touch_rule();
         Ok(Self {
             bayes: classifier::bayes(model, rule)?,
             quantisers,
             classes,
+            gate: touch.map_or(GATE, |touch| touch.gate.into()),
+            gap: touch.map_or(GAP, |touch| touch.gap),
+            touch: 0,
         })
     }
 
@@ -38,16 +51,27 @@ impl Replay {
         &self.classes
     }
 
-    /// The decisions of one stream; evidence is dropped at its end.
+    /// The decisions of one stream; evidence is dropped at its end. Its first sample
+    /// that counts begins a touch, and so does each after a gap.
     ///
     /// # Errors
     /// None: the model has the two channels of a recording.
     pub fn stream(&mut self, stream: &Stream) -> Result<Vec<Decided>, WrongChannels> {
         self.bayes.reset();
         let [x, y] = &self.quantisers;
-        let mut decided = Vec::new();
-        for sample in &stream.samples {
+        let (mut decided, mut apart) = (Vec::new(), u32::MAX);
+        for (sample, counts) in stream.samples.iter().zip(stream.counts(self.gate)) {
             let codes = [x.code_from_f64(sample[0]), y.code_from_f64(sample[1])];
+            if !counts {
+                apart = apart.saturating_add(1);
+                self.bayes.pass(&codes)?;
+                continue;
+            }
+            if apart >= self.gap {
+                self.touch = self.touch.checked_add(1).unwrap_or(1);
+                self.bayes.touch(self.touch);
+            }
+            apart = 0;
             let Some(decision) = self.bayes.push(&codes)? else {
                 continue;
             };
@@ -57,6 +81,7 @@ impl Replay {
                 decision: decisions::name(decision, &self.classes).to_owned(),
                 samples: decision.samples(),
                 posterior: decision.posterior().to_f64(),
+                touch: decision.touch(),
             });
         }
         Ok(decided)

@@ -38,7 +38,7 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
         format!("{side} whisker {}", place.whisker + 1)
     };
     match event {
-        Event::Decision(_) => {}
+        Event::Decision(_) | Event::Touch { .. } | Event::TouchEnd { .. } => {}
         Event::SensorLost(at, fault) => {
             warn(format_args!(
                 "{t_s:.4} s: {}: sensor fault {}: {fault}",

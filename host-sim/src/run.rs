@@ -1,6 +1,6 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
-use firmware::{Command, Event};
+use firmware::{Command, Event, Sample};
 use mlx90333::Word;
 use scene::{Exchanged, PlantKind, Scene, Texture};
 use tactile::Posteriors;
@@ -162,10 +162,9 @@ impl Run {
         done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))
     }
 
-    /// The codes x and y that the classifier got in the last tick, or would have
-    /// got: none without contact, where the scene asks for it, and none while
-    /// the sensor has a fault.
-    pub fn sample(&mut self) -> Option<[u16; 2]> {
+    /// What the classifier got in the last tick, or would have got: nothing while the
+    /// sensor has a fault.
+    pub fn sample(&mut self) -> Option<Sample> {
         self.bench.tap()?.sample
     }
 
@@ -219,6 +218,7 @@ impl<B: Bench + ?Sized> Run<B> {
             z: pair(0.0),
             g: pair(0.0),
             contact: pair(0.0),
+            touch: 0,
         };
         self.row = Row {
             t_s: 0.0,
@@ -229,6 +229,7 @@ impl<B: Bench + ?Sized> Run<B> {
             angle_deg: rest,
             x: pair(0.0),
             y: pair(0.0),
+            touch: 0,
         };
         self.events.clear();
     }
@@ -293,12 +294,18 @@ impl<B: Bench + ?Sized> Run<B> {
         self.row.z = self.snapshot.z;
         self.row.g = self.snapshot.g;
         self.row.contact = self.snapshot.contact;
+        self.row.touch = self.snapshot.touch;
         for side in 0..self.sides {
             let first = side * self.whiskers;
             self.row.theta_deg[side] = self.snapshot.theta_deg[first];
             self.row.angle_deg[side] = self.world.angles_deg()[first];
         }
         self.row
+    }
+
+    /// The row of the last tick.
+    pub const fn row(&self) -> &Row {
+        &self.row
     }
 
     /// The events of the last tick, in order.
@@ -318,6 +325,7 @@ impl<B: Bench + ?Sized> Run<B> {
                 decision: decisions::name(*decision, &self.classes).to_owned(),
                 samples: decision.samples(),
                 posterior: decision.posterior().to_f64(),
+                touch: decision.touch(),
             })
         })
     }

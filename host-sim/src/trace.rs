@@ -23,10 +23,12 @@ pub struct Row {
     pub x: [f64; 2],
     /// The 14-bit codes of y of the first whisker of each side.
     pub y: [f64; 2],
+    /// The number of the touch of the module's first whisker; 0 in the air.
+    pub touch: u16,
 }
 
 impl Row {
-    /// All its values but the time, in the order of the columns.
+    /// All its values but time and touch, in the order of the columns.
     pub const fn pairs(&self) -> [[f64; 2]; 7] {
         [
             self.theta_deg,
@@ -42,7 +44,7 @@ impl Row {
 
 /// The columns in order. The first nine are fixed: other programs read them.
 pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
-contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right";
+contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right,touch";
 
 /// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
@@ -81,6 +83,7 @@ impl<W: Write> TraceWriter<W> {
         for value in codes {
             cell(line, *value, 0);
         }
+        cell(line, row.touch.into(), 0);
         line.push(b'\n');
         self.table.write_all(line)
     }
@@ -115,6 +118,7 @@ mod tests {
                 angle_deg: [50.5, f64::NAN],
                 x: [8192.0, f64::NAN],
                 y: [8191.0, f64::NAN],
+                touch: 7,
             })
             .unwrap();
         let text = String::from_utf8(table.into_inner()).unwrap();
@@ -127,7 +131,7 @@ mod tests {
         assert_eq!(
             lines[1],
             "0.000500000,50.000000000,,0.250000000,,1.000000000,,0.000000000,,\
-             50.500000000,,8192,,8191,"
+             50.500000000,,8192,,8191,,7"
         );
     }
 }

@@ -3,7 +3,7 @@
 use tactile::ModelBuf;
 use tactile::train::{TrainError, Trainer};
 
-use crate::recording::Stream;
+use crate::recording::{GATE, Stream};
 
 /// The model of `streams`; classes in the order in which they first appear.
 ///
@@ -11,7 +11,8 @@ use crate::recording::Stream;
 /// What the trainer refuses.
 pub fn train(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
     for stream in streams {
-        for sample in &stream.samples {
+        let samples = stream.samples.iter().zip(stream.counts(GATE));
+        for (sample, _) in samples.filter(|(_, counts)| *counts) {
             trainer.add(&stream.label, sample)?;
         }
     }

@@ -129,16 +129,22 @@ pub fn stall_q15(motor: &scene::MotorSection) -> i16 {
     Duty::from_f32(motor.duty_limit as f32 / 2.0).q15()
 }
 
+/// The contact below which the classifier of a scene does not listen: the scene's, or
+/// that of its model, `gate`. None: it always listens.
+pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Option<f64> {
+    let classifier = scene.classifier.as_ref()?;
+    classifier.contact_min.or(gate.map(f64::from))
+}
+
 /// H50 for the contact signals, where the scene has something that uses them:
-/// RCP, CIA or a classifier that listens only during contact.
+/// RCP, CIA or a classifier that `listens` only during contact.
 ///
 /// # Errors
 /// [`Mismatch::Value`] for a tick rate that leaves no room for 50 Hz.
-pub fn contact<R: Real>(scene: &Scene) -> Result<Option<filter::Config<R>>, Mismatch> {
-    let listens = scene
-        .classifier
-        .as_ref()
-        .is_some_and(|c| c.contact_min.is_some());
+pub fn contact<R: Real>(
+    scene: &Scene,
+    listens: bool,
+) -> Result<Option<filter::Config<R>>, Mismatch> {
     if scene.rcp.is_none() && scene.cia.is_none() && !listens {
         return Ok(None);
     }
@@ -194,7 +200,7 @@ kind = "ideal"
         let theta = motion.pd.theta_per_count * counts_to_90_deg;
         assert!((theta - 0.9).abs() < 1e-12);
         assert_eq!(motion.stall_q15, 16_384, "half of a full duty");
-        assert!(contact::<f64>(&scene).unwrap().is_some());
+        assert!(contact::<f64>(&scene, false).unwrap().is_some());
     }
 
     #[test]
@@ -210,6 +216,6 @@ kind = "ideal"
             [head]\nwhiskers_per_side=1\n[plant]\nkind=\"ideal\"\n";
         let scene = Scene::from_str("p.toml", passive).unwrap();
         assert!(motion::<f32, 2, 1>(&scene).unwrap().is_none());
-        assert!(contact::<f32>(&scene).unwrap().is_none());
+        assert!(contact::<f32>(&scene, false).unwrap().is_none());
     }
 }

@@ -99,6 +99,16 @@ const fn side(place: Place) -> &'static str {
     if place.side == 0 { "left" } else { "right" }
 }
 
+/// A touch begins.
+pub(crate) fn touch(number: u16) {
+    defmt::info!("touch {=u16}", number);
+}
+
+/// A touch has ended.
+pub(crate) fn touch_end(number: u16) {
+    defmt::info!("touch {=u16} has ended", number);
+}
+
 /// A decision for the class `name`.
 pub(crate) fn decision(name: &str, decided: tactile::Decision) {
     // Percent with four decimals, rounded down: at most 99.9999.

@@ -96,11 +96,19 @@ fn write(event: Event) {
             let name = class.and_then(|class| scene::CLASS_NAMES.get(class));
             log::decision(name.unwrap_or(&"unknown"), decision);
         }
+        Event::Touch { number, .. } if !scene::CLASS_NAMES.is_empty() => log::touch(number),
+        Event::TouchEnd { number, .. } if !scene::CLASS_NAMES.is_empty() => {
+            log::touch_end(number);
+        }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
         Event::SensorBack(place) => log::sensor_back(place),
         Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
         Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
-        Event::Decision(_) | Event::MotorFault(..) | Event::MotorRetry(_) => {}
+        Event::Decision(_)
+        | Event::Touch { .. }
+        | Event::TouchEnd { .. }
+        | Event::MotorFault(..)
+        | Event::MotorRetry(_) => {}
     }
 }
 
@@ -186,7 +194,7 @@ macro_rules! program {
                 idle: Idle,
             }
 
-            // Sixteen events: idle drains them after every tick, which has three at most.
+            // Sixteen events: idle drains them after every tick, which has four at most.
             #[init(local = [queue: Queue<Event, 17> = Queue::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
                 let module = program::start(cx.core);

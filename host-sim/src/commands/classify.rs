@@ -11,7 +11,7 @@ use crate::files;
 use crate::progress::{Progress, Verbosity};
 use crate::replay::Replay;
 
-/// Streams the recording `data` through the classifier of `model` and writes
+/// Streams the columns `channels` of the recording `data` through the classifier of `model` and writes
 /// its decisions to `out`. Returns their score.
 ///
 /// # Errors
@@ -19,6 +19,7 @@ use crate::replay::Replay;
 pub fn classify(
     model: &Path,
     data: &Path,
+    channels: [&str; 2],
     rule: Rule,
     out: &Path,
     verbosity: Verbosity,
@@ -32,7 +33,7 @@ pub fn classify(
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("{option}: {fault}")),
     })?;
-    let streams = files::read_recording(data)?;
+    let streams = files::read_recording(data, channels)?;
     let mut progress = Progress::new(verbosity, "classifying", streams.len() as u64);
     let mut decided = Vec::new();
     for (n, stream) in streams.iter().enumerate() {

@@ -11,8 +11,8 @@ use crate::recording::{Recorder, Stream};
 use crate::run::Run;
 
 /// Runs the scene in `path` and writes what its first whisker feels to `out`:
-/// a recording for `host-sim train`. Its classifier, if any, is not used but
-/// for `contact_min`. `seed` takes the place of the scene's.
+/// a recording for `host-sim train`, the air included. Its classifier, if any, is not
+/// used. `seed` takes the place of the scene's.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene that is wrong, [`Error::Write`].

@@ -224,7 +224,14 @@ pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
 /// Reads `decisions.csv`; checks its header.
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
-    let header = ["label", "trial", "decision", "samples", "posterior"];
+    let header = [
+        "label",
+        "trial",
+        "decision",
+        "samples",
+        "posterior",
+        "touch",
+    ];
     assert_eq!(rows.next().unwrap(), header);
     rows.map(|row| Decided {
         label: row[0].into(),
@@ -232,6 +239,7 @@ pub(crate) fn decisions(text: &str) -> Vec<Decided> {
         decision: row[2].into(),
         samples: row[3].parse().unwrap(),
         posterior: row[4].parse().unwrap(),
+        touch: row[5].parse().unwrap(),
     })
     .collect()
 }

@@ -195,10 +195,12 @@ fn record_writes_what_the_classifier_would_get() {
     let (recorded, trace) = (place.text("recorded.csv"), place.text("trace.csv"));
     let (recorded, trace) = (cells(&recorded), cells(&trace));
     let column = |name: &str| trace[0].iter().position(|title| *title == name).unwrap();
-    let (x, y) = (column("x_left"), column("y_left"));
+    let (x, y, contact) = (column("x_left"), column("y_left"), column("contact_left"));
     assert_eq!(recorded.len(), trace.len());
     for (recorded, trace) in recorded[1..].iter().zip(&trace[1..]) {
-        assert_eq!(recorded[2..], [trace[x], trace[y]]);
+        assert_eq!(recorded[2..4], [trace[x], trace[y]]);
+        let [found, expected] = [recorded[4], trace[contact]].map(str::parse::<f64>);
+        assert!((found.unwrap() - expected.unwrap()).abs() < 1e-7);
     }
     assert_eq!(
         (recorded[1][0], recorded[251][0], recorded[501][0]),

@@ -3,7 +3,7 @@
 
 use std::thread;
 
-use firmware::Event;
+use firmware::{Event, Sample};
 use host_sim::bus::WireFault;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
@@ -39,7 +39,7 @@ fn run(scene: &Scene) -> Run {
 #[derive(Debug, PartialEq)]
 struct Seen {
     rows: Vec<[u64; 15]>,
-    samples: Vec<Option<[u16; 2]>>,
+    samples: Vec<Option<Sample>>,
     decisions: Vec<Decided>,
     events: Vec<Event>,
 }

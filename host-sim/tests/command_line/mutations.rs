@@ -7,6 +7,7 @@ use host_sim::classifier::Classifier;
 use host_sim::commands::{classify, train};
 use host_sim::decisions::Decided;
 use host_sim::progress::Verbosity;
+use host_sim::recording::CHANNELS;
 use host_sim::run::Run;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -122,7 +123,7 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
 /// fall, must be whole.
 fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
     let path = |name: &str| folder.path(name);
-    let trained = train::train(&path(recording), &path("trained"), 10, 1.0, 2);
+    let trained = train::train(&path(recording), CHANNELS, &path("trained"), 10, 1.0, 2);
     let models: &[&str] = if trained.is_ok() {
         &["trained", model]
     } else {
@@ -136,7 +137,7 @@ fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), 
             let out = path("d.csv");
             let (model, data) = (path(model), path(recording));
             let quiet = Verbosity::Quiet;
-            if classify::classify(&model, &data, rule, &out, quiet).is_ok() {
+            if classify::classify(&model, &data, CHANNELS, rule, &out, quiet).is_ok() {
                 for d in parsed(&out) {
                     prop_assert!(d.samples >= 2);
                     prop_assert!(d.posterior > 0.0 && d.posterior <= 1.0, "{d:?}");

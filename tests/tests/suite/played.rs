@@ -52,7 +52,9 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
         played.rows.push(run.tick());
         let events = run.events().iter().map(|event| (tick, *event));
         played.events.extend(events);
-        played.heard.extend(run.sample().map(|codes| (tick, codes)));
+        played
+            .heard
+            .extend(run.sample().map(|sample| (tick, sample.codes)));
     }
     played
 }

@@ -43,6 +43,7 @@ fn record(texture: Texture, whisks: usize, seed: u64) -> Stream {
         label: texture.name().to_owned(),
         trial: String::new(),
         samples: samples.split_off(1000),
+        contact: None,
     }
 }
 
