@@ -12,7 +12,7 @@ pub(crate) const TICK_HZ: u64 = 2000;
 pub(crate) struct Played {
     /// The trace.
     pub(crate) rows: Vec<Row>,
-    /// Events with their tick, from 0.
+    /// Events but touches, with their tick, from 0.
     pub(crate) events: Vec<(u64, Event)>,
     /// What was listened to: tick and codes x, y of the left first whisker.
     pub(crate) heard: Vec<(u64, [u16; 2])>,
@@ -50,8 +50,10 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
     for tick in 0..ticks {
         act(tick, &mut run);
         played.rows.push(run.tick());
-        let events = run.events().iter().map(|event| (tick, *event));
-        played.events.extend(events);
+        let touches =
+            |event: &&Event| matches!(event, Event::Touch { .. } | Event::TouchEnd { .. });
+        let events = run.events().iter().filter(|event| !touches(event));
+        played.events.extend(events.map(|event| (tick, *event)));
         played
             .heard
             .extend(run.sample().map(|sample| (tick, sample.codes)));

@@ -10,6 +10,7 @@ use acceptance::reference::bayes::{self, Decision, Model};
 use acceptance::reference::recording::{Sample, read_recording, streams};
 use host_sim::commands::{classify, train};
 use host_sim::progress::Verbosity;
+use host_sim::recording::CHANNELS;
 use scene::Rule;
 use tempfile::TempDir;
 
@@ -32,7 +33,7 @@ fn recording(name: &str) -> Vec<Sample> {
 fn terrain() -> Terrain {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("terrain.model");
-    train::train(&data("terrain-train.csv"), &model, 100, 5.0, 20).unwrap();
+    train::train(&data("terrain-train.csv"), CHANNELS, &model, 100, 5.0, 20).unwrap();
     Terrain {
         folder,
         model,
@@ -45,13 +46,28 @@ fn terrain() -> Terrain {
 fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decision>, String) {
     let out = terrain.folder.path().join("decisions.csv");
     let data = data("terrain-test.csv");
-    let said = classify::classify(&terrain.model, &data, rule, &out, Verbosity::Quiet).unwrap();
+    let said = classify::classify(
+        &terrain.model,
+        &data,
+        CHANNELS,
+        rule,
+        &out,
+        Verbosity::Quiet,
+    )
+    .unwrap();
     (read_decisions(&out), said)
 }
 
 fn read_decisions(path: &Path) -> Vec<Decision> {
     let mut table = csv::Reader::from_path(path).unwrap();
-    let header = ["label", "trial", "decision", "samples", "posterior"];
+    let header = [
+        "label",
+        "trial",
+        "decision",
+        "samples",
+        "posterior",
+        "touch",
+    ];
     assert_eq!(table.headers().unwrap(), &header[..]);
     table.deserialize().collect::<Result<_, _>>().unwrap()
 }
