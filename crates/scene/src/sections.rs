@@ -61,8 +61,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nine of the motor, one of the head, of whisking and of the plant.
-        assert_eq!(defaults, 12);
+        // Nine of the motor, two of the plant, one of the head and of whisking.
+        assert_eq!(defaults, 13);
     }
 
     #[test]
