@@ -10,6 +10,11 @@
 //! - **class**: what is to be told apart (a texture, a distance, a terrain).
 //! - **likelihood**: the probability of a bin given a class, trained on a
 //!   recording (LEP10; LEP12 eq. 3; BIOTACT section IV).
+//! - **table**: the likelihoods of the cells of one channel or of two together.
+//! - **roughness**: how much a channel trembles over a block (see [`Roughness`]).
+//! - **touch**: from the first sample with contact until contact has been absent for
+//!   a while; its onset limits the evidence that came before.
+//! - **unknown**: a decision whose leader is less likely than its class's *floors*.
 //! - **block**: the run of samples whose mean log-likelihood is one step of
 //!   evidence (LEP12: m = 20).
 //! - **evidence**: the log-posterior but for a constant; all classes start equal.
@@ -25,7 +30,7 @@
 //! | [`Window`] | by the largest evidence over each run of N samples | LEP10 |
 //!
 //! A classifier is a [`NaiveBayes`]: a [`Model`], a rule (any [`DecisionRule`])
-//! and the evidence so far, in fixed arrays of a few hundred bytes. How many
+//! and the evidence so far, in fixed arrays of about a kilobyte. How many
 //! channels and classes there are it reads from the model, which lies in flash
 //! on a board and in memory of its own on a PC. A board names its rule as a
 //! type; [`AnyRule`] is chosen at run time. After training everything is an
