@@ -6,10 +6,13 @@
 
 #![allow(clippy::print_stdout, reason = "a measurement")]
 
+use host_sim::classifier::Classifier;
 use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured, TexturedSettings};
+use host_sim::recording::{GATE, Recorder, Stream};
 use host_sim::run::Run;
 use physics::{Biotact, Shaft};
-use scene::{PlantKind, Scene, Texture};
+use scene::{ClassifierSection, PlantKind, Rule, Scene, Texture};
+use tactile::train::joint::{Options, Trial, train};
 use tactile::{TouchDetector, Touching};
 
 const TEXTURES: &str = include_str!("../../../scenes/textures.toml");
@@ -20,8 +23,6 @@ const LEARNT: u64 = 4000;
 /// 100 ms and 20 ms.
 const GAP: u32 = 200;
 const PARTED: u64 = 40;
-/// Contact from which the gate is open.
-const GATE: f64 = 0.05;
 /// Three deviations of the sensor's noise, codes.
 const NOTICEABLE: f64 = 12.0;
 
@@ -194,6 +195,44 @@ fn at_2_hz_each_touch_is_told_within_2_ms_on_average() {
             "{found:?}"
         );
         assert_eq!((found.missed, found.told), (0, found.touches));
+    }
+}
+
+/// With a model that knows touches.
+#[test]
+fn nothing_is_decided_in_the_air() {
+    let mut run = Run::new(&scene(WHISKER, 2.0, 100.0, 20.0, 3301), None).unwrap();
+    let mut recorder = Recorder::default();
+    for _ in 0..run.ticks() {
+        run.tick();
+        recorder.take(&mut run);
+    }
+    let trial = |stream: Stream| Trial {
+        counts: stream.counts(GATE).collect(),
+        label: stream.label,
+        recording: "run".to_owned(),
+        samples: stream.samples,
+    };
+    let trials: Vec<_> = recorder.into_streams().into_iter().map(trial).collect();
+    let model = train(&trials, &Options::default())
+        .unwrap()
+        .model()
+        .unwrap();
+    let rule = Rule::Sequential { threshold: 0.99 };
+    for (limit_deg, hz) in [(300.0, 2.0), (300.0, 8.0), (100.0, 2.0)] {
+        let mut scene = scene(WHISKER, hz, limit_deg, 20.0, 3302);
+        scene.classifier = Some(ClassifierSection {
+            rule,
+            model: String::new(),
+            contact_min: None,
+        });
+        let classifier = Classifier::new(model.clone(), rule).unwrap();
+        let mut run = Run::new(&scene, Some(classifier)).unwrap();
+        let decisions = (0..run.ticks()).filter(|_| {
+            run.tick();
+            run.decision().is_some()
+        });
+        assert_eq!(decisions.count() > 0, limit_deg < 200.0, "{limit_deg} {hz}");
     }
 }
 
