@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
-use host_sim::commands::{classify, main_job, record, run, train};
+use host_sim::commands::{channels, classify, evaluate, main_job, record, run, score, train};
 use host_sim::progress::Verbosity;
 use host_sim::report;
 use scene::Rule;
@@ -51,28 +51,17 @@ enum Command {
         #[arg(long)]
         seed: Option<u64>,
     },
-    /// Trains a likelihood model from a recording
+    /// Trains a likelihood model from a recording, and says what it is worth
     #[command(allow_negative_numbers = true)]
-    Train {
-        /// The recording: label,trial,x,y, and contact where samples are of the air too
-        #[arg(long, value_name = "FILE.csv")]
-        data: PathBuf,
-        /// Two other columns in place of x,y
-        #[arg(long, value_name = "A,B", default_value = "x,y", value_parser = channels)]
-        channels: [String; 2],
-        /// Where to write the model
-        #[arg(long, value_name = "MODEL")]
-        out: PathBuf,
-        /// Bins over each channel's range
-        #[arg(long, default_value_t = 100)]
-        bins: usize,
-        /// Standard deviation of the smoothing, in bins; 0: none
-        #[arg(long, default_value_t = 5.0)]
-        smooth: f64,
-        /// Samples whose mean log-likelihood is one step of evidence
-        #[arg(long, default_value_t = 20)]
-        block: u32,
-    },
+    Train(train::Arguments),
+    /// What a model is worth on a recording: hit rate, decision time, calibration,
+    /// confusion, refused; suggests a threshold
+    #[command(allow_negative_numbers = true)]
+    Evaluate(evaluate::Arguments),
+    /// Trains on one run of a scene and scores others, on all cores: mean, standard
+    /// error, worst
+    #[command(allow_negative_numbers = true)]
+    Score(score::Arguments),
     /// Streams a recording through the fixed-point classifier, exactly the code
     /// that runs on the board
     #[command(allow_negative_numbers = true)]
@@ -109,15 +98,6 @@ enum RuleName {
     Window,
 }
 
-fn channels(text: &str) -> Result<[String; 2], String> {
-    match text.split_once(',') {
-        Some((a, b)) if !a.is_empty() && !b.is_empty() && !b.contains(',') => {
-            Ok([a.to_owned(), b.to_owned()])
-        }
-        _ => Err("allowed: two names, such as x,y".to_owned()),
-    }
-}
-
 fn rule(name: RuleName, threshold: Option<f64>, window: Option<u32>) -> Result<Rule, Error> {
     let missing = |what: &str| Error::Input(format!("--{what} is missing"));
     Ok(match name {
@@ -138,14 +118,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Some(Command::Record { scene, out, seed }) => {
             Some(record::record(&scene, &out, seed, verbosity)?)
         }
-        Some(Command::Train {
-            data,
-            channels: [a, b],
-            out,
-            bins,
-            smooth,
-            block,
-        }) => Some(train::train(&data, [&a, &b], &out, bins, smooth, block)?),
+        Some(Command::Train(arguments)) => Some(train::train(&arguments)?),
+        Some(Command::Evaluate(arguments)) => Some(evaluate::evaluate(&arguments, verbosity)?),
+        Some(Command::Score(arguments)) => Some(score::score(&arguments, verbosity)?),
         Some(Command::Classify {
             model,
             data,

@@ -1,5 +1,9 @@
 //! Output on the terminal.
 
+mod evaluation;
+mod runs;
+mod training;
+
 use std::fmt::{self, Display};
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -7,7 +11,10 @@ use std::process::ExitCode;
 use firmware::Event;
 
 use crate::Error;
-use crate::decisions::{Decided, Score};
+use crate::decisions::{Decided, Score, UNKNOWN};
+pub use evaluation::{Figures, Thresholds};
+pub use runs::{OverRuns, SeedRange};
+pub use training::TrainingReport;
 
 /// A line on standard output. A closed pipe does not stop the work: what
 /// counts is in the files.
@@ -61,7 +68,11 @@ pub fn decision(t_s: f64, decided: &Decided) {
         posterior,
         ..
     } = decided;
-    let verdict = if label == decision { "right" } else { "wrong" };
+    let verdict = match decision.as_str() {
+        UNKNOWN => "refused",
+        _ if decided.is_right() => "right",
+        _ => "wrong",
+    };
     let percent = 100.0 * posterior;
     say(format_args!(
         "{t_s:8.3} s  {decision:<8} {percent:6.2} %  {samples:5} samples  {verdict} ({label})"

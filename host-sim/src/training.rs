@@ -1,15 +1,19 @@
-//! Training a model from a recording.
+//! Training a model from recordings.
 
 use tactile::ModelBuf;
+use tactile::train::joint::{self, JointModel, Trial};
 use tactile::train::{TrainError, Trainer};
 
 use crate::recording::{GATE, Stream};
 
-/// The model of `streams`; classes in the order in which they first appear.
+/// The papers' model of `streams`; classes in the order in which they first appear.
 ///
 /// # Errors
 /// What the trainer refuses.
-pub fn train(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, TrainError> {
+pub fn single<'s>(
+    mut trainer: Trainer,
+    streams: impl IntoIterator<Item = &'s Stream>,
+) -> Result<ModelBuf, TrainError> {
     for stream in streams {
         let samples = stream.samples.iter().zip(stream.counts(GATE));
         for (sample, _) in samples.filter(|(_, counts)| *counts) {
@@ -17,4 +21,23 @@ pub fn train(mut trainer: Trainer, streams: &[Stream]) -> Result<ModelBuf, Train
         }
     }
     trainer.train()
+}
+
+/// The joint model of recordings, each with its name; a stream is a trial.
+///
+/// # Errors
+/// What the trainer refuses.
+pub fn joint(
+    recordings: &[(String, Vec<Stream>)],
+    options: &joint::Options,
+) -> Result<JointModel, TrainError> {
+    let trials = recordings.iter().flat_map(|(recording, streams)| {
+        streams.iter().map(|stream| Trial {
+            label: stream.label.clone(),
+            recording: recording.clone(),
+            samples: stream.samples.clone(),
+            counts: stream.counts(options.gate).collect(),
+        })
+    });
+    joint::train(&trials.collect::<Vec<_>>(), options)
 }

@@ -88,7 +88,7 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
 pub fn train(streams: &[Stream]) -> Result<ModelBuf, Error> {
     let wrong = |error| Error::Work(format!("training: {error}"));
     let trainer = Trainer::new(2, Options::default()).map_err(wrong)?;
-    training::train(trainer, streams).map_err(wrong)
+    training::single(trainer, streams).map_err(wrong)
 }
 
 /// A run with decisions.

@@ -14,7 +14,7 @@ fn classifying() -> Place {
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
     files::write_recording(&place.path("recorded.csv"), &streams).unwrap();
-    place.done("train --data recorded.csv --out scenes/the.model");
+    place.done("train --tables single --data recorded.csv --out scenes/the.model");
     place
 }
 
@@ -110,7 +110,7 @@ fn the_seed_is_the_only_source_of_chance() {
 #[test]
 fn quiet_changes_nothing_but_the_progress() {
     let place = Place::with(&[("r.csv", RECORDING)]);
-    place.done("train --data r.csv --out m --block 2");
+    place.done("train --tables single --data r.csv --out m --block 2");
     let classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv";
     let loud = place.done(classify);
     let written = place.bytes("d.csv");
@@ -124,7 +124,7 @@ fn quiet_changes_nothing_but_the_progress() {
 #[test]
 fn train_and_classify_say_and_write_what_they_did() {
     let place = Place::with(&[("r.csv", RECORDING), ("d.csv", "older")]);
-    let ran = place.done("train --data r.csv --out m --block 2");
+    let ran = place.done("train --tables single --data r.csv --out m --block 2");
     let size = place.bytes("m").len();
     let told = format!("m: 8 samples in 4 streams, {size} bytes\n");
     assert_eq!(ran.stdout, told);
@@ -154,7 +154,7 @@ fn recordings_may_come_in_any_dress() {
     let train = |bytes: &[u8]| {
         let place = Place::new();
         place.write("r.csv", bytes);
-        place.done("train --data r.csv --out m");
+        place.done("train --tables single --data r.csv --out m");
         place.bytes("m")
     };
     let plain = train(RECORDING.as_bytes());
@@ -215,12 +215,23 @@ fn record_writes_what_the_classifier_would_get() {
 fn help_names_every_command_and_option() {
     let place = Place::new();
     let help = |line: &str| place.done(line).stdout;
-    for word in ["run", "train", "classify", "--quiet", "Exit status"] {
+    for word in "run record train classify evaluate score --quiet status".split(' ') {
         assert!(help("--help").contains(word), "{word}");
     }
     for (command, options) in [
         ("run", "<SCENE> --out"),
-        ("train", "--data --out --bins --smooth --block 100 5 20"),
+        (
+            "train",
+            "--data --out --rate --tables --bins --smooth --block 32 100 0.7 5 20",
+        ),
+        (
+            "evaluate",
+            "--model --data --threshold 0.99 --error-rate --time --rate",
+        ),
+        (
+            "score",
+            "<SCENE> --seeds --train-seed --threshold --unknown --tables",
+        ),
         (
             "classify",
             "--model --data --rule --threshold --window --out",
@@ -242,7 +253,7 @@ fn a_reader_that_goes_away_does_not_stop_the_work() {
         let child = command.stdout(gone()).stderr(gone()).spawn();
         child.unwrap().wait().unwrap().code()
     };
-    assert_eq!(run("train --data r.csv --out m"), Some(0));
+    assert_eq!(run("train --tables single --data r.csv --out m"), Some(0));
     assert!(place.path("m").exists());
     assert_eq!(run("train --data none --out m"), Some(2));
 }

@@ -3,6 +3,7 @@
 
 mod common;
 mod does;
+mod judges;
 mod library;
 mod main_job;
 mod meaning;

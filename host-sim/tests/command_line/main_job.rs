@@ -60,6 +60,8 @@ fn textures_are_told_apart_better_than_by_chance_and_not_by_magic() {
 
     // Its model is what `train` makes of its recording.
     let recorded = "out/textures/training.csv";
-    place.done(&format!("train --data {recorded} --out again.model"));
+    place.done(&format!(
+        "train --tables single --data {recorded} --out again.model"
+    ));
     assert!(place.bytes("again.model") == place.bytes("out/textures/textures.model"));
 }

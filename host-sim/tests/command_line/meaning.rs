@@ -12,7 +12,7 @@ fn decide(training: &str, options: &str, test: &str, deciding: &str) -> Vec<Deci
         ("training.csv", &format!("{header}{training}")),
         ("test.csv", &format!("{header}{test}")),
     ]);
-    let train = format!("train --data training.csv --out m {options}");
+    let train = format!("train --tables single --data training.csv --out m {options}");
     place.done(&train);
     let classify = format!("classify --model m --data test.csv --out d.csv {deciding}");
     place.done(&classify);

@@ -4,7 +4,8 @@
 use std::path::Path;
 
 use host_sim::classifier::Classifier;
-use host_sim::commands::{classify, train};
+use host_sim::commands::classify;
+use host_sim::commands::train::{self, How, Tables};
 use host_sim::decisions::Decided;
 use host_sim::progress::Verbosity;
 use host_sim::recording::CHANNELS;
@@ -123,12 +124,24 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
 /// fall, must be whole.
 fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
     let path = |name: &str| folder.path(name);
-    let trained = train::train(&path(recording), CHANNELS, &path("trained"), 10, 1.0, 2);
-    let models: &[&str] = if trained.is_ok() {
-        &["trained", model]
-    } else {
-        &[model]
-    };
+    let mut models = vec![model];
+    for (tables, out) in [(Tables::Single, "single"), (Tables::Joint, "joint")] {
+        let arguments = train::Arguments {
+            data: vec![path(recording)],
+            channels: CHANNELS.map(str::to_owned),
+            out: path(out),
+            rate: 2000,
+            how: How {
+                tables,
+                bins: Some(10),
+                smooth: Some(1.0),
+                block: 2,
+            },
+        };
+        if train::train(&arguments).is_ok() {
+            models.push(out);
+        }
+    }
     for model in models {
         for rule in [
             Rule::Sequential { threshold: 0.6 },

@@ -1,6 +1,6 @@
 //! Arguments that are wrong: status 2, a message, and nothing written.
 
-use crate::common::{IDEAL, Place, RECORDING, model};
+use crate::common::{IDEAL, Place, RECORDING, TEXTURED, model};
 
 fn place() -> Place {
     let place = Place::with(&[("r.csv", RECORDING), ("s.toml", IDEAL)]);
@@ -9,6 +9,8 @@ fn place() -> Place {
 }
 
 const TRAIN: &str = "train --data r.csv";
+/// Trains if it may write.
+const SINGLE: &str = "train --tables single --data r.csv";
 const CLASSIFY: &str = "classify --model m --data r.csv";
 
 #[test]
@@ -39,9 +41,13 @@ fn training_options_out_of_range() {
         ("--block", "0 10001 70000 4294967296 -2 2.5"),
     ] {
         for value in values.split(' ') {
-            place.refuses_to_write(&format!("{TRAIN} {option} {value}"), &[option, value]);
+            for train in [TRAIN, SINGLE] {
+                place.refuses_to_write(&format!("{train} {option} {value}"), &[option, value]);
+            }
         }
     }
+    place.refuses_to_write(&format!("{TRAIN} --bins 1"), &["--bins", "2 to 128"]);
+    place.refuses_to_write(&format!("{TRAIN} --tables some"), &["joint", "single"]);
     place.refuses_to_write(&format!("{TRAIN} --bins="), &["--bins"]);
 }
 
@@ -65,6 +71,54 @@ fn rules_that_no_one_can_follow() {
     refuses("window --window 30", &["block of 20"]);
 }
 
+#[test]
+fn wishes_that_no_threshold_fulfils() {
+    let place = place();
+    let evaluate = "evaluate --model m --data r.csv";
+    for (option, values) in [
+        ("--threshold", "0 1 nan p"),
+        ("--error-rate", "0 1.5 -1 nan"),
+        ("--time", "0 -1 nan inf"),
+        ("--rate", "0 -1 2.5"),
+    ] {
+        for value in values.split(' ') {
+            place.refuses(&format!("{evaluate} {option} {value}"), &[option]);
+        }
+    }
+    place.refuses("evaluate --model none --data r.csv", &["none: "]);
+    place.refuses("evaluate --model m --data none", &["none: "]);
+    place.refuses("evaluate --model r.csv --data r.csv", &["r.csv: "]);
+}
+
+#[test]
+fn scores_of_nothing() {
+    let place = place();
+    place.write("t.toml", TEXTURED);
+    for (line, naming) in [
+        ("s.toml --seeds 5..9", &["s.toml: ", "no textures"][..]),
+        ("t.toml", &["--seeds"]),
+        ("t.toml --seeds 5", &["--seeds", "A..B"]),
+        ("t.toml --seeds 9..5", &["--seeds", "A below B"]),
+        (
+            "t.toml --seeds 1..9",
+            &["--train-seed", "found 2", "1 to 8"],
+        ),
+        ("t.toml --seeds 5..9 --train-seed 8", &["--train-seed"]),
+        ("t.toml --seeds 5..9 --threshold 1", &["--threshold"]),
+        (
+            "t.toml --seeds 5..9 --unknown mud",
+            &["--unknown", "smooth, carpet"],
+        ),
+        (
+            "t.toml --seeds 5..9 --unknown carpet",
+            &["training: ", "one class"],
+        ),
+        ("none.toml --seeds 5..9", &["none.toml: "]),
+    ] {
+        place.refuses(&format!("score {line}"), naming);
+    }
+}
+
 /// What is in the way of the output is named.
 #[test]
 fn outputs_that_cannot_be() {
@@ -74,11 +128,11 @@ fn outputs_that_cannot_be() {
     place.write("taken/trace.csv/old", "older");
     let classify = format!("{CLASSIFY} --rule window --window 20");
     for (command, out, naming) in [
-        (TRAIN, "folder", "folder"),
-        (TRAIN, "file/m", "file/m"),
-        (TRAIN, "file/deep/m", "file/deep/m"),
-        (TRAIN, "folder/..", "folder/.."),
-        (TRAIN, "/", "/"),
+        (SINGLE, "folder", "folder"),
+        (SINGLE, "file/m", "file/m"),
+        (SINGLE, "file/deep/m", "file/deep/m"),
+        (SINGLE, "folder/..", "folder/.."),
+        (SINGLE, "/", "/"),
         (&classify, "folder", "folder"),
         (&classify, "file/d.csv", "file/d.csv"),
         ("run s.toml", "file", "file"),
@@ -88,7 +142,7 @@ fn outputs_that_cannot_be() {
         place.refuses(&format!("{command} --out {out}"), &[naming]);
     }
     let long = "n".repeat(300);
-    place.refuses(&format!("{TRAIN} --out {long}"), &["nnn"]);
+    place.refuses(&format!("{SINGLE} --out {long}"), &["nnn"]);
 }
 
 /// Where the system does not let files be made the work has failed: status 1.
@@ -96,7 +150,7 @@ fn outputs_that_cannot_be() {
 #[test]
 fn places_that_cannot_be_written_to() {
     let place = place();
-    let ran = place.run(&format!("{TRAIN} --out /proc/none/m"));
+    let ran = place.run(&format!("{SINGLE} --out /proc/none/m"));
     assert_eq!(ran.status, Some(1), "{ran:?}");
     assert!(ran.stderr.contains("/proc/none/m"), "{ran:?}");
 }

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 
 use acceptance::reference::bayes::{self, Decision, Model};
 use acceptance::reference::recording::{Sample, read_recording, streams};
-use host_sim::commands::{classify, train};
+use host_sim::commands::classify;
+use host_sim::commands::train::{self, Arguments, How, Tables};
 use host_sim::progress::Verbosity;
 use host_sim::recording::CHANNELS;
 use scene::Rule;
@@ -33,7 +34,14 @@ fn recording(name: &str) -> Vec<Sample> {
 fn terrain() -> Terrain {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("terrain.model");
-    train::train(&data("terrain-train.csv"), CHANNELS, &model, 100, 5.0, 20).unwrap();
+    let arguments = Arguments {
+        data: vec![data("terrain-train.csv")],
+        channels: CHANNELS.map(str::to_owned),
+        out: model.clone(),
+        rate: 2000,
+        how: How::of(Tables::Single),
+    };
+    train::train(&arguments).unwrap();
     Terrain {
         folder,
         model,

@@ -11,7 +11,7 @@ use crate::motor::rig::{PD, Rig, whisking};
 use crate::plant::{Head, Plant, Textured, TexturedSettings};
 use crate::recording::Stream;
 use crate::replay::Replay;
-use crate::training::train;
+use crate::training;
 
 const TEXTURES: [Texture; 4] = [
     Texture::Smooth,
@@ -52,7 +52,7 @@ fn textures_are_told_apart_but_not_for_certain() {
     let training = TEXTURES.map(|texture| record(texture, 20, 1 + texture as u64));
     let trainer = Trainer::new(2, Options::default()).unwrap();
     let rule = Rule::Sequential { threshold: 0.99 };
-    let mut replay = Replay::new(train(trainer, &training).unwrap(), rule).unwrap();
+    let mut replay = Replay::new(training::single(trainer, &training).unwrap(), rule).unwrap();
     let mut decided = Vec::new();
     for texture in TEXTURES {
         let test = record(texture, 60, 101 + texture as u64);

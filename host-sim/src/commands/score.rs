@@ -1,0 +1,180 @@
+//! `host-sim score`: a scene over many seeds.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use clap::Args;
+use rayon::prelude::*;
+use scene::{Rule, Scene};
+
+use crate::classifier::{Classifier, Fault};
+use crate::commands::record;
+use crate::commands::train::{How, TrainedModel};
+use crate::evaluation::{Evaluation, Shown};
+use crate::progress::{Progress, Verbosity};
+use crate::report::{OverRuns, SeedRange};
+use crate::scoring::{self, Scored};
+use crate::{Error, report};
+
+/// What to score, and by which seeds.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The scene file
+    scene: PathBuf,
+    /// The seeds to score: from A to below B
+    #[arg(long, value_name = "A..B", value_parser = seeds)]
+    seeds: Range<u64>,
+    /// The seed of the run to train on, none of those scored [default: the scene's and 1]
+    #[arg(long, value_name = "N")]
+    train_seed: Option<u64>,
+    /// Decide when a posterior probability exceeds this [default: as the scene says]
+    #[arg(long, value_name = "P")]
+    threshold: Option<f64>,
+    /// A texture of the scene that is not trained, and presented all the same
+    #[arg(long, value_name = "LABEL")]
+    unknown: Option<String>,
+    #[command(flatten)]
+    how: How,
+}
+
+/// Trains on one run of a scene and scores others.
+///
+/// # Errors
+/// [`Error::Input`] for a scene or option that is wrong, [`Error::Work`] if the runs
+/// do not fit the module.
+pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
+    let Arguments {
+        scene: path, seeds, ..
+    } = arguments;
+    let scene = Scene::load(path)?;
+    plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
+    if let Some(caution) = plan::cautions(&scene) {
+        report::warn(Error::file(path, caution));
+    }
+    let textures = scene.plant.textured.as_ref().map(|t| &t.textures);
+    let labels: Vec<_> = textures.into_iter().flatten().map(|t| t.name()).collect();
+    if labels.is_empty() {
+        return Err(Error::file(path, "it presents no textures to tell apart"));
+    }
+    if let Some(label) = &arguments.unknown
+        && !labels.contains(&label.as_str())
+    {
+        let labels = labels.join(", ");
+        let fault = format!("--unknown: found {label:?}, allowed: {labels}");
+        return Err(Error::Input(fault));
+    }
+    let train_seed = arguments.train_seed.unwrap_or(scene.seed.wrapping_add(1));
+    if seeds.contains(&train_seed) {
+        return Err(Error::Input(format!(
+            "--train-seed: found {train_seed}, allowed: none of {}, which are scored",
+            SeedRange(seeds)
+        )));
+    }
+    let rule = match (&scene.classifier, arguments.threshold) {
+        (_, Some(threshold)) => Rule::Sequential { threshold },
+        (Some(classifier), None) => classifier.rule,
+        (None, None) => Rule::Sequential { threshold: 0.99 },
+    };
+
+    let trained = train(&scene, train_seed, arguments, verbosity)?;
+    let classifier = Classifier::new(trained.model, rule).map_err(|fault| match fault {
+        Fault::Model(fault) => Error::Work(fault),
+        Fault::Rule(fault) if arguments.threshold.is_some() => {
+            Error::Input(format!("--threshold: {fault}"))
+        }
+        Fault::Rule(fault) => Error::file(path, fault),
+    })?;
+    let runs = runs(&scene, seeds, &classifier, verbosity)?;
+    let presentations: Vec<Shown> = runs
+        .iter()
+        .flat_map(|run| run.presentations.iter().cloned())
+        .collect();
+    let told = OverRuns {
+        runs: &runs,
+        together: &Evaluation::new(classifier.classes(), &presentations),
+        tick_hz: f64::from(scene.tick_hz),
+    };
+    Ok(format!(
+        "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{told}",
+        scene.name,
+        runs.len(),
+        SeedRange(seeds)
+    ))
+}
+
+fn train(
+    scene: &Scene,
+    seed: u64,
+    arguments: &Arguments,
+    verbosity: Verbosity,
+) -> Result<TrainedModel, Error> {
+    let scene = Scene {
+        seed,
+        ..scene.clone()
+    };
+    let mut streams = record::streams(&scene, verbosity)?;
+    streams.retain(|stream| Some(&stream.label) != arguments.unknown.as_ref());
+    let recordings = [(scene.name.clone(), streams)];
+    let trained = arguments.how.train(&recordings, scene.tick_hz);
+    trained.map_err(|error| Error::Input(format!("training: {error}")))
+}
+
+/// All runs, on all cores, in the order of their seeds.
+fn runs(
+    scene: &Scene,
+    seeds: &Range<u64>,
+    classifier: &Classifier,
+    verbosity: Verbosity,
+) -> Result<Vec<Scored>, Error> {
+    /// Ticks that a run counts before it tells them.
+    const TOLD: u64 = 1024;
+    let all = scene.ticks().saturating_mul(seeds.end - seeds.start);
+    let progress = Mutex::new(Progress::new(verbosity, "scoring", all));
+    let done = AtomicU64::new(0);
+    let seeds: Vec<u64> = seeds.clone().collect();
+    let scored = |seed: &u64| {
+        let scene = Scene {
+            seed: *seed,
+            ..scene.clone()
+        };
+        let mut ticks = 0;
+        scoring::run(&scene, classifier.clone(), || {
+            ticks += 1;
+            if ticks % TOLD == 0 {
+                let done = done.fetch_add(TOLD, Ordering::Relaxed) + TOLD;
+                if let Ok(mut progress) = progress.lock() {
+                    progress.set(done);
+                }
+            }
+        })
+    };
+    seeds.par_iter().map(scored).collect()
+}
+
+/// A range of seeds, A..B, with at least one in it and no more than a million.
+fn seeds(text: &str) -> Result<Range<u64>, String> {
+    let ends = text.split_once("..");
+    let ends = ends.and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+    let (first, end) = ends.ok_or("allowed: A..B, two whole numbers")?;
+    if first < end && end - first <= 1_000_000 {
+        Ok(first..end)
+    } else {
+        Err("allowed: A below B, up to a million seeds".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::seeds;
+
+    #[test]
+    fn seeds_are_a_range_that_is_not_empty() {
+        assert_eq!(seeds("7..9"), Ok(7..9));
+        for wrong in ["", "7", "..", "7..", "..9", "9..7", "7..7", "-1..3", "a..b"] {
+            assert!(seeds(wrong).is_err(), "{wrong}");
+        }
+        assert!(seeds("0..18446744073709551615").is_err());
+    }
+}

@@ -1,0 +1,130 @@
+//! What `evaluate` and `score` say.
+
+use crate::common::{Place, SEQUENTIAL, TEXTURED};
+
+/// Class `b` is high in x, `a` is low; one sample in eight says the other class.
+const TRAINING: &str = "b,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\n\
+    b,0,100,0\nb,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\n\
+    a,0,100,100\n";
+
+/// A model whose posterior after one sample is 7/8, and a recording of `test`.
+fn evaluating(test: &str) -> Place {
+    let header = "label,trial,x,y\n";
+    let place = Place::with(&[
+        ("training.csv", &format!("{header}{TRAINING}")),
+        ("test.csv", &format!("{header}{test}")),
+    ]);
+    let options = "--tables single --bins 2 --smooth 0 --block 1";
+    place.done(&format!("train --data training.csv --out m {options}"));
+    place
+}
+
+/// The line of `text` that begins with `name`.
+#[track_caller]
+fn line<'t>(text: &'t str, name: &str) -> &'t str {
+    let found = text.lines().find(|line| line.starts_with(name));
+    found.unwrap_or_else(|| panic!("no {name:?} in {text}"))
+}
+
+#[test]
+fn evaluate_states_finds_and_counts() {
+    // Three of four right on a, all on b; nothing on c, which the model does not know.
+    let test = "a,0,0,0\na,0,0,0\na,0,0,0\na,0,100,0\nb,0,100,0\nb,0,100,0\nc,0,0,0\n";
+    let place = evaluating(test);
+    let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold";
+    let told = place.done(&format!("{evaluate} 0.8")).stdout;
+    let says = |name: &str, what: &str| {
+        let line = line(&told, name);
+        assert!(line.contains(what), "{line}");
+    };
+    says("hit rate", " 87.5 % (mean over classes)");
+    says("decision time", " 1 samples (1 ms)");
+    says("stated", " 87.50 %");
+    says("found", " 83.3 % (43.6 to 97.0) of 6");
+    says("calibration error", " 4.17 %");
+    says("refused  ", " 0.0 % (0.0 to 39.0) of 6");
+    says("refused, new", " of 1");
+    says("without a decision", " of 2");
+    // Two samples of a class state 49/50.
+    let told = place.done(&format!("{evaluate} 0.9")).stdout;
+    assert!(line(&told, "decision time").contains(" 2 samples (2 ms)"));
+    assert!(line(&told, "stated").contains(" 98.00 %"), "{told}");
+    let told = place.done(&format!("{evaluate} 0.999")).stdout;
+    assert!(told.contains("no decision for a class"), "{told}");
+    assert!(line(&told, "without a decision").contains("100.0 %"));
+}
+
+#[test]
+fn evaluate_suggests_a_threshold() {
+    // One sample is wrong in a fifth of cases, two that agree never.
+    let test = "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(8);
+    let place = evaluating(&test);
+    let evaluate = "evaluate --model m --data test.csv";
+    let told = |wish: &str| {
+        let told = place.done(&format!("{evaluate} {wish}")).stdout;
+        let lines = told.lines().filter(|line| line.starts_with("for "));
+        lines
+            .map(|line| line.rsplit(": ").next().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(told("--error-rate 0.3"), ["--threshold 0.5"]);
+    assert_eq!(told("--error-rate 0.1"), ["--threshold 0.9"]);
+    assert_eq!(told("--time 0.0005"), ["--threshold 0.85"]);
+    assert_eq!(told("--time 0.0001"), ["no threshold of these"]);
+    let both = told("--time 0.0005 --error-rate 0.1");
+    assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
+}
+
+#[test]
+fn score_is_the_same_whatever_the_cores() {
+    let text = TEXTURED.replace("duration_s = 0.5", "duration_s = 4.0");
+    let place = Place::with(&[("s.toml", &text)]);
+    let score = "score s.toml --seeds 10..14 --tables single --threshold 0.9";
+    let told = place.done(score).stdout;
+    assert!(told.starts_with("textured: trained on seed 2, 4 runs with seeds 10 to 13\n"));
+    assert!(line(&told, "without a decision").contains(" of 128"));
+    let one = place.command(score).env("RAYON_NUM_THREADS", "1").output();
+    assert_eq!(String::from_utf8(one.unwrap().stdout).unwrap(), told);
+    let quiet = place.done(&format!("{score} --quiet")).stdout;
+    assert_eq!(quiet, told);
+    let other = place.done(&format!("{score} --train-seed 3")).stdout;
+    assert_ne!(other, told);
+}
+
+/// A run of its own with the model of the training seed decides as `score` counts.
+#[test]
+fn score_is_of_what_run_decides() {
+    let text = format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 4.0");
+    let place = Place::with(&[("s.toml", &text)]);
+    place.done("record s.toml --seed 2 --out recorded.csv");
+    place.done("train --tables single --data recorded.csv --out the.model");
+    place.write("ten.toml", text.replace("seed = 1", "seed = 10"));
+    let ran = place.done("run ten.toml --out out").stdout;
+    let told = place
+        .done("score s.toml --seeds 10..11 --tables single")
+        .stdout;
+    let rows = |text: &str| {
+        let rows = text.lines().filter(|line| line.contains(" | "));
+        rows.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(rows(&told), rows(&ran));
+    assert!(!rows(&told).is_empty());
+}
+
+#[test]
+fn a_texture_that_was_not_trained_is_presented_all_the_same() {
+    let three = "[\"smooth\", \"p240\", \"carpet\"]";
+    let text = TEXTURED
+        .replace("duration_s = 0.5", "duration_s = 4.0")
+        .replace("[\"smooth\", \"carpet\"]", three);
+    let place = Place::with(&[("s.toml", &text)]);
+    let score = "score s.toml --seeds 10..12 --threshold 0.9 --unknown p240";
+    let told = place.done(score).stdout;
+    let header = told.lines().find(|line| line.contains("true |")).unwrap();
+    assert!(
+        !header.contains("p240") && told.contains("   p240 | "),
+        "{told}"
+    );
+    line(&told, "refused of the unknown texture, %");
+    line(&told, "refused, unknown");
+}
