@@ -34,7 +34,7 @@
 //!
 //! At 8 Hz the whisker still rings from the last contact, and there are less than 100 ms
 //! between two: with that gap they are one touch. Not seen: a touch in the first half
-//! second.
+//! second; one too many may be told within two seconds of the start.
 
 /// Samples that are kept.
 const KEPT: usize = 4;

