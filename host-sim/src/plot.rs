@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use crate::decisions::Decided;
+use crate::decisions::{Decided, UNKNOWN};
 use crate::trace::Row;
 
 /// A decision and its time, s.
@@ -138,9 +138,12 @@ fn curves(
     Ok(())
 }
 
-/// A row for each class: grey where it was presented, a dot for each decision.
+/// A row for each class, and one of what was unknown: grey where it was presented, a dot
+/// for each decision.
 fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> Result<(), Fault> {
-    let count = picture.classes.len();
+    let classes = picture.classes.iter().map(String::as_str);
+    let rows: Vec<&str> = classes.chain([UNKNOWN]).collect();
+    let count = rows.len();
     let mut chart = ChartBuilder::on(area)
         .margin(6)
         .x_label_area_size(36)
@@ -149,21 +152,17 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
     let name = |height: &f64| {
         let class = height.round();
         let on_row = (height - class).abs() < 1e-6 && class >= 0.0;
-        picture
-            .classes
-            .get(class as usize)
-            .filter(|_| on_row)
-            .cloned()
-            .unwrap_or_default()
+        let name = rows.get(class as usize).filter(|_| on_row);
+        name.copied().unwrap_or_default().to_owned()
     };
     chart
         .configure_mesh()
         .disable_mesh()
-        .y_labels(count.max(1))
+        .y_labels(count)
         .y_label_formatter(&name)
-        .x_desc("s; grey: presented, green: right decision, red: wrong one")
+        .x_desc("s; grey: presented, green: right decision, red: wrong one, blue: none of these")
         .draw()?;
-    let row = |label: &String| picture.classes.iter().position(|class| class == label);
+    let row = |label: &str| rows.iter().position(|row| *row == label);
     for Presented {
         span_s: (start, end),
         label,
@@ -183,8 +182,11 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
         let Some(row) = row(&mark.decided.decision) else {
             continue;
         };
-        let right = mark.decided.label == mark.decided.decision;
-        let colour = if right { RIGHT } else { WRONG };
+        let colour = match mark.decided.decision.as_str() {
+            UNKNOWN => MEASURED,
+            _ if mark.decided.is_right() => RIGHT,
+            _ => WRONG,
+        };
         chart.draw_series([Circle::new((mark.t_s, row as f64), 4, colour.filled())])?;
     }
     Ok(())

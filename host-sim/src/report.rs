@@ -97,6 +97,10 @@ impl fmt::Display for Summary<'_> {
              samples ({milliseconds:.0} ms)",
             score.decisions(),
             100.0 * hits,
-        )
+        )?;
+        match score.unknown() {
+            0 => Ok(()),
+            unknown => write!(f, "; {unknown} more were \"{UNKNOWN}\""),
+        }
     }
 }

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use scene::Scene;
 use tactile::ModelBuf;
-use tactile::train::{Options, Trainer};
 
+use super::train::{How, Tables};
 use crate::classifier::Classifier;
 use crate::decisions::Score;
 use crate::files::{self, TraceFile};
@@ -15,7 +15,7 @@ use crate::progress::{Progress, Verbosity};
 use crate::recording::Stream;
 use crate::run::Run;
 use crate::trace::Row;
-use crate::{Error, report, training};
+use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.
 const SCENE: &str = include_str!("../../../scenes/textures.toml");
@@ -38,7 +38,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     ));
     let streams = record(&scene, verbosity)?;
     files::write_recording(&out.join("training.csv"), &streams)?;
-    let model = train(&streams)?;
+    let model = train(&scene, streams)?;
     write_whole(&out.join("textures.model"), model.as_bytes())?;
 
     report::say(format_args!(
@@ -82,13 +82,11 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
 }
 
 /// The model of a recording with the settings that `host-sim train` has by default.
-///
-/// # Errors
-/// [`Error::Work`] if no model can be trained from the recording.
-pub fn train(streams: &[Stream]) -> Result<ModelBuf, Error> {
-    let wrong = |error| Error::Work(format!("training: {error}"));
-    let trainer = Trainer::new(2, Options::default()).map_err(wrong)?;
-    training::single(trainer, streams).map_err(wrong)
+fn train(scene: &Scene, streams: Vec<Stream>) -> Result<ModelBuf, Error> {
+    let recordings = [(scene.name.clone(), streams)];
+    let trained = How::of(Tables::Joint).train(&recordings, scene.tick_hz);
+    let trained = trained.map_err(|error| Error::Work(format!("training: {error}")))?;
+    Ok(trained.model)
 }
 
 /// A run with decisions.
