@@ -90,8 +90,9 @@ impl Layout {
             return Err(ModelError::Checksum);
         }
 
-        let rest = rest
-            .get(..rest.len() - CRC_BYTES)
+        // Of a header alone the checksum is its own last word.
+        let (rest, _) = rest
+            .split_last_chunk::<CRC_BYTES>()
             .ok_or(ModelError::Length)?;
         let (records, rest) = <[ChannelRecord]>::ref_from_prefix_with_elems(rest, channels)
             .map_err(|_| ModelError::Length)?;

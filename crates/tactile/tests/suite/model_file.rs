@@ -23,6 +23,25 @@ fn resealed(change: impl Fn(&mut Vec<u8>)) -> Result<ModelBuf, ModelError> {
     ModelBuf::from_bytes(&bytes)
 }
 
+/// Files that end within the header or just behind it, but for that whole.
+#[test]
+fn a_header_alone_is_no_model() {
+    for size in 16..40 {
+        let cut = resealed(|bytes| {
+            bytes.truncate(size);
+            bytes[12..16].copy_from_slice(&(size as u32 + 4).to_le_bytes());
+        });
+        let refused = matches!(
+            cut,
+            Err(ModelError::TooShort
+                | ModelError::Length
+                | ModelError::TouchRule
+                | ModelError::Padding)
+        );
+        assert!(refused, "{size}: {cut:?}");
+    }
+}
+
 #[test]
 fn content_survives() {
     let buf = example();
