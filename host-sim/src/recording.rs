@@ -1,6 +1,8 @@
-//! A recording: `label,trial,x,y,contact` rows; rows of one label and trial that
+//! A recording: `label,trial,x,y,contact,touch` rows; rows of one label and trial that
 //! follow each other are one stream in time order. A sample counts while contact is at
-//! least the model's gate; without the column each does.
+//! least the model's gate; without the column each does. The number of the touch, 0 in
+//! the air, is what the module itself said: a whisker that bends by its own inertia has
+//! contact in the air.
 
 use std::io::{self, Read, Write};
 
@@ -18,6 +20,8 @@ pub struct Stream {
     pub samples: Vec<[f64; 2]>,
     /// Contact π of each sample; none: all are of contact.
     pub contact: Option<Vec<f64>>,
+    /// Number of the touch of each sample, 0 in the air; none: the module did not say.
+    pub touch: Option<Vec<u16>>,
 }
 
 /// The channels of a recording, unless said otherwise.
@@ -32,6 +36,16 @@ impl Stream {
         let contact = |n| self.contact.as_ref().map(|contact| contact.get(n).copied());
         (0..self.samples.len())
             .map(move |n| contact(n).is_none_or(|pi| pi.is_some_and(|pi: f64| pi >= gate)))
+    }
+
+    /// Whether each sample counts for a model that knows touches: in a touch, too.
+    pub fn felt(&self, gate: f64) -> impl Iterator<Item = bool> {
+        let in_touch = |n: usize| match &self.touch {
+            Some(touch) => touch.get(n).is_some_and(|touch| *touch != 0),
+            None => true,
+        };
+        let counts = self.counts(gate).enumerate();
+        counts.map(move |(n, counts)| counts && in_touch(n))
     }
 }
 
@@ -50,6 +64,7 @@ impl Recorder {
             channels: sample.codes.map(f64::from),
             // As the board computes it, or nearer: more digits say nothing.
             contact: Some(f64::from(contact as f32)),
+            touch: Some(sample.touch),
         });
         let (label, trial) = run.presented();
         append(&mut self.streams, label, &trial.to_string(), sample);
@@ -65,6 +80,7 @@ impl Recorder {
 struct Cells {
     channels: [f64; 2],
     contact: Option<f64>,
+    touch: Option<u16>,
 }
 
 /// Adds a sample, if there is one, to the last stream, or begins one where label or
@@ -77,12 +93,16 @@ fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Ce
             trial: trial.to_owned(),
             samples: Vec::new(),
             contact: None,
+            touch: None,
         });
     }
     if let (Some(stream), Some(cells)) = (streams.last_mut(), sample) {
         stream.samples.push(cells.channels);
         if let Some(contact) = cells.contact {
             stream.contact.get_or_insert_default().push(contact);
+        }
+        if let Some(touch) = cells.touch {
+            stream.touch.get_or_insert_default().push(touch);
         }
     }
 }
@@ -103,14 +123,21 @@ pub fn read(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error>
 pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
     let has_contact = streams.iter().any(|stream| stream.contact.is_some());
-    let header = ["label", "trial", "x", "y", "contact"];
-    let columns = if has_contact { 5 } else { 4 };
+    let has_touch = streams.iter().any(|stream| stream.touch.is_some());
+    let header = ["label", "trial", "x", "y", "contact", "touch"];
+    let columns = match (has_contact, has_touch) {
+        (_, true) => 6,
+        (true, false) => 5,
+        (false, false) => 4,
+    };
     table.write_record(&header[..columns])?;
     for stream in streams {
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
             let contact = contact.map_or(1.0, |contact| *contact) as f32;
-            let numbers = [x.to_string(), y.to_string(), contact.to_string()];
+            let touch = stream.touch.as_ref().and_then(|touch| touch.get(n));
+            let touch = touch.copied().unwrap_or(0).to_string();
+            let numbers = [x.to_string(), y.to_string(), contact.to_string(), touch];
             let numbers = numbers.iter().map(String::as_str);
             let cells = [stream.label.as_str(), &stream.trial];
             table.write_record(cells.into_iter().chain(numbers).take(columns))?;
@@ -160,6 +187,7 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
         column(y_name)?,
     );
     let contact = optional("contact")?;
+    let touch = optional("touch")?;
 
     let mut streams: Vec<Stream> = Vec::new();
     let mut record = csv::StringRecord::new();
@@ -178,6 +206,10 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
         let sample = Cells {
             channels: [number(x_name, x)?, number(y_name, y)?],
             contact: contact.map(|place| number("contact", place)).transpose()?,
+            // Saturates: what matters is whether it is 0.
+            touch: touch
+                .map(|place| number("touch", place).map(|touch| touch as u16))
+                .transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
         if label.is_empty() {
@@ -213,6 +245,21 @@ mod tests {
             text,
             "label,trial,x,y,contact\na,1,2,3,0.04\na,1,4,5,0.05\n"
         );
+    }
+
+    #[test]
+    fn a_touch_is_asked_for_beside_contact() {
+        let text = "label,trial,x,y,contact,touch\na,1,2,3,0.5,0\na,1,4,5,0.5,7\na,1,4,5,0,7\n";
+        let streams = parse(text.as_bytes()).unwrap();
+        let [counts, felt] = [
+            streams[0].counts(GATE).collect::<Vec<_>>(),
+            streams[0].felt(GATE).collect(),
+        ];
+        assert_eq!(counts, [true, true, false]);
+        assert_eq!(felt, [false, true, false]);
+        let mut written = Vec::new();
+        super::write(&mut written, &streams).unwrap();
+        assert_eq!(String::from_utf8(written).unwrap(), text);
     }
 
     #[test]

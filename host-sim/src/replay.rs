@@ -60,7 +60,10 @@ impl Replay {
         self.bayes.reset();
         let [x, y] = &self.quantisers;
         let (mut decided, mut apart) = (Vec::new(), u32::MAX);
-        for (sample, counts) in stream.samples.iter().zip(stream.counts(self.gate)) {
+        let needs_touch = self.bayes.model().touch_rule().is_some();
+        let felt = stream.counts(self.gate).zip(stream.felt(self.gate));
+        for (sample, (counts, felt)) in stream.samples.iter().zip(felt) {
+            let counts = if needs_touch { felt } else { counts };
             let codes = [x.code_from_f64(sample[0]), y.code_from_f64(sample[1])];
             if !counts {
                 apart = apart.saturating_add(1);

@@ -36,7 +36,7 @@ pub fn joint(
             label: stream.label.clone(),
             recording: recording.clone(),
             samples: stream.samples.clone(),
-            counts: stream.counts(options.gate).collect(),
+            counts: stream.felt(options.gate).collect(),
         })
     });
     joint::train(&trials.collect::<Vec<_>>(), options)

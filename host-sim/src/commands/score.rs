@@ -78,12 +78,14 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         (None, None) => Rule::Sequential { threshold: 0.99 },
     };
 
+    if let Some(threshold) = arguments.threshold {
+        let wrong = |error| Error::Input(format!("--threshold: {error}"));
+        tactile::Threshold::new(threshold).map_err(wrong)?;
+    }
+
     let trained = train(&scene, train_seed, arguments, verbosity)?;
     let classifier = Classifier::new(trained.model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::Work(fault),
-        Fault::Rule(fault) if arguments.threshold.is_some() => {
-            Error::Input(format!("--threshold: {fault}"))
-        }
         Fault::Rule(fault) => Error::file(path, fault),
     })?;
     let runs = runs(&scene, seeds, &classifier, verbosity)?;

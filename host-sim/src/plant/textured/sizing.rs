@@ -44,6 +44,7 @@ fn record(texture: Texture, whisks: usize, seed: u64) -> Stream {
         trial: String::new(),
         samples: samples.split_off(1000),
         contact: None,
+        touch: None,
     }
 }
 
