@@ -18,7 +18,15 @@ pub(crate) const TABLE: Table = Table {
 
 /// Programs that are counted where time is short: the parts of a tick, a whole
 /// tick, and the classifier.
-const SHORT: [&str; 4] = ["classifier_push", "frame", "parts", "tick_1x1"];
+const SHORT: [&str; 7] = [
+    "classifier_push",
+    "frame",
+    "joint_air",
+    "joint_push",
+    "parts",
+    "tick_1x1",
+    "touch",
+];
 
 /// An emulated processor.
 struct Processor {

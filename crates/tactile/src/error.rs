@@ -39,8 +39,12 @@ pub enum ModelError {
     /// There is no table of samples, or more than 24 tables.
     #[error("{0} tables; 1 to 24 are allowed, one of them of samples")]
     Tables(usize),
-    /// More than 24 axes of tables of samples, or more than two of roughness.
-    #[error("more than 24 axes of tables of samples, or more than two of roughness")]
+    /// More than 24 axes of tables of samples, or more than two of roughness, or
+    /// roughness of another than the first two channels.
+    #[error(
+        "more than 24 axes of tables of samples, or more of roughness than one of each of the \
+         first two channels"
+    )]
     Axes,
     /// The rule of touches is out of range.
     #[error("the gate of touches is not 0 to 1, or stands without a limit")]

@@ -11,7 +11,7 @@
 //! | u32, f32, u32 | rule of touches: limit of a deficit at an onset, 1/1024 bit; gate, 0 to 1; gap, samples; or 2³² − 1, 0, 0: none |
 //! | u32 | 1 if there are floors, else 0 |
 //! | C × 20 | per channel: origin f64, low i32, high i32, exponent i16, zero u16 (see [`crate::Quantiser`]) |
-//! | T × 40 | per table: source u8 (0 samples, 1 roughness), axes u8 (1 or 2), zero u16, first word of its rows u32; two axes, of one the second is zero: channel u8, zero u8, bins − 1 u16 (to 4095), high i32, low i32, slope u32 (see [`crate::Binner`]) |
+//! | T × 40 | per table: source u8 (0 samples, 1 roughness), axes u8 (1 or 2), zero u16, first word of its rows u32; two axes, of one the second is zero: channel u8 (0 or 1 of roughness), zero u8, bins − 1 u16 (to 4095), high i32, low i32, slope u32 (see [`crate::Binner`]) |
 //! | K × 4 | floors, if any, per class: of samples u16, of roughness u16 |
 //! | K names | per class: length u8 (not zero), UTF-8; then zeros up to a multiple of four |
 //! | rows | per table u16: `[bin of axis 1][bin of axis 2][class]`, a zero after an odd K |
@@ -31,16 +31,16 @@ use crate::binner::Binner;
 pub(crate) const MAGIC: [u8; 4] = *b"WLIK";
 /// Version of the format.
 pub const VERSION: u16 = 2;
-/// Most classes.
-pub const MAX_CLASSES: usize = 32;
+/// Most classes; on a board so many that their sums and evidence take 512 bytes.
+pub const MAX_CLASSES: usize = if cfg!(target_os = "none") { 16 } else { 32 };
 /// Most channels: x and y of twelve whiskers.
 pub const MAX_CHANNELS: usize = 24;
 /// Most tables.
 pub const MAX_TABLES: usize = 24;
 /// Most axes of the tables of samples together.
 pub const MAX_SAMPLE_AXES: usize = 24;
-/// Most axes of roughness over all tables.
-pub const MAX_ROUGH_AXES: usize = 2;
+/// Roughness is that of the first two channels, and has as many axes over all tables.
+pub const ROUGH_CHANNELS: usize = 2;
 /// Most bins an axis.
 pub const MAX_BINS: usize = 4096;
 /// Longest block, samples.

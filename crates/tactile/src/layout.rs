@@ -5,8 +5,8 @@ use zerocopy::{FromBytes, transmute};
 use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
-    MAX_CLASSES, MAX_ROUGH_AXES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT,
-    OF_ROUGHNESS, OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
+    MAX_CLASSES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
+    OF_SAMPLES, ROUGH_CHANNELS, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
 };
 use crate::quantiser::Quantiser;
 
@@ -124,7 +124,9 @@ impl Layout {
         let axes = records.clone().map(|record| usize::from(record.axes));
         let of_samples: usize = axes.clone().take(sample_tables).sum();
         let of_roughness: usize = axes.skip(sample_tables).sum();
-        if of_samples > MAX_SAMPLE_AXES || of_roughness > MAX_ROUGH_AXES {
+        let mut rough = records.clone().skip(sample_tables).flat_map(|r| r.axis);
+        let is_third = rough.any(|axis| usize::from(axis.channel) >= ROUGH_CHANNELS);
+        if of_samples > MAX_SAMPLE_AXES || of_roughness > ROUGH_CHANNELS || is_third {
             return Err(ModelError::Axes);
         }
         let table_bytes = usize::try_from(table_words * 4).map_err(|_| ModelError::Length)?;
@@ -152,6 +154,14 @@ impl Layout {
         };
         check_rows(table, first, records, &layout)?;
         Ok(layout)
+    }
+}
+
+impl Layout {
+    /// Whether there are tables of roughness.
+    #[inline]
+    pub(crate) const fn has_roughness(&self) -> bool {
+        self.floors > self.rough_tables
     }
 }
 

@@ -30,7 +30,7 @@
 //! | [`Window`] | by the largest evidence over each run of N samples | LEP10 |
 //!
 //! A classifier is a [`NaiveBayes`]: a [`Model`], a rule (any [`DecisionRule`])
-//! and the evidence so far, in fixed arrays of about a kilobyte. How many
+//! and the evidence so far, in fixed arrays of some 400 bytes on a board. How many
 //! channels and classes there are it reads from the model, which lies in flash
 //! on a board and in memory of its own on a PC. A board names its rule as a
 //! type; [`AnyRule`] is chosen at run time. After training everything is an
@@ -68,7 +68,6 @@ mod evidence;
 mod exp2;
 mod format;
 mod layout;
-mod lookup;
 mod model;
 #[cfg(feature = "std")]
 mod model_buf;
@@ -79,6 +78,7 @@ mod rule;
 #[cfg(feature = "std")]
 pub mod score;
 mod sequential;
+mod sums;
 mod totals;
 mod touch;
 #[cfg(feature = "std")]
@@ -94,8 +94,8 @@ pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
-    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_ROUGH_AXES, MAX_SAMPLE_AXES,
-    MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, VERSION, checksum,
+    MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS,
+    MAX_TABLES, ROUGH_CHANNELS, VERSION, checksum,
 };
 pub use layout::TouchRule;
 pub use model::{Aligned, Floors, Model};

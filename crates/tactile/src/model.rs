@@ -13,7 +13,6 @@ use crate::format::{
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::quantiser::Quantiser;
-use crate::roughness::Roughness;
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
@@ -116,22 +115,17 @@ impl<W: AsRef<[u32]>> Model<W> {
 
     /// The floors of a class, if there are any.
     pub fn floors(&self, class: usize) -> Option<Floors> {
-        let word = *self.all_floors().get(class)?;
+        let word = *self.parts().floors().get(class)?;
         Some(Floors {
             samples: word as u16,
             roughness: (word >> 16) as u16,
         })
     }
 
-    /// The floors of the classes, a word each; none where there are none.
+    /// What the streaming step reads.
     #[inline]
-    pub(crate) fn all_floors(&self) -> &[u32] {
-        self.part(self.layout.floors, self.layout.names)
-    }
-
-    /// What is kept of the channels of roughness, before the first sample.
-    pub(crate) fn roughness(&self) -> Roughness {
-        Roughness::of(self.rough_tables().flat_map(TableRecord::channels))
+    pub(crate) fn parts(&self) -> Parts<'_> {
+        Parts::new(self.words.as_ref(), &self.layout)
     }
 
     /// The names of the classes, in order.
@@ -157,32 +151,21 @@ impl<W: AsRef<[u32]>> Model<W> {
         if bin >= self.bins(channel)? || class >= self.classes() {
             return None;
         }
-        let word = *self.row(self.single(channel)?, bin).get(class / 2)?;
+        let row = self.parts().row(self.single(channel)?, bin)?;
+        let word = *row.get(class / 2)?;
         let entry = (word >> (16 * (class % 2))) as u16;
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
     fn single(&self, channel: usize) -> Option<&TableRecord> {
         let of_it = |r: &&TableRecord| r.axes == 1 && usize::from(r.axis[0].channel) == channel;
-        self.sample_tables().find(of_it)
+        self.parts().sample_tables().find(of_it)
     }
 
-    /// The tables that are looked up each sample.
-    #[inline]
-    pub(crate) fn sample_tables(&self) -> impl Iterator<Item = &TableRecord> {
-        self.tables(self.layout.tables, self.layout.rough_tables)
-    }
-
-    /// The tables that are looked up once a block.
-    #[inline]
-    pub(crate) fn rough_tables(&self) -> impl Iterator<Item = &TableRecord> {
-        self.tables(self.layout.rough_tables, self.layout.floors)
-    }
-
-    /// Whether there are any.
+    /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
-        self.layout.floors > self.layout.rough_tables
+        self.layout.has_roughness()
     }
 
     /// Whether classes have floors.
@@ -191,65 +174,99 @@ impl<W: AsRef<[u32]>> Model<W> {
         self.layout.names > self.layout.floors
     }
 
-    /// Words of a row of a table, two classes each.
     #[inline]
-    pub(crate) const fn row_words(&self) -> usize {
-        self.layout.row_words
+    fn part(&self, first: usize, end: usize) -> &[u32] {
+        self.parts().part(first, end)
+    }
+}
+
+/// The words of a model and where things lie in them. Not generic, so that the code
+/// that reads them is there once, and as small as this crate is built.
+#[derive(Clone, Copy)]
+pub(crate) struct Parts<'m> {
+    words: &'m [u32],
+    layout: &'m Layout,
+}
+
+impl<'m> Parts<'m> {
+    /// Of a model.
+    #[inline]
+    pub(crate) const fn new(words: &'m [u32], layout: &'m Layout) -> Self {
+        Self { words, layout }
+    }
+
+    /// Number of classes.
+    #[inline]
+    pub(crate) const fn classes(self) -> usize {
+        self.layout.classes
+    }
+
+    /// Samples in a block.
+    #[inline]
+    pub(crate) const fn block(self) -> u32 {
+        self.layout.block
+    }
+
+    /// Whether there are tables of roughness.
+    #[inline]
+    pub(crate) const fn has_roughness(self) -> bool {
+        self.layout.has_roughness()
+    }
+
+    /// The tables that are looked up each sample.
+    #[inline]
+    pub(crate) fn sample_tables(self) -> impl Iterator<Item = &'m TableRecord> {
+        self.tables(self.layout.tables, self.layout.rough_tables)
+    }
+
+    /// The tables that are looked up once a block.
+    #[inline]
+    pub(crate) fn rough_tables(self) -> impl Iterator<Item = &'m TableRecord> {
+        self.tables(self.layout.rough_tables, self.layout.floors)
+    }
+
+    /// The floors of the classes, a word each; none where there are none.
+    #[inline]
+    pub(crate) fn floors(self) -> &'m [u32] {
+        self.part(self.layout.floors, self.layout.names)
     }
 
     #[inline]
-    fn tables(&self, first: usize, end: usize) -> impl Iterator<Item = &TableRecord> {
-        let mut at = first;
+    fn tables(self, first: usize, end: usize) -> impl Iterator<Item = &'m TableRecord> {
+        let mut records = self.part(first, end);
         core::iter::from_fn(move || {
-            let words = self
-                .words
-                .as_ref()
-                .get(at..end)?
-                .first_chunk::<TABLE_WORDS>()?;
-            at += TABLE_WORDS;
-            Some(transmute_ref!(words))
+            let (record, rest) = records.split_first_chunk::<TABLE_WORDS>()?;
+            records = rest;
+            Some(transmute_ref!(record))
         })
     }
 
-    /// The words from a row of a table on that says of each class what its cell says
-    /// of it: table entries, two classes a word, the even one in its lower half.
-    /// Empty outside the model.
+    /// The row of a table that says of each class what a cell says of it: table entries,
+    /// two classes a word, the even one in its lower half. `None` outside the model.
     #[inline]
-    pub(crate) fn row(&self, table: &TableRecord, cell: usize) -> &[u32] {
-        self.words_from(table.first as usize + cell * self.layout.row_words)
-    }
-
-    /// The words from one on.
-    #[inline]
-    pub(crate) fn words_from(&self, first: usize) -> &[u32] {
-        self.words.as_ref().get(first..).unwrap_or_default()
+    pub(crate) fn row(self, table: &TableRecord, cell: usize) -> Option<&'m [u32]> {
+        let row_words = self.layout.row_words;
+        let first = table.first as usize + cell * row_words;
+        self.words.get(first..)?.get(..row_words)
     }
 
     #[inline]
-    fn part(&self, first: usize, end: usize) -> &[u32] {
-        let words = self.words.as_ref();
-        words.get(first..end).unwrap_or_default()
+    fn part(self, first: usize, end: usize) -> &'m [u32] {
+        self.words.get(first..end).unwrap_or_default()
     }
 }
 
 impl TableRecord {
-    /// The channels of its axes.
+    /// The cell of the values that `code` gives for channels.
     #[inline]
-    fn channels(&self) -> impl Iterator<Item = u8> {
-        let axes = self.axis.iter().take(usize::from(self.axes));
-        axes.map(|axis| axis.channel)
-    }
-
-    /// The cell of the values `code` gives for an axis's place, 0 or 1, and channel.
-    #[inline]
-    pub(crate) fn cell(&self, code: impl Fn(usize, usize) -> i32) -> usize {
+    pub(crate) fn cell(&self, code: impl Fn(usize) -> Option<i32>) -> Option<usize> {
         let [a, b] = &self.axis;
-        let first = a.bin(code(0, usize::from(a.channel)));
+        let first = a.bin(code(usize::from(a.channel))?);
         if self.axes == 1 {
-            return first;
+            return Some(first);
         }
-        let second = b.bin(code(1, usize::from(b.channel)));
-        first * (usize::from(b.last_bin) + 1) + second
+        let second = b.bin(code(usize::from(b.channel))?);
+        Some(first * (usize::from(b.last_bin) + 1) + second)
     }
 }
 

@@ -6,13 +6,9 @@ use core::fmt;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::format::MAX_CLASSES;
-use crate::lookup::Lookup;
 use crate::model::Model;
-use crate::roughness::Roughness;
 use crate::rule::DecisionRule;
-
-/// Words of a row of three or four classes.
-const FEW: usize = 2;
+use crate::sums::Sums;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
 /// channels and classes there are from the model; `W` says where that lies
@@ -21,22 +17,14 @@ const FEW: usize = 2;
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     model: Model<W>,
     rule: R,
-    lookup: Lookup,
     state: State<R::Evidence>,
 }
 
 /// What changes as samples come in.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct State<E> {
-    /// Samples to the end of the open block; not zero.
-    left: u32,
-    /// Sums of the open block; the check of the model keeps them below 2³¹.
-    sums: [u32; MAX_CLASSES],
+    sums: Sums,
     evidence: E,
-    roughness: Roughness,
-    /// By how much each class exceeds its floors since the touch began: in samples,
-    /// in roughness. Saturates.
-    excess: [[i32; MAX_CLASSES]; 2],
     /// The number of the touch.
     touch: u16,
 }
@@ -59,19 +47,6 @@ impl fmt::Display for WrongChannels {
 
 impl core::error::Error for WrongChannels {}
 
-impl<E> State<E> {
-    const fn new(left: u32, evidence: E, roughness: Roughness) -> Self {
-        Self {
-            left,
-            sums: [0; MAX_CLASSES],
-            evidence,
-            roughness,
-            excess: [[0; MAX_CLASSES]; 2],
-            touch: 0,
-        }
-    }
-}
-
 impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     /// Bytes that change as samples come in.
     pub const STATE_BYTES: usize = size_of::<State<R::Evidence>>();
@@ -84,8 +59,11 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let rule = R::new(&model, settings)?;
         Ok(Self {
-            lookup: Lookup::new(model.sample_tables(), model.row_words()),
-            state: State::new(rule.interval(), rule.start(), model.roughness()),
+            state: State {
+                sums: Sums::new(rule.interval()),
+                evidence: rule.start(),
+                touch: 0,
+            },
             model,
             rule,
         })
@@ -106,15 +84,10 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         self.check(codes)?;
-        if self.model.has_roughness() {
-            self.state.roughness.push(codes, true);
+        if self.state.sums.push(self.model.parts(), codes) {
+            return Ok(self.end_of_block());
         }
-        self.add(codes);
-        if self.state.left > 1 {
-            self.state.left -= 1;
-            return Ok(None);
-        }
-        Ok(self.end_of_block())
+        Ok(None)
     }
 
     /// Takes a sample that does not count, as nothing is touched: it is seen by the
@@ -127,7 +100,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
         self.check(codes)?;
         if self.model.has_roughness() {
-            self.state.roughness.push(codes, false);
+            self.state.sums.roughness.push(codes, false);
         }
         Ok(())
     }
@@ -142,10 +115,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
         };
         let limit = touch.limit.saturating_mul(self.model.block());
         self.rule.limit(&mut self.state.evidence, limit);
-        self.state.left = self.rule.interval();
-        self.state.sums = [0; MAX_CLASSES];
-        self.state.excess = [[0; MAX_CLASSES]; 2];
-        self.state.roughness.clear();
+        self.state.sums.clear(self.rule.interval());
     }
 
     #[inline]
@@ -159,73 +129,44 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
         }
     }
 
-    /// Adds what each table of samples says of the classes to their sums.
-    #[inline]
-    fn add(&mut self, codes: &[i32]) {
-        let (pairs, _) = self.state.sums.as_chunks_mut::<2>();
-        // The sums of three or four classes stay in registers: 48 instructions less
-        // on a Cortex-M4F, 7 % of a tick.
-        if self.model.row_words() == FEW
-            && let Some(pairs) = pairs.first_chunk_mut::<FEW>()
-        {
-            let mut sums = *pairs;
-            for row in self.lookup.rows(codes) {
-                add_words(&mut sums, self.model.words_from(row));
-            }
-            *pairs = sums;
-            return;
-        }
-        let pairs = pairs.get_mut(..self.model.row_words()).unwrap_or_default();
-        for row in self.lookup.rows(codes) {
-            add_row(pairs, self.model.words_from(row));
-        }
-    }
-
-    /// Nothing seen yet.
-    fn fresh(&self) -> State<R::Evidence> {
-        State::new(
-            self.rule.interval(),
-            self.rule.start(),
-            self.model.roughness(),
-        )
-    }
-
-    #[inline]
+    // Once a block: apart from the samples, which then need less of the stack.
+    #[inline(never)]
     fn end_of_block(&mut self) -> Option<Decision> {
         let State {
-            left,
             sums,
             evidence,
-            roughness,
-            excess,
             touch,
         } = &mut self.state;
         if self.model.has_roughness() || self.model.has_floors() {
-            add_roughness(&self.model, roughness, sums, excess);
+            sums.end_of_block(self.model.parts());
         }
-        let sums = sums.get_mut(..self.model.classes()).unwrap_or_default();
-        let decision = self.rule.end_of_block(sums, evidence);
-        *left = self.rule.interval();
-        let decision = decision?;
-        let below =
-            |excess: &[i32; MAX_CLASSES]| excess.get(decision.leader()).is_some_and(|e| *e < 0);
-        Some(decision.in_touch(*touch, excess.iter().any(below)))
+        sums.left = self.rule.interval();
+        let of_classes = sums.classes.get_mut(..self.model.classes());
+        let decision = self
+            .rule
+            .end_of_block(of_classes.unwrap_or_default(), evidence)?;
+        let excess = sums.excess.get(decision.leader());
+        let is_below = excess.is_some_and(|excess| excess.iter().any(|tables| *tables < 0));
+        Some(decision.in_touch(*touch, is_below))
     }
 
     /// The end of a whisk or of a recording: rules that wait for it decide here
     /// (None if there was no sample), the others drop what they have. All
     /// evidence is then forgotten.
     pub fn finish(&mut self) -> Option<Decision> {
-        let fresh = self.fresh();
-        let state = core::mem::replace(&mut self.state, fresh);
-        let samples = self.rule.interval().saturating_sub(state.left);
-        let sums = state.sums.get(..self.model.classes()).unwrap_or_default();
-        self.rule.finish(sums, samples, state.evidence)
+        let State { sums, evidence, .. } = &self.state;
+        let samples = self.rule.interval().saturating_sub(sums.left);
+        let sums = sums.classes.get(..self.model.classes()).unwrap_or_default();
+        let decision = self.rule.finish(sums, samples, evidence.clone());
+        self.reset();
+        decision
     }
 
     /// Forgets all evidence.
     pub fn reset(&mut self) {
-        self.state = self.fresh();
+        self.state.sums = Sums::new(self.rule.interval());
+        self.state.evidence = self.rule.start();
+        self.state.touch = 0;
     }
 
     /// Posterior of each class after the last full block. For display: costs
@@ -241,57 +182,6 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
         self.rule.scale().posteriors(values);
         posteriors
     }
-}
-
-/// Adds the entries of a row of a table to the sums of their classes.
-// A function of its own: within the tick it would be unrolled for many classes.
-#[inline(never)]
-fn add_row(sums: &mut [[u32; 2]], row: &[u32]) {
-    add_words(sums, row);
-}
-
-/// The same, where it is called.
-#[inline]
-fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
-    for ([even, odd], word) in sums.iter_mut().zip(row) {
-        // No sum wraps: the check of the model sees to that.
-        *even = even.wrapping_add(word & 0xffff);
-        *odd = odd.wrapping_add(word >> 16);
-    }
-}
-
-/// Compares the sums of a block with their floors, adds what its roughness says of the
-/// classes, which weighs as much as the mean of its samples, and begins another.
-#[inline(never)]
-fn add_roughness<W: AsRef<[u32]>>(
-    model: &Model<W>,
-    roughness: &mut Roughness,
-    sums: &mut [u32; MAX_CLASSES],
-    excess: &mut [[i32; MAX_CLASSES]; 2],
-) {
-    let [of_samples, of_roughness] = excess;
-    let (floors, block) = (model.all_floors(), model.block());
-    for ((excess, sum), floors) in of_samples.iter_mut().zip(&*sums).zip(floors) {
-        let floor = (floors & 0xffff) * block;
-        *excess = excess.saturating_add(sum.wrapping_sub(floor).cast_signed());
-    }
-    let mut place = 0;
-    let mut entries = [0; MAX_CLASSES];
-    let (pairs, _) = entries.as_chunks_mut::<2>();
-    let pairs = pairs.get_mut(..model.row_words()).unwrap_or_default();
-    for table in model.rough_tables() {
-        let cell = table.cell(|axis, _| roughness.code(place + axis));
-        add_words(pairs, model.row(table, cell));
-        place += usize::from(table.axes);
-    }
-    for ((excess, entry), floors) in of_roughness.iter_mut().zip(entries).zip(floors) {
-        let floor = floors >> 16;
-        *excess = excess.saturating_add(entry.wrapping_sub(floor).cast_signed());
-    }
-    for (sum, entry) in sums.iter_mut().zip(entries).take(model.classes()) {
-        *sum = sum.wrapping_add(entry.wrapping_mul(block));
-    }
-    roughness.clear();
 }
 
 /// Posterior probability of each class of a model.
@@ -381,11 +271,14 @@ mod tests {
         }
         let samples = 7 * (block - 1);
         let full = samples * u32::from(ENTRY_MAX);
-        assert_eq!(c.state.sums[..5], [full, full, 0, full, samples * 3]);
-        assert_eq!(c.state.sums[5..], [0; 27]);
+        assert_eq!(
+            c.state.sums.classes[..5],
+            [full, full, 0, full, samples * 3]
+        );
+        assert_eq!(c.state.sums.classes[5..], [0; 27]);
         let decision = c.push(&[1; 7]).unwrap().unwrap();
         assert_eq!((decision.class(), decision.samples()), (Some(0), block));
-        assert_eq!(c.state.sums, [0; MAX_CLASSES]);
+        assert_eq!(c.state.sums.classes, [0; MAX_CLASSES]);
     }
 
     proptest! {
@@ -413,7 +306,7 @@ mod tests {
                         }
                     }
                 }
-                prop_assert_eq!(&c.state.sums[..9], &expected);
+                prop_assert_eq!(&c.state.sums.classes[..9], &expected);
             }
         }
     }

@@ -5,7 +5,7 @@
 //! the code that a table is looked up by is 64 log₂(1 + S). At 2 kHz the difference
 //! is largest at 250 Hz and takes the whisk itself out.
 
-use crate::format::MAX_ROUGH_AXES;
+use crate::format::ROUGH_CHANNELS;
 
 /// Samples between the terms of the difference.
 const DELAY: usize = 4;
@@ -14,32 +14,29 @@ const KEPT: usize = 2 * DELAY;
 /// Bits of a code's fraction: 1/64 octave.
 const FRACTION_BITS: u32 = 6;
 
-/// The delay line of [`MAX_ROUGH_AXES`] channels, and their sums over the open block.
+/// The delay lines of the first two channels, and their sums over the open block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Roughness {
-    channels: [u8; MAX_ROUGH_AXES],
-    line: [[i32; MAX_ROUGH_AXES]; KEPT],
-    sums: [u32; MAX_ROUGH_AXES],
-    /// The oldest sample of the line.
+    line: [[i32; ROUGH_CHANNELS]; KEPT],
+    sums: [u32; ROUGH_CHANNELS],
+    /// The place of the oldest sample, by its lower bits; at least [`KEPT`] once the
+    /// line is full.
     oldest: usize,
-    /// Samples until the line is full.
-    missing: usize,
+}
+
+impl Default for Roughness {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Roughness {
-    /// Of these channels; those beyond [`MAX_ROUGH_AXES`] are left out, and what
-    /// remains is channel 0 again.
-    pub fn of(channels: impl Iterator<Item = u8>) -> Self {
-        let mut kept = [0; MAX_ROUGH_AXES];
-        for (place, channel) in kept.iter_mut().zip(channels) {
-            *place = channel;
-        }
+    /// Before the first sample.
+    pub const fn new() -> Self {
         Self {
-            channels: kept,
-            line: [[0; MAX_ROUGH_AXES]; KEPT],
-            sums: [0; MAX_ROUGH_AXES],
+            line: [[0; ROUGH_CHANNELS]; KEPT],
+            sums: [0; ROUGH_CHANNELS],
             oldest: 0,
-            missing: KEPT,
         }
     }
 
@@ -48,35 +45,38 @@ impl Roughness {
     /// ±2²⁹ wraps around.
     #[inline]
     pub fn push(&mut self, codes: &[i32], counts: bool) {
-        let code = |channel: u8| codes.get(usize::from(channel)).copied().unwrap_or(0);
-        let new = self.channels.map(code);
+        let new = match *codes {
+            [x, y, ..] => [x, y],
+            [x] => [x, 0],
+            [] => return,
+        };
         let middle = self.line[(self.oldest + DELAY) % KEPT];
         let oldest = core::mem::replace(&mut self.line[self.oldest % KEPT], new);
-        self.oldest = (self.oldest + 1) % KEPT;
-        if self.missing > 0 {
-            self.missing -= 1;
-        } else if counts {
-            let differences = new.iter().zip(middle).zip(oldest);
-            for (sum, ((new, middle), oldest)) in self.sums.iter_mut().zip(differences) {
-                let difference = new
-                    .wrapping_add(oldest)
-                    .wrapping_sub(middle.wrapping_mul(2));
+        if counts && self.oldest >= KEPT {
+            for channel in 0..ROUGH_CHANNELS {
+                let ends = new[channel].wrapping_add(oldest[channel]);
+                let difference = ends.wrapping_sub(middle[channel].wrapping_mul(2));
+                let sum = &mut self.sums[channel];
                 *sum = sum.saturating_add(difference.unsigned_abs());
             }
         }
+        self.oldest += 1;
+        if self.oldest == 2 * KEPT {
+            self.oldest = KEPT;
+        }
     }
 
-    /// The code of a channel over the open block, by its place; 0 to 2047.
+    /// The code of a channel over the open block; 0 to 2047.
     #[inline]
-    pub fn code(&self, place: usize) -> i32 {
-        let sum = self.sums.get(place).copied().unwrap_or(0);
+    pub fn code(&self, channel: usize) -> i32 {
+        let sum = self.sums.get(channel).copied().unwrap_or(0);
         octaves(sum.saturating_add(1))
     }
 
     /// Begins another block.
     #[inline]
     pub fn clear(&mut self) {
-        self.sums = [0; MAX_ROUGH_AXES];
+        self.sums = [0; ROUGH_CHANNELS];
     }
 }
 
@@ -95,7 +95,7 @@ mod tests {
     use super::{KEPT, Roughness, octaves};
 
     fn code(samples: &[i32]) -> i32 {
-        let mut roughness = Roughness::of([0].into_iter());
+        let mut roughness = Roughness::new();
         for &x in samples {
             roughness.push(&[x], true);
         }
@@ -120,7 +120,7 @@ mod tests {
     fn a_rest_and_a_ramp_are_smooth_and_a_step_is_not() {
         assert_eq!(code(&[5_000; 20]), 0);
         let ramp: Vec<i32> = (0..100).map(|n| 7 * n).collect();
-        let mut roughness = Roughness::of([0].into_iter());
+        let mut roughness = Roughness::new();
         for (n, &x) in ramp.iter().enumerate() {
             roughness.push(&[x], n >= KEPT);
         }
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn samples_in_the_air_keep_the_line_but_do_not_count() {
-        let mut roughness = Roughness::of([0].into_iter());
+        let mut roughness = Roughness::new();
         for n in 0..8 {
             roughness.push(&[100 * (n % 2)], false);
         }

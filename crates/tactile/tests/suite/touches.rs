@@ -3,8 +3,8 @@
 
 use crate::common::entry;
 use tactile::{
-    Axis, Floors, ModelBuf, ModelParts, Quantiser, Roughness, Sequential, TableParts, TableSource,
-    Threshold, TouchRule,
+    Axis, Floors, ModelBuf, ModelError, ModelParts, Quantiser, Roughness, Sequential, TableParts,
+    TableSource, Threshold, TouchRule,
 };
 
 const BLOCK: u32 = 2;
@@ -216,10 +216,39 @@ fn floors_look_back_to_the_onset_of_the_touch() {
 
 #[test]
 fn roughness_is_that_of_the_samples_that_count() {
-    let mut roughness = Roughness::of([0, 1].into_iter());
+    let mut roughness = Roughness::new();
     for n in 0..40 {
         roughness.push(&[10 * (n % 4), 0], n % 2 == 0);
     }
     // A period of four samples: all differences are zero.
     assert_eq!((roughness.code(0), roughness.code(1)), (0, 0));
+}
+
+#[test]
+fn roughness_is_of_the_first_two_channels() {
+    let quantiser = model(None, None).quantiser(0).unwrap();
+    let refused = |channel| {
+        let rough = [Axis {
+            channel,
+            ..ROUGH[0]
+        }];
+        let tables = [
+            TableParts::of_channel(&AXES[0], &[1; 4]),
+            TableParts {
+                source: TableSource::Roughness,
+                axes: &rough,
+                entries: &[1; 4],
+            },
+        ];
+        let parts = ModelParts {
+            names: &["same".to_owned(), "other".to_owned()],
+            block: BLOCK,
+            channels: &[quantiser; 3],
+            tables: &tables,
+            floors: None,
+            touch: None,
+        };
+        ModelBuf::new(&parts).err()
+    };
+    assert_eq!([1, 2].map(refused), [None, Some(ModelError::Axes)]);
 }

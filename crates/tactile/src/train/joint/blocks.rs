@@ -33,7 +33,7 @@ impl Blocks {
             touches: Vec::new(),
         };
         let mut open = Vec::with_capacity(length);
-        let mut roughness = Roughness::of(0..CHANNELS as u8);
+        let mut roughness = Roughness::new();
         let (mut touch, mut away) = (0, options.gap);
         for (sample, &counts) in trial.samples.iter().zip(&trial.counts) {
             let codes: [i32; CHANNELS] =

@@ -1,0 +1,34 @@
+//! A sample for the detector of touches, which has learnt the air before.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+use count::arguments::Two;
+use count::samples::spread;
+use firmware::design_parameters::touch_gap;
+use tactile::TouchDetector;
+
+/// Samples until the detector tells touches, and more.
+const LEARNING: u32 = 2_000;
+
+count::program!(
+    ("integer": "touch detector",
+        (codes: Two<u16>, detector: &mut TouchDetector) -> u32 {
+            detector.step([codes.0, codes.1], true, touch_gap(2_000)).number.into()
+        },
+        felt, learnt()),
+);
+
+/// Noise of a few codes, and a touch in a quarter of the time.
+fn felt(call: u32) -> Two<u16> {
+    let deflection = if call % 400 < 300 { 0.0 } else { 2_000.0 };
+    let code = |call| (8_192.0 + spread(call, -5.0, 5.0)) as u16;
+    Two(code(call) + deflection as u16, code(call.wrapping_mul(7)))
+}
+
+fn learnt() -> TouchDetector {
+    let mut detector = TouchDetector::new();
+    for call in 0..LEARNING {
+        let Two(x, y) = felt(call % 300);
+        detector.step([x, y], false, touch_gap(2_000));
+    }
+    detector
+}
