@@ -95,11 +95,15 @@ pub(super) fn scales(trials: &[Trial]) -> Result<[Quantiser; CHANNELS], TrainErr
         if !values().all(f64::is_finite) {
             return Err(TrainError::NotFinite { channel });
         }
-        if values().all(|x| x.trunc() == x && x.abs() < f64::from(1 << 28)) {
-            continue;
-        }
         let low = values().fold(f64::INFINITY, f64::min);
         let high = values().fold(f64::NEG_INFINITY, f64::max);
+        if values().all(|x| x.trunc() == x && x.abs() < f64::from(1 << 28)) {
+            // Codes as they are. A span of one or two is none that a model can hold.
+            if high - low > 2.0 {
+                [scale.low, scale.high] = [low as i32, high as i32];
+            }
+            continue;
+        }
         *scale = real_quantiser(low, high, 128).ok_or(TrainError::Range { channel })?;
     }
     Ok(scales)

@@ -127,20 +127,25 @@ impl Doubts<'_> {
     }
 
     /// Share of the longest stretches of a class in which another one's evidence is
-    /// larger.
+    /// larger; where both are the same, half.
     fn mistaken(&self, class: usize, other: usize) -> f64 {
         for length in COMPARED {
-            let (mut lost, mut all) = (0_u32, 0_u32);
+            let (mut lost, mut all) = (0.0, 0_u32);
             for piece in self.evidence.iter().filter(|piece| piece.class == class) {
                 for stretch in sums(piece, length) {
                     let rows = stretch.chunks_exact(piece.classes).zip(self.weights);
                     let ahead: f64 = rows.map(|(sums, w)| w * (sums[class] - sums[other])).sum();
-                    lost += u32::from(ahead <= 0.0);
+                    // A tie is lost as often as it is won.
+                    lost += match ahead {
+                        ahead if ahead > 0.0 => 0.0,
+                        ahead if ahead < 0.0 => 1.0,
+                        _ => 0.5,
+                    };
                     all += 1;
                 }
             }
             if all > 0 {
-                return f64::from(lost) / f64::from(all);
+                return lost / f64::from(all);
             }
         }
         0.0
