@@ -138,10 +138,11 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     let format = plan::on_board(&scene, board.name, board.has_fpu);
     let source = match format.map_err(|error| wrong(error.to_string()))? {
         NumberFormat::Fixed => {
-            source::source::<Fix>(&scene, model.as_ref(), &quote!(whisking::Fix))?
+            source::source::<Fix>(&scene, model.as_ref(), &quote!(whisking::Fix))
         }
-        _ => source::source::<f32>(&scene, model.as_ref(), &quote!(f32))?,
+        _ => source::source::<f32>(&scene, model.as_ref(), &quote!(f32)),
     };
+    let source = source.map_err(|error| wrong(error.to_string()))?;
     fs::write(output("scene.rs")?, source)?;
     Ok(())
 }

@@ -49,7 +49,8 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     let scene = &loaded.scene;
     let classifier = loaded.classifier()?;
     let touch = classifier.as_ref().and_then(Classifier::touch_rule);
-    let listens = plan::contact_min(scene, touch.map(|touch| touch.gate)).is_some();
+    let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
+    let listens = matches!(least, Ok(Some(_)));
     let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
     let mut host = Run::new(scene, classifier)?;
     let program = Program::load(program)?;

@@ -61,7 +61,7 @@ pub fn emulate(
     let mut decoder = LogDecoder::new(&program)?;
     let run = start(&loaded.scene, classes, &program)?;
     let mut log = String::new();
-    let done = play(run, &loaded.scene, out, verbosity, |run| {
+    let done = play(run, &loaded.scene, out, verbosity, |run, _| {
         let board = run.module_mut();
         for line in decoder.lines(&board.take_log()) {
             // Writing to a string does not fail.
@@ -71,5 +71,5 @@ pub fn emulate(
     });
     // Where something went wrong the log tells what led to it.
     write_whole(&out.join("log.txt"), log.as_bytes())?;
-    done
+    done.map(|played| played.summary())
 }

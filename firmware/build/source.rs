@@ -19,7 +19,7 @@ pub(crate) fn source<R: Real>(
 ) -> Result<String, Box<dyn Error>> {
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
     let touch = model.and_then(Model::touch_rule);
-    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate));
+    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate))?;
     let contact = Source::optional(
         plan::contact::<R>(scene, contact_min.is_some())?.as_ref(),
         &quote! { whisking::filter::Config<Number> },

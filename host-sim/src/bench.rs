@@ -14,7 +14,7 @@ use whisking::{Fix, Real, Start, filter};
 
 use crate::Error;
 use crate::bus::Slave;
-use crate::classifier::{Classifier, Tap};
+use crate::classifier::{Classifier, GATE, Tap};
 use crate::drive::{self, AnyAngle, AnyMotor};
 use crate::motor::Pins;
 
@@ -228,7 +228,9 @@ where
     Shaped<R, S, N>: Send + 'static,
 {
     let broken = |mismatch: plan::Mismatch| match mismatch {
-        plan::Mismatch::Unstable(unstable) => Error::Input(unstable.to_string()),
+        mismatch @ (plan::Mismatch::Unstable(_) | plan::Mismatch::Gate { .. }) => {
+            Error::Input(mismatch.to_string())
+        }
         mismatch => Error::Work(mismatch.to_string()),
     };
     let tick_hz = f64::from(scene.tick_hz);
@@ -237,7 +239,10 @@ where
     // The trace shows contact wherever there is something to touch.
     let tap = Tap::new(classifier);
     let touch = tap.touch_rule();
-    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate));
+    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate)).map_err(broken)?;
+    // A recording has the touches that a model of it will know.
+    let records = tap.is_recording() && scene.plant.obstacle.is_some();
+    let contact_min = contact_min.or(records.then_some(GATE));
     let contact = match plan::contact(scene, contact_min.is_some()).map_err(broken)? {
         None if scene.plant.obstacle.is_some() => {
             let h50 = filter::Config::new(filter::CORNER_HZ, tick_hz);

@@ -9,6 +9,9 @@ use tactile::{
     Threshold, TouchRule,
 };
 
+/// Contact from which a sample counts, unless scene or model say otherwise.
+pub const GATE: f64 = 0.05;
+
 /// The classifier that a board runs, with its model.
 #[derive(Debug, Clone)]
 pub struct Classifier {
@@ -68,6 +71,11 @@ impl Tap {
     /// What a touch means to the classifier's model, if there is one.
     pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
         self.classifier.as_ref()?.touch_rule()
+    }
+
+    /// Whether there is none.
+    pub(crate) const fn is_recording(&self) -> bool {
+        self.classifier.is_none()
     }
 
     /// Posteriors of the classifier, if there is one.

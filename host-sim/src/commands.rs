@@ -8,6 +8,8 @@ pub mod run;
 pub mod score;
 pub mod train;
 
+use std::path::PathBuf;
+
 /// The names of two columns, A,B, as an option has them.
 ///
 /// # Errors
@@ -18,5 +20,17 @@ pub fn channels(text: &str) -> Result<[String; 2], String> {
             Ok([a.to_owned(), b.to_owned()])
         }
         _ => Err("allowed: two names, such as x,y".to_owned()),
+    }
+}
+
+/// The path of a picture, as an option has it.
+///
+/// # Errors
+/// What is allowed instead.
+pub fn picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(extension) if extension.eq_ignore_ascii_case("svg") => Ok(path),
+        _ => Err("allowed: a name that ends in .svg".to_owned()),
     }
 }

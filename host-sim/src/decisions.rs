@@ -15,9 +15,32 @@ pub fn name(decision: Decision, classes: &[String]) -> &str {
     class.map_or(UNKNOWN, String::as_str)
 }
 
+/// What a decision is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It names what was presented, or says "unknown" of what the model does not know.
+    Right,
+    /// It names something else.
+    Wrong,
+    /// It says "unknown" of what the model knows.
+    Refused,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Right => "right",
+            Self::Wrong => "wrong",
+            Self::Refused => "refused",
+        })
+    }
+}
+
 /// One decision and the true class.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided {
+    /// When it fell in a run of a scene, s; none: in a recording.
+    pub t_s: Option<f64>,
     /// True class.
     pub label: String,
     /// Which stream of that label.
@@ -37,44 +60,72 @@ impl Decided {
     pub fn is_right(&self) -> bool {
         self.label == self.decision
     }
+
+    /// What it is worth from a model of these classes.
+    pub fn verdict(&self, classes: &[String]) -> Verdict {
+        match (classes.contains(&self.label), self.decision.as_str()) {
+            (true, UNKNOWN) => Verdict::Refused,
+            (false, UNKNOWN) => Verdict::Right,
+            (true, decision) if decision == self.label => Verdict::Right,
+            _ => Verdict::Wrong,
+        }
+    }
 }
+
+/// Which columns a table of decisions has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Columns {
+    /// Those of a recording, which has no clock.
+    OfRecording,
+    /// And last the time of the tick, as in the trace.
+    OfScene,
+}
+
+/// The columns in order; of a recording all but the last.
+const COLUMNS: [&str; 7] = [
+    "label",
+    "trial",
+    "decision",
+    "samples",
+    "posterior",
+    "touch",
+    "t_s",
+];
 
 /// Writes `decisions.csv`.
 ///
 /// # Errors
 /// Any error of the writer.
-pub fn write(table: impl Write, decisions: &[Decided]) -> io::Result<()> {
+pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
+    let columns = COLUMNS.len() - usize::from(columns == Columns::OfRecording);
     let mut table = csv::Writer::from_writer(table);
-    table.write_record([
-        "label",
-        "trial",
-        "decision",
-        "samples",
-        "posterior",
-        "touch",
-    ])?;
+    table.write_record(&COLUMNS[..columns])?;
     for d in decisions {
-        table.write_record([
-            d.label.as_str(),
-            &d.trial,
-            &d.decision,
-            &d.samples.to_string(),
-            &format!("{:.9}", d.posterior),
-            &d.touch.to_string(),
-        ])?;
+        let cells = [
+            d.label.clone(),
+            d.trial.clone(),
+            d.decision.clone(),
+            d.samples.to_string(),
+            format!("{:.9}", d.posterior),
+            d.touch.to_string(),
+            d.t_s.map_or_else(String::new, |t_s| format!("{t_s:.9}")),
+        ];
+        table.write_record(&cells[..columns])?;
     }
     table.flush()
 }
 
 /// How good some decisions are.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Score {
     /// The model's classes, and below them labels that it does not know.
     names: Vec<String>,
     /// How many the model has.
     classes: usize,
     confusion: Confusion,
+    /// Of the decisions that count, the sums of their samples and posteriors.
     samples: u64,
+    stated: f64,
 }
 
 impl Score {
@@ -90,15 +141,15 @@ impl Score {
         }
         let place = |name: &String| names.iter().position(|other| other == name);
         let mut confusion = Confusion::new(names.len());
-        let mut samples = 0;
+        let (mut samples, mut stated) = (0, 0.0);
         for d in decisions {
-            let named = place(&d.decision);
             if let Some(truth) = place(&d.label) {
                 // Both are among the names, but for what is unknown.
-                let _ = confusion.add(truth, named);
+                let _ = confusion.add(truth, place(&d.decision));
             }
-            if named.is_some() {
+            if d.verdict(classes) != Verdict::Refused {
                 samples += u64::from(d.samples);
+                stated += d.posterior;
             }
         }
         Self {
@@ -106,35 +157,73 @@ impl Score {
             classes: classes.len(),
             confusion,
             samples,
+            stated,
         }
     }
 
-    /// Decisions that named a class.
+    /// Decisions that are right or wrong: all but [`Score::refused`].
     pub fn decisions(&self) -> u64 {
-        self.confusion.named()
+        self.confusion.trials() - self.refused()
     }
 
-    /// Decisions that said "unknown".
-    pub fn unknown(&self) -> u64 {
-        self.confusion.trials() - self.confusion.named()
+    /// Decisions that said "unknown" of what the model knows.
+    pub fn refused(&self) -> u64 {
+        let known = 0..self.classes;
+        known.map(|truth| self.confusion.missed(truth)).sum()
     }
 
-    /// Of the decisions that named a class the share that was right, for each surface
-    /// that was presented, averaged over those; `None` without a decision.
+    /// Of each label that the model does not know: its name, how many decisions said
+    /// "unknown", which is right, and how many there were.
+    pub fn strange(&self) -> impl Iterator<Item = (&str, u64, u64)> {
+        let strange = self.names.iter().enumerate().skip(self.classes);
+        strange.map(|(truth, name)| {
+            let missed = self.confusion.missed(truth);
+            (name.as_str(), missed, missed + self.named(truth))
+        })
+    }
+
+    /// Of the decisions on a class of the model the share for another one; 0 without one.
+    pub fn mistaken(&self, class: usize, other: usize) -> f64 {
+        self.confusion.count(class, other) as f64 / self.named(class).max(1) as f64
+    }
+
+    fn named(&self, truth: usize) -> u64 {
+        let classes = 0..self.classes;
+        classes
+            .map(|class| self.confusion.count(truth, class))
+            .sum()
+    }
+
+    /// Share of right decisions for each surface that was presented, averaged over those;
+    /// `None` without a decision. Of a surface that the model does not know those are right
+    /// that said "unknown"; of the others these do not count.
     pub fn hit_rate(&self) -> Option<f64> {
         let rates = (0..self.names.len()).filter_map(|truth| {
-            let named: u64 = (0..self.classes)
-                .map(|class| self.confusion.count(truth, class))
-                .sum();
-            (named > 0).then(|| self.confusion.count(truth, truth) as f64 / named as f64)
+            let named = self.named(truth);
+            let (right, all) = if truth < self.classes {
+                (self.confusion.count(truth, truth), named)
+            } else {
+                let missed = self.confusion.missed(truth);
+                (missed, missed + named)
+            };
+            (all > 0).then(|| right as f64 / all as f64)
         });
         Statistics::of(rates).map(|rates| rates.mean)
     }
 
     /// Mean decision time in samples; `None` without a decision.
     pub fn mean_samples(&self) -> Option<f64> {
+        self.mean(self.samples as f64)
+    }
+
+    /// Mean posterior of the decisions; `None` without one.
+    pub fn stated(&self) -> Option<f64> {
+        self.mean(self.stated)
+    }
+
+    fn mean(&self, sum: f64) -> Option<f64> {
         let decisions = self.decisions();
-        (decisions > 0).then(|| self.samples as f64 / decisions as f64)
+        (decisions > 0).then(|| sum / decisions as f64)
     }
 }
 
@@ -144,17 +233,19 @@ impl fmt::Display for Score {
         let Self {
             names, confusion, ..
         } = self;
-        let missed = (self.unknown() > 0).then_some(UNKNOWN);
+        let said = self.confusion.trials() > self.confusion.named();
+        let missed = said.then_some(UNKNOWN);
         write!(f, "{}", confusion.table(names, self.classes, missed))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Decided, Score, write};
+    use super::{Columns, Decided, Score, UNKNOWN, Verdict, write};
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
         Decided {
+            t_s: Some(0.25),
             label: label.into(),
             trial: "1".into(),
             decision: decision.into(),
@@ -178,11 +269,30 @@ mod tests {
     }
 
     #[test]
-    fn a_label_that_the_model_does_not_know_is_never_a_hit() {
+    fn of_a_label_that_the_model_does_not_know_unknown_is_right() {
         let names = ["ice".to_owned()];
         let score = Score::new(&names, &[decided("mud", "ice", 20)]);
         assert_eq!(score.hit_rate(), Some(0.0));
         assert_eq!(Score::new(&names, &[]).hit_rate(), None);
+
+        let decisions = [
+            decided("ice", "ice", 20),
+            decided("ice", UNKNOWN, 900),
+            decided("mud", "ice", 40),
+            decided("mud", UNKNOWN, 60),
+            decided("mud", UNKNOWN, 80),
+            decided("mud", UNKNOWN, 100),
+        ];
+        let verdicts = decisions.each_ref().map(|d| d.verdict(&names));
+        assert_eq!(verdicts[..2], [Verdict::Right, Verdict::Refused]);
+        assert_eq!(verdicts[2..4], [Verdict::Wrong, Verdict::Right]);
+        let score = Score::new(&names, &decisions);
+        assert_eq!((score.decisions(), score.refused()), (5, 1));
+        // All of ice, three quarters of mud.
+        assert_eq!(score.hit_rate(), Some(0.875));
+        assert_eq!(score.mean_samples(), Some(60.0));
+        assert!((score.stated().unwrap() - 0.995).abs() < 1e-12);
+        assert_eq!(score.strange().collect::<Vec<_>>(), [("mud", 3, 4)]);
     }
 
     #[test]
@@ -190,11 +300,11 @@ mod tests {
         let names = ["ice".to_owned(), "loam".to_owned()];
         let decisions = [
             decided("ice", "ice", 20),
-            decided("ice", super::UNKNOWN, 900),
+            decided("ice", UNKNOWN, 900),
             decided("loam", "loam", 40),
         ];
         let score = Score::new(&names, &decisions);
-        assert_eq!((score.decisions(), score.unknown()), (2, 1));
+        assert_eq!((score.decisions(), score.refused()), (2, 1));
         assert_eq!(score.hit_rate(), Some(1.0));
         assert_eq!(score.mean_samples(), Some(30.0));
         let text = score.to_string();
@@ -202,14 +312,22 @@ mod tests {
     }
 
     #[test]
-    fn names_with_commas_survive_the_file() {
-        let mut table = Vec::new();
-        write(&mut table, &[decided("sand, wet", "ice", 20)]).unwrap();
-        let text = String::from_utf8(table).unwrap();
+    fn names_with_commas_survive_the_file_and_a_scene_tells_the_time() {
+        let decisions = [decided("sand, wet", "ice", 20)];
+        let written = |columns| {
+            let mut table = Vec::new();
+            write(&mut table, &decisions, columns).unwrap();
+            String::from_utf8(table).unwrap()
+        };
         assert_eq!(
-            text,
+            written(Columns::OfRecording),
             "label,trial,decision,samples,posterior,touch\n\
              \"sand, wet\",1,ice,20,0.995000000,3\n"
+        );
+        assert_eq!(
+            written(Columns::OfScene),
+            "label,trial,decision,samples,posterior,touch,t_s\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000\n"
         );
     }
 }

@@ -7,7 +7,7 @@ use tactile::score::{Calibration, Interval, Statistics};
 
 use crate::classifier::{self, Fault};
 use crate::decisions::{Decided, Score, UNKNOWN};
-use crate::recording::Stream;
+use crate::recording::{GATE, Stream};
 use crate::replay::Replay;
 
 /// One presentation of a surface: a stream of a recording, or a texture's turn in a run.
@@ -19,6 +19,40 @@ pub struct Shown {
     pub decided: Vec<Decided>,
 }
 
+/// The figures of one class; intervals are of 95 %.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClassFigures {
+    /// Its name.
+    pub name: String,
+    /// Presentations of it.
+    pub presented: usize,
+    /// Of its decisions that named a class the share that was right.
+    pub hits: Interval,
+    /// Mean samples of these decisions; none without one.
+    pub samples: Option<Statistics>,
+    /// Share of its decisions that said "unknown".
+    pub refused: Interval,
+    /// Share of its presentations in which no class was named.
+    pub undecided: Interval,
+}
+
+impl ClassFigures {
+    fn new(name: &str, presentations: &[Shown]) -> Self {
+        let own = || presentations.iter().filter(|p| p.label == name);
+        let decided = || own().flat_map(|p| &p.decided);
+        let named = || decided().filter(|d| d.decision != UNKNOWN);
+        let right = named().filter(|d| d.is_right()).count();
+        Self {
+            name: name.to_owned(),
+            presented: own().count(),
+            hits: Interval::of(right, named().count()),
+            samples: Statistics::of(named().map(|d| f64::from(d.samples))),
+            refused: unknown(decided()),
+            undecided: undecided(own()),
+        }
+    }
+}
+
 /// The figures. But for [`Evaluation::strange`] they are of surfaces that the model
 /// knows; hits, time and calibration are of decisions that named a class.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +61,12 @@ pub struct Evaluation {
     pub score: Score,
     /// Share of right decisions, mean over the classes presented.
     pub hits: Option<f64>,
+    /// Of each class of the model that was presented.
+    pub classes: Vec<ClassFigures>,
     /// Mean samples of a decision; not a number without one.
     pub samples: f64,
+    /// The standard error of that, as if decisions were independent.
+    pub samples_error: f64,
     /// Stated against found.
     pub calibration: Calibration,
     /// Share of decisions that said "unknown".
@@ -47,21 +85,22 @@ impl Evaluation {
         let strange = presentations.iter().filter(|p| !is_known(p));
         let decided: Vec<&Decided> = known().flat_map(|p| &p.decided).collect();
         let named = || decided.iter().filter(|d| d.decision != UNKNOWN);
-        let silent = known().filter(|p| p.decided.iter().all(|d| d.decision == UNKNOWN));
-        let rates = classes.iter().filter_map(|class| {
-            let own = named().filter(|d| d.label == *class);
-            let hits = own.clone().map(|d| f64::from(u8::from(d.is_right())));
-            Some(Statistics::of(hits)?.mean)
-        });
+        let of_class = classes.iter().map(|n| ClassFigures::new(n, presentations));
+        let of_class: Vec<_> = of_class.filter(|class| class.presented > 0).collect();
+        let rates = of_class.iter().filter(|class| class.hits.count > 0);
+        let hits = Statistics::of(rates.map(|class| class.hits.share));
         let samples = Statistics::of(named().map(|d| f64::from(d.samples)));
+        let error = |s: Statistics| s.sd / (s.count as f64).sqrt();
         Self {
             score: Score::new(classes, presentations.iter().flat_map(|p| &p.decided)),
-            hits: Statistics::of(rates).map(|rates| rates.mean),
+            hits: hits.map(|hits| hits.mean),
+            classes: of_class,
             samples: samples.map_or(f64::NAN, |samples| samples.mean),
+            samples_error: samples.map_or(f64::NAN, error),
             calibration: Calibration::of(named().map(|d| (d.posterior, d.is_right()))),
             refused: unknown(decided.iter().copied()),
             strange: unknown(strange.flat_map(|p| &p.decided)),
-            undecided: Interval::of(silent.count(), known().count()),
+            undecided: undecided(known()),
         }
     }
 }
@@ -69,6 +108,15 @@ impl Evaluation {
 fn unknown<'d>(decided: impl Iterator<Item = &'d Decided> + Clone) -> Interval {
     let unknown = decided.clone().filter(|d| d.decision == UNKNOWN);
     Interval::of(unknown.count(), decided.count())
+}
+
+fn undecided<'p>(presentations: impl Iterator<Item = &'p Shown> + Clone) -> Interval {
+    let named = |p: &&Shown| p.decided.iter().any(|d| d.decision != UNKNOWN);
+    let (all, named) = (
+        presentations.clone().count(),
+        presentations.filter(named).count(),
+    );
+    Interval::of(all - named, all)
 }
 
 /// What a model does with a recording by the sequential rule, a presentation a stream.
@@ -89,6 +137,27 @@ pub fn presentations(
         })
     };
     streams.iter().map(presentation).collect()
+}
+
+/// Of the samples that count, the share that lies outside of the model's range in one of
+/// the channels.
+pub fn outside(model: &ModelBuf, streams: &[Stream]) -> f64 {
+    let gate = model.touch_rule().map_or(GATE, |touch| touch.gate.into());
+    let (mut outside, mut all) = (0_u64, 0_u64);
+    for stream in streams {
+        let samples = stream.samples.iter().zip(stream.counts(gate));
+        for (sample, _) in samples.filter(|(_, counts)| *counts) {
+            let is_outside = sample.iter().enumerate().any(|(channel, x)| {
+                let quantiser = model.quantiser(channel);
+                quantiser.is_some_and(|q| {
+                    q.low < q.high && !(q.low..=q.high).contains(&q.code_from_f64(*x))
+                })
+            });
+            outside += u64::from(is_outside);
+            all += 1;
+        }
+    }
+    outside as f64 / all.max(1) as f64
 }
 
 /// Thresholds among which one is suggested, rising.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use tactile::ModelBuf;
 
 use crate::Error;
-use crate::decisions::{self, Decided};
+use crate::decisions::{self, Columns, Decided};
 use crate::output::Output;
 use crate::recording::{self, Stream};
 use crate::trace::{Row, TraceWriter};
@@ -32,8 +32,8 @@ pub fn write_recording(path: &Path, streams: &[Stream]) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::Write`].
-pub fn write_decisions(path: &Path, decisions: &[Decided]) -> Result<(), Error> {
-    write(path, |output| decisions::write(output, decisions))
+pub fn write_decisions(path: &Path, decisions: &[Decided], columns: Columns) -> Result<(), Error> {
+    write(path, |output| decisions::write(output, decisions, columns))
 }
 
 fn write(path: &Path, fill: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<(), Error> {
@@ -72,12 +72,12 @@ impl TraceFile {
         })
     }
 
-    /// One row.
+    /// One row, with the name of what was decided in its tick.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn row(&mut self, row: &Row) -> Result<(), Error> {
-        let written = self.trace.row(row);
+    pub fn row(&mut self, row: &Row, decision: Option<&str>) -> Result<(), Error> {
+        let written = self.trace.row(row, decision);
         written.map_err(|source| Error::write(&self.path, source))
     }
 

@@ -5,7 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
-use host_sim::commands::{channels, classify, evaluate, main_job, record, run, score, train};
+use host_sim::commands::{
+    channels, classify, evaluate, main_job, picture, record, run, score, train,
+};
 use host_sim::progress::Verbosity;
 use host_sim::report;
 use scene::Rule;
@@ -39,6 +41,9 @@ enum Command {
         /// Where to write
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
+        /// Where to write a picture of the left whisker's first ten seconds
+        #[arg(long, value_name = "FILE.svg", value_parser = picture)]
+        plot: Option<PathBuf>,
     },
     /// Runs one scene and records what its first whisker feels, to train on
     Record {
@@ -114,7 +119,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
-        Some(Command::Run { scene, out }) => run::run(&scene, &out, verbosity)?,
+        Some(Command::Run { scene, out, plot }) => {
+            run::run(&scene, &out, plot.as_deref(), verbosity)?
+        }
         Some(Command::Record { scene, out, seed }) => {
             Some(record::record(&scene, &out, seed, verbosity)?)
         }

@@ -71,6 +71,16 @@ impl Output {
             .map_err(|source| Error::write(&self.target, source))
     }
 
+    /// Writes all there is to write, and finishes.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn whole(mut self, bytes: &[u8]) -> Result<(), Error> {
+        let written = self.write_all(bytes);
+        written.map_err(|source| self.failed(source))?;
+        self.finish()
+    }
+
     /// The error of a failed write to this file.
     pub fn failed(&self, source: io::Error) -> Error {
         Error::write(&self.target, source)
@@ -104,11 +114,7 @@ impl Drop for Output {
 /// # Errors
 /// [`Error::Write`].
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
-    output
-        .write_all(bytes)
-        .map_err(|source| output.failed(source))?;
-    output.finish()
+    Output::create(path)?.whole(bytes)
 }
 
 #[cfg(test)]

@@ -1,17 +1,56 @@
-//! A picture of a run: position, contact and what was decided.
+//! Pictures: of a run, position, contact and what was decided; and of a calibration.
 
 use plotters::prelude::*;
+use tactile::score::Interval;
 
-use crate::decisions::{Decided, UNKNOWN};
+use crate::Error;
+use crate::bench::Bench;
+use crate::decisions::{Decided, UNKNOWN, Verdict};
+use crate::run::Run;
 use crate::trace::Row;
 
-/// A decision and its time, s.
-#[derive(Debug, Clone)]
-pub struct Mark {
-    /// When.
-    pub t_s: f64,
-    /// What.
-    pub decided: Decided,
+/// How much of a run a picture shows, s.
+const PLOTTED_S: f64 = 10.0;
+
+/// What a picture needs of a run, tick by tick.
+#[derive(Debug, Default)]
+pub struct Film {
+    rows: Vec<Row>,
+    presented: Vec<Presented>,
+}
+
+impl Film {
+    /// Takes what is to be seen of the run's last tick.
+    pub fn take<B: Bench + ?Sized>(&mut self, run: &Run<B>) {
+        let (row, (label, _)) = (run.row(), run.presented());
+        if row.t_s > PLOTTED_S {
+            return;
+        }
+        self.rows.push(*row);
+        match self.presented.last_mut().filter(|last| last.label == label) {
+            Some(last) => last.span_s.1 = row.t_s,
+            None => self.presented.push(Presented {
+                span_s: (row.t_s, row.t_s),
+                label: label.to_owned(),
+            }),
+        }
+    }
+
+    /// The picture.
+    pub fn picture<'a>(
+        &'a self,
+        title: &'a str,
+        classes: &'a [String],
+        decided: &'a [Decided],
+    ) -> Picture<'a> {
+        Picture {
+            title,
+            rows: &self.rows,
+            classes,
+            presented: &self.presented,
+            decided,
+        }
+    }
 }
 
 /// A class that was presented for a while, s.
@@ -35,7 +74,7 @@ pub struct Picture<'a> {
     /// The classes that were presented.
     pub presented: &'a [Presented],
     /// The decisions.
-    pub marks: &'a [Mark],
+    pub decided: &'a [Decided],
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
@@ -53,15 +92,20 @@ const TRUTH: RGBColor = RGBColor(220, 225, 230);
 /// sensor felt, contact and suppression, and each decision against the true class.
 ///
 /// # Errors
-/// If the drawing library fails.
-pub fn left_whisker(picture: &Picture<'_>) -> Result<String, Fault> {
+/// [`Error::Work`] if the drawing library fails.
+pub fn left_whisker(picture: &Picture<'_>) -> Result<String, Error> {
+    drawn(picture).map_err(|fault| Error::Work(format!("plot: {fault}")))
+}
+
+fn drawn(picture: &Picture<'_>) -> Result<String, Fault> {
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
         root.fill(&WHITE)?;
         let root = root.titled(picture.title, ("sans-serif", 20))?;
-        let areas = root.split_evenly((4, 1));
-        let [angle, sensor, contact, classes] = areas.as_slice() else {
+        let classifies = !picture.classes.is_empty();
+        let areas = root.split_evenly((3 + usize::from(classifies), 1));
+        let [angle, sensor, contact, classes @ ..] = areas.as_slice() else {
             return Err("the drawing area does not split".into());
         };
         let rows = picture.rows;
@@ -76,15 +120,17 @@ pub fn left_whisker(picture: &Picture<'_>) -> Result<String, Fault> {
             angle,
             "degrees",
             span,
-            (40.0, 140.0),
+            (40.0, 160.0),
             vec![setpoint, measured],
         )?;
         let x = ("x", MEASURED, left(|row| row.x[0]));
-        curves(sensor, "codes", span, (6000.0, 15_000.0), vec![x])?;
+        curves(sensor, "codes", span, (4000.0, 18_000.0), vec![x])?;
         let pi = ("contact", CONTACT, left(|row| row.contact[0]));
         let z = ("suppression z", SETPOINT, left(|row| row.z[0]));
         curves(contact, "", span, (0.0, 1.2), vec![pi, z])?;
-        decisions(classes, picture, span)?;
+        if let [classes] = classes {
+            decisions(classes, picture, span)?;
+        }
         root.present()?;
     }
     Ok(svg)
@@ -160,34 +206,95 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
         .disable_mesh()
         .y_labels(count)
         .y_label_formatter(&name)
-        .x_desc("s; grey: presented, green: right decision, red: wrong one, blue: none of these")
+        .x_desc("s; grey: presented; a dot: a decision, green right, red wrong, blue refused")
         .draw()?;
+    // What the model does not know stands where the right decision does.
     let row = |label: &str| rows.iter().position(|row| *row == label);
     for Presented {
         span_s: (start, end),
         label,
     } in picture.presented
     {
-        let Some(row) = row(label).filter(|_| *start < to) else {
-            continue;
-        };
-        let corners = [(*start, row as f64 - 0.4), (end.min(to), row as f64 + 0.4)];
+        let height = row(label).unwrap_or(picture.classes.len()) as f64;
+        let corners = [(*start, height - 0.4), (end.min(to), height + 0.4)];
         chart.draw_series([Rectangle::new(corners, TRUTH.filled())])?;
+        if row(label).is_none() {
+            let style = ("sans-serif", 13).into_font().color(&SETPOINT);
+            let place = (*start, height + 0.35);
+            chart.draw_series([Text::new(format!(" {label}"), place, style)])?;
+        }
     }
-    for mark in picture
-        .marks
-        .iter()
-        .filter(|mark| (from..=to).contains(&mark.t_s))
-    {
-        let Some(row) = row(&mark.decided.decision) else {
+    for decided in picture.decided {
+        let (Some(t_s), Some(row)) = (decided.t_s, row(&decided.decision)) else {
             continue;
         };
-        let colour = match mark.decided.decision.as_str() {
-            UNKNOWN => MEASURED,
-            _ if mark.decided.is_right() => RIGHT,
-            _ => WRONG,
+        if !(from..=to).contains(&t_s) {
+            continue;
+        }
+        let colour = match decided.verdict(picture.classes) {
+            Verdict::Right => RIGHT,
+            Verdict::Wrong => WRONG,
+            Verdict::Refused => MEASURED,
         };
-        chart.draw_series([Circle::new((mark.t_s, row as f64), 4, colour.filled())])?;
+        chart.draw_series([Circle::new((t_s, row as f64), 4, colour.filled())])?;
     }
     Ok(())
+}
+
+/// The least error that the picture of a calibration shows, as a power of ten: what states
+/// or finds less stands at its edge.
+const LEAST: f64 = 4.0;
+
+/// Stated against found as an SVG document: of each point the posterior that was stated,
+/// and the share that was right with its interval. On both axes the distance to one is
+/// logarithmic. On the diagonal a posterior is what it says; below it, it says too much.
+///
+/// # Errors
+/// [`Error::Work`] if the drawing library fails.
+pub fn calibration(title: &str, points: &[(f64, Interval)]) -> Result<String, Error> {
+    calibrated(title, points).map_err(|fault| Error::Work(format!("plot: {fault}")))
+}
+
+fn calibrated(title: &str, points: &[(f64, Interval)]) -> Result<String, Fault> {
+    let place = |share: f64| -(1.0 - share).max(f64::MIN_POSITIVE).log10().max(-LEAST);
+    let percent = |place: &f64| format!("{} %", 100.0 - 10_f64.powf(2.0 - place));
+    let mut svg = String::new();
+    {
+        let root = SVGBackend::with_string(&mut svg, (560, 560)).into_drawing_area();
+        root.fill(&WHITE)?;
+        let mut chart = ChartBuilder::on(&root)
+            .caption(title, ("sans-serif", 20))
+            .margin(12)
+            .x_label_area_size(44)
+            .y_label_area_size(64)
+            .build_cartesian_2d(0.0..LEAST, 0.0..LEAST)?;
+        chart
+            .configure_mesh()
+            .light_line_style(WHITE)
+            .x_labels(5)
+            .y_labels(5)
+            .x_label_formatter(&percent)
+            .y_label_formatter(&percent)
+            .x_desc("stated: mean posterior")
+            .y_desc("found: share of right decisions, 95 % interval")
+            .draw()?;
+        let diagonal = [(0.0, 0.0), (LEAST, LEAST)];
+        chart.draw_series(LineSeries::new(diagonal, SETPOINT.stroke_width(1)))?;
+        for (text, at) in [
+            ("says too little", (0.2, 3.7)),
+            ("says too much", (2.9, 0.3)),
+        ] {
+            let style = ("sans-serif", 15).into_font().color(&SETPOINT);
+            chart.draw_series([Text::new(text, at, style)])?;
+        }
+        for (stated, found) in points.iter().filter(|(_, found)| found.count > 0) {
+            let x = place(*stated);
+            let interval = [found.low, found.high].map(|share| (x, place(share)));
+            chart.draw_series(LineSeries::new(interval, MEASURED.stroke_width(1)))?;
+            let point = (x, place(found.share));
+            chart.draw_series([Circle::new(point, 4, MEASURED.filled())])?;
+        }
+        root.present()?;
+    }
+    Ok(svg)
 }

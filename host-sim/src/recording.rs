@@ -7,6 +7,7 @@
 use std::io::{self, Read, Write};
 
 use crate::Error;
+pub use crate::classifier::GATE;
 use crate::run::Run;
 
 /// Two channels under one label and trial, in time order.
@@ -26,9 +27,6 @@ pub struct Stream {
 
 /// The channels of a recording, unless said otherwise.
 pub const CHANNELS: [&str; 2] = ["x", "y"];
-
-/// Contact from which a sample counts, unless the model says otherwise.
-pub const GATE: f64 = 0.05;
 
 impl Stream {
     /// Whether each sample counts where contact must be at least `gate`.
@@ -203,13 +201,18 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
                 )),
             }
         };
+        // What matters is whether it is 0.
+        let whole = |place: usize| match cell(place).parse::<u16>() {
+            Ok(touch) => Ok(touch),
+            Err(_) => Err(format!(
+                "line {line}: touch is {:?}, not a whole number from 0 to 65535",
+                cell(place)
+            )),
+        };
         let sample = Cells {
             channels: [number(x_name, x)?, number(y_name, y)?],
             contact: contact.map(|place| number("contact", place)).transpose()?,
-            // Saturates: what matters is whether it is 0.
-            touch: touch
-                .map(|place| number("touch", place).map(|touch| touch as u16))
-                .transpose()?,
+            touch: touch.map(whole).transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
         if label.is_empty() {

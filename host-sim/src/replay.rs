@@ -79,6 +79,7 @@ impl Replay {
                 continue;
             };
             decided.push(Decided {
+                t_s: None,
                 label: stream.label.clone(),
                 trial: stream.trial.clone(),
                 decision: decisions::name(decision, &self.classes).to_owned(),

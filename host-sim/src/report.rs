@@ -3,6 +3,7 @@
 mod evaluation;
 mod runs;
 mod training;
+mod warnings;
 
 use std::fmt::{self, Display};
 use std::io::{self, Write};
@@ -12,7 +13,7 @@ use firmware::Event;
 
 use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
-pub use evaluation::{Figures, Thresholds};
+pub use evaluation::{Doubts, Figures, Thresholds};
 pub use runs::{OverRuns, SeedRange};
 pub use training::TrainingReport;
 
@@ -59,48 +60,70 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
     }
 }
 
-/// Reports a decision on standard output.
-pub fn decision(t_s: f64, decided: &Decided) {
+/// Reports a decision of a model of these classes on standard output.
+pub fn decision(decided: &Decided, classes: &[String]) {
     let Decided {
+        t_s,
         label,
         decision,
         samples,
         posterior,
         ..
     } = decided;
-    let verdict = match decision.as_str() {
-        UNKNOWN => "refused",
-        _ if decided.is_right() => "right",
-        _ => "wrong",
-    };
-    let percent = 100.0 * posterior;
+    let (t_s, percent) = (t_s.unwrap_or_default(), 100.0 * posterior);
+    let verdict = decided.verdict(classes);
     say(format_args!(
         "{t_s:8.3} s  {decision:<8} {percent:6.2} %  {samples:5} samples  {verdict} ({label})"
     ));
 }
 
-/// A score for people: confusion matrix, hit rate, decision time.
+/// A score for people: confusion matrix, hit rate, decision time in samples and, at so
+/// many ticks a second, in milliseconds.
 #[derive(Debug)]
-pub struct Summary<'a>(pub &'a Score, pub u32);
+pub struct Summary<'a>(pub &'a Score, pub Option<u32>);
 
 impl fmt::Display for Summary<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(score, tick_hz) = self;
-        let (Some(hits), Some(samples)) = (score.hit_rate(), score.mean_samples()) else {
-            return write!(f, "no decision");
+        let (Some(hits), Some(samples), Some(stated)) =
+            (score.hit_rate(), score.mean_samples(), score.stated())
+        else {
+            return match score.refused() {
+                0 => write!(f, "no decision"),
+                refused => write!(f, "{score}no decision but {refused} \"{UNKNOWN}\""),
+            };
         };
-        let milliseconds = samples * 1000.0 / f64::from(*tick_hz);
-        write!(f, "{score}")?;
+        let [hits, stated] = [hits, stated].map(|share| 100.0 * share);
+        let decisions = score.decisions();
         write!(
             f,
-            "{} decisions, hit rate {:.1} % (mean over classes), mean decision time {samples:.0} \
-             samples ({milliseconds:.0} ms)",
-            score.decisions(),
-            100.0 * hits,
+            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over classes), mean "
         )?;
-        match score.unknown() {
+        match tick_hz {
+            Some(tick_hz) => {
+                let ms = samples * 1000.0 / f64::from(*tick_hz);
+                write!(
+                    f,
+                    "decision time {samples:.0} samples ({ms:.0} ms)\n\
+                     they themselves stated {stated:.1} % in the mean"
+                )?;
+            }
+            None => write!(f, "{samples:.0} samples")?,
+        }
+        for (name, right, all) in score.strange() {
+            write!(
+                f,
+                "\n{name} is none of the model's classes: \"{UNKNOWN}\" is right, and was \
+                 decided {right} times of {all}"
+            )?;
+        }
+        match score.refused() {
             0 => Ok(()),
-            unknown => write!(f, "; {unknown} more were \"{UNKNOWN}\""),
+            refused => write!(
+                f,
+                "\n{refused} more said \"{UNKNOWN}\" of what the model knows: refused, neither \
+                 right nor wrong"
+            ),
         }
     }
 }

@@ -320,6 +320,7 @@ impl<B: Bench + ?Sized> Run<B> {
                 return None;
             };
             Some(Decided {
+                t_s: Some(self.row.t_s),
                 label: self.presented.label.to_owned(),
                 trial: self.presented.trial.to_string(),
                 decision: decisions::name(*decision, &self.classes).to_owned(),

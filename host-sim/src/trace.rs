@@ -44,7 +44,8 @@ impl Row {
 
 /// The columns in order. The first nine are fixed: other programs read them.
 pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
-contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right,touch";
+contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right,touch,\
+decision";
 
 /// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
@@ -66,12 +67,13 @@ impl<W: Write> TraceWriter<W> {
         })
     }
 
-    /// One row. Nine decimals show the error of the integrators; the cells of
-    /// a side that does not exist are empty.
+    /// One row, with the name of what was decided in its tick. Nine decimals show the
+    /// error of the integrators; the cells of a side that does not exist are empty, and
+    /// so is that of a decision where none fell.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn row(&mut self, row: &Row) -> io::Result<()> {
+    pub fn row(&mut self, row: &Row, decision: Option<&str>) -> io::Result<()> {
         let line = &mut self.line;
         line.clear();
         decimals::append(line, row.t_s, 9);
@@ -84,6 +86,8 @@ impl<W: Write> TraceWriter<W> {
             cell(line, *value, 0);
         }
         cell(line, row.touch.into(), 0);
+        line.push(b',');
+        text(line, decision.unwrap_or_default());
         line.push(b'\n');
         self.table.write_all(line)
     }
@@ -101,6 +105,17 @@ fn cell(line: &mut Vec<u8>, value: f64, decimals: u32) {
     }
 }
 
+/// A text, in quotes where a table asks for them.
+fn text(line: &mut Vec<u8>, text: &str) {
+    if text.contains([',', '"', '\n', '\r']) {
+        line.push(b'"');
+        line.extend(text.replace('"', "\"\"").bytes());
+        line.push(b'"');
+    } else {
+        line.extend(text.bytes());
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{HEADER, Row, TraceWriter};
@@ -108,19 +123,20 @@ mod tests {
     #[test]
     fn rows_have_as_many_cells_as_the_header_and_the_fixed_ones_first() {
         let mut table = TraceWriter::new(Vec::new()).unwrap();
-        table
-            .row(&Row {
-                t_s: 0.0005,
-                theta_deg: [50.0, f64::NAN],
-                z: [0.25, f64::NAN],
-                g: [1.0, f64::NAN],
-                contact: [0.0, f64::NAN],
-                angle_deg: [50.5, f64::NAN],
-                x: [8192.0, f64::NAN],
-                y: [8191.0, f64::NAN],
-                touch: 7,
-            })
-            .unwrap();
+        let row = Row {
+            t_s: 0.0005,
+            theta_deg: [50.0, f64::NAN],
+            z: [0.25, f64::NAN],
+            g: [1.0, f64::NAN],
+            contact: [0.0, f64::NAN],
+            angle_deg: [50.5, f64::NAN],
+            x: [8192.0, f64::NAN],
+            y: [8191.0, f64::NAN],
+            touch: 7,
+        };
+        for decision in [None, Some("unknown"), Some("sand, \"wet\"")] {
+            table.row(&row, decision).unwrap();
+        }
         let text = String::from_utf8(table.into_inner()).unwrap();
         let lines: Vec<_> = text.lines().collect();
         assert!(HEADER.starts_with(
@@ -131,7 +147,9 @@ mod tests {
         assert_eq!(
             lines[1],
             "0.000500000,50.000000000,,0.250000000,,1.000000000,,0.000000000,,\
-             50.500000000,,8192,,8191,,7"
+             50.500000000,,8192,,8191,,7,"
         );
+        assert!(lines[2].ends_with(",7,unknown"));
+        assert!(lines[3].ends_with(",7,\"sand, \"\"wet\"\"\""));
     }
 }

@@ -4,18 +4,20 @@ use tactile::ModelBuf;
 use tactile::train::joint::{self, JointModel, Trial};
 use tactile::train::{TrainError, Trainer};
 
-use crate::recording::{GATE, Stream};
+use crate::recording::Stream;
 
-/// The papers' model of `streams`; classes in the order in which they first appear.
+/// The papers' model of `streams`, of the samples whose contact is at least `gate`; classes
+/// in the order in which they first appear.
 ///
 /// # Errors
 /// What the trainer refuses.
 pub fn single<'s>(
     mut trainer: Trainer,
     streams: impl IntoIterator<Item = &'s Stream>,
+    gate: f64,
 ) -> Result<ModelBuf, TrainError> {
     for stream in streams {
-        let samples = stream.samples.iter().zip(stream.counts(GATE));
+        let samples = stream.samples.iter().zip(stream.counts(gate));
         for (sample, _) in samples.filter(|(_, counts)| *counts) {
             trainer.add(&stream.label, sample)?;
         }

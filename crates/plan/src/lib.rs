@@ -40,6 +40,17 @@ pub enum Mismatch {
     /// Its integrator, forward Euler, cannot carry it.
     #[error("{0}")]
     Unstable(Unstable),
+    /// Its classifier listens from another contact on than its model was trained from.
+    #[error(
+        "classifier.contact_min: found {found}; allowed: {gate}, from which the model was trained, \
+         or nothing"
+    )]
+    Gate {
+        /// The scene's contact π.
+        found: f64,
+        /// The model's.
+        gate: f32,
+    },
 }
 
 /// The pattern generator's settings; `None` for a passive scene.
@@ -129,11 +140,19 @@ pub fn stall_q15(motor: &scene::MotorSection) -> i16 {
     Duty::from_f32(motor.duty_limit as f32 / 2.0).q15()
 }
 
-/// The contact below which the classifier of a scene does not listen: the scene's, or
-/// that of its model, `gate`. None: it always listens.
-pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Option<f64> {
-    let classifier = scene.classifier.as_ref()?;
-    classifier.contact_min.or(gate.map(f64::from))
+/// The contact below which the classifier of a scene does not listen: that of its model,
+/// `gate`, or the scene's. None: it always listens.
+///
+/// # Errors
+/// [`Mismatch::Gate`] if both have one and not the same: the model's weights and floors
+/// hold for what it was trained on.
+pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Result<Option<f64>, Mismatch> {
+    let classifier = scene.classifier.as_ref();
+    let found = classifier.and_then(|classifier| classifier.contact_min);
+    match (found, classifier.and(gate)) {
+        (Some(found), Some(gate)) if found as f32 != gate => Err(Mismatch::Gate { found, gate }),
+        (found, gate) => Ok(found.or(gate.map(f64::from))),
+    }
 }
 
 /// H50 for the contact signals, where the scene has something that uses them:
@@ -156,7 +175,7 @@ pub fn contact<R: Real>(
 
 #[cfg(test)]
 mod tests {
-    use super::{Mismatch, contact, motion};
+    use super::{Mismatch, contact, contact_min, motion};
     use scene::Scene;
     use whisking::{State, oscillator::OscillatorIntegrator};
 
@@ -201,6 +220,25 @@ kind = "ideal"
         assert!((theta - 0.9).abs() < 1e-12);
         assert_eq!(motion.stall_q15, 16_384, "half of a full duty");
         assert!(contact::<f64>(&scene, false).unwrap().is_some());
+    }
+
+    #[test]
+    fn scene_and_model_have_one_gate() {
+        let scene = |contact_min: &str| {
+            let classifier = format!(
+                "[classifier]\nrule = \"window\"\nmodel = \"m\"\nwindow = 20\n{contact_min}"
+            );
+            Scene::from_str("s.toml", &format!("{SCENE}{classifier}")).unwrap()
+        };
+        let (says, silent) = (scene("contact_min = 0.05"), scene(""));
+        assert_eq!(contact_min(&says, None), Ok(Some(0.05)));
+        assert_eq!(contact_min(&says, Some(0.05)), Ok(Some(0.05)));
+        assert_eq!(contact_min(&silent, Some(0.25)), Ok(Some(0.25)));
+        assert_eq!(contact_min(&silent, None), Ok(None));
+        let refused = contact_min(&says, Some(0.25)).unwrap_err().to_string();
+        assert!(refused.contains("found 0.05; allowed: 0.25"), "{refused}");
+        let without = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        assert_eq!(contact_min(&without, Some(0.25)), Ok(None));
     }
 
     #[test]

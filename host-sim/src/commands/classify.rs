@@ -6,10 +6,11 @@ use scene::Rule;
 
 use crate::Error;
 use crate::classifier::Fault;
-use crate::decisions::Score;
+use crate::decisions::{Columns, Score};
 use crate::files;
 use crate::progress::{Progress, Verbosity};
 use crate::replay::Replay;
+use crate::report::Summary;
 
 /// Streams the columns `channels` of the recording `data` through the classifier of `model` and writes
 /// its decisions to `out`. Returns their score.
@@ -42,14 +43,7 @@ pub fn classify(
         progress.set(n as u64);
     }
     drop(progress);
-    files::write_decisions(out, &decided)?;
+    files::write_decisions(out, &decided, Columns::OfRecording)?;
     let score = Score::new(replay.classes(), &decided);
-    Ok(match (score.hit_rate(), score.mean_samples()) {
-        (Some(hits), Some(samples)) => format!(
-            "{score}{} decisions, hit rate {:.1} % (mean over classes), mean {samples:.0} samples",
-            score.decisions(),
-            100.0 * hits
-        ),
-        _ => "no decision".to_owned(),
-    })
+    Ok(Summary(&score, None).to_string())
 }

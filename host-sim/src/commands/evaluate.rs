@@ -4,13 +4,15 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::channels;
+use super::{channels, picture};
 use crate::Error;
 use crate::classifier::{self, Fault};
 use crate::evaluation::{self, Candidate, Evaluation, THRESHOLDS};
 use crate::files;
+use crate::output::write_whole;
+use crate::plot;
 use crate::progress::{Progress, Verbosity};
-use crate::report::{Figures, Thresholds};
+use crate::report::{Doubts, Figures, Thresholds};
 
 /// What to evaluate.
 #[derive(Debug, Args)]
@@ -35,9 +37,12 @@ pub struct Arguments {
     /// contact in the mean
     #[arg(long, value_name = "S")]
     time: Option<f64>,
-    /// Samples a second of the recording
+    /// Samples a second of the recording; the model's own must have been the same
     #[arg(long, value_name = "HZ", default_value_t = 2000)]
     rate: u32,
+    /// Where to write a picture of the calibration: stated against found
+    #[arg(long, value_name = "FILE.svg", value_parser = picture)]
+    plot: Option<PathBuf>,
 }
 
 /// The figures of a model on a recording, and the thresholds that were asked for.
@@ -52,6 +57,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         error_rate,
         time,
         rate,
+        plot,
         ..
     } = arguments;
     wanted("--error-rate", *error_rate, 1.0)?;
@@ -67,8 +73,21 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         Fault::Rule(fault) => Error::Input(format!("--threshold {threshold}: {fault}")),
     };
     let presented = evaluation::presentations(&model, *threshold, &streams).map_err(wrong)?;
-    let figures = Evaluation::new(&classifier::names(&model), &presented);
-    let mut told = vec![Figures(&figures, tick_hz).to_string()];
+    let classes = classifier::names(&model);
+    let evaluation = Evaluation::new(&classes, &presented);
+    if let Some(plot) = plot {
+        let bins = evaluation.calibration.bins.iter();
+        let points: Vec<_> = bins.map(|bin| (bin.stated, bin.found)).collect();
+        let svg = plot::calibration(&data.display().to_string(), &points)?;
+        write_whole(plot, svg.as_bytes())?;
+    }
+    let doubts = Doubts {
+        classes: &classes,
+        evaluation: &evaluation,
+        outside: evaluation::outside(&model, &streams),
+    };
+    let figures = Figures(&evaluation, tick_hz);
+    let mut told = vec![format!("{figures}\n{doubts}")];
     if error_rate.is_none() && time.is_none() {
         return Ok(told.concat());
     }
@@ -88,9 +107,6 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         let wanted = format!("decisions within {seconds} s in the mean");
         told.push(suggestion(found, &wanted));
     }
-    told.push(
-        "\nmeasured on this recording; of another one it holds as far as that is alike".to_owned(),
-    );
     Ok(told.concat())
 }
 

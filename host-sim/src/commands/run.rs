@@ -7,22 +7,42 @@ use tactile::ModelBuf;
 
 use crate::bench::Bench;
 use crate::classifier::{Classifier, Fault};
-use crate::decisions::{Decided, Score};
+use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
+use crate::output::Output;
+use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
 use crate::{Error, report};
 
-/// Runs the scene in `path`; writes `out/trace.csv`, and `out/decisions.csv`
-/// where the scene classifies. Returns the score of the decisions, where there
-/// are any to score.
+/// Runs the scene in `path`; writes `out/trace.csv`, `out/decisions.csv` where the scene
+/// classifies, and a picture of the left whisker to `plot`. Returns the score of the
+/// decisions, where there are any to score.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene or model that is wrong, [`Error::Write`].
-pub fn run(path: &Path, out: &Path, verbosity: Verbosity) -> Result<Option<String>, Error> {
+pub fn run(
+    path: &Path,
+    out: &Path,
+    plot: Option<&Path>,
+    verbosity: Verbosity,
+) -> Result<Option<String>, Error> {
     let loaded = Loaded::new(path)?;
     let run = Run::new(&loaded.scene, loaded.classifier()?)?;
-    play(run, &loaded.scene, out, verbosity, |_| Ok(()))
+    let mut picture = plot.map(Output::create).transpose()?;
+    let mut film = Film::default();
+    let played = play(run, &loaded.scene, out, verbosity, |run, _| {
+        if plot.is_some() {
+            film.take(run);
+        }
+        Ok(())
+    })?;
+    if let Some(picture) = picture.take() {
+        let title = format!("{}: the left whisker", loaded.scene.name);
+        let svg = plot::left_whisker(&film.picture(&title, &played.classes, &played.decided));
+        picture.whole(svg?.as_bytes())?;
+    }
+    Ok(played.summary())
 }
 
 /// A scene that has been checked, and the model that it names.
@@ -76,6 +96,8 @@ impl Loaded {
             Fault::Model(fault) => Error::file(model_path, fault),
             Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
         })?;
+        let gate = classifier.touch_rule().map(|touch| touch.gate);
+        plan::contact_min(&self.scene, gate).map_err(|fault| Error::file(path, fault))?;
         knows_a_texture(&self.scene, classifier.classes())
             .map_err(|fault| Error::file(path, fault))?;
         Ok(Some(classifier))
@@ -92,6 +114,27 @@ impl Loaded {
     }
 }
 
+/// What was decided in a run.
+#[derive(Debug)]
+pub struct Played {
+    /// The decisions; none where the scene does not classify.
+    pub decided: Vec<Decided>,
+    /// Names of the classes.
+    pub classes: Vec<String>,
+    tick_hz: u32,
+    classifies: bool,
+}
+
+impl Played {
+    /// The score, where there is anything to score.
+    pub fn summary(&self) -> Option<String> {
+        self.classifies.then(|| {
+            let score = Score::new(&self.classes, &self.decided);
+            report::Summary(&score, Some(self.tick_hz)).to_string()
+        })
+    }
+}
+
 /// Plays a scene to its end and writes its files, as [`run`] does. `after` is
 /// called after each tick and can end the run with an error.
 ///
@@ -102,31 +145,35 @@ pub fn play<B: Bench + ?Sized>(
     scene: &Scene,
     out: &Path,
     verbosity: Verbosity,
-    mut after: impl FnMut(&mut Run<B>) -> Result<(), Error>,
-) -> Result<Option<String>, Error> {
+    mut after: impl FnMut(&mut Run<B>, &Progress) -> Result<(), Error>,
+) -> Result<Played, Error> {
     let mut trace = TraceFile::create(&out.join("trace.csv"))?;
     let mut decided: Vec<Decided> = Vec::new();
     let mut progress = Progress::new(verbosity, "simulating", run.ticks());
     for n in 0..run.ticks() {
         let row = run.tick();
-        after(&mut run)?;
-        trace.row(&row)?;
+        after(&mut run, &progress)?;
+        let decision = run.decision();
+        trace.row(&row, decision.as_ref().map(|d| d.decision.as_str()))?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
-        decided.extend(run.decision());
+        decided.extend(decision);
         progress.tick(n);
     }
     drop(progress);
 
-    if scene.classifier.is_some() {
-        files::write_decisions(&out.join("decisions.csv"), &decided)?;
+    let classifies = scene.classifier.is_some();
+    if classifies {
+        files::write_decisions(&out.join("decisions.csv"), &decided, Columns::OfScene)?;
     }
     trace.finish()?;
-    Ok(scene.classifier.as_ref().map(|_| {
-        let score = Score::new(run.classes(), &decided);
-        report::Summary(&score, scene.tick_hz).to_string()
-    }))
+    Ok(Played {
+        decided,
+        classes: run.classes().to_vec(),
+        tick_hz: scene.tick_hz,
+        classifies,
+    })
 }
 
 /// A model with none of the presented textures belongs to another scene.

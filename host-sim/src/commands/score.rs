@@ -48,10 +48,17 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let Arguments {
         scene: path, seeds, ..
     } = arguments;
-    let scene = Scene::load(path)?;
+    let mut scene = Scene::load(path)?;
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     if let Some(caution) = plan::cautions(&scene) {
         report::warn(Error::file(path, caution));
+    }
+    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
+    let how = arguments.how.gated(contact_min);
+    how.check()?;
+    // Trained, and decided, by one gate.
+    if let (Some(classifier), Some(_)) = (&mut scene.classifier, how.gate) {
+        classifier.contact_min = how.gate;
     }
     let textures = scene.plant.textured.as_ref().map(|t| &t.textures);
     let labels: Vec<_> = textures.into_iter().flatten().map(|t| t.name()).collect();
@@ -83,7 +90,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         tactile::Threshold::new(threshold).map_err(wrong)?;
     }
 
-    let trained = train(&scene, train_seed, arguments, verbosity)?;
+    let trained = train(&scene, train_seed, &how, arguments, verbosity)?;
     let classifier = Classifier::new(trained.model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::Work(fault),
         Fault::Rule(fault) => Error::file(path, fault),
@@ -109,6 +116,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
 fn train(
     scene: &Scene,
     seed: u64,
+    how: &How,
     arguments: &Arguments,
     verbosity: Verbosity,
 ) -> Result<TrainedModel, Error> {
@@ -119,7 +127,7 @@ fn train(
     let mut streams = record::streams(&scene, verbosity)?;
     streams.retain(|stream| Some(&stream.label) != arguments.unknown.as_ref());
     let recordings = [(scene.name.clone(), streams)];
-    let trained = arguments.how.train(&recordings, scene.tick_hz);
+    let trained = how.train(&recordings, scene.tick_hz);
     trained.map_err(|error| Error::Input(format!("training: {error}")))
 }
 

@@ -7,10 +7,12 @@ use tactile::train::joint::{self, JointModel};
 use tactile::train::{Options, TrainError, Trainer};
 use tactile::{ModelBuf, ModelError};
 
-use super::channels;
+use super::{channels, picture};
 use crate::Error;
+use crate::decisions::UNKNOWN;
 use crate::files;
-use crate::output::write_whole;
+use crate::output::{Output, write_whole};
+use crate::plot;
 use crate::recording::{GATE, Stream};
 use crate::report::TrainingReport;
 use crate::training;
@@ -28,9 +30,15 @@ pub struct Arguments {
     /// Where to write the model
     #[arg(long, value_name = "MODEL")]
     pub out: PathBuf,
-    /// Samples a second of the recording
+    /// Samples a second of the recording; the model is to be used at the same rate
     #[arg(long, value_name = "HZ", default_value_t = 2000)]
     pub rate: u32,
+    /// A label that is left out: the model does not know it
+    #[arg(long, value_name = "LABEL")]
+    pub unknown: Option<String>,
+    /// Where to write a picture of the calibration of joint tables: stated against found
+    #[arg(long, value_name = "FILE.svg", value_parser = picture)]
+    pub plot: Option<PathBuf>,
     #[command(flatten)]
     /// By what tables, and how.
     pub how: How,
@@ -52,6 +60,14 @@ pub struct How {
     /// Samples of a block, after each of which a decision may fall
     #[arg(long, default_value_t = 20)]
     pub block: u32,
+    /// Contact from which a sample counts, 0 to 1 [default: as the scene says, or 0.05];
+    /// joint tables keep it, and the module gates by it
+    #[arg(long, value_name = "PI")]
+    pub gate: Option<f64>,
+    /// Seconds without contact after which a touch has ended, of joint tables: above 0, up
+    /// to 10 [default: 0.1]
+    #[arg(long, value_name = "S")]
+    pub gap: Option<f64>,
 }
 
 /// The tables of a model.
@@ -82,7 +98,49 @@ impl How {
             bins: None,
             smooth: None,
             block: 20,
+            gate: None,
+            gap: None,
         }
+    }
+
+    /// The same where samples count from `contact_min` on, unless it says otherwise itself.
+    #[must_use]
+    pub fn gated(self, contact_min: Option<f64>) -> Self {
+        let gate = self.gate.or(contact_min);
+        Self { gate, ..self }
+    }
+
+    /// Contact from which a sample counts.
+    pub fn least(&self) -> f64 {
+        self.gate.unwrap_or(GATE)
+    }
+
+    /// Samples without contact that end a touch, at least one.
+    fn gap_samples(&self, tick_hz: u32) -> u32 {
+        let samples = self.gap.unwrap_or(GAP_S) * f64::from(tick_hz);
+        (samples.round() as u32).max(1)
+    }
+
+    /// Whether gate and gap are in their ranges, and of use to these tables.
+    ///
+    /// # Errors
+    /// [`Error::Input`] names the option.
+    pub fn check(&self) -> Result<(), Error> {
+        let (gate, gap) = (self.least(), self.gap.unwrap_or(GAP_S));
+        // Not a number is outside, too.
+        if !(0.0..=1.0).contains(&gate) {
+            let fault = format!("--gate: found {gate}, allowed: 0 to 1");
+            return Err(Error::Input(fault));
+        }
+        if !(gap > 0.0 && gap <= 10.0) {
+            let fault = format!("--gap: found {gap}, allowed: above 0, up to 10 s");
+            return Err(Error::Input(fault));
+        }
+        if self.gap.is_some() && self.tables == Tables::Single {
+            let fault = "--gap: single tables know no touches; allowed: with --tables joint";
+            return Err(Error::Input(fault.to_owned()));
+        }
+        Ok(())
     }
 
     /// Trains from recordings of `tick_hz` samples a second.
@@ -101,7 +159,8 @@ impl How {
                     bins: self.bins.unwrap_or(default.bins),
                     smooth: self.smooth.unwrap_or(default.smooth),
                     block: self.block,
-                    gap: (GAP_S * f64::from(tick_hz)).round() as u32,
+                    gate: self.least(),
+                    gap: self.gap_samples(tick_hz),
                     ..default
                 };
                 let joint = training::joint(recordings, &options)?;
@@ -118,7 +177,7 @@ impl How {
                     block: self.block,
                 };
                 let streams = recordings.iter().flat_map(|(_, streams)| streams);
-                let model = training::single(Trainer::new(2, options)?, streams)?;
+                let model = training::single(Trainer::new(2, options)?, streams, self.least())?;
                 Ok(TrainedModel { model, joint: None })
             }
         }
@@ -139,15 +198,31 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         channels,
         out,
         rate,
+        unknown,
+        plot,
         how,
     } = arguments;
-    let recordings = read(data, channels)?;
+    how.check()?;
+    if *rate == 0 {
+        return Err(Error::Input("--rate: found 0, allowed: above 0".to_owned()));
+    }
+    if plot.is_some() && how.tables == Tables::Single {
+        let fault = "--plot: single tables have no report; see host-sim evaluate --plot";
+        return Err(Error::Input(fault.to_owned()));
+    }
+    let mut recordings = read(data, channels)?;
+    if let Some(label) = unknown {
+        leave_out(&mut recordings, label)?;
+    }
+    reserved(data, &recordings)?;
     let trained = how
         .train(&recordings, *rate)
-        .map_err(|error| refusal(data, &error))?;
+        .map_err(|error| refusal(data, channels, &error))?;
+    // Opened first: nothing is written where one of them cannot be.
+    let picture = plot.as_deref().map(Output::create).transpose()?;
     write_whole(out, trained.model.as_bytes())?;
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
-    let counts = streams().flat_map(|stream| stream.counts(GATE));
+    let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
     let told = format!(
         "{}: {samples} samples in {} streams, {} bytes",
@@ -155,10 +230,48 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         streams().count(),
         trained.model.as_bytes().len()
     );
-    Ok(match &trained.joint {
-        Some(joint) => format!("{told}\n\n{}", TrainingReport(joint)),
-        None => told,
-    })
+    let Some(joint) = &trained.joint else {
+        return Ok(told);
+    };
+    if let Some(picture) = picture {
+        let points = joint.report.calibration.iter();
+        let points: Vec<_> = points.map(|at| (at.stated, at.found)).collect();
+        picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
+    }
+    Ok(format!("{told}\n\n{}", TrainingReport(joint)))
+}
+
+/// Leaves out what is of this label.
+fn leave_out(recordings: &mut [(String, Vec<Stream>)], label: &str) -> Result<(), Error> {
+    let all = || recordings.iter().flat_map(|(_, streams)| streams);
+    if !all().any(|stream| stream.label == label) {
+        let mut labels: Vec<&str> = all().map(|stream| stream.label.as_str()).collect();
+        labels.sort_unstable();
+        labels.dedup();
+        let labels = labels.join(", ");
+        let fault = format!("--unknown: found {label:?}, allowed: {labels}");
+        return Err(Error::Input(fault));
+    }
+    for (_, streams) in recordings {
+        streams.retain(|stream| stream.label != label);
+    }
+    Ok(())
+}
+
+/// No class may be called what a decision for none of them is.
+fn reserved(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<(), Error> {
+    let is_reserved = |stream: &Stream| stream.label == UNKNOWN;
+    let mut named = data.iter().zip(recordings);
+    match named.find(|(_, (_, streams))| streams.iter().any(is_reserved)) {
+        None => Ok(()),
+        Some((path, _)) => Err(Error::file(
+            path,
+            format!(
+                "the label {UNKNOWN:?} is what a decision for none of the classes says; \
+                 leave it out with --unknown {UNKNOWN}, or name the class otherwise"
+            ),
+        )),
+    }
 }
 
 /// Recordings, each with its name.
@@ -172,7 +285,8 @@ fn read(data: &[PathBuf], channels: &[String; 2]) -> Result<Vec<(String, Vec<Str
 }
 
 /// What is wrong: an option, or the data.
-fn refusal(data: &[PathBuf], error: &TrainError) -> Error {
+fn refusal(data: &[PathBuf], channels: &[String; 2], error: &TrainError) -> Error {
+    let first = data.first().map_or(Path::new(""), PathBuf::as_path);
     let option = match error {
         TrainError::Smooth(_) | TrainError::Option { name: "smooth", .. } => "--smooth",
         TrainError::Model(ModelError::Bins(_)) | TrainError::Option { name: "bins", .. } => {
@@ -180,10 +294,14 @@ fn refusal(data: &[PathBuf], error: &TrainError) -> Error {
         }
         TrainError::Model(ModelError::Block(_) | ModelError::BlockTimesChannels(_))
         | TrainError::Option { name: "block", .. } => "--block",
-        _ => {
-            let first = data.first().map_or(Path::new(""), PathBuf::as_path);
-            return Error::file(first, error);
+        TrainError::Range { channel } => {
+            let name = channels.get(*channel).map_or("", String::as_str);
+            return Error::file(
+                first,
+                format!("{name}: its range is too wide or too narrow"),
+            );
         }
+        _ => return Error::file(first, error),
     };
     Error::Input(format!("{option}: {error}"))
 }

@@ -3,8 +3,10 @@
 use std::fmt;
 
 use tactile::score::{Calibration, Interval};
+use tactile::train::joint::Warning;
 
-use crate::evaluation::{Candidate, Evaluation};
+use super::warnings::Told;
+use crate::evaluation::{Candidate, ClassFigures, Evaluation};
 
 /// A share in percent, with its interval.
 pub(crate) struct Percent(pub(crate) Interval);
@@ -35,19 +37,32 @@ impl fmt::Display for Figures<'_> {
         let Evaluation {
             score,
             hits,
+            classes,
             samples,
+            samples_error,
             calibration,
             refused,
             strange,
             undecided,
         } = evaluation;
         writeln!(f, "{score}")?;
+        let width = classes.iter().map(|class| class.name.chars().count()).max();
+        for class in classes {
+            write!(f, "{:>1$}: ", class.name, width.unwrap_or(0))?;
+            writeln!(f, "{}", OfClass(class, *tick_hz))?;
+        }
+        writeln!(f)?;
         match hits {
             Some(hits) => {
                 let hits = 100.0 * hits;
                 let ms = samples * 1000.0 / tick_hz;
                 writeln!(f, "hit rate           {hits:.1} % (mean over classes)")?;
-                writeln!(f, "decision time      {samples:.0} samples ({ms:.0} ms)")?;
+                let error = samples_error * 1000.0 / tick_hz;
+                writeln!(
+                    f,
+                    "decision time      {samples:.0} samples ({ms:.0} ms), standard error \
+                     {error:.1} ms"
+                )?;
                 write!(f, "{}", Stated(calibration))?;
             }
             None => writeln!(f, "no decision for a class")?,
@@ -60,7 +75,113 @@ impl fmt::Display for Figures<'_> {
     }
 }
 
-/// Stated against found, with a bar for each bin: o what was found, | what was stated.
+/// The figures of a class; times by samples a second.
+struct OfClass<'a>(&'a ClassFigures, f64);
+
+impl fmt::Display for OfClass<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(class, tick_hz) = self;
+        if let Some(samples) = class.samples {
+            let ms = 1000.0 / tick_hz;
+            let error = samples.sd / (samples.count as f64).sqrt();
+            write!(
+                f,
+                "right {}; after {:.0} ± {:.1} ms; ",
+                Percent(class.hits),
+                ms * samples.mean,
+                ms * error
+            )?;
+        }
+        write!(
+            f,
+            "refused {}; without a decision {}",
+            Percent(class.refused),
+            Percent(class.undecided)
+        )
+    }
+}
+
+/// What a user has to know before trusting the figures of a recording.
+#[derive(Debug)]
+pub struct Doubts<'a> {
+    /// The classes of the model.
+    pub classes: &'a [String],
+    /// The figures.
+    pub evaluation: &'a Evaluation,
+    /// Share of the samples with contact that lie outside of the model's range.
+    pub outside: f64,
+}
+
+/// Presentations of a class below which a warning is due.
+const FEW: usize = 3;
+/// Share of its decisions by which a class may be taken for another before they cannot
+/// be told.
+const MISTAKEN: f64 = 0.25;
+/// Share of samples that may lie outside; of the training itself it is below 1 %.
+const OUTSIDE: f64 = 0.05;
+
+impl fmt::Display for Doubts<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            classes,
+            evaluation:
+                Evaluation {
+                    score,
+                    classes: known,
+                    ..
+                },
+            outside,
+        } = self;
+        if known.is_empty() {
+            write!(
+                f,
+                "\nwarning: none of the labels is a class of the model, which knows {}",
+                classes.join(", ")
+            )?;
+        }
+        for name in classes.iter().filter(|_| !known.is_empty()) {
+            let class = known.iter().find(|class| class.name == *name);
+            match class.map_or(0, |class| class.presented) {
+                0 => write!(f, "\nwarning: {name}: nothing of it is in the recording")?,
+                trials if trials < FEW => {
+                    let name = name.clone();
+                    write!(
+                        f,
+                        "\nwarning: {}",
+                        Told(&Warning::FewTrials { name, trials })
+                    )?;
+                }
+                _ => {}
+            }
+        }
+        for (a, b) in pairs(classes.len()) {
+            let mistaken = f64::midpoint(score.mistaken(a, b), score.mistaken(b, a));
+            if mistaken > MISTAKEN {
+                let names = [a, b].map(|class| classes[class].clone());
+                write!(
+                    f,
+                    "\nwarning: {}",
+                    Told(&Warning::Alike { names, mistaken })
+                )?;
+            }
+        }
+        if *outside > OUTSIDE {
+            write!(
+                f,
+                "\nwarning: {:.0} % of samples lie outside of the range that the model was trained \
+                 on: other units, another sensor, or another motion?",
+                100.0 * outside
+            )?;
+        }
+        write!(f, "\nwarning: {}", Told(&Warning::OneRecording))
+    }
+}
+
+fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..count).flat_map(|b| (0..b).map(move |a| (a, b)))
+}
+
+/// Stated against found, by bins of the posterior.
 pub(crate) struct Stated<'a>(pub(crate) &'a Calibration);
 
 impl fmt::Display for Stated<'_> {
@@ -108,7 +229,16 @@ impl fmt::Display for Thresholds<'_> {
                 evaluation.refused.share,
                 evaluation.undecided.share,
             ]
-            .map(|share| 100.0 * share);
+            // Of none there is no share.
+            .map(|share| if share.is_nan() { 0.0 } else { 100.0 * share });
+            if found.count == 0 {
+                write!(
+                    f,
+                    "\n{:<9} no decision for a class {refused:23.1} %  {undecided:5.1} %",
+                    at.threshold
+                )?;
+                continue;
+            }
             let interval = format!("({low:.2} to {high:.2})");
             let ms = evaluation.samples * 1000.0 / tick_hz;
             write!(

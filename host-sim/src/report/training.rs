@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use tactile::train::joint::{JointModel, Warning};
+use tactile::train::joint::JointModel;
 
 use super::evaluation::Percent;
+use super::warnings::Told;
 
 /// What held-out trials say of a model.
 #[derive(Debug)]
@@ -35,23 +36,30 @@ impl fmt::Display for TrainingReport<'_> {
         }
         writeln!(f)?;
         for class in &report.classes {
+            write!(f, "{:>width$}: ", class.name)?;
+            if class.hits.count > 0 {
+                write!(
+                    f,
+                    "right {}; mean {:.0} samples; right but refused {}; ",
+                    Percent(class.hits),
+                    class.samples,
+                    Percent(class.refused)
+                )?;
+            }
             writeln!(
                 f,
-                "{:>width$}: right {}; mean {:.0} samples; right but refused {}; \
-                 nothing decided in {} of {} trials",
-                class.name,
-                Percent(class.hits),
-                class.samples,
-                Percent(class.refused),
-                class.undecided,
-                class.trials
+                "nothing decided in {} of {} trials",
+                class.undecided, class.trials
             )?;
         }
-        writeln!(
-            f,
-            "\nthreshold  stated  found              samples  unknown"
-        )?;
-        for at in report.calibration.iter().filter(|at| at.found.count > 0) {
+        let decided = report.calibration.iter().filter(|at| at.found.count > 0);
+        if decided.clone().next().is_some() {
+            writeln!(
+                f,
+                "\nthreshold  stated  found              samples  unknown"
+            )?;
+        }
+        for at in decided {
             let [stated, found, low, high, unknown] = [
                 at.stated,
                 at.found.share,
@@ -70,51 +78,5 @@ impl fmt::Display for TrainingReport<'_> {
             write!(f, "\nwarning: {}", Told(warning))?;
         }
         Ok(())
-    }
-}
-
-/// A warning in words.
-struct Told<'a>(&'a Warning);
-
-impl fmt::Display for Told<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Warning::FewTrials { name, trials } => {
-                write!(f, "{name}: {trials} trials are too few to judge by")
-            }
-            Warning::Empty { name, trials } => write!(
-                f,
-                "{name}: {trials} trials have not one block of samples with contact"
-            ),
-            Warning::Halved { name } => write!(
-                f,
-                "{name}: its only trial was cut in halves, which are more alike than trials"
-            ),
-            Warning::OneRecording => write!(
-                f,
-                "all is of one recording: what this says of another one is unknown"
-            ),
-            Warning::NotAcrossRecordings => write!(
-                f,
-                "not every class is in several recordings: trials were held out, not \
-                 recordings, so what this says of another recording is unknown"
-            ),
-            Warning::Alike { names, mistaken } => write!(
-                f,
-                "{} and {} cannot be told apart: the other one wins {:.0} % of stretches",
-                names[0],
-                names[1],
-                100.0 * mistaken
-            ),
-            Warning::Weight { table, weight } if *weight <= 0.0 => {
-                write!(f, "table {} tells nothing: its weight is zero", table + 1)
-            }
-            Warning::Weight { table, weight } => write!(
-                f,
-                "table {} has the largest weight there is, {weight:.2}",
-                table + 1
-            ),
-            other => write!(f, "{other:?}"),
-        }
     }
 }

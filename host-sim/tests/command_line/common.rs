@@ -221,19 +221,18 @@ pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
 }
 
-/// Reads `decisions.csv`; checks its header.
+/// Reads `decisions.csv`; checks its header. That of a scene tells the time as well.
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
-    let header = [
-        "label",
-        "trial",
-        "decision",
-        "samples",
-        "posterior",
-        "touch",
-    ];
-    assert_eq!(rows.next().unwrap(), header);
+    let header = rows.next().unwrap().join(",");
+    let of_recording = "label,trial,decision,samples,posterior,touch";
+    let of_scene = format!("{of_recording},t_s");
+    assert!(
+        [of_recording, &of_scene].contains(&header.as_str()),
+        "{header}"
+    );
     rows.map(|row| Decided {
+        t_s: row.get(6).map(|t_s| t_s.parse().unwrap()),
         label: row[0].into(),
         trial: row[1].into(),
         decision: row[2].into(),

@@ -33,7 +33,9 @@ fn run_writes_a_row_a_tick() {
     assert_eq!(rows.len(), 1 + 200);
     for (n, row) in (1..).zip(&rows[1..]) {
         assert_eq!(row.len(), rows[0].len());
-        let values: Vec<f64> = row.iter().map(|cell| cell.parse().unwrap()).collect();
+        let (decision, numbers) = row.split_last().unwrap();
+        assert_eq!(*decision, "", "nothing is decided");
+        let values: Vec<f64> = numbers.iter().map(|cell| cell.parse().unwrap()).collect();
         assert_eq!(values[0], f64::from(n) / 2000.0);
         assert!(values.iter().all(|value| value.is_finite()));
     }
@@ -68,7 +70,18 @@ fn run_writes_decisions_where_the_scene_classifies() {
     }
     let told = format!("\n{} decisions, hit rate ", decided.len());
     assert!(ran.stdout.contains(&told), "{}", ran.stdout);
-    assert_eq!(place.text("out/trace.csv").lines().count(), 1 + 6000);
+    let trace = place.text("out/trace.csv");
+    let trace = cells(&trace);
+    assert_eq!(trace.len(), 1 + 6000);
+    // The trace has each decision in its tick.
+    let fallen = trace[1..].iter().filter(|row| !row[16].is_empty());
+    let fallen: Vec<_> = fallen.map(|row| (row[0].parse().ok(), row[16])).collect();
+    let told: Vec<_> = decided
+        .iter()
+        .map(|d| (d.t_s, d.decision.as_str()))
+        .collect();
+    assert_eq!(trace[0][16], "decision");
+    assert_eq!(fallen, told);
 
     // The model is looked for beside the scene first, then from where one stands.
     let beside = place.bytes("out/decisions.csv");
@@ -219,18 +232,19 @@ fn help_names_every_command_and_option() {
         assert!(help("--help").contains(word), "{word}");
     }
     for (command, options) in [
-        ("run", "<SCENE> --out"),
+        ("run", "<SCENE> --out --plot"),
         (
             "train",
-            "--data --out --rate --tables --bins --smooth --block 32 100 0.7 5 20",
+            "--data --out --rate --unknown --plot --tables --bins --smooth --block --gate --gap \
+             32 100 0.7 5 20 0.05 0.1",
         ),
         (
             "evaluate",
-            "--model --data --threshold 0.99 --error-rate --time --rate",
+            "--model --data --threshold 0.99 --error-rate --time --rate --plot",
         ),
         (
             "score",
-            "<SCENE> --seeds --train-seed --threshold --unknown --tables",
+            "<SCENE> --seeds --train-seed --threshold --unknown --tables --gate --gap",
         ),
         (
             "classify",

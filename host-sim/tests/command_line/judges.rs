@@ -1,5 +1,7 @@
 //! What `evaluate` and `score` say.
 
+use tactile::{ModelBuf, TouchRule};
+
 use crate::common::{Place, SEQUENTIAL, TEXTURED};
 
 /// Class `b` is high in x, `a` is low; one sample in eight says the other class.
@@ -38,7 +40,7 @@ fn evaluate_states_finds_and_counts() {
         assert!(line.contains(what), "{line}");
     };
     says("hit rate", " 87.5 % (mean over classes)");
-    says("decision time", " 1 samples (1 ms)");
+    says("decision time", " 1 samples (1 ms), standard error 0.0 ms");
     says("stated", " 87.50 %");
     says("found", " 83.3 % (43.6 to 97.0) of 6");
     says("calibration error", " 4.17 %");
@@ -127,4 +129,80 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
     );
     line(&told, "refused of the unknown texture, %");
     line(&told, "refused, unknown");
+}
+
+/// By class, with a picture, and with what is doubtful.
+#[test]
+fn evaluate_warns_and_draws() {
+    let place = evaluating("a,0,0,0\na,0,0,0\na,1,0,0\na,2,100,0\nc,0,900,0\n");
+    let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold 0.8";
+    let told = place.done(&format!("{evaluate} --plot p.svg")).stdout;
+    assert!(line(&told, "a: ").contains("right 75.0 % (30.1 to 95.4) of 4; after 1 ± 0.0 ms"));
+    let warnings: Vec<_> = told
+        .lines()
+        .filter(|line| line.starts_with("warning: "))
+        .collect();
+    let about = [
+        "b: nothing of it",
+        "20 % of samples lie outside",
+        "one recording",
+    ];
+    assert_eq!(warnings.len(), about.len(), "{told}");
+    for (warning, about) in warnings.iter().zip(about) {
+        assert!(warning.contains(about), "{warning}");
+    }
+    let svg = place.text("p.svg");
+    assert!(svg.contains("says too much") && svg.trim_end().ends_with("</svg>"));
+
+    // Taken for one another half of the time; too few of b.
+    place.write(
+        "test.csv",
+        "label,trial,x,y\na,0,0,0\na,1,100,0\na,2,0,0\nb,0,0,0\nb,1,100,0\n",
+    );
+    let told = place.done(evaluate).stdout;
+    line(&told, "warning: b: too few to judge by, 2 trials");
+    line(&told, "warning: b and a cannot be told apart");
+    place.write("test.csv", "label,trial,x,y\np,0,0,0\n");
+    let told = place.done(evaluate).stdout;
+    line(
+        &told,
+        "warning: none of the labels is a class of the model, which knows b, a",
+    );
+}
+
+/// The module gates by what its model was trained from.
+#[test]
+fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
+    let text = format!("{TEXTURED}{SEQUENTIAL}contact_min = 0.2\n")
+        .replace("duration_s = 0.5", "duration_s = 4.0");
+    let place = Place::with(&[("s.toml", &text)]);
+    place.done("record s.toml --out r.csv");
+    let told = place.done("train --data r.csv --gate 0.2 --gap 0.05 --out the.model --plot p.svg");
+    assert!(told.stdout.contains(" samples in 32 streams"), "{told:?}");
+    assert!(place.text("p.svg").contains("held out"));
+    let model = ModelBuf::from_bytes(&place.bytes("the.model")).unwrap();
+    let TouchRule { gate, gap, .. } = model.touch_rule().unwrap();
+    assert_eq!((gate, gap), (0.2, 100));
+    place.done("run s.toml --out out");
+    place.write(
+        "other.toml",
+        text.replace("contact_min = 0.2", "contact_min = 0.05"),
+    );
+    let naming = ["other.toml: classifier.contact_min", "found 0.05", "0.2"];
+    place.refuses_to_write("run other.toml", &naming);
+
+    // Without a word the scene's classifier takes the model's; `score` trains by the scene's.
+    let decided = place.bytes("out/decisions.csv");
+    place.write("s.toml", text.replace("contact_min = 0.2", ""));
+    place.done("run s.toml --out out");
+    assert!(place.bytes("out/decisions.csv") == decided);
+    let score = |scene: &str, options: &str| {
+        let line = format!("score {scene} --seeds 10..12 {options}");
+        place.done(&line).stdout
+    };
+    assert_eq!(score("s.toml", "--gate 0.05"), score("other.toml", ""));
+    assert_ne!(
+        score("s.toml", "--gate 0.05"),
+        score("s.toml", "--gate 0.2")
+    );
 }

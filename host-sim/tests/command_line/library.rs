@@ -7,6 +7,7 @@ use firmware::{Event, Sample};
 use host_sim::bus::WireFault;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
+use host_sim::recording::GATE;
 use host_sim::run::Run;
 use scene::Scene;
 use tactile::ModelBuf;
@@ -189,7 +190,9 @@ fn posteriors_are_seen_between_decisions() {
 
 #[test]
 fn a_recording_is_what_a_classifier_gets() {
-    let classifying = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
+    // Without a classifier the gate is the trainer's.
+    let classifier = format!("{SEQUENTIAL}contact_min = {GATE}\n");
+    let classifying = run(&scene(&format!("{TEXTURED}{classifier}"), 1));
     let recording = run(&scene(TEXTURED, 1));
     let [decided, recorded] = [classifying, recording].map(|mut run| see(&mut run));
     assert_eq!(decided.samples, recorded.samples);

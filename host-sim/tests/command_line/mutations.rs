@@ -131,11 +131,13 @@ fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), 
             channels: CHANNELS.map(str::to_owned),
             out: path(out),
             rate: 2000,
+            unknown: None,
+            plot: Some(path("plot.svg")).filter(|_| tables == Tables::Joint),
             how: How {
-                tables,
                 bins: Some(10),
                 smooth: Some(1.0),
                 block: 2,
+                ..How::of(tables)
             },
         };
         if train::train(&arguments).is_ok() {

@@ -46,6 +46,25 @@ fn training_options_out_of_range() {
             }
         }
     }
+    for (option, values) in [
+        ("--gate", "-0.1 1.1 NaN pi"),
+        ("--gap", "0 -1 10.1 NaN inf"),
+    ] {
+        for value in values.split(' ') {
+            place.refuses_to_write(&format!("{TRAIN} {option} {value}"), &[option, value]);
+            place.write("t.toml", TEXTURED);
+            let score = format!("score t.toml --seeds 5..9 {option} {value}");
+            place.refuses(&score, &[option, value]);
+        }
+    }
+    place.refuses_to_write(&format!("{SINGLE} --gap 0.1"), &["--gap", "joint"]);
+    place.refuses_to_write(&format!("{SINGLE} --plot p.svg"), &["--plot", "evaluate"]);
+    place.refuses_to_write(&format!("{TRAIN} --plot p.png"), &["--plot", ".svg"]);
+    place.refuses_to_write(&format!("{TRAIN} --rate 0"), &["--rate"]);
+    place.refuses_to_write(
+        &format!("{TRAIN} --unknown mud"),
+        &["--unknown", "high, low"],
+    );
     place.refuses_to_write(&format!("{TRAIN} --bins 1"), &["--bins", "2 to 128"]);
     place.refuses_to_write(&format!("{TRAIN} --tables some"), &["joint", "single"]);
     place.refuses_to_write(&format!("{TRAIN} --bins="), &["--bins"]);

@@ -71,6 +71,14 @@ fn rows_that_do_not_fit() {
     }
 }
 
+#[test]
+fn touches_that_are_no_numbers() {
+    for touch in ["-1", "1.5", "65536", "", "yes"] {
+        let recording = format!("label,trial,x,y,touch\nlow,0,1,2,0\nlow,0,1,2,{touch}\n");
+        refused_by_both(recording, &["line 3", &format!("touch is {touch:?}")]);
+    }
+}
+
 /// What can be classified but teaches nothing.
 #[test]
 fn lessons_without_content() {
@@ -88,14 +96,19 @@ fn lessons_without_content() {
         &RECORDING.replace("low", &"l".repeat(256)),
         &["class name of 256"],
     );
+    // What a decision for none of the classes says.
+    refused(
+        &RECORDING.replace("low", "unknown"),
+        &["unknown", "--unknown"],
+    );
     refused(
         &RECORDING
             .replace("9000", "1e308")
             .replace("100,8000", "-1e308,8000"),
-        &["range"],
+        &["x: its range"],
     );
     let narrow = RECORDING.replace("8000", "0").replace("8100", "1e-300");
-    refused(&narrow, &["range"]);
+    refused(&narrow, &["y: its range"]);
 }
 
 /// Numbers far outside the model's range are the edge's, not an error.

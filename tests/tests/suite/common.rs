@@ -59,7 +59,7 @@ fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, scene).unwrap();
-    commands::run::run(&path, folder.path(), Verbosity::Quiet).unwrap();
+    commands::run::run(&path, folder.path(), None, Verbosity::Quiet).unwrap();
     let text = std::fs::read_to_string(folder.path().join("trace.csv")).unwrap();
     read_trace(&text).unwrap()
 }

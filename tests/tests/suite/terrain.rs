@@ -39,6 +39,8 @@ fn terrain() -> Terrain {
         channels: CHANNELS.map(str::to_owned),
         out: model.clone(),
         rate: 2000,
+        unknown: None,
+        plot: None,
         how: How::of(Tables::Single),
     };
     train::train(&arguments).unwrap();

@@ -68,7 +68,9 @@ keys! {
         /// Length of the window.
         (window): u32 = integer(1..=1_000_000).unit("samples").required_if(WINDOW, "not used"),
 
-        /// Contact signal below which samples are not classified.
-        contact_min: Option<f64> = number(0.0..=1.0).optional("every sample is classified"),
+        /// Contact signal below which samples are not classified. A model that knows touches
+        /// was trained from one on, its gate: no other is allowed.
+        contact_min: Option<f64> = number(0.0..=1.0)
+            .optional("the gate of the model; without one every sample is classified"),
     }
 }

@@ -22,7 +22,8 @@ fn rows_tell_type_range_unit_and_default() {
         "| `kd` | a number from 0 to 1 | duty per degree/s | `0.0004` | ",
         "| `threshold` | a number above 0 and below 1 |  | \
          an error if `rule = \"sequential\"`; else not used | ",
-        "| `contact_min` | a number from 0 to 1 |  | every sample is classified | ",
+        "| `contact_min` | a number from 0 to 1 |  | \
+         the gate of the model; without one every sample is classified | ",
     ] {
         assert!(page.contains(row), "{row}");
     }

@@ -9,7 +9,7 @@ use tactile::train::{Options, Trainer};
 use crate::decisions::Score;
 use crate::motor::rig::{PD, Rig, whisking};
 use crate::plant::{Head, Plant, Textured, TexturedSettings};
-use crate::recording::Stream;
+use crate::recording::{GATE, Stream};
 use crate::replay::Replay;
 use crate::training;
 
@@ -53,7 +53,8 @@ fn textures_are_told_apart_but_not_for_certain() {
     let training = TEXTURES.map(|texture| record(texture, 20, 1 + texture as u64));
     let trainer = Trainer::new(2, Options::default()).unwrap();
     let rule = Rule::Sequential { threshold: 0.99 };
-    let mut replay = Replay::new(training::single(trainer, &training).unwrap(), rule).unwrap();
+    let model = training::single(trainer, &training, GATE).unwrap();
+    let mut replay = Replay::new(model, rule).unwrap();
     let mut decided = Vec::new();
     for texture in TEXTURES {
         let test = record(texture, 60, 101 + texture as u64);
