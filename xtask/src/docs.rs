@@ -1,7 +1,7 @@
 //! Generated documents: written by commands, never by hand.
 
 use crate::cost;
-use crate::run::{Fault, cargo, document, output, read_bytes, run, top};
+use crate::run::{Fault, cargo, document, output, read_bytes, run, target, top};
 
 /// Writes every generated document, or checks that they are up to date.
 ///
@@ -22,10 +22,66 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
         let made = read_bytes(&top().join("out/textures").join(made))?;
         document(name, &made, check)?;
     }
+    for scene in TRAINED {
+        document(scene.model, &scene.train()?, check)?;
+    }
     // It shows docs/measured/instructions.csv, which `cargo xtask count` writes. In the
     // profile of the tests, which CI has built all of.
     let report = ["run", "--quiet", "-p", "studies", "--", "report"];
     run(cargo(&report).args(check.then_some("--check")))
+}
+
+/// A scene whose model is trained on a run of it with another seed, as its first lines say.
+struct Trained {
+    scene: &'static str,
+    model: &'static str,
+    /// A texture that the model is not to know.
+    unknown: Option<&'static str>,
+}
+
+/// Those but the main job.
+const TRAINED: [Trained; 2] = [
+    Trained {
+        scene: "scenes/whisker.toml",
+        model: "scenes/models/whisker.model",
+        unknown: None,
+    },
+    Trained {
+        scene: "scenes/unknown.toml",
+        model: "scenes/models/unknown.model",
+        unknown: Some("carpet"),
+    },
+];
+
+impl Trained {
+    /// The bytes of its model.
+    fn train(&self) -> Result<Vec<u8>, Fault> {
+        let folder = target().join("models");
+        let (heard, model) = (folder.join("heard.csv"), folder.join("the.model"));
+        let simulator = |command: &str| {
+            let start = [
+                "run",
+                "--release",
+                "--quiet",
+                "-p",
+                "host-sim",
+                "--",
+                "--quiet",
+            ];
+            let mut simulator = cargo(&start);
+            simulator.arg(command);
+            simulator
+        };
+        let record = ["--seed", "3", "--out"];
+        output(simulator("record").arg(self.scene).args(record).arg(&heard))?;
+        let mut train = simulator("train");
+        train.arg("--data").arg(&heard).arg("--out").arg(&model);
+        if let Some(label) = self.unknown {
+            train.args(["--unknown", label]);
+        }
+        output(&mut train)?;
+        read_bytes(&model)
+    }
 }
 
 /// The page of the main job: what it printed at the end.

@@ -1,8 +1,9 @@
 //! What `evaluate` and `score` say.
 
+use host_sim::decisions::Decided;
 use tactile::{ModelBuf, TouchRule};
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, decisions};
 
 /// Class `b` is high in x, `a` is low; one sample in eight says the other class.
 const TRAINING: &str = "b,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\n\
@@ -205,4 +206,53 @@ fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
         score("s.toml", "--gate 0.05"),
         score("s.toml", "--gate 0.2")
     );
+}
+
+/// Trained on three textures, the fourth is decided to be none of them.
+#[test]
+fn a_scene_shows_an_unknown_texture() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/unknown.toml");
+    let place = Place::new();
+    let ran = place.done(&format!("run {scene} --out out --plot out/p.svg"));
+    let decided = decisions(&place.text("out/decisions.csv"));
+    let of = |label: &str| {
+        decided
+            .iter()
+            .filter(|d| d.label == label)
+            .collect::<Vec<_>>()
+    };
+    let unknown = |d: &&&Decided| d.decision == "unknown";
+    let carpet = of("carpet");
+    let noticed = carpet.iter().filter(unknown).count();
+    assert!(
+        noticed >= 20 && noticed * 100 >= carpet.len() * 95,
+        "{noticed}"
+    );
+    for label in ["smooth", "p600", "p240"] {
+        let known = of(label);
+        let refused = known.iter().filter(unknown).count();
+        assert!(
+            known.len() >= 40 && refused * 5 <= known.len(),
+            "{label}: {refused}"
+        );
+        let right = known.iter().filter(|d| d.is_right()).count();
+        assert!(
+            right * 100 >= (known.len() - refused) * 95,
+            "{label}: {right}"
+        );
+    }
+    let told = format!(
+        "carpet is none of the model's classes: \"unknown\" is right, and was \
+                        decided {noticed} times of {}",
+        carpet.len()
+    );
+    line(&ran.stdout, &told);
+    let rest = decided.iter().filter(|d| d.decision == "unknown").count() - noticed;
+    line(&ran.stdout, &format!("{rest} more said \"unknown\""));
+    let trace = place.text("out/trace.csv");
+    let fallen = trace.lines().filter(|row| row.ends_with(",unknown"));
+    assert_eq!(fallen.count(), noticed + rest);
+    // What is not known stands in the row of "unknown", under its name.
+    let svg = place.text("out/p.svg");
+    assert!(svg.contains("unknown") && svg.contains("carpet"));
 }
