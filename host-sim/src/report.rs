@@ -70,10 +70,14 @@ pub fn decision(decided: &Decided, classes: &[String]) {
         posterior,
         ..
     } = decided;
-    let (t_s, percent) = (t_s.unwrap_or_default(), 100.0 * posterior);
-    let verdict = decided.verdict(classes);
+    let (t_s, verdict) = (t_s.unwrap_or_default(), decided.verdict(classes));
+    // Of what is none of the classes the posterior says only which came nearest.
+    let sure = match decision.as_str() {
+        UNKNOWN => String::new(),
+        _ => format!("{:.2} %", 100.0 * posterior),
+    };
     say(format_args!(
-        "{t_s:8.3} s  {decision:<8} {percent:6.2} %  {samples:5} samples  {verdict} ({label})"
+        "{t_s:8.3} s  {decision:<8} {sure:>8}  {samples:5} samples  {verdict} ({label})"
     ));
 }
 
@@ -104,8 +108,8 @@ impl fmt::Display for Summary<'_> {
                 let ms = samples * 1000.0 / f64::from(*tick_hz);
                 write!(
                     f,
-                    "decision time {samples:.0} samples ({ms:.0} ms)\n\
-                     they themselves stated {stated:.1} % in the mean"
+                    "decision time {samples:.0} samples ({ms:.0} ms of contact)\n\
+                     the classifier itself stated {stated:.1} % in the mean"
                 )?;
             }
             None => write!(f, "{samples:.0} samples")?,
