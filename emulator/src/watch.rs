@@ -33,10 +33,13 @@ mod name {
     pub(super) const NOMINAL: &str = "nominal";
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
-    /// The number of the touch.
-    pub(super) const TOUCHING: [&str; 4] = ["perception", "touches", "touching", "number"];
+    /// Where perception lies: a list of one.
+    pub(super) const PERCEPTION: &str = "__rtic_internal_local_init_place";
+    /// In it: the number of the touch.
+    pub(super) const TOUCHING: [&str; 3] = ["touches", "touching", "number"];
     /// In the queue.
     pub(super) const TAIL: &str = "tail";
+    /// In it and in a list.
     pub(super) const BUFFER: &str = "buffer";
     /// The event, and what stands in it.
     pub(super) const DECISION: &str = "Decision";
@@ -109,6 +112,15 @@ fn elements(array: Place<'_>) -> Result<Vec<Place<'_>>, Fault> {
     (0..array.length()?).map(|n| array.element(n)).collect()
 }
 
+/// Where the number of the touch stands; nowhere, if nothing is felt.
+fn touch(info: &DebugInfo) -> Result<Option<u32>, Fault> {
+    let list = info.variable(name::PERCEPTION)?;
+    // The list's storage, and the array in it.
+    let storage = list.member(name::BUFFER)?.member(name::BUFFER)?;
+    let perception = storage.element(0)?;
+    Ok(along(perception, &name::TOUCHING)?.map(|number| number.address))
+}
+
 impl Watch {
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
@@ -120,7 +132,7 @@ impl Watch {
         let missed = along(module, &name::MISSED)?.ok_or_else(|| missing("count of ticks"))?;
         let mut watch = Self {
             missed: missed.scalar()?.0,
-            touch: along(module, &name::TOUCHING)?.map(|number| number.address),
+            touch: touch(&info)?,
             contact: numbers(module.member(name::CONTACT)?)?,
             z: Vec::new(),
             theta: Vec::new(),

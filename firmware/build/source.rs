@@ -178,7 +178,7 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         quote! {
             pub(crate) fn start_perception() -> Option<Perception> {
                 let bytes = tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"));
-                let model = tactile::Model::parse(bytes).ok()?;
+                let model = tactile::Model::linked(bytes).ok()?;
                 let bayes = tactile::NaiveBayes::new(model, SETTINGS.perception.rule).ok()?;
                 let classifier = firmware::CodeClassifier::new(bayes).ok()?;
                 Some(firmware::Classifying::new(classifier))

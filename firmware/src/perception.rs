@@ -32,6 +32,23 @@ impl<R, const S: usize, const N: usize> Perception<R, (), S, N> for () {
     }
 }
 
+/// Perception that lies elsewhere.
+impl<R, C, P, const S: usize, const N: usize> Perception<R, C, S, N> for &mut P
+where
+    P: Perception<R, C, S, N>,
+{
+    #[inline]
+    fn step(
+        &mut self,
+        config: &C,
+        contact: [R; S],
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    ) {
+        (**self).step(config, contact, readings, events);
+    }
+}
+
 /// Perception that is there or not at run time, for simulations of any scene.
 /// A configuration without the perception, or the reverse, decides nothing.
 impl<R, C, P, const S: usize, const N: usize> Perception<R, Option<C>, S, N> for Option<P>

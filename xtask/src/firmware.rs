@@ -137,22 +137,6 @@ fn elf(board: Board) -> PathBuf {
         .join(board.program)
 }
 
-/// Prints flash and static RAM of an ELF file in bytes.
-///
-/// # Errors
-/// If it cannot be read.
-pub(crate) fn print_size(board: Board, scene: &Path, elf: &Path) -> Result<(), Fault> {
-    let size = Size::of(elf)?;
-    println!(
-        "{} on {}: flash {} bytes, static RAM {} bytes",
-        scene.display(),
-        board.name,
-        size.flash,
-        size.ram
-    );
-    Ok(())
-}
-
 /// Bytes that a program takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Size {

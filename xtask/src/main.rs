@@ -170,7 +170,7 @@ fn main() -> ExitCode {
         Command::Nightly(Only { steps }) => nightly::all(steps),
         Command::Arrows { packages } => arrows::all(&packages),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
-            .and_then(|elf| firmware::print_size(build.board, &build.scene, &elf)),
+            .and_then(|elf| size::print(build.board, &build.scene, &elf)),
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),

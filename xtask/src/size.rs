@@ -59,6 +59,21 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     TABLE.write(&figures, csv, &shown)
 }
 
+/// Prints flash, static RAM and the stack's bound of an ELF file in bytes.
+///
+/// # Errors
+/// If it cannot be read, or its stack has no bound.
+pub(crate) fn print(board: Board, scene: &Path, elf: &Path) -> Result<(), Fault> {
+    let Size { flash, ram } = Size::of(elf)?;
+    println!(
+        "{} on {}: flash {flash} bytes, static RAM {ram} bytes, stack {} bytes",
+        scene.display(),
+        board.name,
+        stack::worst(board, elf)?
+    );
+    Ok(())
+}
+
 /// Checks [`SHORT`] on every board, and what a program holds.
 ///
 /// # Errors

@@ -1,5 +1,7 @@
 //! Checking the bytes of a model file, and where in it things lie.
 
+use core::mem::offset_of;
+
 use zerocopy::{FromBytes, transmute};
 
 use crate::error::ModelError;
@@ -30,8 +32,6 @@ pub(crate) struct Layout {
     pub(crate) names: usize,
     /// The names end and the rows of the tables begin.
     pub(crate) rows: usize,
-    /// The rows end and the checksum begins.
-    pub(crate) end: usize,
 }
 
 /// What a touch means for the evidence.
@@ -50,6 +50,18 @@ pub struct TouchRule {
 pub(crate) const RECORDS: usize = size_of::<Header>() / size_of::<u32>();
 
 impl Layout {
+    /// Where things lie in a model file that was checked before: only its magic,
+    /// version, length and checksum are looked at.
+    ///
+    /// # Errors
+    ///
+    /// The first of these found wrong.
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, ModelError> {
+        let header = header(bytes)?;
+        whole(header, bytes)?;
+        Ok(Self::of(header, bytes))
+    }
+
     /// Checks a model file: its magic, version and header, then its length, its
     /// checksum and its content.
     ///
@@ -57,14 +69,7 @@ impl Layout {
     ///
     /// The first thing found wrong.
     pub(crate) fn check(bytes: &[u8]) -> Result<Self, ModelError> {
-        let (magic, _) = bytes.split_first_chunk::<4>().ok_or(ModelError::TooShort)?;
-        if *magic != MAGIC {
-            return Err(ModelError::BadMagic);
-        }
-        let (header, rest) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
-        if header.version.get() != VERSION {
-            return Err(ModelError::UnknownVersion(header.version.get()));
-        }
+        let header = header(bytes)?;
         let classes = usize::from(header.classes);
         let channels = usize::from(header.channels);
         let sample_tables = usize::from(header.sample_tables);
@@ -74,22 +79,11 @@ impl Layout {
         if sample_tables == 0 || count > MAX_TABLES {
             return Err(ModelError::Tables(count));
         }
-        let touch = touch_rule(header)?;
+        check_touch_rule(header)?;
+        whole(header, bytes)?;
 
-        let length = header.length.get() as usize;
-        if bytes.len() < length {
-            return Err(ModelError::TooShort);
-        }
-        if bytes.len() > length {
-            return Err(ModelError::TrailingBytes);
-        }
-        let (body, crc) = bytes
-            .split_last_chunk::<CRC_BYTES>()
-            .ok_or(ModelError::TooShort)?;
-        if checksum(body) != u32::from_le_bytes(*crc) {
-            return Err(ModelError::Checksum);
-        }
-
+        let layout = Self::of(header, bytes);
+        let (_, rest) = bytes.split_at(size_of::<Header>());
         // Of a header alone the checksum is its own last word.
         let (rest, _) = rest
             .split_last_chunk::<CRC_BYTES>()
@@ -97,12 +91,9 @@ impl Layout {
         let (records, rest) = <[ChannelRecord]>::ref_from_prefix_with_elems(rest, channels)
             .map_err(|_| ModelError::Length)?;
         check_channels(records)?;
-        let words = |bytes: &[u8]| bytes.len() / size_of::<u32>();
-        let tables = words(body) - words(rest);
         let (records, rest) = rest
             .split_at_checked(count * size_of::<TableRecord>())
             .ok_or(ModelError::Length)?;
-        let floors = words(body) - words(rest);
         let floor_bytes = match header.floors.get() {
             0 => 0,
             1 => classes * size_of::<u32>(),
@@ -138,26 +129,39 @@ impl Layout {
         check_names(names, classes)?;
 
         // The names are padded to whole words, and all other parts are such.
-        let first = words(body) - words(table);
-        let layout = Self {
-            classes,
-            channels,
-            row_words,
-            block,
-            touch,
-            tables,
-            rough_tables: tables + sample_tables * TABLE_WORDS,
-            floors,
-            names: floors + floor_bytes / size_of::<u32>(),
-            rows: first,
-            end: words(body),
-        };
+        let first = (bytes.len() - CRC_BYTES - table.len()) / size_of::<u32>();
         check_rows(table, first, records, &layout)?;
         Ok(layout)
     }
-}
 
-impl Layout {
+    /// By a header, and what the first table says of its rows.
+    fn of(header: &Header, bytes: &[u8]) -> Self {
+        let classes = usize::from(header.classes);
+        let channels = usize::from(header.channels);
+        let tables = RECORDS + channels * size_of::<ChannelRecord>() / size_of::<u32>();
+        let rough_tables = tables + usize::from(header.sample_tables) * TABLE_WORDS;
+        let floors = rough_tables + usize::from(header.rough_tables) * TABLE_WORDS;
+        let first = size_of::<u32>() * tables + offset_of!(TableRecord, first);
+        let first = bytes.get(first..).and_then(<[u8]>::first_chunk);
+        let limit = header.limit.get();
+        Self {
+            classes,
+            channels,
+            row_words: row_words(classes),
+            block: header.block.get().into(),
+            touch: (limit != NO_LIMIT).then(|| TouchRule {
+                limit,
+                gate: header.gate.get(),
+                gap: header.gap.get(),
+            }),
+            tables,
+            rough_tables,
+            floors,
+            names: floors + if header.floors.get() == 0 { 0 } else { classes },
+            rows: first.map_or(0, |first| u32::from_le_bytes(*first) as usize),
+        }
+    }
+
     /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
@@ -187,15 +191,46 @@ fn rows(record: &TableRecord) -> u64 {
     a * b
 }
 
-fn touch_rule(header: &Header) -> Result<Option<TouchRule>, ModelError> {
-    let (limit, gate, gap) = (header.limit.get(), header.gate.get(), header.gap.get());
-    if limit == NO_LIMIT {
-        let none = gate.to_bits() == 0 && gap == 0;
-        return none.then_some(None).ok_or(ModelError::TouchRule);
+/// The header of this version.
+fn header(bytes: &[u8]) -> Result<&Header, ModelError> {
+    let (magic, _) = bytes.split_first_chunk::<4>().ok_or(ModelError::TooShort)?;
+    if *magic != MAGIC {
+        return Err(ModelError::BadMagic);
     }
-    let fits = (0.0..=1.0).contains(&gate);
-    let rule = TouchRule { limit, gate, gap };
-    fits.then_some(Some(rule)).ok_or(ModelError::TouchRule)
+    let (header, _) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
+    match header.version.get() {
+        VERSION => Ok(header),
+        other => Err(ModelError::UnknownVersion(other)),
+    }
+}
+
+/// Whether a file is as long as its header says, and undamaged.
+fn whole(header: &Header, bytes: &[u8]) -> Result<(), ModelError> {
+    let length = header.length.get() as usize;
+    if bytes.len() < length {
+        return Err(ModelError::TooShort);
+    }
+    if bytes.len() > length {
+        return Err(ModelError::TrailingBytes);
+    }
+    let (body, crc) = bytes
+        .split_last_chunk::<CRC_BYTES>()
+        .ok_or(ModelError::TooShort)?;
+    if checksum(body) == u32::from_le_bytes(*crc) {
+        Ok(())
+    } else {
+        Err(ModelError::Checksum)
+    }
+}
+
+fn check_touch_rule(header: &Header) -> Result<(), ModelError> {
+    let gate = header.gate.get();
+    let fits = if header.limit.get() == NO_LIMIT {
+        gate.to_bits() == 0 && header.gap.get() == 0
+    } else {
+        (0.0..=1.0).contains(&gate)
+    };
+    fits.then_some(()).ok_or(ModelError::TouchRule)
 }
 
 /// The ranges of the header's counts.

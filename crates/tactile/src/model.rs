@@ -56,7 +56,21 @@ impl<'a> Model<&'a [u32]> {
     /// [`ModelError`] with the first thing found wrong: the checks go from the
     /// magic, version and header to the length, the checksum and the content.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, ModelError> {
-        let layout = Layout::check(bytes)?;
+        Self::placed(bytes, Layout::check(bytes)?)
+    }
+
+    /// Reads a model that was checked when it was linked into the program: only whether
+    /// it is this version and undamaged is looked at. What a wrong content says of the
+    /// classes is wrong too, and no more.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::parse`], of the magic, version, length and checksum.
+    pub fn linked(bytes: &'a [u8]) -> Result<Self, ModelError> {
+        Self::placed(bytes, Layout::read(bytes)?)
+    }
+
+    fn placed(bytes: &'a [u8], layout: Layout) -> Result<Self, ModelError> {
         let words = <[u32]>::ref_from_bytes(bytes).map_err(|_| ModelError::Misaligned)?;
         Ok(Self { words, layout })
     }

@@ -11,7 +11,7 @@ use crate::roughness::Roughness;
 /// What is known of the open block, and of the touch by the blocks before.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Sums {
-    /// Samples to the end of the open block; not zero.
+    /// Samples to the end of the open block.
     pub(crate) left: u32,
     /// A sum a class; the check of the model keeps them below 2³¹.
     pub(crate) classes: [u32; MAX_CLASSES],
@@ -50,8 +50,11 @@ impl Sums {
             // No row of a checked model is missing.
             let _ = add(model, table, codes, &mut self.classes);
         }
-        self.left -= 1;
-        self.left == 0
+        if self.left > 1 {
+            self.left -= 1;
+            return false;
+        }
+        true
     }
 
     /// Compares the sums of a full block with their floors, and adds what its roughness

@@ -23,18 +23,35 @@ use crate::here::{self, CLOCKS, Counter};
 /// The module and its settings. A type of its own, because RTIC would make
 /// those inside public.
 pub struct Module {
-    inner: firmware::Module<Number, Frames, Motion, Perception, Counter, 1, 1>,
+    inner: firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, 1, 1>,
     /// In RAM, where they can be changed.
     settings: Settings,
     /// The next full second, in [`TICKS`].
     second: u32,
 }
 
+/// Where perception lies, and need not be moved to from the stack once more. A list, as
+/// an empty one is of zeros, which take no flash.
+pub struct Place(heapless::Vec<Perception, 1>);
+
+impl Place {
+    /// Empty.
+    pub(crate) const fn new() -> Self {
+        Self(heapless::Vec::new())
+    }
+
+    fn fill(&mut self) -> Option<&mut Perception> {
+        // There is room for one.
+        let _ = self.0.push(scene::start_perception()?);
+        self.0.first_mut()
+    }
+}
+
 /// Events that found the queue full. Only the tick counts them.
 static DROPPED: WrappingCounter = WrappingCounter::new();
 
 /// From the reset to a module that is ready for its first tick.
-pub(crate) fn start(core: cortex_m::Peripherals) -> Module {
+pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> Module {
     outputs::off();
     here::prepare_for_debuggers();
     log::start(here::reset_cause());
@@ -43,7 +60,7 @@ pub(crate) fn start(core: cortex_m::Peripherals) -> Module {
     }
     let frames = Frames::new(const { CLOCKS.slot_counts(TICK_HZ) });
     let motion = scene::start_motion();
-    let Some(perception) = scene::start_perception() else {
+    let Some(perception) = place.fill() else {
         faults::die(log::model)
     };
     let counter = Counter::start(core);
@@ -175,7 +192,7 @@ macro_rules! program {
             use firmware::Event;
             use heapless::spsc::{Producer, Queue};
 
-            use $crate::board::program::{self, Idle, Module};
+            use $crate::board::program::{self, Idle, Module, Place};
             use $crate::board::scene::TICK_HZ;
             use $crate::board::tick_timer::TickTimer;
             use $crate::here::CLOCKS;
@@ -195,9 +212,12 @@ macro_rules! program {
             }
 
             // Sixteen events: idle drains them after every tick, which has four at most.
-            #[init(local = [queue: Queue<Event, 17> = Queue::new()])]
+            #[init(local = [
+                                        queue: Queue<Event, 17> = Queue::new(),
+                                        place: Place = Place::new(),
+                                    ])]
             fn init(cx: init::Context) -> (Shared, Local) {
-                let module = program::start(cx.core);
+                let module = program::start(cx.core, cx.local.place);
                 let (events, logged) = cx.local.queue.split();
                 let local = Local {
                     tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),

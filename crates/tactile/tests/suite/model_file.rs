@@ -4,7 +4,8 @@
 use crate::common;
 use proptest::prelude::*;
 use tactile::{
-    Aligned, Axis, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError, TableParts,
+    Aligned, Axis, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError, Sequential,
+    TableParts, Threshold,
 };
 
 fn example() -> ModelBuf {
@@ -141,6 +142,37 @@ fn damage_is_named() {
     let mut flipped = b.to_vec();
     flipped[100] ^= 1;
     assert_eq!(parse(&flipped), ModelError::Checksum);
+    assert_eq!(Model::linked(&flipped), Err(ModelError::Checksum));
+    assert_eq!(Model::linked(b), Ok(good.view()));
+}
+
+/// What is not looked at in a linked model may say anything: it decides wrongly.
+#[test]
+fn a_wrong_content_that_was_not_checked_is_harmless() {
+    let good = example();
+    let (header, end) = (6, good.as_bytes().len() - 4);
+    for at in (header..12).chain(16..end) {
+        let mut bytes = good.as_bytes().to_vec();
+        bytes[at] ^= 0xff;
+        let crc = tactile::checksum(&bytes[..end]);
+        bytes[end..].copy_from_slice(&crc.to_le_bytes());
+        let words: Vec<u32> = bytes
+            .as_chunks()
+            .0
+            .iter()
+            .map(|word| u32::from_le_bytes(*word))
+            .collect();
+        let model = Model::linked(zerocopy::IntoBytes::as_bytes(&words[..])).unwrap();
+        let codes = vec![500; model.channels()];
+        let threshold = Threshold::new(0.9).unwrap();
+        let mut classifier = Sequential::new(model, threshold).unwrap();
+        for n in 0..100 {
+            if n % 40 == 0 {
+                classifier.touch(n);
+            }
+            classifier.push(&codes).unwrap();
+        }
+    }
 }
 
 #[test]

@@ -80,7 +80,8 @@ const fn nearest(x: i64, shift: u32) -> i32 {
 #[inline]
 fn raised(x: i32, shift: u32) -> i32 {
     let limit = SATURATED >> shift;
-    x.clamp(-limit, limit - 1) << shift
+    // `clamp` could panic, for all that the compiler knows of the limits.
+    x.max(-limit).min(limit - 1) << shift
 }
 
 impl Factor {
