@@ -52,6 +52,16 @@ impl Classifier {
     }
 }
 
+impl SampleClassifier for Classifier {
+    fn push(&mut self, sample: Sample) -> Option<Decision> {
+        self.codes.push(sample)
+    }
+
+    fn reset(&mut self) {
+        self.codes.reset();
+    }
+}
+
 /// What stands between the first whisker and its classifier, if there is one:
 /// it keeps the last sample, for recordings.
 pub struct Tap {
@@ -87,13 +97,13 @@ impl Tap {
 impl SampleClassifier for Tap {
     fn push(&mut self, sample: Sample) -> Option<Decision> {
         self.sample = Some(sample);
-        self.classifier.as_mut()?.codes.push(sample)
+        self.classifier.as_mut()?.push(sample)
     }
 
     fn reset(&mut self) {
         self.sample = None;
         if let Some(classifier) = &mut self.classifier {
-            classifier.codes.reset();
+            classifier.reset();
         }
     }
 }
