@@ -18,7 +18,7 @@ mod boundaries;
 mod choice;
 mod contact;
 mod corners;
-mod counts;
+pub(crate) mod counts;
 mod functions;
 mod gates;
 mod integrators;

@@ -113,6 +113,7 @@ pub(crate) enum Mark {
 /// Points of one kind.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
+    /// As the legend calls it; empty: not there.
     pub(crate) name: String,
     pub(crate) colour: RGBColor,
     pub(crate) mark: Mark,
@@ -206,9 +207,18 @@ pub(crate) fn grid<T>(
 
 /// The panels, two beside each other, over one legend (that of the first).
 pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
-    let columns = panels.len().clamp(1, 2);
+    draw_in(panels.len().clamp(1, 2), panels)
+}
+
+/// The panels in so many columns.
+pub(crate) fn draw_in(columns: usize, panels: &[Panel]) -> Result<String, Error> {
     let rows = panels.len().div_ceil(columns).max(1);
-    let legend: &[Series] = panels.first().map_or(&[], |panel| &panel.series);
+    let named = |series: &&Series| !series.name.is_empty();
+    let first = panels.first().into_iter();
+    let legend: Vec<&Series> = first
+        .flat_map(|panel| &panel.series)
+        .filter(named)
+        .collect();
     let legend_height = LEGEND_ROW as u32 * (legend.len().div_ceil(LEGEND_COLUMNS) as u32) + 12;
     let height = PANEL_HEIGHT * rows as u32;
     svg((WIDTH, height + legend_height), |root| {
@@ -216,11 +226,11 @@ pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
         for (panel, area) in panels.iter().zip(diagrams.split_evenly((rows, columns))) {
             draw_panel(panel, &area)?;
         }
-        draw_legend(legend, &below)
+        draw_legend(&legend, &below)
     })
 }
 
-fn draw_legend(legend: &[Series], below: &Area<'_>) -> Result<(), Fault> {
+fn draw_legend(legend: &[&Series], below: &Area<'_>) -> Result<(), Fault> {
     for (n, series) in legend.iter().enumerate() {
         let x = 40 + (n % LEGEND_COLUMNS) as i32 * (WIDTH as i32 / LEGEND_COLUMNS as i32);
         let y = 12 + (n / LEGEND_COLUMNS) as i32 * LEGEND_ROW;

@@ -9,11 +9,12 @@ use host_sim::progress::Verbosity;
 use host_sim::report::{exit, say};
 use studies::accuracy::LongRun;
 use studies::commands::experiment::{self, Options};
-use studies::commands::report;
+use studies::commands::{decisions, report};
+use studies::decisions::Extent;
 use studies::experiment::Name;
 
-/// The laboratory: the papers' experiments on simulated rigs, and the accuracy
-/// report.
+/// The laboratory: the papers' experiments on simulated rigs, the accuracy report, and
+/// what decisions are worth.
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
 #[derive(Parser)]
@@ -49,6 +50,22 @@ enum Command {
         long: bool,
         /// Only say whether the report is up to date
         #[arg(long, conflicts_with_all = ["quick", "long"])]
+        check: bool,
+    },
+    /// Measures what decisions are worth and writes DIR/decisions.md with its table and
+    /// pictures
+    Decisions {
+        /// Where documents are: instructions.csv is read, the page written there
+        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
+        out: PathBuf,
+        /// Where the recordings of terrain are
+        #[arg(long, value_name = "DIR", default_value = "tests/data/terrain")]
+        terrain: PathBuf,
+        /// Fewer runs, trainings and settings
+        #[arg(long)]
+        quick: bool,
+        /// Only say whether the page is up to date
+        #[arg(long, conflicts_with = "quick")]
         check: bool,
     },
 }
@@ -99,6 +116,19 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 (false, false) => LongRun::Kept,
             };
             report::report(&out, long_run, check, verbosity)?
+        }
+        Command::Decisions {
+            out,
+            terrain,
+            quick,
+            check,
+        } => {
+            let extent = if quick {
+                Extent::quick()
+            } else {
+                Extent::full()
+            };
+            decisions::decisions(&out, &terrain, &extent, check, verbosity)?
         }
     });
     Ok(())

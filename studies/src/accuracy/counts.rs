@@ -9,13 +9,13 @@ use super::schemes::Format;
 
 /// A processor that was counted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
+pub(crate) enum Target {
     M4F,
     M0,
 }
 
 impl Target {
-    pub(super) const ALL: [Self; 2] = [Self::M4F, Self::M0];
+    pub(crate) const ALL: [Self; 2] = [Self::M4F, Self::M0];
 
     /// As the report calls it.
     pub(super) const fn name(self) -> &'static str {
@@ -41,20 +41,22 @@ struct Row {
     format: String,
     target: String,
     mean: f64,
+    #[serde(default)]
+    worst: f64,
 }
 
 /// The whole table; empty where there is none.
 #[derive(Debug, Default)]
-pub(super) struct Counts(Vec<Row>);
+pub(crate) struct Counts(Vec<Row>);
 
 impl Counts {
     /// Reads `path`: `kernel,format,target,mean,…` by the names of its header.
     /// A table that is not there or that lacks a column counts nothing.
-    pub(super) fn read(path: &Path) -> Self {
+    pub(crate) fn read(path: &Path) -> Self {
         std::fs::read(path).map_or_else(|_| Self::default(), |text| Self::parse(&text))
     }
 
-    fn parse(text: &[u8]) -> Self {
+    pub(crate) fn parse(text: &[u8]) -> Self {
         let mut reader = csv::Reader::from_reader(text);
         Self(reader.deserialize().flatten().collect())
     }
@@ -66,10 +68,20 @@ impl Counts {
 
     /// Mean instructions of a call of `kernel`.
     pub(super) fn of(&self, kernel: &str, format: &str, target: Target) -> Option<f64> {
+        Some(self.mean_and_worst(kernel, format, target)?.0)
+    }
+
+    /// Mean and most instructions of a call of `kernel`.
+    pub(crate) fn mean_and_worst(
+        &self,
+        kernel: &str,
+        format: &str,
+        target: Target,
+    ) -> Option<(f64, f64)> {
         let wanted = (kernel, format, target.column());
         let mut rows = self.0.iter();
         let row = rows.find(|row| (&*row.kernel, &*row.format, &*row.target) == wanted);
-        row.map(|row| row.mean)
+        row.map(|row| (row.mean, row.worst))
     }
 
     /// Mean instructions of a tick of the pattern generator, two sides with a

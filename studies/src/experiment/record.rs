@@ -8,17 +8,14 @@ pub(crate) mod pad;
 pub(crate) mod table;
 mod whiskers;
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
-use rayon::prelude::*;
-
 use super::dataset::{Dataset, Job};
 use super::recording::{Recording, Recordings};
 use super::request::{Extent, Request};
+use crate::cores::each;
 use crate::refused::within;
 use crate::rigs::seed_of;
 use host_sim::Error;
-use host_sim::progress::{Progress, Verbosity};
+use host_sim::progress::Verbosity;
 
 /// The jobs of a data set.
 fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
@@ -62,17 +59,10 @@ fn one(request: &Request, job: Job) -> Result<Recording, Error> {
 /// # Errors
 /// [`Error::Work`] if the simulation refuses a setting of a rig.
 pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings, Error> {
-    let bar = Progress::new(verbosity, "recording", jobs.len() as u64);
-    let (bar, done) = (std::sync::Mutex::new(bar), AtomicU64::new(0));
-    let make = |job: &Job| {
-        let recording = one(request, *job)?;
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if let Ok(mut bar) = bar.lock() {
-            bar.set(done);
-        }
-        Ok((*job, recording))
-    };
-    jobs.par_iter().map(make).collect()
+    each(verbosity, "recording", jobs, |job| {
+        Ok((*job, one(request, *job)?))
+    })
+    .map(|made| made.into_iter().collect())
 }
 
 /// Records one data set anew, on rigs that `change` has changed.

@@ -17,10 +17,14 @@ pub struct Interval {
 impl Interval {
     /// Of so many of so many.
     pub fn of(part: usize, count: usize) -> Self {
+        Self::of_share(part as f64 / count as f64, count)
+    }
+
+    /// Of a share that counts as so many independent observations.
+    pub fn of_share(share: f64, count: usize) -> Self {
         // The normal quantile of 97.5 %, squared.
         const Z2: f64 = 3.841_458_820_694_124;
         let n = count as f64;
-        let share = part as f64 / n;
         if count == 0 {
             let (low, high) = (0.0, 1.0);
             return Self {

@@ -1,0 +1,86 @@
+//! Decisions of a whisker that touches nothing.
+
+use firmware::Event;
+use host_sim::Error;
+use host_sim::classifier::Classifier;
+use host_sim::progress::Verbosity;
+use host_sim::run::Run;
+use scene::{Rule, Scene};
+
+use super::extent::Extent;
+use super::goals::Trained;
+use super::ground::Ground;
+use crate::cores::each;
+use crate::page::{Page, verdict};
+use crate::refused::refused;
+
+/// Whisking frequencies tried, Hz.
+const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
+/// An obstacle out of reach, degrees.
+const OUT_OF_REACH_DEG: f64 = 300.0;
+/// A seed that is neither trained on nor scored.
+const SEED: u64 = 400;
+
+/// Each plant with its shipped model, the obstacle out of reach.
+pub(super) fn section(
+    page: &mut Page,
+    grounds: &[Ground],
+    trained: &[Vec<Trained>],
+    extent: &Extent,
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    let shipped = || trained.iter().filter_map(|trained| trained.first());
+    let jobs: Vec<(&Ground, &Trained, f64)> = grounds
+        .iter()
+        .zip(shipped())
+        .flat_map(|(ground, trained)| FREQUENCIES_HZ.map(|hz| (ground, trained, hz)))
+        .collect();
+    let found = each(verbosity, "free air", &jobs, |&(ground, trained, hz)| {
+        let mut scene = Scene {
+            seed: SEED,
+            duration_s: extent.air_s,
+            ..ground.scene.clone()
+        };
+        if let Some(whisking) = &mut scene.whisking {
+            whisking.frequency_hz = hz;
+        }
+        if let Some(obstacle) = &mut scene.plant.obstacle {
+            obstacle.obstacle_deg.fill(OUT_OF_REACH_DEG);
+        }
+        let rule = Rule::Sequential { threshold: 0.99 };
+        let classifier = Classifier::new(trained.model.clone(), rule).map_err(refused)?;
+        let mut run = Run::new(&scene, Some(classifier))?;
+        let (mut decisions, mut touches) = (0_u32, 0_u32);
+        for _ in 0..run.ticks() {
+            run.tick();
+            decisions += u32::from(run.decision().is_some());
+            let is_onset = |event: &&Event| matches!(event, Event::Touch { .. });
+            touches += run.events().iter().filter(is_onset).count() as u32;
+        }
+        Ok((decisions, touches))
+    })?;
+
+    page.heading(2, "Free air");
+    page.say(format_args!(
+        "The obstacle is out of reach for {} s: decisions, \"unknown\" among them, and touches \
+         that the module tells although there is none.",
+        extent.air_s
+    ));
+    let rows = jobs.iter().zip(&found).map(|((ground, _, hz), found)| {
+        let (decisions, touches) = *found;
+        let minutes = extent.air_s / 60.0;
+        vec![
+            format!("{}, {hz} Hz", ground.name),
+            decisions.to_string(),
+            verdict(decisions == 0).to_owned(),
+            format!("{:.2}", f64::from(touches) / minutes),
+            verdict(f64::from(touches) < minutes).to_owned(),
+        ]
+    });
+    let rows: Vec<_> = rows.collect();
+    page.table(
+        "scene | decisions (goal: 0) | | touches a minute (goal: below 1) |",
+        rows,
+    );
+    Ok(())
+}

@@ -1,0 +1,50 @@
+//! How much is measured.
+
+use std::ops::Range;
+
+/// How much is measured. Training seeds are none of those scored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extent {
+    /// Whether this is the short form.
+    pub is_quick: bool,
+    /// Seeds of the runs that are trained on; the first is that of the shipped models.
+    pub trainings: Vec<u64>,
+    /// Seeds of the runs that are scored.
+    pub scored: Range<u64>,
+    /// Seeds of the runs of the main job.
+    pub main_job: Range<u64>,
+    /// How long a free whisker is moved, s.
+    pub air_s: f64,
+    /// How many drives are held out; the rest only serve to train.
+    pub drives: usize,
+    /// Values tried of each setting.
+    pub values: usize,
+}
+
+impl Extent {
+    /// What the page shows.
+    pub fn full() -> Self {
+        Self {
+            is_quick: false,
+            trainings: (3..=9).collect(),
+            scored: 200..220,
+            main_job: 200..300,
+            air_s: 600.0,
+            drives: usize::MAX,
+            values: usize::MAX,
+        }
+    }
+
+    /// A short form, for tests.
+    pub fn quick() -> Self {
+        Self {
+            is_quick: true,
+            trainings: vec![3],
+            scored: 200..202,
+            main_job: 200..203,
+            air_s: 10.0,
+            drives: 2,
+            values: 2,
+        }
+    }
+}

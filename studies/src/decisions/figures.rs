@@ -1,0 +1,238 @@
+//! What a model is worth on the runs of a scene, and the table that keeps all figures.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use host_sim::evaluation::{Evaluation, Shown};
+use host_sim::scoring::Scored;
+use tactile::score::{Calibration, Interval, Statistics};
+
+use crate::page::verdict;
+
+/// The figures of a model at a threshold; shares from 0 to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Figures {
+    /// Hit rate of each run with a decision.
+    pub(super) hits: Vec<f64>,
+    /// Mean over the runs of the time of a decision: of contact, and by the clock, ms.
+    pub(super) contact_ms: f64,
+    pub(super) wall_ms: f64,
+    /// Of the decisions of all runs.
+    pub(super) calibration: Calibration,
+    pub(super) undecided: Interval,
+    pub(super) refused: Interval,
+    /// Refused of surfaces that the model does not know.
+    pub(super) strange: Interval,
+    /// What these were taken for.
+    pub(super) taken_for: BTreeMap<String, usize>,
+}
+
+impl Figures {
+    /// Of the runs of a model of these classes.
+    pub(super) fn of(runs: Vec<Scored>, classes: &[String], tick_hz: u32) -> Self {
+        let ms = 1000.0 / f64::from(tick_hz);
+        let mean = |figure: fn(&Scored) -> f64| {
+            let figures = runs.iter().map(figure).filter(|x| !x.is_nan());
+            Statistics::of(figures).map_or(f64::NAN, |s| ms * s.mean)
+        };
+        let (contact_ms, wall_ms) = (mean(|run| run.evaluation.samples), mean(|run| run.wall));
+        let hits = runs.iter().filter_map(|run| run.evaluation.hits).collect();
+        let shown: Vec<Shown> = runs.into_iter().flat_map(|run| run.presentations).collect();
+        let all = Evaluation::new(classes, &shown);
+        let mut taken_for = BTreeMap::new();
+        let strange = shown.iter().filter(|shown| !classes.contains(&shown.label));
+        for decided in strange.flat_map(|shown| &shown.decided) {
+            *taken_for.entry(decided.decision.clone()).or_default() += 1;
+        }
+        Self {
+            hits,
+            contact_ms,
+            wall_ms,
+            calibration: all.calibration,
+            undecided: all.undecided,
+            refused: all.refused,
+            strange: all.strange,
+            taken_for,
+        }
+    }
+
+    /// Mean hit rate over the runs, percent.
+    pub(super) fn hit_rate(&self) -> f64 {
+        100.0 * mean_of(&self.hits).0
+    }
+
+    /// Hit rate of the worst run, percent; infinite without one.
+    pub(super) fn worst(&self) -> f64 {
+        100.0 * self.hits.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Points by which stated and found lie apart; positive where too much is stated.
+    pub(super) fn overstated(&self) -> f64 {
+        100.0 * (self.calibration.stated - self.calibration.found.share)
+    }
+}
+
+/// Mean of some figures and its standard error; not numbers of none.
+pub(super) fn mean_of(figures: &[f64]) -> (f64, f64) {
+    let figures = figures.iter().copied().filter(|x| !x.is_nan());
+    Statistics::of(figures).map_or((f64::NAN, f64::NAN), |s| {
+        (s.mean, s.sd / (s.count as f64).sqrt())
+    })
+}
+
+/// The mean of a figure of some models and its standard error over them.
+pub(super) fn over<'f>(
+    models: impl Iterator<Item = &'f Figures>,
+    figure: impl Fn(&Figures) -> f64,
+) -> (f64, f64) {
+    mean_of(&models.map(figure).collect::<Vec<_>>())
+}
+
+/// Mean ± standard error, or a dash.
+pub(super) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
+    if mean.is_nan() {
+        "–".to_owned()
+    } else {
+        format!("{mean:.decimals$} ± {error:.decimals$}")
+    }
+}
+
+/// A number, or a dash.
+pub(super) fn number(x: f64, decimals: usize) -> String {
+    if x.is_nan() {
+        "–".to_owned()
+    } else {
+        format!("{x:.decimals$}")
+    }
+}
+
+/// A share with its interval, percent.
+pub(super) fn percent(of: Interval) -> String {
+    let Interval {
+        share,
+        low,
+        high,
+        count,
+    } = of;
+    if count == 0 {
+        return "–".to_owned();
+    }
+    let [share, low, high] = [share, low, high].map(|x| 100.0 * x);
+    format!("{share:.1} ({low:.1} to {high:.1})")
+}
+
+/// A bound that a figure is to keep; infinite: none is asked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Goal {
+    AtLeast(f64),
+    AtMost(f64),
+}
+
+impl Goal {
+    pub(super) fn is_asked(self) -> bool {
+        let (Self::AtLeast(bound) | Self::AtMost(bound)) = self;
+        bound.is_finite()
+    }
+
+    pub(super) fn text(self) -> String {
+        match self {
+            _ if !self.is_asked() => "–".to_owned(),
+            Self::AtLeast(bound) => format!("at least {bound}"),
+            Self::AtMost(bound) => format!("at most {bound}"),
+        }
+    }
+
+    pub(super) fn met(self, value: f64) -> bool {
+        match self {
+            Self::AtLeast(bound) => value >= bound,
+            Self::AtMost(bound) => value <= bound,
+        }
+    }
+
+    /// What is said of a value.
+    pub(super) fn verdict(self, value: f64) -> &'static str {
+        if self.is_asked() {
+            verdict(self.met(value))
+        } else {
+            ""
+        }
+    }
+
+    pub(super) fn worse(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::AtLeast(_) => a.min(b),
+            Self::AtMost(_) => a.max(b),
+        }
+    }
+}
+
+/// `decisions.csv`: a line a model, its shares in percent; what is not there is empty.
+pub(super) struct Table(String);
+
+/// Of what a line is: part of the page, scene, setting and seed of the training.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Key<'k> {
+    pub(super) part: &'k str,
+    pub(super) scene: &'k str,
+    pub(super) setting: &'k str,
+    pub(super) seed: u64,
+}
+
+impl Table {
+    pub(super) fn new() -> Self {
+        Self(
+            "part,scene,setting,training,runs,hit_rate,hit_rate_error,worst_run,stated,found,\
+             found_low,found_high,decisions,contact_ms,clock_ms,undecided,refused,\
+             unknown_refused\n"
+                .to_owned(),
+        )
+    }
+
+    pub(super) fn into_text(self) -> String {
+        self.0
+    }
+
+    /// The figures of a model.
+    pub(super) fn add(&mut self, key: Key<'_>, figures: &Figures) {
+        let Key {
+            part,
+            scene,
+            setting,
+            seed,
+        } = key;
+        let Interval {
+            share,
+            low,
+            high,
+            count,
+        } = figures.calibration.found;
+        let (_, error) = mean_of(&figures.hits);
+        let runs = figures.hits.len();
+        let cell = |x: f64| {
+            if x.is_finite() {
+                format!("{x:.3}")
+            } else {
+                String::new()
+            }
+        };
+        let percent = |x: f64| cell(100.0 * x);
+        let cells = [
+            cell(figures.hit_rate()),
+            percent(error),
+            cell(figures.worst()),
+            percent(figures.calibration.stated),
+            percent(share),
+            percent(low),
+            percent(high),
+            count.to_string(),
+            cell(figures.contact_ms),
+            cell(figures.wall_ms),
+            percent(figures.undecided.share),
+            percent(figures.refused.share),
+            percent(figures.strange.share),
+        ]
+        .join(",");
+        // Writing to a string does not fail.
+        let _ = writeln!(self.0, "{part},{scene},{setting},{seed},{runs},{cells}");
+    }
+}

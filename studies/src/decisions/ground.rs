@@ -1,0 +1,181 @@
+//! The scenes that are scored, with their runs.
+
+use host_sim::Error;
+use host_sim::classifier::Classifier;
+use host_sim::commands::record;
+use host_sim::commands::train::{How, Tables, TrainedModel};
+use host_sim::progress::Verbosity;
+use host_sim::recording::Stream;
+use host_sim::scoring::Heard;
+use host_sim::training;
+use scene::{Rule, Scene};
+use tactile::ModelBuf;
+use tactile::train::joint::{JointModel, Options};
+
+use super::extent::Extent;
+use super::figures::Figures;
+use crate::cores::each;
+use crate::refused::refused;
+
+/// Longest run that is trained on, s.
+pub(super) const LONGEST_S: f64 = 80.0;
+
+/// What is asked of a scene; shares in percent.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Goals {
+    pub(super) contact_ms: f64,
+    pub(super) undecided: f64,
+    /// Of unknown textures.
+    pub(super) strange: f64,
+    /// Whether there is a goal for single runs.
+    pub(super) of_runs: bool,
+}
+
+/// The scenes, and what is asked of each.
+const SCENES: [(&str, &str, Goals); 2] = [
+    (
+        "textures",
+        include_str!("../../../scenes/textures.toml"),
+        Goals {
+            contact_ms: 180.0,
+            undecided: 1.0,
+            strange: 65.0,
+            of_runs: true,
+        },
+    ),
+    (
+        "whisker",
+        include_str!("../../../scenes/whisker.toml"),
+        Goals {
+            contact_ms: 340.0,
+            undecided: 8.0,
+            strange: 45.0,
+            of_runs: false,
+        },
+    ),
+];
+
+/// A scene and its runs.
+pub(super) struct Ground {
+    pub(super) name: &'static str,
+    pub(super) scene: Scene,
+    pub(super) goals: Goals,
+    /// By the seed of each training a run of [`LONGEST_S`].
+    recorded: Vec<(u64, Vec<Stream>)>,
+    /// The runs that are scored.
+    pub(super) heard: Vec<Heard>,
+}
+
+impl Ground {
+    /// All scenes with their runs.
+    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>, Error> {
+        SCENES
+            .into_iter()
+            .map(|(name, text, goals)| {
+                let scene = Scene::from_str(&format!("scenes/{name}.toml"), text)?;
+                let recorded = each(verbosity, "training runs", &extent.trainings, |&seed| {
+                    let scene = Scene {
+                        seed,
+                        duration_s: LONGEST_S,
+                        ..scene.clone()
+                    };
+                    Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
+                })?;
+                let seeds: Vec<u64> = extent.scored.clone().collect();
+                Ok(Self {
+                    name,
+                    goals,
+                    recorded,
+                    heard: heard(&scene, &seeds, verbosity)?,
+                    scene,
+                })
+            })
+            .collect()
+    }
+
+    /// The seeds that are trained on.
+    pub(super) fn seeds(&self) -> impl Iterator<Item = u64> {
+        self.recorded.iter().map(|(seed, _)| *seed)
+    }
+
+    /// The first seconds of the run that a training is of.
+    pub(super) fn recording(&self, seed: u64, seconds: f64) -> Vec<Stream> {
+        let mut left = (seconds * f64::from(self.scene.tick_hz)).round() as usize;
+        let recorded = self.recorded.iter().find(|(of, _)| *of == seed);
+        let mut streams = Vec::new();
+        for stream in recorded.into_iter().flat_map(|(_, streams)| streams) {
+            if left == 0 {
+                break;
+            }
+            let mut stream = stream.clone();
+            stream.samples.truncate(left);
+            left -= stream.samples.len();
+            streams.push(stream);
+        }
+        streams
+    }
+
+    /// A joint model with the settings that `host-sim train` has by default.
+    pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel, Error> {
+        let joint = self.train_tables(streams, Tables::Joint)?.joint;
+        joint.ok_or_else(|| Error::Work("training made no joint model".to_owned()))
+    }
+
+    /// A model of any tables with the settings that `host-sim train` has by default.
+    pub(super) fn train_tables(
+        &self,
+        streams: Vec<Stream>,
+        tables: Tables,
+    ) -> Result<TrainedModel, Error> {
+        let recordings = [(self.scene.name.clone(), streams)];
+        let contact_min = self.scene.classifier.as_ref().and_then(|c| c.contact_min);
+        let how = How::of(tables).gated(contact_min);
+        let trained = how.train(&recordings, self.scene.tick_hz);
+        trained.map_err(refused)
+    }
+
+    /// A model with other settings.
+    pub(super) fn train_by(
+        &self,
+        streams: Vec<Stream>,
+        options: &Options,
+    ) -> Result<JointModel, Error> {
+        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(refused)
+    }
+
+    /// A model on the runs that are scored.
+    pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures, Error> {
+        self.score_on(&self.heard, model, threshold)
+    }
+
+    /// A model on some runs.
+    pub(super) fn score_on(
+        &self,
+        heard: &[Heard],
+        model: &ModelBuf,
+        threshold: f64,
+    ) -> Result<Figures, Error> {
+        let rule = Rule::Sequential { threshold };
+        let classifier = Classifier::new(model.clone(), rule).map_err(refused)?;
+        let runs = heard.iter().map(|run| run.score(classifier.clone()));
+        Ok(Figures::of(
+            runs.collect(),
+            classifier.classes(),
+            self.scene.tick_hz,
+        ))
+    }
+}
+
+/// Runs of a scene with these seeds, as a classifier hears them.
+pub(super) fn heard(
+    scene: &Scene,
+    seeds: &[u64],
+    verbosity: Verbosity,
+) -> Result<Vec<Heard>, Error> {
+    each(verbosity, "scored runs", seeds, |&seed| {
+        Heard::record(&Scene {
+            seed,
+            ..scene.clone()
+        })
+    })
+}

@@ -1,0 +1,145 @@
+//! What was chosen after results had been seen, and what would have come of it otherwise.
+
+use host_sim::Error;
+use host_sim::progress::Verbosity;
+use tactile::train::joint::Options;
+
+use super::figures::{Figures, Key, Table, number, over, plus_minus};
+use super::goals::Trained;
+use super::ground::Ground;
+use crate::cores::each;
+use crate::page::{Page, row};
+use crate::refused::refused;
+
+/// Where such choices are noted, each with the way there from the page.
+const NOTES: [(&str, &str, &str); 3] = [
+    (
+        "docs/decisions.md",
+        "../decisions.md",
+        include_str!("../../../docs/decisions.md"),
+    ),
+    (
+        "crates/tactile/src/touch.rs",
+        "../../crates/tactile/src/touch.rs",
+        include_str!("../../../crates/tactile/src/touch.rs"),
+    ),
+    (
+        "crates/tactile/src/train/joint/trial.rs",
+        "../../crates/tactile/src/train/joint/trial.rs",
+        include_str!("../../../crates/tactile/src/train/joint/trial.rs"),
+    ),
+];
+
+/// Shares of right decisions that floors may refuse, tried beside the default: none, and
+/// that of the study before.
+const REFUSED: [f64; 2] = [0.0, 0.05];
+
+/// The notes, and the figures without what an option can take back.
+pub(super) fn section(
+    page: &mut Page,
+    table: &mut Table,
+    grounds: &[Ground],
+    trained: &[Vec<Trained>],
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    page.heading(2, "Chosen after results were seen");
+    page.say("Values that were chosen with results before the eyes, as their sources tell them:");
+    for (name, way, text) in NOTES {
+        for note in notes(text) {
+            page.say(format_args!("> {note} ([{name}]({way}))"));
+        }
+    }
+    page.say(
+        "Of these the floors' share is an option. The figures without it, mean of all trainings; \
+         the others cannot be taken back by an option, and what was found without them stands in \
+         the notes.",
+    );
+    for (ground, trained) in grounds.iter().zip(trained) {
+        let Some(default) = trained.first().map(|one| one.joint.options.refused) else {
+            continue;
+        };
+        let mut rows = vec![of(
+            &format!("{} % refused, the default", 100.0 * default),
+            &trained.iter().map(Trained::usual),
+        )];
+        for share in REFUSED {
+            let found = each(verbosity, "other floors", trained, |one| {
+                let options = Options {
+                    refused: share,
+                    ..one.joint.options.clone()
+                };
+                let streams = ground.recording(one.seed, ground.scene.duration_s);
+                let joint = ground.train_by(streams, &options)?;
+                ground.score(&joint.model().map_err(refused)?, 0.99)
+            })?;
+            let name = match share {
+                0.0 => "no floors".to_owned(),
+                _ => format!("{} % refused", 100.0 * share),
+            };
+            for (one, figures) in trained.iter().zip(&found) {
+                let key = Key {
+                    part: "hindsight",
+                    scene: ground.name,
+                    setting: &name,
+                    seed: one.seed,
+                };
+                table.add(key, figures);
+            }
+            rows.push(of(&name, &found.iter()));
+        }
+        page.table(
+            &format!("{} | hit rate | stated | found | refused", ground.name),
+            rows,
+        );
+    }
+    Ok(())
+}
+
+fn of<'f>(name: &str, models: &(impl Iterator<Item = &'f Figures> + Clone)) -> Vec<String> {
+    let mean = |figure: fn(&Figures) -> f64| over(models.clone(), figure);
+    let cells = [
+        plus_minus(mean(Figures::hit_rate), 2),
+        number(mean(|f| 100.0 * f.calibration.stated).0, 2),
+        plus_minus(mean(|f| 100.0 * f.calibration.found.share), 2),
+        plus_minus(mean(|f| 100.0 * f.refused.share), 1),
+    ];
+    row(name, cells)
+}
+
+/// The paragraphs of a text, or of the comments of a source, that say what was chosen
+/// after something had been seen.
+fn notes(text: &str) -> Vec<String> {
+    let line = |line: &str| {
+        let line = line.trim_start();
+        let marks = ["//!", "///"];
+        let said = marks.into_iter().find_map(|mark| line.strip_prefix(mark));
+        said.unwrap_or(line).trim().to_owned()
+    };
+    let lines: Vec<String> = text.lines().map(line).collect();
+    let paragraphs = lines.split(String::is_empty).map(|lines| lines.join(" "));
+    let chosen = |text: &String| {
+        let text = text.to_lowercase();
+        text.contains("chosen") && text.contains("seen") || text.contains("chosen after")
+    };
+    let plain = |text: String| text.replace("[`", "`").replace("`]", "`");
+    paragraphs.filter(chosen).map(plain).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NOTES, notes};
+
+    #[test]
+    fn paragraphs_of_comments_are_found() {
+        let text =
+            "//! One.\n//!\n//! Two was chosen after\n//! [`THREE`] was seen.\n//!\n//! Four.";
+        assert_eq!(notes(text), ["Two was chosen after `THREE` was seen."]);
+    }
+
+    #[test]
+    fn the_record_and_the_detector_say_what_was_chosen() {
+        for (name, _, text) in &NOTES[..2] {
+            assert!(!notes(text).is_empty(), "{name}");
+        }
+    }
+}

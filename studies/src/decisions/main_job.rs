@@ -1,0 +1,52 @@
+//! The main job over many runs.
+
+use host_sim::Error;
+use host_sim::progress::Verbosity;
+
+use super::extent::Extent;
+use super::figures::{Key, Table, mean_of, percent, plus_minus};
+use super::goals::Trained;
+use super::ground::{Ground, heard};
+use crate::page::Page;
+
+/// The first scene with its shipped model: what `docs/textures.md` quotes.
+pub(super) fn section(
+    page: &mut Page,
+    table: &mut Table,
+    grounds: &[Ground],
+    trained: &[Vec<Trained>],
+    extent: &Extent,
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    let (Some(ground), Some([shipped, ..])) = (grounds.first(), trained.first().map(Vec::as_slice))
+    else {
+        return Ok(());
+    };
+    let seeds: Vec<u64> = extent.main_job.clone().collect();
+    let heard = heard(&ground.scene, &seeds, verbosity)?;
+    let figures = ground.score_on(&heard, &shipped.model, 0.99)?;
+    let key = Key {
+        part: "main job",
+        scene: ground.name,
+        setting: "as shipped",
+        seed: shipped.seed,
+    };
+    table.add(key, &figures);
+    page.heading(2, "The main job");
+    let (mean, error) = mean_of(&figures.hits);
+    page.say(format_args!(
+        "`cargo run --release -p host-sim` shows one run. Over {} runs with seeds {} to {} the \
+         same model has a hit rate of {} %, in the worst run {:.1} %. A mean posterior of {:.2} % \
+         was right in {}; {:.0} ms of contact to a decision; {} refused.",
+        seeds.len(),
+        extent.main_job.start,
+        extent.main_job.end - 1,
+        plus_minus((100.0 * mean, 100.0 * error), 2),
+        figures.worst(),
+        100.0 * figures.calibration.stated,
+        percent(figures.calibration.found),
+        figures.contact_ms,
+        percent(figures.refused),
+    ));
+    Ok(())
+}

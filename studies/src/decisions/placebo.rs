@@ -1,0 +1,118 @@
+//! What is told where there is nothing to tell: labels that mean nothing.
+
+use host_sim::Error;
+use host_sim::commands::train::Tables;
+use host_sim::progress::Verbosity;
+
+use super::figures::{Figures, Key, Table, number, over, plus_minus};
+use super::goals::Trained;
+use super::ground::Ground;
+use crate::cores::each;
+use crate::page::{Page, row};
+
+/// Models that are tried, with their thresholds.
+const MODELS: [(&str, Tables, f64); 3] = [
+    ("joint", Tables::Joint, 0.99),
+    ("joint", Tables::Joint, 0.5),
+    ("the papers'", Tables::Single, 0.99),
+];
+
+/// Every texture under each of the scene's names in turn, in training and in scoring.
+pub(super) fn section(
+    page: &mut Page,
+    table: &mut Table,
+    grounds: &[Ground],
+    trained: &[Vec<Trained>],
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    page.heading(2, "A placebo");
+    page.say(
+        "The same runs with labels that mean nothing: trial n of texture m is called by name \
+         n + m, counted around, so that every name has as much of every texture, in the training \
+         as in the runs that are scored. A hit rate above chance would be of the method, not of \
+         the textures, and whatever is decided at a stated 99 % is stated wrongly. Decided is the \
+         share of presentations with a decision for a class; the last column sets the number of \
+         decisions against that of the joint model with true labels. Means of all trainings; \
+         beside the joint model, which weighs its tables by held-out trials, the papers' model, \
+         which does not.",
+    );
+    let mut rows = Vec::new();
+    for (ground, trained) in grounds.iter().zip(trained) {
+        let textured = ground.scene.plant.textured.as_ref();
+        let textures = textured.map_or(&[][..], |textured| &textured.textures);
+        let names: Vec<&str> = textures.iter().map(|texture| texture.name()).collect();
+        let mut heard = ground.heard.clone();
+        for shown in heard.iter_mut().flat_map(|run| &mut run.presentations) {
+            shown.label = permuted(&names, &shown.label, shown.trial);
+        }
+        let seeds: Vec<u64> = ground.seeds().collect();
+        let true_count = over(trained.iter().map(Trained::usual), count).0;
+        for (name, tables, threshold) in MODELS {
+            let found = each(verbosity, "placebo", &seeds, |&seed| {
+                let mut streams = ground.recording(seed, ground.scene.duration_s);
+                for stream in &mut streams {
+                    let trial = stream.trial.parse().unwrap_or(0);
+                    stream.label = permuted(&names, &stream.label, trial);
+                }
+                let model = ground.train_tables(streams, tables)?.model;
+                ground.score_on(&heard, &model, threshold)
+            })?;
+            let setting = format!("{name} at {threshold}");
+            for (seed, figures) in seeds.iter().zip(&found) {
+                let key = Key {
+                    part: "placebo",
+                    scene: ground.name,
+                    setting: &setting,
+                    seed: *seed,
+                };
+                table.add(key, figures);
+            }
+            let all = |figure: fn(&Figures) -> f64| over(found.iter(), figure);
+            let share = over(found.iter(), |figures| 100.0 * count(figures) / true_count);
+            let cells = [
+                setting,
+                format!("{:.0}", 100.0 / names.len().max(1) as f64),
+                plus_minus(all(Figures::hit_rate), 1),
+                number(all(|figures| 100.0 * figures.calibration.stated).0, 1),
+                plus_minus(all(|figures| 100.0 * (1.0 - figures.undecided.share)), 1),
+                plus_minus(share, 1),
+            ];
+            rows.push(row(ground.name, cells));
+        }
+    }
+    page.table(
+        "scene | model | chance | hit rate | stated | presentations decided | decisions, of the \
+         true",
+        rows,
+    );
+    Ok(())
+}
+
+fn count(figures: &Figures) -> f64 {
+    figures.calibration.found.count as f64
+}
+
+/// The name of a trial of what is truly `label`.
+fn permuted(names: &[&str], label: &str, trial: u64) -> String {
+    let place = names.iter().position(|name| *name == label);
+    let turned = place.map(|place| (place + trial as usize) % names.len());
+    let name = turned.and_then(|place| names.get(place));
+    name.map_or_else(|| label.to_owned(), |name| (*name).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::permuted;
+
+    #[test]
+    fn each_name_has_every_texture_once_in_as_many_trials_as_names() {
+        let names = ["a", "b", "c"];
+        for name in names {
+            let called = (0..3).map(|trial| permuted(&names, name, trial));
+            let mut called: Vec<_> = called.collect();
+            called.sort();
+            assert_eq!(called, names);
+        }
+        assert_eq!(permuted(&names, "free", 1), "free");
+    }
+}

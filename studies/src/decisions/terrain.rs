@@ -1,0 +1,243 @@
+//! A robot's vibration over three grounds: other drives, and other stretches of the same.
+
+use std::path::Path;
+
+use host_sim::commands::train::{How, Tables};
+use host_sim::decisions::{Decided, UNKNOWN};
+use host_sim::evaluation::{Shown, presentations};
+use host_sim::progress::Verbosity;
+use host_sim::recording::{CHANNELS, Stream};
+use host_sim::{Error, files};
+use tactile::ModelBuf;
+use tactile::score::Interval;
+
+use super::extent::Extent;
+use super::figures::{Goal, percent};
+use crate::cores::each;
+use crate::page::Page;
+use crate::refused::refused;
+
+/// Samples of a window.
+const WINDOW: usize = 2000;
+/// Samples a second.
+const RATE_HZ: u32 = 100;
+/// What the windows of some drives were decided to be.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Windows {
+    right: usize,
+    wrong: usize,
+    all: usize,
+}
+
+impl Windows {
+    /// Of a window counts the first decision for a class.
+    fn of(shown: &[Shown]) -> Self {
+        let mut windows = Self::default();
+        for shown in shown {
+            windows.all += 1;
+            let mut named = shown.decided.iter().filter(|d| d.decision != UNKNOWN);
+            match named.next().map(Decided::is_right) {
+                Some(true) => windows.right += 1,
+                Some(false) => windows.wrong += 1,
+                None => {}
+            }
+        }
+        windows
+    }
+
+    fn decided(self) -> usize {
+        self.right + self.wrong
+    }
+}
+
+/// Measures both.
+pub(super) fn section(
+    page: &mut Page,
+    folder: &Path,
+    extent: &Extent,
+    verbosity: Verbosity,
+) -> Result<(), Error> {
+    let [first, second] = ["terrain-train.csv", "terrain-test.csv"].map(|name| {
+        let path = folder.join(name);
+        files::read_recording(&path, CHANNELS)
+    });
+    let (first, second) = (first?, second?);
+    let drives = drives(&first, &second);
+    let places: Vec<usize> = (0..drives.len()).take(extent.drives).collect();
+    let others = each(verbosity, "terrain", &places, |&left_out| {
+        let known = drives.iter().enumerate().filter(|(n, _)| *n != left_out);
+        let recordings = known.map(|(n, drive)| (n.to_string(), vec![drive.clone()]));
+        let model = trained(&recordings.collect::<Vec<_>>())?;
+        decided(&model, &windows(&drives[left_out]))
+    })?;
+    let [quarters, again] = [0, 1].map(|n| first.iter().map(|half| cut(half, n)).collect());
+    let known = [
+        vec![("first halves".to_owned(), first)],
+        vec![
+            ("first quarters".to_owned(), quarters),
+            ("second quarters".to_owned(), again),
+        ],
+    ];
+    let known = each(verbosity, "terrain", &known, |recordings| {
+        let model = trained(recordings)?;
+        let drives = second.iter().map(|drive| decided(&model, &windows(drive)));
+        drives.collect::<Result<Vec<Windows>, _>>()
+    })?;
+
+    page.heading(2, "Terrain");
+    page.say(format_args!(
+        "Real recordings ([tests/data/terrain](../../tests/data/terrain/README.md)), in windows \
+         of {WINDOW} samples or, of a shorter drive, all of it; what is left over is not used. A \
+         window is right or wrong by its first decision for a class at a stated 99 %, and \
+         undecided without one. *Other drives*: each of {} drives is left out in turn and the \
+         model is trained on the rest, a drive a recording. *Known drives*: trained on the first \
+         half of each, tried on the second. What training holds out to weigh its tables is, of \
+         one recording, a drive, as if others were to come; given as two recordings, a quarter \
+         of each drive in either, another stretch of the same drives, which is what is asked. \
+         Intervals count a drive as one observation: its windows are alike.",
+        others.len()
+    ));
+    let mut rows = Vec::new();
+    let mut line = |setting: &str, figure: &str, drives: &[Windows], share: Share, goal: Goal| {
+        let of = by_drive(drives, share.0, share.1);
+        let whole: usize = drives.iter().map(|drive| share.1(*drive)).sum();
+        rows.push(vec![
+            format!("{setting}: {figure}"),
+            goal.text(),
+            percent(of),
+            whole.to_string(),
+            goal.verdict(100.0 * of.share).to_owned(),
+        ]);
+    };
+    let all: fn(Windows) -> usize = |windows| windows.all;
+    let right: Share = (|windows| windows.right, Windows::decided);
+    let (none, other) = (Goal::AtLeast(f64::NEG_INFINITY), "other drives");
+    line(
+        other,
+        "windows wrong",
+        &others,
+        (|w| w.wrong, all),
+        Goal::AtMost(2.0),
+    );
+    line(
+        other,
+        "windows decided",
+        &others,
+        (Windows::decided, all),
+        none,
+    );
+    line(other, "right of those", &others, right, none);
+    let names = [
+        "known drives, one recording",
+        "known drives, two recordings",
+    ];
+    for (name, drives) in names.into_iter().zip(&known) {
+        let decided = (Windows::decided as fn(Windows) -> usize, all);
+        line(
+            name,
+            "windows decided",
+            drives,
+            decided,
+            Goal::AtLeast(65.0),
+        );
+        line(name, "right of those", drives, right, Goal::AtLeast(92.0));
+    }
+    page.table("figure | goal | found | windows |", rows);
+    Ok(())
+}
+
+/// What is counted, and among what.
+type Share = (fn(Windows) -> usize, fn(Windows) -> usize);
+
+/// The first or the second half of a stream.
+fn cut(stream: &Stream, half: usize) -> Stream {
+    let middle = stream.samples.len() / 2;
+    let (first, second) = stream.samples.split_at(middle);
+    Stream {
+        samples: [first, second][half].to_vec(),
+        ..stream.clone()
+    }
+}
+
+/// The halves of each drive, one behind the other.
+fn drives(first: &[Stream], second: &[Stream]) -> Vec<Stream> {
+    let whole = |half: &Stream| {
+        let mut drive = half.clone();
+        let rest = second
+            .iter()
+            .find(|other| (&other.label, &other.trial) == (&half.label, &half.trial));
+        drive
+            .samples
+            .extend(rest.into_iter().flat_map(|rest| &rest.samples));
+        drive
+    };
+    first.iter().map(whole).collect()
+}
+
+/// Windows of a drive, each a stream.
+fn windows(drive: &Stream) -> Vec<Stream> {
+    let length = WINDOW.min(drive.samples.len().max(1));
+    let window = |samples: &[[f64; 2]]| Stream {
+        samples: samples.to_vec(),
+        ..drive.clone()
+    };
+    drive.samples.chunks_exact(length).map(window).collect()
+}
+
+fn trained(recordings: &[(String, Vec<Stream>)]) -> Result<ModelBuf, Error> {
+    let trained = How::of(Tables::Joint).train(recordings, RATE_HZ);
+    Ok(trained.map_err(refused)?.model)
+}
+
+fn decided(model: &ModelBuf, windows: &[Stream]) -> Result<Windows, Error> {
+    let shown = presentations(model, 0.99, windows).map_err(refused)?;
+    Ok(Windows::of(&shown))
+}
+
+/// A share of windows, its interval as of one observation a drive that has any.
+fn by_drive(
+    drives: &[Windows],
+    part: impl Fn(Windows) -> usize,
+    whole: impl Fn(Windows) -> usize,
+) -> Interval {
+    let sum = |of: &dyn Fn(Windows) -> usize| drives.iter().map(|d| of(*d)).sum::<usize>();
+    let observed = drives.iter().filter(|drive| whole(**drive) > 0).count();
+    Interval::of_share(sum(&part) as f64 / sum(&whole) as f64, observed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Windows, by_drive, windows};
+    use host_sim::recording::Stream;
+
+    #[test]
+    fn windows_are_whole_and_a_short_drive_is_one() {
+        let drive = |length| Stream {
+            label: "ice".to_owned(),
+            trial: "1".to_owned(),
+            samples: vec![[0.0; 2]; length],
+            contact: None,
+            touch: None,
+        };
+        let lengths = |length| {
+            let windows = windows(&drive(length));
+            windows.iter().map(|w| w.samples.len()).collect::<Vec<_>>()
+        };
+        assert_eq!(lengths(4999), [2000, 2000]);
+        assert_eq!(lengths(950), [950]);
+        assert!(lengths(0).is_empty());
+    }
+
+    #[test]
+    fn a_drive_is_one_observation_and_none_without_windows() {
+        let drive = |right, wrong| Windows {
+            right,
+            wrong,
+            all: 10,
+        };
+        let drives = [drive(9, 1), drive(0, 0), drive(5, 5)];
+        let right = by_drive(&drives, |w| w.right, Windows::decided);
+        assert_eq!((right.share, right.count), (0.7, 2));
+        assert!(right.low < 0.3 && right.high > 0.9);
+    }
+}
