@@ -212,10 +212,7 @@ macro_rules! program {
             }
 
             // Sixteen events: idle drains them after every tick, which has four at most.
-            #[init(local = [
-                                        queue: Queue<Event, 17> = Queue::new(),
-                                        place: Place = Place::new(),
-                                    ])]
+            #[init(local = [queue: Queue<Event, 17> = Queue::new(), place: Place = Place::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
                 let module = program::start(cx.core, cx.local.place);
                 let (events, logged) = cx.local.queue.split();
