@@ -145,6 +145,11 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         return Part { items, config };
     };
     let names = model.names();
+    // A model that knows no touches needs no code for them.
+    let (words, into_words) = match model.view().into_single() {
+        Some(_) => (quote! { tactile::Single }, quote! { .into_single()? }),
+        None => (quote! { &'static [u32] }, quote! {}),
+    };
     let (rule, rule_type, rule_value) = match classifier.rule {
         Rule::Sequential { threshold } => (
             quote! { SequentialRule },
@@ -173,12 +178,12 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
         quote! {
             pub(crate) type Perception =
-                firmware::Classifying<firmware::CodeClassifier<tactile::#rule>>;
+                firmware::Classifying<firmware::CodeClassifier<tactile::#rule, #words>>;
         },
         quote! {
             pub(crate) fn start_perception() -> Option<Perception> {
                 let bytes = tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"));
-                let model = tactile::Model::linked(bytes).ok()?;
+                let model = tactile::Model::linked(bytes).ok()? #into_words;
                 let bayes = tactile::NaiveBayes::new(model, SETTINGS.perception.rule).ok()?;
                 let classifier = firmware::CodeClassifier::new(bayes).ok()?;
                 Some(firmware::Classifying::new(classifier))

@@ -1,6 +1,6 @@
 //! What decides about what a module touches, or does not.
 
-use tactile::{Decision, DecisionRule, Model, NaiveBayes, TouchDetector, Touching};
+use tactile::{Decision, DecisionRule, Model, NaiveBayes, TouchDetector, Touching, Words};
 use whisking::{Optional, Real};
 
 use crate::sensing::Reading;
@@ -84,6 +84,9 @@ pub struct Sample {
 pub trait SampleClassifier {
     /// Takes the sample of every tick with a valid reading; a decision may fall.
     fn push(&mut self, sample: Sample) -> Option<Decision>;
+
+    /// Whether it is to be told touches; otherwise all is of the air to it.
+    fn knows_touches(&self) -> bool;
 
     /// Starts anew.
     fn reset(&mut self);
@@ -169,7 +172,11 @@ where
         let counts = least.is_none_or(|least| contact >= least);
         let Touching { number: last, .. } = self.touches.touching();
         let gate = least.is_some() && counts;
-        let Touching { number, is_onset } = self.touches.step(codes, gate, config.gap);
+        let Touching { number, is_onset } = if self.classifier.knows_touches() {
+            self.touches.step(codes, gate, config.gap)
+        } else {
+            Touching::default()
+        };
         let place = Place::new(0, 0);
         if is_onset {
             events(Event::Touch { place, number });
@@ -212,7 +219,7 @@ pub struct NotCodes;
 ///
 /// # Errors
 /// [`NotCodes`] if the model was trained on something else.
-pub fn shifts<W: AsRef<[u32]>>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
+pub fn shifts<W: Words>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
     let shift = |channel| -> Option<u32> {
         let quantiser = model.quantiser(channel)?;
         // 14 bits and 17 of shift stay below 2^31.
@@ -225,7 +232,7 @@ pub fn shifts<W: AsRef<[u32]>>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
     }
 }
 
-impl<R: DecisionRule, W: AsRef<[u32]>> CodeClassifier<R, W> {
+impl<R: DecisionRule, W: Words> CodeClassifier<R, W> {
     /// With this classifier.
     ///
     /// # Errors
@@ -248,7 +255,7 @@ impl<R: DecisionRule, W: AsRef<[u32]>> CodeClassifier<R, W> {
     }
 }
 
-impl<R: DecisionRule, W: AsRef<[u32]>> SampleClassifier for CodeClassifier<R, W> {
+impl<R: DecisionRule, W: Words> SampleClassifier for CodeClassifier<R, W> {
     #[inline]
     fn push(&mut self, sample: Sample) -> Option<Decision> {
         let [x, y] = sample.codes;
@@ -261,11 +268,16 @@ impl<R: DecisionRule, W: AsRef<[u32]>> SampleClassifier for CodeClassifier<R, W>
             i32::from(y).wrapping_mul(self.factors[1]),
         ];
         // Two channels, as `new` has made sure.
-        if sample.counts && (sample.touch != 0 || !self.needs_touch) {
+        if sample.counts && (sample.touch != 0 || !self.knows_touches()) {
             return self.bayes.push(&codes).ok().flatten();
         }
         let _ = self.bayes.pass(&codes);
         None
+    }
+
+    #[inline]
+    fn knows_touches(&self) -> bool {
+        W::JOINT && self.needs_touch
     }
 
     fn reset(&mut self) {

@@ -57,6 +57,10 @@ impl SampleClassifier for Classifier {
         self.codes.push(sample)
     }
 
+    fn knows_touches(&self) -> bool {
+        self.codes.knows_touches()
+    }
+
     fn reset(&mut self) {
         self.codes.reset();
     }
@@ -100,6 +104,12 @@ impl SampleClassifier for Tap {
         self.classifier.as_mut()?.push(sample)
     }
 
+    fn knows_touches(&self) -> bool {
+        // A recording has them for whatever model is made of it.
+        let classifier = self.classifier.as_ref();
+        classifier.is_none_or(SampleClassifier::knows_touches)
+    }
+
     fn reset(&mut self) {
         self.sample = None;
         if let Some(classifier) = &mut self.classifier {
@@ -130,7 +140,7 @@ pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, B
 }
 
 /// The class names of a model.
-pub fn names<W: AsRef<[u32]>>(model: &Model<W>) -> Vec<String> {
+pub fn names<W: tactile::Words>(model: &Model<W>) -> Vec<String> {
     model.names().map(str::to_owned).collect()
 }
 

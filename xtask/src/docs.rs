@@ -45,21 +45,26 @@ fn studies(page: &str, check: bool) -> Result<(), Fault> {
 struct Trained {
     scene: &'static str,
     model: &'static str,
-    /// A texture that the model is not to know.
-    unknown: Option<&'static str>,
+    /// How, unless by default.
+    options: &'static [&'static str],
 }
 
 /// Those but the main job.
-const TRAINED: [Trained; 2] = [
+const TRAINED: [Trained; 3] = [
     Trained {
         scene: "scenes/whisker.toml",
         model: "scenes/models/whisker.model",
-        unknown: None,
+        options: &[],
     },
     Trained {
         scene: "scenes/unknown.toml",
         model: "scenes/models/unknown.model",
-        unknown: Some("carpet"),
+        options: &["--unknown", "carpet"],
+    },
+    Trained {
+        scene: "scenes/papers.toml",
+        model: "scenes/models/papers.model",
+        options: &["--tables", "single"],
     },
 ];
 
@@ -86,10 +91,7 @@ impl Trained {
         output(simulator("record").arg(self.scene).args(record).arg(&heard))?;
         let mut train = simulator("train");
         train.arg("--data").arg(&heard).arg("--out").arg(&model);
-        if let Some(label) = self.unknown {
-            train.args(["--unknown", label]);
-        }
-        output(&mut train)?;
+        output(train.args(self.options))?;
         read_bytes(&model)
     }
 }

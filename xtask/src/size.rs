@@ -15,9 +15,10 @@ use scene::Scene;
 
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, read_bytes, top};
-use parts::Seen;
+use parts::{Named, Seen};
 use table::Row;
 pub(crate) use table::TABLE;
+use tactile::ModelBuf;
 
 /// Names between them, on one board, what no scene names: not in the table.
 const CONTROL: &str = "xtask/src/size/control.toml";
@@ -180,12 +181,21 @@ fn misfits(
     elf: &Path,
 ) -> Result<Vec<String>, Fault> {
     let functions = contents::functions(elf)?;
-    let mut wrong = seen.compare(&functions, scene, board.has_fpu)?;
+    let named = model_bytes(scene)?;
+    let model = named
+        .as_ref()
+        .map(|bytes| ModelBuf::from_bytes(bytes))
+        .transpose();
+    let model = model.map_err(|error| format!("{}: {error}", path.display()))?;
+    let holds = Named {
+        scene,
+        model: model.as_ref(),
+    };
+    let mut wrong = seen.compare(&functions, holds, board.has_fpu)?;
     let sides = contents::sides(elf)?;
     if sides != [scene.head.sides.count()] {
         wrong.push(format!("code for {sides:?} sides"));
     }
-    let named = model_bytes(scene)?;
     for path in listing(&top().join("scenes/models"), "model")? {
         let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;

@@ -9,6 +9,7 @@ use crate::rule::DecisionRule;
 use crate::sequential::{SequentialEvidence, SequentialRule, Threshold};
 use crate::totals::Totals;
 use crate::window::WindowRule;
+use crate::words::Words;
 
 /// Either of the rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,10 +42,7 @@ impl DecisionRule for AnyRule {
     type Settings = AnyRuleSettings;
     type Evidence = AnyEvidence;
 
-    fn new<W: AsRef<[u32]>>(
-        model: &Model<W>,
-        settings: AnyRuleSettings,
-    ) -> Result<Self, SetupError> {
+    fn new<W: Words>(model: &Model<W>, settings: AnyRuleSettings) -> Result<Self, SetupError> {
         Ok(match settings {
             AnyRuleSettings::Sequential(threshold) => {
                 Self::Sequential(SequentialRule::new(model, threshold)?)

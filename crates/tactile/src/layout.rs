@@ -167,6 +167,12 @@ impl Layout {
     pub(crate) const fn has_roughness(&self) -> bool {
         self.floors > self.rough_tables
     }
+
+    /// Whether classes have floors.
+    #[inline]
+    pub(crate) const fn has_floors(&self) -> bool {
+        self.names > self.floors
+    }
 }
 
 impl ChannelRecord {

@@ -86,6 +86,7 @@ pub mod train;
 #[cfg(feature = "std")]
 mod train_error;
 mod window;
+mod words;
 
 pub use any_rule::{AnyEvidence, AnyRule, AnyRuleSettings};
 pub use binner::Binner;
@@ -109,3 +110,4 @@ pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
 pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};
+pub use words::{Single, Words};

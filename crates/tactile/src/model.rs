@@ -13,6 +13,7 @@ use crate::format::{
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::quantiser::Quantiser;
+use crate::words::{Single, Words};
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
@@ -76,7 +77,7 @@ impl<'a> Model<&'a [u32]> {
     }
 }
 
-impl<W: AsRef<[u32]>> Model<W> {
+impl<W: Words> Model<W> {
     /// Reads a model from the words of its file.
     ///
     /// # Errors
@@ -116,8 +117,20 @@ impl<W: AsRef<[u32]>> Model<W> {
     }
 
     /// What a touch means, if anything.
+    #[inline]
     pub const fn touch_rule(&self) -> Option<TouchRule> {
-        self.layout.touch
+        if W::JOINT { self.layout.touch } else { None }
+    }
+
+    /// The same model where it has no roughness, floors or touches, for a program that has
+    /// no code for them.
+    pub fn into_single(self) -> Option<Model<Single<W>>> {
+        let Self { words, layout } = self;
+        let is_joint = layout.has_roughness() || layout.has_floors() || layout.touch.is_some();
+        (!is_joint).then_some(Model {
+            words: Single(words),
+            layout,
+        })
     }
 
     /// The scale of a channel's codes, and its range in training.
@@ -156,7 +169,7 @@ impl<W: AsRef<[u32]>> Model<W> {
 
     /// Bins of the table of one channel's samples alone, if there is one.
     pub fn bins(&self, channel: usize) -> Option<usize> {
-        Some(usize::from(self.single(channel)?.axis[0].last_bin) + 1)
+        Some(usize::from(self.of_channel(channel)?.axis[0].last_bin) + 1)
     }
 
     /// In that table, log2 of the smoothed probability of a bin, −19.93 to 0, to
@@ -165,13 +178,13 @@ impl<W: AsRef<[u32]>> Model<W> {
         if bin >= self.bins(channel)? || class >= self.classes() {
             return None;
         }
-        let row = self.parts().row(self.single(channel)?, bin)?;
+        let row = self.parts().row(self.of_channel(channel)?, bin)?;
         let word = *row.get(class / 2)?;
         let entry = (word >> (16 * (class % 2))) as u16;
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
-    fn single(&self, channel: usize) -> Option<&TableRecord> {
+    fn of_channel(&self, channel: usize) -> Option<&TableRecord> {
         let of_it = |r: &&TableRecord| r.axes == 1 && usize::from(r.axis[0].channel) == channel;
         self.parts().sample_tables().find(of_it)
     }
@@ -179,13 +192,13 @@ impl<W: AsRef<[u32]>> Model<W> {
     /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
-        self.layout.has_roughness()
+        W::JOINT && self.layout.has_roughness()
     }
 
     /// Whether classes have floors.
     #[inline]
     pub(crate) const fn has_floors(&self) -> bool {
-        self.layout.names > self.layout.floors
+        W::JOINT && self.layout.has_floors()
     }
 
     #[inline]
@@ -219,12 +232,6 @@ impl<'m> Parts<'m> {
     #[inline]
     pub(crate) const fn block(self) -> u32 {
         self.layout.block
-    }
-
-    /// Whether there are tables of roughness.
-    #[inline]
-    pub(crate) const fn has_roughness(self) -> bool {
-        self.layout.has_roughness()
     }
 
     /// The tables that are looked up each sample.

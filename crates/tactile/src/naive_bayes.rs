@@ -9,6 +9,7 @@ use crate::format::MAX_CLASSES;
 use crate::model::Model;
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
+use crate::words::Words;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
 /// channels and classes there are from the model; `W` says where that lies
@@ -47,7 +48,7 @@ impl fmt::Display for WrongChannels {
 
 impl core::error::Error for WrongChannels {}
 
-impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
+impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// Bytes that change as samples come in.
     pub const STATE_BYTES: usize = size_of::<State<R::Evidence>>();
 
@@ -84,7 +85,9 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         self.check(codes)?;
-        if self.state.sums.push(self.model.parts(), codes) {
+        let has_roughness = self.model.has_roughness();
+        let sums = &mut self.state.sums;
+        if sums.push(self.model.parts(), codes, has_roughness) {
             return Ok(self.end_of_block());
         }
         Ok(None)
@@ -146,7 +149,8 @@ impl<R: DecisionRule, W: AsRef<[u32]>> NaiveBayes<R, W> {
             .rule
             .end_of_block(of_classes.unwrap_or_default(), evidence)?;
         let excess = sums.excess.get(decision.leader());
-        let is_below = excess.is_some_and(|excess| excess.iter().any(|tables| *tables < 0));
+        let is_below = self.model.has_floors()
+            && excess.is_some_and(|excess| excess.iter().any(|tables| *tables < 0));
         Some(decision.in_touch(*touch, is_below))
     }
 

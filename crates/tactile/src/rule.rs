@@ -4,6 +4,7 @@ use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::evidence::EvidenceScale;
 use crate::model::Model;
+use crate::words::Words;
 
 /// When a [`crate::NaiveBayes`] decides. Sums are log-likelihoods, an entry of
 /// the table a sample and channel, one sum a class of the model.
@@ -19,8 +20,7 @@ pub trait DecisionRule: Sized {
     /// # Errors
     ///
     /// The settings do not fit the model.
-    fn new<W: AsRef<[u32]>>(model: &Model<W>, settings: Self::Settings)
-    -> Result<Self, SetupError>;
+    fn new<W: Words>(model: &Model<W>, settings: Self::Settings) -> Result<Self, SetupError>;
 
     /// Samples in a block; not zero.
     fn interval(&self) -> u32;

@@ -16,6 +16,7 @@ use crate::format::MAX_CLASSES;
 use crate::model::Model;
 use crate::naive_bayes::NaiveBayes;
 use crate::rule::DecisionRule;
+use crate::words::Words;
 
 /// Largest threshold: beyond it the largest deficit could not reach it.
 const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
@@ -97,7 +98,7 @@ impl DecisionRule for SequentialRule {
     type Settings = Threshold;
     type Evidence = SequentialEvidence;
 
-    fn new<W: AsRef<[u32]>>(model: &Model<W>, threshold: Threshold) -> Result<Self, SetupError> {
+    fn new<W: Words>(model: &Model<W>, threshold: Threshold) -> Result<Self, SetupError> {
         let scale = EvidenceScale::per_samples(model.block());
         Ok(Self {
             block: model.block(),

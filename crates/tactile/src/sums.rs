@@ -40,10 +40,11 @@ impl Sums {
         self.roughness.clear();
     }
 
-    /// Takes a sample; whether it was the last of its block.
+    /// Takes a sample, and its roughness where the model `has_roughness`; whether it was
+    /// the last of its block.
     #[inline]
-    pub(crate) fn push(&mut self, model: Parts<'_>, codes: &[i32]) -> bool {
-        if model.has_roughness() {
+    pub(crate) fn push(&mut self, model: Parts<'_>, codes: &[i32], has_roughness: bool) -> bool {
+        if has_roughness {
             self.roughness.push(codes, true);
         }
         for table in model.sample_tables() {

@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::naive_bayes::NaiveBayes;
 use crate::rule::DecisionRule;
 use crate::totals::Totals;
+use crate::words::Words;
 
 /// A classifier by fixed windows, made from a model and N.
 pub type Window<W = &'static [u32]> = NaiveBayes<WindowRule, W>;
@@ -26,7 +27,7 @@ impl DecisionRule for WindowRule {
     type Settings = u32;
     type Evidence = Totals;
 
-    fn new<W: AsRef<[u32]>>(model: &Model<W>, window: u32) -> Result<Self, SetupError> {
+    fn new<W: Words>(model: &Model<W>, window: u32) -> Result<Self, SetupError> {
         let block = model.block();
         if window == 0 || !window.is_multiple_of(block) {
             return Err(SetupError::Window { window, block });

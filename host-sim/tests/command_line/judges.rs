@@ -3,7 +3,7 @@
 use host_sim::decisions::Decided;
 use tactile::{ModelBuf, TouchRule};
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED, decisions};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, decisions};
 
 /// Class `b` is high in x, `a` is low; one sample in eight says the other class.
 const TRAINING: &str = "b,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\n\
@@ -255,4 +255,24 @@ fn a_scene_shows_an_unknown_texture() {
     // What is not known stands in the row of "unknown", under its name.
     let svg = place.text("out/p.svg");
     assert!(svg.contains("unknown") && svg.contains("carpet"));
+}
+
+/// The scene of the papers' model: a score, not the rate of being right, and no touches.
+#[test]
+fn a_scene_of_the_papers_rule_knows_no_touches() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/papers.toml");
+    let place = Place::new();
+    place.done(&format!("run {scene} --out out"));
+    let decided = decisions(&place.text("out/decisions.csv"));
+    assert!(
+        decided
+            .iter()
+            .all(|d| d.touch == 0 && d.decision != "unknown")
+    );
+    let share = |sum: f64| sum / decided.len() as f64;
+    let stated = share(decided.iter().map(|d| d.posterior).sum());
+    let right = share(decided.iter().filter(|d| d.is_right()).count() as f64);
+    assert!(stated > 0.99 && right < 0.9, "{stated} {right}");
+    let trace = place.text("out/trace.csv");
+    assert!(cells(&trace)[1..].iter().all(|row| row[15] == "0"));
 }

@@ -25,7 +25,7 @@ impl DecisionRule for StationaryRule {
     type Settings = ();
     type Evidence = Totals;
 
-    fn new<W: AsRef<[u32]>>(model: &Model<W>, (): ()) -> Result<Self, SetupError> {
+    fn new<W: tactile::Words>(model: &Model<W>, (): ()) -> Result<Self, SetupError> {
         // Channels are 1 to 24.
         let channels = (model.channels() as u32).max(1);
         Ok(Self {

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use plan::NumberFormat;
 use scene::{Driver, Integrator, Rule, Scene};
+use tactile::ModelBuf;
 
 use crate::run::Fault;
 
@@ -13,14 +14,25 @@ fn parts() -> Result<BTreeMap<String, Vec<String>>, Fault> {
     toml::from_str(include_str!("parts.toml")).map_err(|error| format!("parts.toml: {error}"))
 }
 
+/// A scene, and the model of its classifier.
+#[derive(Clone, Copy)]
+pub(super) struct Named<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) model: Option<&'a ModelBuf>,
+}
+
 /// Whether a scene on a board, with an FPU or without, has a part.
-fn is_named(part: &str, scene: &Scene, has_fpu: bool) -> Result<bool, Fault> {
+fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> {
+    let Named { scene, model } = named;
+    let knows_touches = model.is_some_and(|model| model.touch_rule().is_some());
+    // All its tables, or none, are of samples alone.
+    let is_single = model.is_none_or(|model| model.view().into_single().is_some());
     let whisking = scene.whisking.as_ref();
     let classifier = scene.classifier.as_ref();
     let rule = classifier.map(|classifier| &classifier.rule);
     let driver = scene.motor.as_ref().map(|motor| motor.driver);
     let integrates = |integrator| whisking.is_some_and(|w| w.integrator == integrator);
-    let has_threshold = classifier.is_some_and(|c| c.contact_min.is_some());
+    let has_threshold = knows_touches || classifier.is_some_and(|c| c.contact_min.is_some());
     // Whether anything is computed with numbers at all: motion, or contact.
     let computes = whisking.is_some() || has_threshold;
     let is_fixed = plan::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed);
@@ -36,6 +48,8 @@ fn is_named(part: &str, scene: &Scene, has_fpu: bool) -> Result<bool, Fault> {
         "CIA" => scene.cia.is_some(),
         "contact signal" => scene.rcp.is_some() || scene.cia.is_some() || has_threshold,
         "classifier" => classifier.is_some(),
+        "touch detector" => knows_touches,
+        "roughness" | "roughness or floors" => !is_single,
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
         "single precision" => computes && !is_fixed,
@@ -57,14 +71,14 @@ impl Seen {
     pub(super) fn compare(
         &mut self,
         functions: &BTreeSet<String>,
-        scene: &Scene,
+        named: Named<'_>,
         has_fpu: bool,
     ) -> Result<Vec<String>, Fault> {
         let mut wrong = Vec::new();
         for (part, code) in parts()? {
             let is_its = |name: &String| code.iter().any(|code| name.contains(code));
             let found = functions.iter().any(is_its);
-            match (found, is_named(&part, scene, has_fpu)?) {
+            match (found, is_named(&part, named, has_fpu)?) {
                 (true, false) => wrong.push(format!("{part}: linked, but not named")),
                 (false, true) => wrong.push(format!("{part}: named, but not found")),
                 _ => {}
@@ -84,7 +98,7 @@ impl Seen {
 
 #[cfg(test)]
 mod tests {
-    use super::{Seen, parts};
+    use super::{Named, Seen, parts};
     use scene::Scene;
     use std::collections::BTreeSet;
 
@@ -93,12 +107,13 @@ mod tests {
 
     #[test]
     fn what_a_scene_leaves_out_must_be_absent() {
-        let scene = Scene::from_str("p.toml", PASSIVE).unwrap();
+        let scene = &Scene::from_str("p.toml", PASSIVE).unwrap();
+        let scene = Named { scene, model: None };
         let mut seen = Seen::default();
         let sound = BTreeSet::from(["firmware::sensing::decode".to_owned()]);
-        assert_eq!(seen.compare(&sound, &scene, true), Ok(Vec::new()));
+        assert_eq!(seen.compare(&sound, scene, true), Ok(Vec::new()));
         let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned()]);
-        let wrong = seen.compare(&gate, &scene, true).unwrap();
+        let wrong = seen.compare(&gate, scene, true).unwrap();
         assert_eq!(wrong, ["RCP: linked, but not named"]);
         let all = parts().unwrap().len();
         assert_eq!(seen.unproven().count(), all - 1, "RCP was both");
@@ -111,9 +126,10 @@ mod tests {
             "[whisking]\nfrequency_hz=2.0\nintegrator=\"exact\"\ncoupling=false\n\
              noise=0.0\ngain=1.0\nstart=[[1.0,0.0]]\n"
         );
-        let scene = Scene::from_str("a.toml", &text).unwrap();
+        let scene = &Scene::from_str("a.toml", &text).unwrap();
+        let scene = Named { scene, model: None };
         let wrong = Seen::default()
-            .compare(&BTreeSet::new(), &scene, true)
+            .compare(&BTreeSet::new(), scene, true)
             .unwrap();
         assert!(wrong.contains(&"muscles: named, but not found".to_owned()));
         assert!(wrong.contains(&"single precision: named, but not found".to_owned()));
