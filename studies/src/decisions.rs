@@ -110,6 +110,11 @@ fn introduction(page: &mut Page, extent: &Extent) {
         scored.start,
         scored.end - 1,
     ));
+    page.say(
+        "Elsewhere: [cost.md](cost.md) has the instructions of a sample and of a tick beside their \
+         goals, [the detector's source](../../crates/tactile/src/touch.rs) how soon a touch is \
+         told.",
+    );
     if extent.is_quick {
         page.say("**In short form:** fewer runs, trainings and settings (`--quick`).");
     }

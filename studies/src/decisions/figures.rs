@@ -169,15 +169,6 @@ impl Goal {
 /// `decisions.csv`: a line a model, its shares in percent; what is not there is empty.
 pub(super) struct Table(String);
 
-/// Of what a line is: part of the page, scene, setting and seed of the training.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Key<'k> {
-    pub(super) part: &'k str,
-    pub(super) scene: &'k str,
-    pub(super) setting: &'k str,
-    pub(super) seed: u64,
-}
-
 impl Table {
     pub(super) fn new() -> Self {
         Self(
@@ -192,14 +183,9 @@ impl Table {
         self.0
     }
 
-    /// The figures of a model.
-    pub(super) fn add(&mut self, key: Key<'_>, figures: &Figures) {
-        let Key {
-            part,
-            scene,
-            setting,
-            seed,
-        } = key;
+    /// The figures of a model: part of the page, scene and setting, and its training.
+    pub(super) fn add(&mut self, of: [&str; 3], seed: u64, figures: &Figures) {
+        let [part, scene, setting] = of;
         let Interval {
             share,
             low,

@@ -5,7 +5,7 @@ use host_sim::progress::Verbosity;
 use tactile::ModelBuf;
 use tactile::train::joint::JointModel;
 
-use super::figures::{Figures, Goal, Key, Table, mean_of, number, percent, plus_minus};
+use super::figures::{Figures, Goal, Table, mean_of, number, percent, plus_minus};
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::Page;
@@ -237,13 +237,7 @@ pub(super) fn section(
         for one in trained {
             for ((threshold, _), figures) in THRESHOLDS.iter().zip(&one.at) {
                 let setting = format!("threshold {threshold}");
-                let key = Key {
-                    part: "goals",
-                    scene: ground.name,
-                    setting: &setting,
-                    seed: one.seed,
-                };
-                table.add(key, figures);
+                table.add(["goals", ground.name, &setting], one.seed, figures);
             }
         }
     }

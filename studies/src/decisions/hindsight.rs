@@ -4,7 +4,7 @@ use host_sim::Error;
 use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
-use super::figures::{Figures, Key, Table, number, over, plus_minus};
+use super::figures::{Figures, Table, number, over, plus_minus};
 use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
@@ -77,13 +77,7 @@ pub(super) fn section(
                 _ => format!("{} % refused", 100.0 * share),
             };
             for (one, figures) in trained.iter().zip(&found) {
-                let key = Key {
-                    part: "hindsight",
-                    scene: ground.name,
-                    setting: &name,
-                    seed: one.seed,
-                };
-                table.add(key, figures);
+                table.add(["hindsight", ground.name, &name], one.seed, figures);
             }
             rows.push(of(&name, &found.iter()));
         }

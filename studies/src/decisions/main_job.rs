@@ -4,7 +4,7 @@ use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 use super::extent::Extent;
-use super::figures::{Key, Table, mean_of, percent, plus_minus};
+use super::figures::{Table, mean_of, percent, plus_minus};
 use super::goals::Trained;
 use super::ground::{Ground, heard};
 use crate::page::Page;
@@ -25,13 +25,11 @@ pub(super) fn section(
     let seeds: Vec<u64> = extent.main_job.clone().collect();
     let heard = heard(&ground.scene, &seeds, verbosity)?;
     let figures = ground.score_on(&heard, &shipped.model, 0.99)?;
-    let key = Key {
-        part: "main job",
-        scene: ground.name,
-        setting: "as shipped",
-        seed: shipped.seed,
-    };
-    table.add(key, &figures);
+    table.add(
+        ["main job", ground.name, "as shipped"],
+        shipped.seed,
+        &figures,
+    );
     page.heading(2, "The main job");
     let (mean, error) = mean_of(&figures.hits);
     page.say(format_args!(

@@ -4,7 +4,7 @@ use host_sim::Error;
 use host_sim::commands::train::Tables;
 use host_sim::progress::Verbosity;
 
-use super::figures::{Figures, Key, Table, number, over, plus_minus};
+use super::figures::{Figures, Table, number, over, plus_minus};
 use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
@@ -59,13 +59,7 @@ pub(super) fn section(
             })?;
             let setting = format!("{name} at {threshold}");
             for (seed, figures) in seeds.iter().zip(&found) {
-                let key = Key {
-                    part: "placebo",
-                    scene: ground.name,
-                    setting: &setting,
-                    seed: *seed,
-                };
-                table.add(key, figures);
+                table.add(["placebo", ground.name, &setting], *seed, figures);
             }
             let all = |figure: fn(&Figures) -> f64| over(found.iter(), figure);
             let share = over(found.iter(), |figures| 100.0 * count(figures) / true_count);

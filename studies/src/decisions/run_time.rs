@@ -1,149 +1,20 @@
 //! Error against run time: what bits, bins, blocks and time of training are worth.
 
+mod picture;
+mod settings;
+
 use host_sim::Error;
 use host_sim::progress::Verbosity;
-use tactile::ModelBuf;
-use tactile::train::joint::{JointModel, Options};
 
 use super::extent::Extent;
-use super::figures::{Figures, Key, Table, number, over};
+use super::figures::{Table, number};
 use super::goals::Trained;
-use super::ground::{Ground, LONGEST_S};
+use super::ground::Ground;
 use crate::accuracy::counts::{Counts, Target};
-use crate::chart::{Mark, Panel, Series, draw_in, linear};
+use crate::chart::draw_in;
 use crate::cores::each;
 use crate::page::{Page, row};
-use crate::refused::refused;
-
-/// What is varied, all else by default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Setting {
-    /// Bits of an entry of a table, between the least and the largest of it.
-    Bits,
-    /// Bins an axis.
-    Bins,
-    /// Samples of a block.
-    Block,
-    /// Seconds of the run that is trained on.
-    Training,
-}
-
-impl Setting {
-    const ALL: [Self; 4] = [Self::Bits, Self::Bins, Self::Block, Self::Training];
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Bits => "bits of an entry",
-            Self::Bins => "bins an axis",
-            Self::Block => "samples of a block",
-            Self::Training => "s of training",
-        }
-    }
-
-    /// The values tried, the cheapest first.
-    const fn values(self) -> &'static [u32] {
-        match self {
-            Self::Bits => &[6, 8, 10, 12, 16],
-            Self::Bins => &[8, 16, 32, 64],
-            Self::Block => &[80, 40, 20, 10, 5],
-            Self::Training => &[10, 20, 40, LONGEST_S as u32],
-        }
-    }
-
-    /// The product's.
-    fn default(self, ground: &Ground, options: &Options) -> u32 {
-        match self {
-            Self::Bits => 16,
-            Self::Bins => options.bins as u32,
-            Self::Block => options.block,
-            Self::Training => ground.scene.duration_s.round() as u32,
-        }
-    }
-
-    /// A training with it.
-    fn model(self, value: u32, ground: &Ground, trained: &Trained) -> Result<ModelBuf, Error> {
-        let options = trained.joint.options.clone();
-        let seconds = match self {
-            Self::Training => f64::from(value),
-            _ => ground.scene.duration_s,
-        };
-        let joint = match self {
-            Self::Bits => coarser(&trained.joint, value),
-            Self::Bins | Self::Block | Self::Training => {
-                let options = match self {
-                    Self::Bins => Options {
-                        bins: value as usize,
-                        ..options
-                    },
-                    Self::Block => Options {
-                        block: value,
-                        ..options
-                    },
-                    _ => options,
-                };
-                ground.train_by(ground.recording(trained.seed, seconds), &options)?
-            }
-        };
-        joint.model().map_err(refused)
-    }
-}
-
-/// A model whose entries have only so many bits: between the least and the largest of
-/// each table are 2^bits − 1 equal steps.
-fn coarser(joint: &JointModel, bits: u32) -> JointModel {
-    let mut joint = joint.clone();
-    if bits >= u16::BITS {
-        return joint;
-    }
-    for table in &mut joint.tables {
-        let (low, high) = crate::moments::range(table.log2_p.iter().copied());
-        let step = (high - low) / f64::from((1_u32 << bits) - 1);
-        if step > 0.0 {
-            for log2_p in &mut table.log2_p {
-                *log2_p = low + step * ((*log2_p - low) / step).round();
-            }
-        }
-    }
-    joint
-}
-
-/// What a setting's value gave, by training.
-struct Tried {
-    setting: Setting,
-    value: u32,
-    ground: usize,
-    /// Of the trainings that this was enough for.
-    figures: Vec<(u64, Figures)>,
-    /// Bytes of the first model.
-    bytes: usize,
-}
-
-impl Tried {
-    fn mean(&self, figure: fn(&Figures) -> f64) -> (f64, f64) {
-        let figures = self.figures.iter().map(|(_, figures)| figures);
-        over(figures, figure)
-    }
-
-    /// Whether the mean over the trainings keeps the goals with a standard error to spare.
-    fn is_enough(&self, ground: &Ground) -> bool {
-        let most = [1.5, 1.0, ground.goals.contact_ms];
-        let keeps = |((_, figure), most): (Drawn, f64)| {
-            let (mean, error) = self.mean(figure);
-            mean + error <= most
-        };
-        FIGURES.into_iter().zip(most).all(keeps)
-    }
-}
-
-/// A figure and its name.
-type Drawn = (&'static str, fn(&Figures) -> f64);
-
-/// What is drawn of each.
-const FIGURES: [Drawn; 3] = [
-    ("errors, %", |f| 100.0 - f.hit_rate()),
-    ("stated and found apart, points", |f| f.overstated().abs()),
-    ("contact to a decision, ms", |f| f.contact_ms),
-];
+use settings::{FIGURES, Setting, Tried};
 
 /// All settings on both scenes.
 pub(super) fn section(
@@ -165,9 +36,10 @@ pub(super) fn section(
         let (ground, trained) = (&grounds[n], &trained[n]);
         let (mut figures, mut bytes) = (Vec::new(), 0);
         for one in trained {
-            // Too short a training is refused: it then has no figure.
-            let Ok(model) = setting.model(value, ground, one) else {
-                continue;
+            let model = match setting.model(value, ground, one) {
+                // Too short a training is refused: it then has no figure.
+                Err(_) if setting == Setting::Training => continue,
+                model => model?,
             };
             bytes = model.as_bytes().len();
             figures.push((one.seed, ground.score(&model, 0.99)?));
@@ -183,13 +55,11 @@ pub(super) fn section(
     for tried in &tried {
         let setting = format!("{} {}", tried.value, tried.setting.name());
         for (seed, figures) in &tried.figures {
-            let key = Key {
-                part: "run time",
-                scene: grounds[tried.ground].name,
-                setting: &setting,
-                seed: *seed,
-            };
-            table.add(key, figures);
+            table.add(
+                ["run time", grounds[tried.ground].name, &setting],
+                *seed,
+                figures,
+            );
         }
     }
 
@@ -201,7 +71,7 @@ pub(super) fn section(
          calibration and time on both scenes, kept by the mean of the trainings with a standard \
          error to spare.",
     );
-    let picture = draw_in(3, &panels(grounds, &tried))?;
+    let picture = draw_in(FIGURES.len(), &picture::panels(grounds, &tried))?;
     page.picture(
         "run-time.svg",
         "errors, calibration and time against bits, bins, block and training",
@@ -326,43 +196,6 @@ fn instructions(counts: &Counts, block: u32) -> String {
     };
     let cell = |target| of(target).map_or_else(|| "not counted".to_owned(), |n| format!("{n:.0}"));
     Target::ALL.map(cell).join("; ")
-}
-
-/// A line of panels a setting, a column a figure.
-fn panels(grounds: &[Ground], tried: &[Tried]) -> Vec<Panel> {
-    let mut panels = Vec::new();
-    for setting in Setting::ALL {
-        for (name, figure) in FIGURES {
-            let of_setting = || tried.iter().filter(move |tried| tried.setting == setting);
-            let highest = of_setting().map(|tried| {
-                let (mean, error) = tried.mean(figure);
-                mean + error
-            });
-            let top = highest.filter(|x| !x.is_nan()).fold(0.0, f64::max);
-            let most = setting.values().iter().copied().max().unwrap_or(1);
-            let mut series = Vec::new();
-            for (n, ground) in grounds.iter().enumerate() {
-                let of_ground = || of_setting().filter(move |tried| tried.ground == n);
-                let known = of_ground().filter(|tried| !tried.figures.is_empty());
-                let points: Vec<_> = known
-                    .map(|tried| (f64::from(tried.value), tried.mean(figure)))
-                    .collect();
-                let means = points.iter().map(|&(x, (mean, _))| (x, mean)).collect();
-                series.push(Series::new(ground.name, n + 1, Mark::Dot, means));
-                series.extend(points.iter().map(|&(x, (mean, error))| {
-                    let bar = vec![(x, mean - error), (x, mean + error)];
-                    Series::new("", n + 1, Mark::Nothing, bar)
-                }));
-            }
-            panels.push(Panel {
-                title: name.to_owned(),
-                x: linear(setting.name(), 0.0, f64::from(most)),
-                y: linear("", 0.0, 1.1 * top),
-                series,
-            });
-        }
-    }
-    panels
 }
 
 #[cfg(test)]

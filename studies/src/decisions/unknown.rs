@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 use super::extent::Extent;
-use super::figures::{Figures, Key, Table, mean_of, over, percent, plus_minus};
+use super::figures::{Figures, Table, mean_of, over, percent, plus_minus};
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, row, verdict};
@@ -45,13 +45,7 @@ pub(super) fn section(
         })?;
         for ((label, seed), figures) in jobs.iter().zip(&found) {
             let setting = format!("without {label}");
-            let key = Key {
-                part: "unknown",
-                scene: ground.name,
-                setting: &setting,
-                seed: *seed,
-            };
-            table.add(key, figures);
+            table.add(["unknown", ground.name, &setting], *seed, figures);
         }
         let of_label = || labels.iter().zip(found.chunks(seeds.len()));
         let rows = of_label().map(|(label, of_seeds)| {

@@ -1,0 +1,146 @@
+//! What is varied, and what came of it.
+
+use host_sim::Error;
+use tactile::ModelBuf;
+use tactile::train::joint::{JointModel, Options};
+
+use crate::decisions::figures::{Figures, over};
+use crate::decisions::goals::Trained;
+use crate::decisions::ground::{Ground, LONGEST_S};
+use crate::moments::range;
+use crate::refused::refused;
+
+/// What is varied, all else by default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Setting {
+    /// Bits of an entry of a table, between the least and the largest of it.
+    Bits,
+    /// Bins an axis.
+    Bins,
+    /// Samples of a block.
+    Block,
+    /// Seconds of the run that is trained on.
+    Training,
+}
+
+impl Setting {
+    pub(super) const ALL: [Self; 4] = [Self::Bits, Self::Bins, Self::Block, Self::Training];
+
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Bits => "bits of an entry",
+            Self::Bins => "bins an axis",
+            Self::Block => "samples of a block",
+            Self::Training => "s of training",
+        }
+    }
+
+    /// The values tried, the cheapest first.
+    pub(super) const fn values(self) -> &'static [u32] {
+        match self {
+            Self::Bits => &[6, 8, 10, 12, 16],
+            Self::Bins => &[8, 16, 32, 64],
+            Self::Block => &[80, 40, 20, 10, 5],
+            Self::Training => &[10, 20, 40, LONGEST_S as u32],
+        }
+    }
+
+    /// The product's.
+    pub(super) fn default(self, ground: &Ground, options: &Options) -> u32 {
+        match self {
+            Self::Bits => 16,
+            Self::Bins => options.bins as u32,
+            Self::Block => options.block,
+            Self::Training => ground.scene.duration_s.round() as u32,
+        }
+    }
+
+    /// A training with it.
+    pub(super) fn model(
+        self,
+        value: u32,
+        ground: &Ground,
+        trained: &Trained,
+    ) -> Result<ModelBuf, Error> {
+        let options = trained.joint.options.clone();
+        let seconds = match self {
+            Self::Training => f64::from(value),
+            _ => ground.scene.duration_s,
+        };
+        let joint = match self {
+            Self::Bits => coarser(&trained.joint, value),
+            Self::Bins | Self::Block | Self::Training => {
+                let options = match self {
+                    Self::Bins => Options {
+                        bins: value as usize,
+                        ..options
+                    },
+                    Self::Block => Options {
+                        block: value,
+                        ..options
+                    },
+                    _ => options,
+                };
+                ground.train_by(ground.recording(trained.seed, seconds), &options)?
+            }
+        };
+        joint.model().map_err(refused)
+    }
+}
+
+/// A model whose entries have only so many bits: between the least and the largest of
+/// each table are 2^bits − 1 equal steps.
+fn coarser(joint: &JointModel, bits: u32) -> JointModel {
+    let mut joint = joint.clone();
+    if bits >= u16::BITS {
+        return joint;
+    }
+    for table in &mut joint.tables {
+        let (low, high) = range(table.log2_p.iter().copied());
+        let step = (high - low) / f64::from((1_u32 << bits) - 1);
+        if step > 0.0 {
+            for log2_p in &mut table.log2_p {
+                *log2_p = low + step * ((*log2_p - low) / step).round();
+            }
+        }
+    }
+    joint
+}
+
+/// What a setting's value gave, by training.
+pub(super) struct Tried {
+    pub(super) setting: Setting,
+    pub(super) value: u32,
+    pub(super) ground: usize,
+    /// Of the trainings that this was enough for.
+    pub(super) figures: Vec<(u64, Figures)>,
+    /// Bytes of the first model.
+    pub(super) bytes: usize,
+}
+
+impl Tried {
+    pub(super) fn mean(&self, figure: fn(&Figures) -> f64) -> (f64, f64) {
+        let figures = self.figures.iter().map(|(_, figures)| figures);
+        over(figures, figure)
+    }
+
+    /// Whether the mean over the trainings keeps the goals with a standard error to spare.
+    pub(super) fn is_enough(&self, ground: &Ground) -> bool {
+        let most = [1.5, 1.0, ground.goals.contact_ms];
+        let keeps = |((_, figure), most): (Drawn, f64)| {
+            let (mean, error) = self.mean(figure);
+            mean + error <= most
+        };
+        FIGURES.into_iter().zip(most).all(keeps)
+    }
+}
+
+/// A figure and its name.
+pub(super) type Drawn = (&'static str, fn(&Figures) -> f64);
+
+/// What is drawn of each.
+pub(super) const FIGURES: [Drawn; 3] = [
+    ("errors, %", |f| 100.0 - f.hit_rate()),
+    ("stated and found apart, points", |f| f.overstated().abs()),
+    ("contact to a decision, ms", |f| f.contact_ms),
+];
