@@ -149,7 +149,7 @@ pub fn stall_q15(motor: &scene::MotorSection) -> i16 {
 pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Result<Option<f64>, Mismatch> {
     let classifier = scene.classifier.as_ref();
     let found = classifier.and_then(|classifier| classifier.contact_min);
-    match (found, classifier.and(gate)) {
+    match (found, gate) {
         (Some(found), Some(gate)) if found as f32 != gate => Err(Mismatch::Gate { found, gate }),
         (found, gate) => Ok(found.or(gate.map(f64::from))),
     }
@@ -237,8 +237,9 @@ kind = "ideal"
         assert_eq!(contact_min(&silent, None), Ok(None));
         let refused = contact_min(&says, Some(0.25)).unwrap_err().to_string();
         assert!(refused.contains("found 0.05; allowed: 0.25"), "{refused}");
+        // A scene that is only scored has a classifier all the same.
         let without = Scene::from_str("rcp7.toml", SCENE).unwrap();
-        assert_eq!(contact_min(&without, Some(0.25)), Ok(None));
+        assert_eq!(contact_min(&without, Some(0.25)), Ok(Some(0.25)));
     }
 
     #[test]

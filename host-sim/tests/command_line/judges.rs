@@ -206,6 +206,12 @@ fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
         score("s.toml", "--gate 0.05"),
         score("s.toml", "--gate 0.2")
     );
+
+    // A scene that names no classifier is scored as if it had one.
+    let (without, _) = text.split_once("[classifier]").unwrap();
+    place.write("without.toml", without);
+    let options = "--threshold 0.9";
+    assert_eq!(score("without.toml", options), score("other.toml", options));
 }
 
 /// Trained on three textures, the fourth is decided to be none of them.
