@@ -48,8 +48,10 @@ impl fmt::Display for TrainingReport<'_> {
             }
             writeln!(
                 f,
-                "nothing decided in {} of {} trials",
-                class.undecided, class.trials
+                "nothing decided in {} of {} trials; were it not trained, unknown {}",
+                class.undecided,
+                class.trials,
+                Percent(class.noticed)
             )?;
         }
         let decided = report.calibration.iter().filter(|at| at.found.count > 0);

@@ -7,7 +7,7 @@
 //!    channels, smoothed; one of samples, one of the roughness of blocks.
 //! 3. Weights: samples, and tables, are not independent. Evidence of a block =
 //!    Σ wₜ · mean of log₂ p of table t; the w ≥ 0 minimise the log loss over
-//!    stretches of blocks that their tables have not seen.
+//!    stretches of blocks that their tables have not seen, and that floors let pass.
 //! 4. Floors: below what mean log-likelihood a decision is "unknown".
 //! 5. A report: what the rule does with trials that its tables have not seen.
 //!
@@ -38,13 +38,45 @@ pub use floors::Floor;
 pub use model::JointModel;
 use pieces::{Folded, Piece, names};
 pub use report::{AtThreshold, ClassReport, Report};
-use run::{Rule, decisions};
+use run::{Rule, felt, of_unknown};
 pub use tables::LogTable;
-use tables::Tables;
+use tables::{Evidence, Tables};
 pub use trial::{CHANNELS, Options, Trial};
 use warnings::Doubts;
 pub use warnings::Warning;
 pub use weights::MAX_WEIGHT;
+use weights::{Known, Prior};
+
+/// Weights of the rule, and its floors. Each asks for the other: weights are fitted to all
+/// stretches, then to those that the floors let pass.
+fn fit(
+    rule: &mut Rule,
+    folded: &Folded<'_>,
+    evidence: &[Evidence],
+    options: &Options,
+) -> Option<Vec<Floor>> {
+    let pieces = &folded.pieces;
+    let classes = evidence.first().map_or(0, |piece| piece.classes);
+    let lengths = weights::lengths(folded, classes);
+    let prior = Some(Prior::TEXTURES);
+    rule.weights = weights::fitted(evidence, &lengths, prior, None);
+    if options.refused <= 0.0 {
+        return None;
+    }
+    let floors = |rule: &Rule| {
+        let unknown = |class| of_unknown(class, pieces, evidence, rule);
+        let unknown: Vec<_> = (0..classes).map(unknown).collect();
+        let felt = felt(pieces, evidence, rule);
+        floors::of(&felt, classes, options.refused, &unknown)
+    };
+    let known = Known {
+        rule,
+        floors: &floors(rule),
+    };
+    let weights = weights::fitted(evidence, &lengths, prior, Some(known));
+    rule.weights = weights;
+    Some(floors(rule))
+}
 
 /// Trains from trials in the order in which they were felt.
 ///
@@ -83,11 +115,9 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
         block: options.block,
         weights: Vec::new(),
         sources: layout.sources(),
+        unknown: None,
     };
-    let lengths = weights::lengths(&folded, names.len());
-    rule.weights = weights::fitted(&evidence, &lengths);
-    let found = decisions(pieces, &evidence, &rule);
-    let floors = (options.refused > 0.0).then(|| floors::of(&found, names.len(), options.refused));
+    let floors = fit(&mut rule, &folded, &evidence, options);
     let warnings = Doubts {
         names: &names,
         trials,

@@ -31,9 +31,13 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
 
 /// Five trials each of two classes whose means are `apart` standard deviations apart.
 fn two(apart: f64, length: usize) -> Vec<Trial> {
+    trials(10, apart, length)
+}
+
+fn trials(count: usize, apart: f64, length: usize) -> Vec<Trial> {
     let means = [[-50.0 * apart, 0.0], [50.0 * apart, 0.0]];
     let class = |n: usize| (["a", "b"][n % 2], means[n % 2]);
-    (0..10)
+    (0..count)
         .map(|n| {
             let (label, mean) = class(n);
             trial(label, "one", mean, length, n as u64 + 1)
@@ -49,7 +53,8 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
         refused: 0.0,
         ..Options::default()
     };
-    let trained = train(&two(0.5, 8_000), &options).unwrap();
+    // So many trials that their weights are their own.
+    let trained = train(&trials(200, 0.5, 400), &options).unwrap();
     assert_eq!(trained.names, ["a", "b"]);
     let table = &trained.tables[0];
     assert_eq!(table.source, TableSource::Samples);
@@ -63,12 +68,13 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
         let found = table.log2_p[cell + 1] - table.log2_p[cell];
         assert!((found - exact).abs() < 0.35, "{x}: {found} {exact}");
     }
-    // Samples are independent, and roughness adds nothing to them.
+    // Samples are independent, and roughness adds nothing to them. The sum of the weights is
+    // drawn from one to the 1.2 of textures.
     let [samples, roughness] = trained.weights[..] else {
         panic!("{:?}", trained.weights);
     };
     assert!((0.85..=1.05).contains(&samples), "{samples}");
-    assert!(roughness < 0.1, "{roughness}");
+    assert!(roughness < 0.2, "{roughness}");
     for at in &trained.report.calibration {
         let (found, stated) = (at.found, at.stated);
         assert!(found.count > 500, "{at:?}");
@@ -142,17 +148,19 @@ fn faults_are_named() {
 
 #[test]
 fn the_model_file_decides_as_the_report_says() {
-    let trained = train(&two(0.5, 8_000), &Options::default()).unwrap();
+    // Blocks of 20 independent samples deserve far more weight than one recording's ten
+    // trials can justify, so that decisions are slow and all right.
+    let trained = train(&two(0.5, 20_000), &Options::default()).unwrap();
     let model = trained.model().unwrap();
     let rule = model.touch_rule().unwrap();
     assert_eq!((rule.limit, rule.gap), (2048, 200));
     let threshold = Threshold::new(0.99).unwrap();
     let mut classifier = Sequential::new(model, threshold).unwrap();
     let (mut decided, mut right, mut samples) = (0, 0, 0.0);
-    for (n, fresh) in two(0.5, 8_000).iter().enumerate() {
+    for (n, fresh) in two(0.5, 20_000).iter().enumerate() {
         // The same means, other samples.
         let mean = [if n % 2 == 0 { -25.0 } else { 25.0 }, 0.0];
-        let other = trial(&fresh.label, "two", mean, 8_000, n as u64 + 100);
+        let other = trial(&fresh.label, "two", mean, 20_000, n as u64 + 100);
         classifier.touch(n as u16);
         for sample in &other.samples {
             let codes =

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::floors::Floor;
 use super::pieces::Folded;
-use super::run::{Decided, Rule, decisions};
+use super::run::{Decided, Rule, decisions, of_unknown};
 use super::tables::Evidence;
 use super::trial::Trial;
 use super::warnings::Warning;
@@ -32,6 +32,9 @@ pub struct ClassReport {
     pub hits: Interval,
     /// Of the decisions for this class before the floors that were right, those refused.
     pub refused: Interval,
+    /// Were it not among the classes: of the decisions on its trials, those that said
+    /// "unknown". By the floors of the others, which were learnt beside it.
+    pub noticed: Interval,
     /// Mean samples of a decision.
     pub samples: f64,
 }
@@ -92,7 +95,7 @@ impl Maker<'_> {
         Report {
             threshold,
             classes: (0..self.names.len())
-                .map(|class| self.class(class, &found))
+                .map(|class| self.class(class, &found, rule))
                 .collect(),
             calibration: calibration.to_vec(),
             warnings: self.warnings,
@@ -101,7 +104,7 @@ impl Maker<'_> {
 
     fn refused(&self, decided: &Decided) -> bool {
         let floor = self.floors.and_then(|floors| floors.get(decided.class));
-        floor.is_some_and(|floor| floor.refuses(decided))
+        floor.is_some_and(|floor| floor.refuses(decided.entries))
     }
 
     /// Pieces, of all classes or of one, without a decision that names a class.
@@ -128,7 +131,7 @@ impl Maker<'_> {
         }
     }
 
-    fn class(&self, class: usize, found: &[Decided]) -> ClassReport {
+    fn class(&self, class: usize, found: &[Decided], rule: &Rule) -> ClassReport {
         let of_class = || found.iter().filter(|d| d.truth == class);
         let right = || of_class().filter(|d| d.class == class);
         let mut named = vec![0; self.names.len()];
@@ -148,6 +151,11 @@ impl Maker<'_> {
             unknown: of_class().count() - count,
             hits: Interval::of(named[class], count),
             refused: Interval::of(right().filter(|d| self.refused(d)).count(), right().count()),
+            noticed: {
+                let found = of_unknown(class, &self.folded.pieces, self.evidence, rule);
+                let noticed = found.iter().filter(|d| self.refused(d)).count();
+                Interval::of(noticed, found.len())
+            },
             samples: samples / count as f64,
             named,
         }

@@ -20,6 +20,8 @@ pub(super) struct Rule {
     pub(super) weights: Vec<f64>,
     /// Of each table.
     pub(super) sources: Vec<TableSource>,
+    /// A class that it does not know: what would be made of it is asked.
+    pub(super) unknown: Option<usize>,
 }
 
 /// A decision.
@@ -36,10 +38,73 @@ pub(super) struct Decided {
     pub(super) entries: [f64; 2],
 }
 
-/// The decisions over the pieces, one after the other. Within a recording evidence
-/// goes on: a piece begins with the onset of a touch, and that is all that is known.
+/// The mean entries, as [`Decided::entries`], of the class that was felt: at a decision,
+/// right or wrong, or at the end of a piece without one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Felt {
+    pub(super) piece: usize,
+    pub(super) class: usize,
+    pub(super) entries: [f64; 2],
+}
+
+/// The decisions over the pieces, one after the other.
 pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule) -> Vec<Decided> {
     let mut found = Vec::new();
+    follow(pieces, evidence, rule, |piece, state, verdict| {
+        let Some(verdict) = verdict else {
+            return;
+        };
+        found.push(Decided {
+            piece,
+            truth: pieces[piece].class,
+            class: verdict.class,
+            posterior: verdict.posterior,
+            samples: verdict.blocks * rule.block,
+            entries: state.entries(verdict.class),
+        });
+    });
+    found
+}
+
+/// What was felt of the classes over the pieces.
+pub(super) fn felt(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule) -> Vec<Felt> {
+    let mut all = Vec::new();
+    follow(pieces, evidence, rule, |piece, state, _| {
+        let class = pieces[piece].class;
+        all.push(Felt {
+            piece,
+            class,
+            entries: state.entries(class),
+        });
+    });
+    all
+}
+
+/// What is decided on the pieces of a class that the rule does not know.
+pub(super) fn of_unknown(
+    class: usize,
+    pieces: &[Piece<'_>],
+    evidence: &[Evidence],
+    rule: &Rule,
+) -> Vec<Decided> {
+    let rule = Rule {
+        unknown: Some(class),
+        ..rule.clone()
+    };
+    let mut found = decisions(pieces, evidence, &rule);
+    found.retain(|decided| decided.truth == class);
+    found
+}
+
+/// Runs the rule; `at` is told each decision, and with none the end of a piece that had
+/// none. Within a recording evidence goes on: a piece begins with the onset of a touch, and
+/// that is all that is known.
+fn follow(
+    pieces: &[Piece<'_>],
+    evidence: &[Evidence],
+    rule: &Rule,
+    mut at: impl FnMut(usize, &State<'_>, Option<Verdict>),
+) {
     let mut state: Option<State<'_>> = None;
     let mut last = None;
     for (n, (piece, evidence)) in pieces.iter().zip(evidence).enumerate() {
@@ -49,24 +114,29 @@ pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule
         }
         let state = state.get_or_insert_with(|| State::new(rule, evidence.classes));
         let mut touch = None;
+        let mut is_silent = true;
         for (block, &of) in evidence.blocks().zip(&piece.blocks.touches) {
             if touch != Some(of) {
                 state.onset();
                 touch = Some(of);
             }
-            if let Some((class, posterior, blocks)) = state.block(block) {
-                found.push(Decided {
-                    piece: n,
-                    truth: piece.class,
-                    class,
-                    posterior,
-                    samples: blocks * rule.block,
-                    entries: state.entries(class),
-                });
+            if let Some(verdict) = state.block(block) {
+                is_silent = false;
+                at(n, state, Some(verdict));
             }
         }
+        if is_silent {
+            at(n, state, None);
+        }
     }
-    found
+}
+
+/// What a block decided.
+struct Verdict {
+    class: usize,
+    posterior: f64,
+    /// Since the decision before.
+    blocks: u32,
 }
 
 /// Evidence so far.
@@ -100,8 +170,8 @@ impl<'r> State<'r> {
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
     }
 
-    /// Adds a block, `[table][class]`; class, posterior and blocks of a decision.
-    fn block(&mut self, means: &[f64]) -> Option<(usize, f64, u32)> {
+    /// Adds a block, `[table][class]`.
+    fn block(&mut self, means: &[f64]) -> Option<Verdict> {
         let classes = self.deficits.len();
         let tables = means.chunks_exact(classes).zip(&self.rule.weights);
         for ((table, weight), source) in tables.zip(&self.rule.sources) {
@@ -114,6 +184,9 @@ impl<'r> State<'r> {
         }
         self.blocks += 1;
         self.touched += 1;
+        if let Some(unknown) = self.rule.unknown {
+            self.deficits[unknown] = f64::INFINITY;
+        }
         let least = self.deficits.iter().copied().fold(f64::INFINITY, f64::min);
         let mut leader = 0;
         for (class, deficit) in self.deficits.iter_mut().enumerate().rev() {
@@ -128,7 +201,11 @@ impl<'r> State<'r> {
             return None;
         }
         self.deficits.fill(0.0);
-        Some((leader, posterior, core::mem::take(&mut self.blocks)))
+        Some(Verdict {
+            class: leader,
+            posterior,
+            blocks: core::mem::take(&mut self.blocks),
+        })
     }
 
     /// Mean weighted entries of a class since the onset, by source.

@@ -23,9 +23,12 @@ pub struct LogTable {
 }
 
 /// What the tables say of the blocks of a piece.
+#[derive(Clone)]
 pub(super) struct Evidence {
     /// The piece's class.
     pub(super) class: usize,
+    /// Pieces of a fold were held out together.
+    pub(super) fold: usize,
     pub(super) tables: usize,
     pub(super) classes: usize,
     /// Mean of log₂ p, `[block][table][class]`.
@@ -100,6 +103,7 @@ impl<'l> Tables<'l> {
             .iter()
             .map(|piece| Evidence {
                 class: piece.class,
+                fold: piece.fold,
                 tables,
                 classes: self.classes,
                 means: vec![0.0; piece.blocks.len() * tables * self.classes],

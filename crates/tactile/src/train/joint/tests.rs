@@ -5,10 +5,12 @@ use std::vec;
 use std::vec::Vec;
 
 use super::blocks::{Blocks, scales};
-use super::run::Decided;
+use super::run::{Decided, Felt, Rule};
 use super::tables::Evidence;
 use super::trial::{Options, Trial};
+use super::weights::Prior;
 use super::{floors, weights};
+use crate::model_buf::TableSource;
 
 /// Uniform in 0 to 1: a linear congruential generator is random enough.
 struct Dice(u64);
@@ -84,6 +86,11 @@ fn a_touch_drops_the_open_block() {
 
 const LENGTHS: [usize; 4] = [4, 8, 16, 32];
 
+/// By the data alone.
+fn fitted(evidence: &[Evidence]) -> Vec<f64> {
+    weights::fitted(evidence, &LENGTHS, None, None)
+}
+
 /// Evidence of two classes: in each block the right one is ahead by a normal number.
 fn evidence(seed: u64, tables: usize) -> Vec<Evidence> {
     let mut dice = Dice(seed);
@@ -100,6 +107,7 @@ fn evidence(seed: u64, tables: usize) -> Vec<Evidence> {
         }
         Evidence {
             class: n % 2,
+            fold: n / 2,
             tables,
             classes: 2,
             means,
@@ -113,7 +121,7 @@ fn weights_turn_evidence_into_probability() {
     // Normal differences of mean m and variance v: the log-likelihood ratio of a
     // stretch of any length is 2 m/v times their sum, in natural units.
     let expected = 2.0 * 0.2 / core::f64::consts::LN_2;
-    let found = weights::fitted(&evidence(1, 1), &LENGTHS);
+    let found = fitted(&evidence(1, 1));
     assert!(
         (found[0] / expected - 1.0).abs() < 0.15,
         "{found:?} {expected}"
@@ -122,8 +130,8 @@ fn weights_turn_evidence_into_probability() {
 
 #[test]
 fn tables_that_say_the_same_share_their_weight() {
-    let alone = weights::fitted(&evidence(2, 1), &LENGTHS);
-    let twice = weights::fitted(&evidence(2, 2), &LENGTHS);
+    let alone = fitted(&evidence(2, 1));
+    let twice = fitted(&evidence(2, 2));
     assert!((twice[0] - twice[1]).abs() < 1e-6, "{twice:?}");
     assert!(
         (twice[0] + twice[1] - alone[0]).abs() < 1e-6,
@@ -140,7 +148,7 @@ fn a_table_that_misleads_weighs_nothing() {
             block[3] = -block[3];
         }
     }
-    let found = weights::fitted(&misleading, &LENGTHS);
+    let found = fitted(&misleading);
     assert!(found[0] > 0.3 && found[1] >= 0.0, "{found:?}");
     for piece in &mut misleading {
         // Noise in the place of the first table.
@@ -149,45 +157,128 @@ fn a_table_that_misleads_weighs_nothing() {
             block[1] = (n % 3) as f64;
         }
     }
-    assert_eq!(weights::fitted(&misleading, &LENGTHS)[1], 0.0);
+    assert_eq!(fitted(&misleading)[1], 0.0);
 }
 
 #[test]
-fn floors_refuse_the_share_that_they_were_asked_for() {
-    let mut dice = Dice(4);
-    let mut decisions = |class: usize, count: usize| -> Vec<Decided> {
-        let decided = |_| Decided {
-            piece: 0,
-            truth: class,
-            class,
-            posterior: 0.995,
-            samples: 100,
-            entries: [
-                8.0 + dice.normal() + 4.0 * class as f64,
-                3.0 + 0.1 * dice.normal(),
-            ],
-        };
-        (0..count).map(decided).collect()
-    };
-    // The third class has too few of its own.
-    let all: Vec<Decided> = [decisions(0, 2000), decisions(1, 2000), decisions(2, 10)].concat();
-    let floors = floors::of(&all, 3, 0.05);
-    let fresh = [decisions(0, 4000), decisions(1, 4000), decisions(2, 4000)];
-    for (class, fresh) in fresh.iter().enumerate().take(2) {
-        let refused = fresh.iter().filter(|d| floors[class].refuses(d)).count();
-        assert!((160..=240).contains(&refused), "{class}: {refused} of 4000");
+fn without_evidence_weights_are_what_the_prior_expects() {
+    let mut nothing = evidence(5, 2);
+    for piece in &mut nothing {
+        piece.means.fill(0.0);
     }
-    // Its mean is known to a third of the spread.
-    let refused = fresh[2].iter().filter(|d| floors[2].refuses(d)).count();
-    assert!((40..=800).contains(&refused), "{refused} of 4000");
-    let stranger = Decided {
-        entries: [4.0, 3.0],
-        ..all[0]
+    let found = weights::fitted(&nothing, &LENGTHS, Some(Prior::TEXTURES), None);
+    let sum: f64 = found.iter().sum();
+    assert!((sum - Prior::TEXTURES.mean).abs() < 1e-6, "{found:?}");
+}
+
+#[test]
+fn many_trials_outweigh_the_prior() {
+    let prior = Some(Prior {
+        mean: 2.0,
+        ..Prior::TEXTURES
+    });
+    let far = |pieces: &[Evidence]| {
+        let fit = |prior| weights::fitted(pieces, &LENGTHS, prior, None)[0];
+        fit(prior) - fit(None)
     };
-    assert!(floors[0].refuses(&stranger));
-    assert!(
-        floors::of(&[], 2, 0.05)
-            .iter()
-            .all(|floor| !floor.refuses(&stranger))
-    );
+    let all = evidence(6, 1);
+    let [few, many] = [far(&all[..8]), far(&all)];
+    assert!(few > 0.1 && many > 0.0 && many < few / 3.0, "{few} {many}");
+}
+
+#[test]
+fn what_floors_refuse_does_not_weigh() {
+    let clean = evidence(7, 1);
+    let mut mixed = clean.clone();
+    // Each fourth trial speaks for the other class, by entries far below the floors.
+    for piece in mixed.iter_mut().step_by(4) {
+        piece.class = 1 - piece.class;
+        for x in &mut piece.means {
+            *x -= 15.0;
+        }
+    }
+    let rule = Rule {
+        threshold: 0.99,
+        limit_bits: 2.0,
+        block: 20,
+        weights: vec![1.0],
+        sources: vec![TableSource::Samples],
+        unknown: None,
+    };
+    let floor = floors::Floor {
+        samples: 10.0,
+        roughness: 0.0,
+    };
+    let known = weights::Known {
+        rule: &rule,
+        floors: &[floor; 2],
+    };
+    let kept: Vec<Evidence> = (0..clean.len())
+        .filter(|n| n % 4 != 0)
+        .map(|n| clean[n].clone())
+        .collect();
+    let fit = |pieces: &[Evidence], known| weights::fitted(pieces, &LENGTHS, None, known)[0];
+    let expected = fit(&kept, None);
+    assert!((fit(&mixed, Some(known)) - expected).abs() < 1e-9);
+    assert!(fit(&mixed, None) < 0.5 * expected);
+}
+
+/// What is felt of a class in trials that differ, and that differ within.
+fn felt(dice: &mut Dice, trials: usize, decisions: usize) -> Vec<Felt> {
+    let mut all = Vec::new();
+    for piece in 0..trials {
+        let trial = [0.5 * dice.normal(), 0.1 * dice.normal()];
+        all.extend((0..decisions).map(|_| Felt {
+            piece,
+            class: 0,
+            entries: [
+                8.0 + trial[0] + 0.2 * dice.normal(),
+                3.0 + trial[1] + 0.3 * dice.normal(),
+            ],
+        }));
+    }
+    all
+}
+
+#[test]
+fn floors_refuse_the_share_of_another_trial_that_they_were_asked_for() {
+    let mut dice = Dice(4);
+    let mut refused = 0;
+    let runs = 2000;
+    for _ in 0..runs {
+        let floors = floors::of(&felt(&mut dice, 6, 10), 1, 0.1, &[]);
+        let [fresh] = felt(&mut dice, 1, 1)[..] else {
+            unreachable!()
+        };
+        refused += u32::from(floors[0].refuses(fresh.entries));
+    }
+    // Binomial: 0.1 ± 0.007, and less the 0.0025 of those that lie below both.
+    let share = f64::from(refused) / f64::from(runs);
+    assert!((0.075..=0.12).contains(&share), "{share}");
+}
+
+#[test]
+fn floors_are_put_where_a_class_that_was_not_trained_shows() {
+    let felt = felt(&mut Dice(5), 6, 10);
+    let stranger = |entries| Decided {
+        piece: 0,
+        truth: 1,
+        class: 0,
+        posterior: 0.995,
+        samples: 100,
+        entries,
+    };
+    // One unlike in its samples, one in its roughness, each by more and more.
+    let unlike = |entries: fn(f64) -> [f64; 2]| {
+        let steps = (0..200).map(|n| stranger(entries(0.01 * f64::from(n))));
+        floors::of(&felt, 1, 0.1, &[steps.collect()])[0]
+    };
+    let by_samples = unlike(|less| [8.0 - less, 3.0]);
+    let by_roughness = unlike(|less| [8.0, 3.0 - less]);
+    let even = floors::of(&felt, 1, 0.1, &[])[0];
+    assert!(by_samples.samples > even.samples && by_samples.roughness < even.roughness);
+    assert!(by_roughness.samples < even.samples && by_roughness.roughness > even.roughness);
+    // Nothing is refused of a class of which too little is known.
+    let nothing = floors::of(&felt[..10], 2, 0.1, &[]);
+    assert!(nothing.iter().all(|floor| !floor.refuses([0.0, 0.0])));
 }

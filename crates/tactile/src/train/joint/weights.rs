@@ -4,22 +4,79 @@
 //! The weights minimise the mean of −log₂ p(class | stretch) over stretches of blocks, p
 //! being proportional to 2^(Σ wₜ Fₜ) with Fₜ the table's sum over the stretch. Each class
 //! and each length counts alike. The loss is convex in w: Newton.
+//!
+//! One recording of a few trials says little of the weights; so their sum is drawn to what
+//! textures ask for in the mean ([`Prior`]), the more the more trials differ in what they
+//! ask for. Floors refuse the strangest stretches, which would make the rest look less certain than it is:
+//! where there are floors, what they refuse is left out ([`Known`]).
 
 use core::f64::consts::LN_2;
 use std::vec;
 use std::vec::Vec;
 
+use super::floors::Floor;
 use super::pieces::Folded;
+use super::run::Rule;
 use super::tables::Evidence;
+use crate::format::ENTRY_OFFSET_BITS;
 
 /// Most that a table may weigh; an entry, w · (log₂ p + 20) · 1024, then fits 16 bits.
 pub const MAX_WEIGHT: f64 = 3.0;
 
 const STEPS: usize = 60;
 
+/// Where the sum of the weights lies before anything is known of the data: normal. It says how
+/// far samples depend on one another; how tables share it is the data's affair.
+#[derive(Clone, Copy)]
+pub(super) struct Prior {
+    pub(super) mean: f64,
+    pub(super) deviation: f64,
+}
+
+impl Prior {
+    /// Chosen by the scenes `textures` and `whisker`.
+    pub(super) const TEXTURES: Self = Self {
+        mean: 1.2,
+        deviation: 0.3,
+    };
+}
+
+/// What the floors of a rule refuse.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    pub(super) rule: &'a Rule,
+    pub(super) floors: &'a [Floor],
+}
+
+impl Known<'_> {
+    /// Whether the leader of a stretch of so many blocks is one that the floors let pass.
+    fn passes(&self, stretch: &Stretch, length: usize) -> bool {
+        let classes = self.floors.len();
+        let weighted = |class: usize| {
+            let sums = stretch.sums.iter().skip(class).step_by(classes);
+            sums.zip(&self.rule.weights)
+                .map(|(sum, weight)| weight * sum)
+        };
+        let total = |class: &usize| weighted(*class).sum::<f64>();
+        let leader = (0..classes).max_by(|a, b| total(a).total_cmp(&total(b)));
+        let Some(leader) = leader else {
+            return true;
+        };
+        let mut entries = [0.0; 2];
+        let tables = weighted(leader).zip(&self.rule.weights);
+        for ((sum, weight), source) in tables.zip(&self.rule.sources) {
+            let offset = f64::from(ENTRY_OFFSET_BITS);
+            entries[*source as usize] += sum / length as f64 + weight * offset;
+        }
+        !self.floors[leader].refuses(entries)
+    }
+}
+
 /// A stretch of blocks.
 struct Stretch {
     class: usize,
+    /// What is held out together with it.
+    fold: usize,
     /// What it counts for.
     share: f64,
     /// Sums, `[table][class]`.
@@ -45,28 +102,56 @@ pub(super) fn lengths(folded: &Folded<'_>, classes: usize) -> Vec<usize> {
 }
 
 /// The weights of the tables, each from 0 to [`MAX_WEIGHT`].
-pub(super) fn fitted(evidence: &[Evidence], lengths: &[usize]) -> Vec<f64> {
+pub(super) fn fitted(
+    evidence: &[Evidence],
+    lengths: &[usize],
+    prior: Option<Prior>,
+    known: Option<Known<'_>>,
+) -> Vec<f64> {
     let Some(first) = evidence.first() else {
         return Vec::new();
     };
-    let problem = Problem {
+    let mut problem = Problem {
         tables: first.tables,
         classes: first.classes,
-        stretches: stretches(evidence, lengths, first.classes),
+        stretches: stretches(evidence, lengths, first.classes, known),
+        expected: 0.0,
+        stiffness: 0.0,
     };
+    let alone = problem.solved();
+    let Some(prior) = prior else {
+        return alone;
+    };
+    // One recording's trials share what differs from one recording to another, which no
+    // comparison among them shows: each counts for one observation at most.
+    let least = 1.0 / (evidence.len() as f64 * LN_2);
+    let spread = problem.spread(&alone).max(least);
+    problem.stiffness = spread / (prior.deviation * prior.deviation);
+    problem.expected = prior.mean;
     problem.solved()
 }
 
 /// Stretches of blocks, each of one piece.
-fn stretches(evidence: &[Evidence], lengths: &[usize], classes: usize) -> Vec<Stretch> {
+fn stretches(
+    evidence: &[Evidence],
+    lengths: &[usize],
+    classes: usize,
+    known: Option<Known<'_>>,
+) -> Vec<Stretch> {
     let mut all = Vec::new();
     for &length in lengths {
         let from = all.len();
         for piece in evidence {
-            all.extend(sums(piece, length).map(|sums| Stretch {
+            let stretches = sums(piece, length).map(|sums| Stretch {
                 class: piece.class,
+                fold: piece.fold,
                 share: 0.0,
                 sums,
+            });
+            all.extend(stretches.filter(|stretch| {
+                known
+                    .as_ref()
+                    .is_none_or(|known| known.passes(stretch, length))
             }));
         }
         let mut counts = vec![0_u32; classes];
@@ -109,6 +194,10 @@ struct Problem {
     tables: usize,
     classes: usize,
     stretches: Vec<Stretch>,
+    /// Sum of the weights that the prior expects, and by how much the loss grows with the
+    /// square of the distance from it, bits.
+    expected: f64,
+    stiffness: f64,
 }
 
 /// Loss, gradient and curvature at some weights.
@@ -159,7 +248,44 @@ impl Problem {
         None
     }
 
+    /// 1/(n ln 2), n the number of independent observations that the data are worth. Were
+    /// the loss the mean over n of them, in natural units, the squares of their gradients
+    /// would sum up to its curvature over n (the information equality). What is of one
+    /// class and held out together is one of those that are added.
+    fn spread(&self, weights: &[f64]) -> f64 {
+        let curvature = self.of(weights, self.stretches.iter()).curvature;
+        let trace: f64 = (0..self.tables).map(|t| curvature[t][t]).sum();
+        if trace <= 0.0 {
+            // Nothing is said of the weights.
+            return 1.0;
+        }
+        let last = self.stretches.iter().map(|stretch| stretch.fold).max();
+        let observations = (0..=last.unwrap_or(0))
+            .flat_map(|fold| (0..self.classes).map(move |class| (fold, class)));
+        let squares = observations.map(|observation| {
+            let own = |stretch: &&Stretch| (stretch.fold, stretch.class) == observation;
+            let gradient = self.of(weights, self.stretches.iter().filter(own)).gradient;
+            gradient.iter().map(|g| g * g).sum::<f64>()
+        });
+        squares.sum::<f64>() / trace
+    }
+
+    /// With the prior.
     fn local(&self, weights: &[f64]) -> Local {
+        let mut local = self.of(weights, self.stretches.iter());
+        let off = weights.iter().sum::<f64>() - self.expected;
+        local.loss += 0.5 * self.stiffness * off * off;
+        for (gradient, row) in local.gradient.iter_mut().zip(&mut local.curvature) {
+            *gradient += self.stiffness * off;
+            for entry in row {
+                *entry += self.stiffness;
+            }
+        }
+        local
+    }
+
+    /// Of some of the stretches.
+    fn of<'s>(&self, weights: &[f64], stretches: impl Iterator<Item = &'s Stretch>) -> Local {
         let mut local = Local {
             loss: 0.0,
             gradient: vec![0.0; self.tables],
@@ -167,7 +293,7 @@ impl Problem {
         };
         let mut p = vec![0.0; self.classes];
         let mut means = vec![0.0; self.tables];
-        for stretch in &self.stretches {
+        for stretch in stretches {
             let table = |t: usize| &stretch.sums[t * self.classes..][..self.classes];
             p.fill(0.0);
             for (t, w) in weights.iter().enumerate() {
