@@ -26,9 +26,9 @@ impl Extent {
     pub fn full() -> Self {
         Self {
             is_quick: false,
-            trainings: (3..=9).collect(),
-            scored: 200..220,
-            main_job: 200..300,
+            trainings: [3].into_iter().chain(41..=49).collect(),
+            scored: 600..620,
+            main_job: 600..700,
             air_s: 600.0,
             drives: usize::MAX,
             values: usize::MAX,
@@ -40,8 +40,8 @@ impl Extent {
         Self {
             is_quick: true,
             trainings: vec![3],
-            scored: 200..202,
-            main_job: 200..203,
+            scored: 600..602,
+            main_job: 600..603,
             air_s: 10.0,
             drives: 2,
             values: 2,

@@ -83,9 +83,11 @@ struct Stretch {
     sums: Vec<f64>,
 }
 
-/// Lengths of stretches, doubled from the shortest to the longest that each class has.
-/// What sets recordings apart stays the same within one, and shows only in stretches
-/// that are long: where those are held out, the shortest is four blocks instead of one.
+/// Lengths of stretches, doubled from the shortest to the longest that each class has. What
+/// sets recordings apart stays the same within one, and shows only in stretches that are
+/// long: where those are held out, the shortest is four blocks instead of one. Where trials
+/// are, the longest is 32 blocks, well above what a decision takes: what goes on for longer
+/// sets these very trials apart.
 pub(super) fn lengths(folded: &Folded<'_>, classes: usize) -> Vec<usize> {
     let of_class = |class| {
         let pieces = folded
@@ -95,7 +97,12 @@ pub(super) fn lengths(folded: &Folded<'_>, classes: usize) -> Vec<usize> {
         pieces.map(|piece| piece.blocks.len()).max()
     };
     let longest = (0..classes).filter_map(of_class).min().unwrap_or(1);
-    let shortest = if folded.by_recording { 4 } else { 1 };
+    let [shortest, most] = if folded.by_recording {
+        [4, usize::MAX]
+    } else {
+        [1, 32]
+    };
+    let longest = longest.min(most);
     let first = Some(shortest.min(longest));
     let doubled = core::iter::successors(first, |length| Some(2 * length));
     doubled.take_while(|&length| length <= longest).collect()
