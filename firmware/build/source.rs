@@ -4,7 +4,7 @@ use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
 use scene::{Driver, Rule, Scene};
-use tactile::{Model, ModelBuf, TouchRule};
+use tactile::{Model, ModelBuf};
 use whisking::{Real, Source};
 
 /// Writes the source in number format `R`, which the firmware calls `number`.
@@ -169,11 +169,6 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         &CrateEnv::default(),
     );
     let (contact_min_type, contact_min) = (contact_min.of_type, contact_min.value);
-    let gap = if let Some(TouchRule { gap, .. }) = model.touch_rule() {
-        quote! { #gap }
-    } else {
-        quote! { firmware::design_parameters::touch_gap(TICK_HZ) }
-    };
     let items = vec![
         quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
         quote! {
@@ -195,7 +190,6 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         value: quote! {
             firmware::ClassifyingConfig {
                 contact_min: #contact_min,
-                gap: #gap,
                 rule: #rule_value,
             }
         },

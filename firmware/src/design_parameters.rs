@@ -30,12 +30,6 @@ pub const RETRY_S: f64 = 1.0;
 /// at a whisk's turning point, shorter than a small winding takes to overheat.
 pub const STALL_S: f64 = 0.2;
 
-/// How long nothing is touched until a touch has ended, s, where the model does not say.
-///
-/// Longer than a whisker bounces (two periods of 21 Hz, BIOTACT's rear whisker), shorter
-/// than a whisk at 2 Hz is in the air.
-pub const TOUCH_GAP_S: f64 = 0.1;
-
 /// For how long readings are held at `tick_hz` ticks a second.
 pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
     HoldLimits {
@@ -47,11 +41,6 @@ pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
 /// How long a motor rests after a fault at `tick_hz` ticks a second.
 pub const fn retry(tick_hz: u32) -> u16 {
     ticks(RETRY_S, tick_hz)
-}
-
-/// How long nothing is touched until a touch has ended, at `tick_hz` ticks a second.
-pub const fn touch_gap(tick_hz: u32) -> u32 {
-    ticks(TOUCH_GAP_S, tick_hz) as u32
 }
 
 /// When a motor counts as stalled at `tick_hz` ticks a second: driven above

@@ -76,7 +76,7 @@ pub struct Sample {
     pub codes: [u16; 2],
     /// Whether contact is at least the scene's, or the model's, least.
     pub counts: bool,
-    /// The number of the touch; 0 in the air.
+    /// The number of the touch, as soon as it is sure; 0 in the air.
     pub touch: u16,
 }
 
@@ -98,8 +98,6 @@ pub struct ClassifyingConfig<T, D> {
     /// Samples count only while contact π of the whisker's side is at least
     /// this; absent: always.
     pub contact_min: T,
-    /// Ticks without contact after which a touch ends.
-    pub gap: u32,
     /// Settings of the decision rule, with which the classifier is made.
     pub rule: D,
 }
@@ -171,9 +169,8 @@ where
         let least = config.contact_min.part();
         let counts = least.is_none_or(|least| contact >= least);
         let Touching { number: last, .. } = self.touches.touching();
-        let gate = least.is_some() && counts;
         let Touching { number, is_onset } = if self.classifier.knows_touches() {
-            self.touches.step(codes, gate, config.gap)
+            self.touches.step(codes)
         } else {
             Touching::default()
         };
@@ -187,7 +184,8 @@ where
         let sample = Sample {
             codes,
             counts,
-            touch: number,
+            // A false touch in the air is none to the classifier.
+            touch: if self.touches.is_sure() { number } else { 0 },
         };
         if let Some(decision) = self.classifier.push(sample) {
             events(Event::Decision(decision));

@@ -1,7 +1,7 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use firmware::design_parameters::{hold_limits, retry, stall, touch_gap};
+use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
     NoActiveWhisker, Place, Polled, Servo, ServoConfig,
@@ -265,7 +265,6 @@ where
         }),
         perception: Some(ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),
-            gap: touch.map_or(touch_gap(scene.tick_hz), |touch| touch.gap),
             rule: (),
         }),
         period: 0,

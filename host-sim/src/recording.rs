@@ -36,14 +36,25 @@ impl Stream {
             .map(move |n| contact(n).is_none_or(|pi| pi.is_some_and(|pi: f64| pi >= gate)))
     }
 
-    /// Whether each sample counts for a model that knows touches: in a touch, too.
-    pub fn felt(&self, gate: f64) -> impl Iterator<Item = bool> {
-        let in_touch = |n: usize| match &self.touch {
-            Some(touch) => touch.get(n).is_some_and(|touch| *touch != 0),
-            None => true,
-        };
-        let counts = self.counts(gate).enumerate();
-        counts.map(move |(n, counts)| counts && in_touch(n))
+    /// The number of the touch of each sample that counts for a model that knows touches,
+    /// 0 of those that do not. Where the module did not say, a touch begins with the first
+    /// sample that counts and with each after `gap` that do not.
+    pub fn touches(&self, gate: f64, gap: u32) -> impl Iterator<Item = u16> {
+        let (mut last, mut apart) = (0_u16, gap);
+        self.counts(gate).enumerate().map(move |(n, counts)| {
+            if !counts {
+                apart = apart.saturating_add(1);
+                return 0;
+            }
+            if let Some(touch) = &self.touch {
+                return touch.get(n).copied().unwrap_or(0);
+            }
+            if apart >= gap {
+                last = last.checked_add(1).unwrap_or(1);
+            }
+            apart = 0;
+            last
+        })
     }
 }
 
@@ -254,12 +265,10 @@ mod tests {
     fn a_touch_is_asked_for_beside_contact() {
         let text = "label,trial,x,y,contact,touch\na,1,2,3,0.5,0\na,1,4,5,0.5,7\na,1,4,5,0,7\n";
         let streams = parse(text.as_bytes()).unwrap();
-        let [counts, felt] = [
-            streams[0].counts(GATE).collect::<Vec<_>>(),
-            streams[0].felt(GATE).collect(),
-        ];
+        let counts: Vec<_> = streams[0].counts(GATE).collect();
+        let touches: Vec<_> = streams[0].touches(GATE, 1).collect();
         assert_eq!(counts, [true, true, false]);
-        assert_eq!(felt, [false, true, false]);
+        assert_eq!(touches, [0, 7, 0]);
         let mut written = Vec::new();
         super::write(&mut written, &streams).unwrap();
         assert_eq!(String::from_utf8(written).unwrap(), text);

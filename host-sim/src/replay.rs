@@ -51,30 +51,28 @@ impl Replay {
         &self.classes
     }
 
-    /// The decisions of one stream; evidence is dropped at its end. Its first sample
-    /// that counts begins a touch, and so does each after a gap.
+    /// The decisions of one stream; evidence is dropped at its end.
     ///
     /// # Errors
     /// None: the model has the two channels of a recording.
     pub fn stream(&mut self, stream: &Stream) -> Result<Vec<Decided>, WrongChannels> {
         self.bayes.reset();
         let [x, y] = &self.quantisers;
-        let (mut decided, mut apart) = (Vec::new(), u32::MAX);
+        let (mut decided, mut last) = (Vec::new(), 0);
         let needs_touch = self.bayes.model().touch_rule().is_some();
-        let felt = stream.counts(self.gate).zip(stream.felt(self.gate));
-        for (sample, (counts, felt)) in stream.samples.iter().zip(felt) {
-            let counts = if needs_touch { felt } else { counts };
+        let touches = stream.touches(self.gate, self.gap);
+        let counts = stream.counts(self.gate).zip(touches);
+        for (sample, (counts, touch)) in stream.samples.iter().zip(counts) {
             let codes = [x.code_from_f64(sample[0]), y.code_from_f64(sample[1])];
-            if !counts {
-                apart = apart.saturating_add(1);
-                self.bayes.pass(&codes)?;
-                continue;
-            }
-            if apart >= self.gap {
+            if touch != 0 && touch != last {
+                last = touch;
                 self.touch = self.touch.checked_add(1).unwrap_or(1);
                 self.bayes.touch(self.touch);
             }
-            apart = 0;
+            if !counts || (needs_touch && touch == 0) {
+                self.bayes.pass(&codes)?;
+                continue;
+            }
             let Some(decision) = self.bayes.push(&codes)? else {
                 continue;
             };

@@ -38,7 +38,7 @@ pub fn joint(
             label: stream.label.clone(),
             recording: recording.clone(),
             samples: stream.samples.clone(),
-            counts: stream.felt(options.gate).collect(),
+            touches: stream.touches(options.gate, options.gap).collect(),
         })
     });
     joint::train(&trials.collect::<Vec<_>>(), options)

@@ -219,7 +219,7 @@ fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
             trials.push(joint::Trial {
                 label: format!("class {class}"),
                 recording: String::new(),
-                counts: vec![true; samples.len()],
+                touches: vec![1; samples.len()],
                 samples,
             });
         }

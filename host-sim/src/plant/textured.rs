@@ -93,6 +93,16 @@ impl Textured {
         })
     }
 
+    /// The same whiskers with nothing before them from here on.
+    #[must_use]
+    pub fn in_the_air(&self) -> Self {
+        let mut free = self.clone();
+        for whisker in &mut free.whiskers {
+            whisker.limit_deg = f64::INFINITY;
+        }
+        free
+    }
+
     /// Puts any surface before all whiskers; those in contact land anew. Its
     /// values are limited to 0 to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of
     /// grip and softness and 10 of friction; one that is not a number counts as

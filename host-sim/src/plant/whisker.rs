@@ -139,6 +139,16 @@ impl Elastic {
         })
     }
 
+    /// The same whiskers with nothing before them from here on.
+    #[must_use]
+    pub fn in_the_air(&self) -> Self {
+        let mut free = self.clone();
+        for swung in &mut free.whiskers {
+            swung.plate = None;
+        }
+        free
+    }
+
     /// Puts a new piece of any surface before all whiskers, whatever its seed.
     /// Values out of their ranges count as the nearest that is within.
     pub fn present_surface(&mut self, surface: Surface) {

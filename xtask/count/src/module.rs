@@ -5,7 +5,7 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{hold_limits, retry, stall, touch_gap};
+use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
     CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
@@ -140,7 +140,6 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
         },
         perception: ClassifyingConfig {
             contact_min: Absent,
-            gap: touch_gap(TICK_HZ),
             rule: (),
         },
         period: PERIOD,

@@ -25,7 +25,7 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
         label: label.to_owned(),
         recording: recording.to_owned(),
         samples: samples.collect(),
-        counts: vec![true; length],
+        touches: vec![1; length],
     }
 }
 
@@ -130,7 +130,7 @@ fn faults_are_named() {
         .iter_mut()
         .skip(1)
         .step_by(2)
-        .for_each(|trial| trial.counts.fill(false));
+        .for_each(|trial| trial.touches.fill(0));
     assert_eq!(trained(&trials), TrainError::TooShort { name });
     let mut trials = two(1.0, 100);
     trials[3].samples[5][1] = f64::NAN;

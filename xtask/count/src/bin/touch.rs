@@ -3,7 +3,6 @@
 
 use count::arguments::Two;
 use count::samples::spread;
-use firmware::design_parameters::touch_gap;
 use tactile::TouchDetector;
 
 /// Samples until the detector tells touches, and more.
@@ -35,6 +34,6 @@ fn learnt() -> TouchDetector {
 /// Calls the detector from one place, as a tick does.
 #[inline(never)]
 fn step(detector: &mut TouchDetector, Two(x, y): Two<u16>) -> u32 {
-    let touching = detector.step([x, y], true, touch_gap(2_000));
+    let touching = detector.step([x, y]);
     touching.number.into()
 }

@@ -17,13 +17,12 @@ pub(super) struct Blocks {
     pub(super) samples: Vec<[i32; CHANNELS]>,
     /// Code of the roughness of each block.
     pub(super) roughness: Vec<[i32; CHANNELS]>,
-    /// The touch that each block is of, counted from 1.
-    pub(super) touches: Vec<u32>,
+    /// The number of the touch that each block is of.
+    pub(super) touches: Vec<u16>,
 }
 
 impl Blocks {
-    /// Of a trial. Its first counted sample begins a touch, and so does the first
-    /// after `gap` that do not count.
+    /// Of a trial.
     pub(super) fn of(trial: &Trial, scales: &[Quantiser; CHANNELS], options: &Options) -> Self {
         let length = options.block as usize;
         let mut blocks = Self {
@@ -34,21 +33,19 @@ impl Blocks {
         };
         let mut open = Vec::with_capacity(length);
         let mut roughness = Roughness::new();
-        let (mut touch, mut away) = (0, options.gap);
-        for (sample, &counts) in trial.samples.iter().zip(&trial.counts) {
+        let mut last = 0;
+        for (sample, &touch) in trial.samples.iter().zip(&trial.touches) {
             let codes: [i32; CHANNELS] =
                 core::array::from_fn(|channel| scales[channel].code_from_f64(sample[channel]));
-            roughness.push(&codes, counts);
-            if !counts {
-                away = away.saturating_add(1);
+            roughness.push(&codes, touch != 0);
+            if touch == 0 {
                 continue;
             }
-            if away >= options.gap {
-                touch += 1;
+            if touch != last {
+                last = touch;
                 open.clear();
                 roughness.clear();
             }
-            away = 0;
             open.push(codes);
             if open.len() == length {
                 blocks.samples.append(&mut open);

@@ -30,16 +30,15 @@ impl Dice {
     }
 }
 
-fn blocks(samples: Vec<[f64; 2]>, counts: Vec<bool>, block: u32) -> Blocks {
+fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
     let trial = Trial {
         label: String::from("a"),
         recording: String::new(),
         samples,
-        counts,
+        touches,
     };
     let options = Options {
         block,
-        gap: 10,
         ..Options::default()
     };
     let scales = scales(core::slice::from_ref(&trial)).unwrap();
@@ -56,7 +55,7 @@ fn the_roughness_of_a_sine_is_its_closed_form() {
             let x = (amplitude * (w * f64::from(n)).sin()).round();
             [x, 3.0]
         });
-        let found = blocks(wave.collect(), vec![true; 100], 20);
+        let found = blocks(wave.collect(), vec![1; 100], 20);
         let sum = amplitude * 4.0 * (2.0 * w).sin().powi(2) * 2.0 / (w / 2.0).tan();
         let code = 64.0 * (1.0 + sum).log2();
         for [x, y] in &found.roughness[1..] {
@@ -71,13 +70,10 @@ fn the_roughness_of_a_sine_is_its_closed_form() {
 #[test]
 fn a_touch_drops_the_open_block() {
     let samples: Vec<[f64; 2]> = (0..40).map(|n| [f64::from(n), 0.0]).collect();
-    // Three, a short gap, three, a long gap, then nine.
-    let counts: Vec<bool> = "###..###............#########..........."
-        .bytes()
-        .map(|c| c == b'#')
-        .collect();
-    let found = blocks(samples, counts, 4);
-    assert_eq!(found.touches, [1, 2, 2]);
+    // Three, two that do not count, three, then nine of another.
+    let touches = "3330033300000000000077777777700000000000".bytes();
+    let found = blocks(samples, touches.map(|c| u16::from(c - b'0')).collect(), 4);
+    assert_eq!(found.touches, [3, 7, 7]);
     let firsts: Vec<i32> = found.samples.iter().map(|codes| codes[0]).collect();
     assert_eq!(firsts, [0, 1, 2, 5, 20, 21, 22, 23, 24, 25, 26, 27]);
     // A straight line is smooth, however much of it was felt in the air.

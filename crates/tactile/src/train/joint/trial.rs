@@ -17,10 +17,11 @@ pub struct Options {
     pub smooth: f64,
     /// Samples in a block, 1 to 10000.
     pub block: u32,
-    /// Contact from which a sample counts, 0 to 1: what trials' flags were made by, and
+    /// Contact from which a sample counts, 0 to 1: what trials' touches were made by, and
     /// what the module is to gate by.
     pub gate: f64,
-    /// Samples without contact after which another touch begins.
+    /// Samples without contact after which another touch begins, in recordings of which
+    /// the module did not say.
     pub gap: u32,
     /// Most that a class may lie behind at the onset of a touch, bits.
     pub limit_bits: f64,
@@ -82,7 +83,7 @@ pub struct Trial {
     pub recording: String,
     /// x and y, in any unit, in time order; those in the air among them.
     pub samples: Vec<[f64; CHANNELS]>,
-    /// Of each sample whether it counts: contact is at least the gate. What
-    /// has no such flag does not count.
-    pub counts: Vec<bool>,
+    /// Of each sample that counts the number of its touch, 0 of others: in the air, or
+    /// contact is less than the gate. What has no number does not count.
+    pub touches: Vec<u16>,
 }
