@@ -38,23 +38,25 @@
 //!
 //! # Error
 //!
-//! Runs of 40 s with seeds 200 to 219, from where what the contact adds reaches three
-//! deviations of the sensor's noise; false touches in ten minutes each with contacts (seed
-//! 220) and of air from the twentieth second on (221, 222):
+//! By the ignored test of `host-sim/tests/touches`, seeds 400 to 422, which were not seen
+//! before: runs of 40 s with contacts, from where what the contact adds reaches three
+//! deviations of the sensor's noise, and runs of ten minutes with contacts and without.
 //!
-//! | plant, Hz | within 2 ms | mean, 95 %, ms | false, of ten minutes | in the air |
-//! |---|---|---|---|---|
-//! | textured, 2 | 93.8 % | 1.2, 2.5 | 4 | 2, 2 |
-//! | textured, 4 | 94.2 % | 1.1, 2.5 | 4 | 4, 3 |
-//! | textured, 6 | 96.4 % | 1.0, 2.0 | 8 | 3, 2 |
-//! | textured, 8 | 95.0 % | 1.2, 2.0 | 0 | 3, 1 |
-//! | whisker, 2 | 100 % | 0.4, 1.0 | 4 | 2, 1 |
-//! | whisker, 4 | 100 % | 0.3, 1.0 | 2 | 4, 5 |
-//! | whisker, 6 | 100 % | 0.5, 1.0 | 0 | 4, 5 |
-//! | whisker, 8 | 100 % | 0.6, 1.0 | 0 | 4, 3 |
+//! | plant, Hz | within 2 ms | mean, 95 %, ms | false a minute, 40 s | ten minutes | in the air |
+//! |---|---|---|---|---|---|
+//! | textured, 2 | 96.0 % | 1.06, 2.0 | 0.4 | 0.4 | 0.3 |
+//! | textured, 4 | 94.3 % | 1.07, 2.5 | 1.8 | 0.5 | 0.4 |
+//! | textured, 6 | 95.7 % | 1.04, 2.0 | 0.6 | 1.0 | 0.4 |
+//! | textured, 8 | 95.6 % | 1.21, 2.0 | 0 | 0 | 0.4 |
+//! | whisker, 2 | 100 % | 0.41, 1.0 | 1.7 | 0.5 | 0.6 |
+//! | whisker, 4 | 100 % | 0.30, 1.0 | 0.1 | 0.2 | 1.0 |
+//! | whisker, 6 | 100 % | 0.48, 1.0 | 0 | 0.1 | 0.9 |
+//! | whisker, 8 | 100 % | 0.56, 1.0 | 0 | 0 | 0.7 |
 //!
-//! Late is carpet on the textured plant (80 to 86 % within 2 ms), which gives way. Up to a
-//! seventh of the elastic whisker's contacts at 2 Hz are told as two touches.
+//! It still learns in the first 40 s. Late is carpet on the textured plant, which gives way.
+//! Up to a sixth of the elastic whisker's contacts at 2 Hz are told as two touches. With CIA
+//! alone, which leaves 47 ms of air between contacts at 8 Hz, 88 % are told within 2 ms and
+//! a tenth are missed.
 //!
 //! Not seen: a touch in the first second, in which a, b and levels are learnt; in the next
 //! ten some false ones may be told. Touches that all
@@ -67,13 +69,13 @@ const KEPT: usize = 6;
 const FACTORS: [u32; 2] = [144, 96];
 /// Least thresholds at the start, codes.
 const LEAST: u32 = 64;
-/// Bits of a least threshold below one code, and by 2^−n of itself it falls a sample.
+/// Bits of a least threshold below one code, and by 2^−n of itself it falls a block.
 const LEAST_FRACTION: u32 = 20;
-const FALL: u32 = 21;
+const FALL: u32 = 18;
 /// How often what was lately a sign is that begins a touch, sixteenths.
 const ABOVE_RECENT: u32 = 22;
-/// Samples of a block of which the largest sign is kept; what was lately falls by 2^−n of
-/// itself a block.
+/// Samples of a block, after which thresholds follow the levels. Of each block the largest
+/// sign is kept; what was lately falls by 2^−n of itself a block.
 const BLOCK: u8 = 8;
 const RECENT: u32 = 3;
 /// A quick sign that rises to this many times its threshold is a touch.
@@ -86,9 +88,9 @@ const FAR_MOST: u32 = 4096;
 /// Samples of such a deflection by which a touch is noticed that was missed: longer than
 /// half a period of what rings.
 const MISSED: u8 = 32;
-/// Samples after a sure touch in which another that is not sure is no error: the end of
+/// Blocks after a sure touch in which another that is not sure is no error: the end of
 /// the same.
-const SETTLED: u8 = 80;
+const SETTLED: u8 = 11;
 /// Samples without a sign that end a contact.
 const QUIET: u8 = 16;
 /// Bits of a level, of the rest, of the mean and of a and b below one.
@@ -140,15 +142,16 @@ pub struct TouchDetector {
     weights: [i32; 2],
     /// Curvature and surprise.
     quick: [Quick; 2],
-    /// Level of the deflection, and its peak in the contact.
+    /// Level of the deflection, from where it is far, and its peak in the contact.
     deflection: u32,
+    far: u32,
     peak: u32,
     /// Samples of the start that have been, of the block, and in contact without a sign, or
     /// in the air far from rest.
     seen: u16,
     of_block: u8,
     quiet: u8,
-    /// Samples since a touch that was sure.
+    /// Blocks since a touch that was sure.
     apart: u8,
     in_contact: bool,
     in_touch: bool,
@@ -175,6 +178,7 @@ impl TouchDetector {
             weights: [1 << WEIGHT_FRACTION, -(1 << (WEIGHT_FRACTION - 2))],
             quick: [Quick::new(curvature), Quick::new(surprise)],
             deflection: 64 << FRACTION,
+            far: FAR,
             peak: 0,
             seen: 0,
             of_block: 0,
@@ -247,16 +251,13 @@ impl TouchDetector {
     }
 
     fn compare(&mut self, quick: [u32; 2], deflection: u32) {
-        let thresholds = self.quick.each_ref().map(Quick::threshold);
-        let signs = || quick.into_iter().zip(thresholds);
         let level = self.deflection >> FRACTION;
-        let far = (FAR_LEVELS * level + FAR).min(FAR_MOST);
         if self.in_contact {
             self.peak = self.peak.max(deflection);
             let mut holds = deflection > (level - level / 8 + FAR).max(self.peak / 2);
-            for (of, (sign, threshold)) in self.quick.iter_mut().zip(signs()) {
+            for (of, sign) in self.quick.iter_mut().zip(quick) {
                 of.peak = of.peak.max(sign);
-                holds |= sign > (threshold / 2).max(of.peak / 8);
+                holds |= sign > (of.threshold / 2).max(of.peak / 8);
             }
             self.quiet = if holds { 0 } else { self.quiet + 1 };
             if self.quiet >= QUIET {
@@ -264,23 +265,25 @@ impl TouchDetector {
                 self.quiet = 0;
             }
         } else {
-            let begins = |(of, (sign, threshold)): (&Quick, (u32, u32))| {
-                sign > threshold && of.is_above_recent(sign)
+            self.quiet = if deflection < self.far {
+                0
+            } else {
+                self.quiet + 1
             };
-            self.quiet = if deflection < far { 0 } else { self.quiet + 1 };
             let is_missed = self.quiet >= MISSED;
             if is_missed && !self.in_touch {
                 self.quick.iter_mut().for_each(Quick::lower);
             }
-            if is_missed || self.quick.iter().zip(signs()).any(begins) {
+            let mut signs = self.quick.iter().zip(quick);
+            if is_missed || signs.any(|(of, sign)| of.begins(sign)) {
                 self.in_contact = true;
                 self.quiet = 0;
                 self.peak = deflection;
-                for (of, (sign, threshold)) in self.quick.iter_mut().zip(signs()) {
+                for (of, sign) in self.quick.iter_mut().zip(quick) {
                     of.peak = sign;
                     if !self.in_touch {
-                        of.began = begins((of, (sign, threshold)));
-                        of.threshold = threshold;
+                        of.began = of.begins(sign);
+                        of.at_onset = of.threshold;
                     }
                 }
                 self.is_sure &= self.in_touch;
@@ -289,7 +292,7 @@ impl TouchDetector {
         }
         if self.in_touch {
             self.is_sure |=
-                deflection >= far || self.quick.iter().any(|of| of.peak >= SURE * of.threshold);
+                deflection >= self.far || self.quick.iter().any(|of| of.peak >= SURE * of.at_onset);
             if !self.in_contact && deflection < level + FAR {
                 self.in_touch = false;
                 if self.is_sure {
@@ -298,8 +301,6 @@ impl TouchDetector {
                     self.quick.iter_mut().for_each(Quick::raise);
                 }
             }
-        } else {
-            self.apart = self.apart.saturating_add(1);
         }
     }
 
@@ -323,20 +324,21 @@ impl TouchDetector {
                 *rest += ((code << FRACTION) - *rest) >> rest_rate;
             }
         }
-        let is_block = self.of_block == 0;
-        self.of_block = if is_block {
-            BLOCK - 1
-        } else {
-            self.of_block - 1
-        };
         for (of, sign) in self.quick.iter_mut().zip(now.quick) {
-            of.least -= of.least >> FALL;
-            of.note(sign, is_block);
+            of.block = of.block.max(sign);
             QUICK_RATES.follow(&mut of.level, sign, self.in_contact, is_start);
         }
-        let deflection = &mut self.deflection;
         let is_bent = self.in_contact && self.is_sure;
-        DEFLECTION_RATES.follow(deflection, now.deflection, is_bent, is_start);
+        DEFLECTION_RATES.follow(&mut self.deflection, now.deflection, is_bent, is_start);
+        self.of_block += 1;
+        if self.of_block == BLOCK {
+            self.of_block = 0;
+            self.quick.iter_mut().for_each(Quick::end_block);
+            self.far = (FAR_LEVELS * (self.deflection >> FRACTION) + FAR).min(FAR_MOST);
+            if !self.in_touch {
+                self.apart = self.apart.saturating_add(1);
+            }
+        }
     }
 
     fn count(&mut self) {
@@ -370,13 +372,15 @@ struct Quick {
     factor: u32,
     level: u32,
     least: u32,
+    /// From where it begins a contact, codes.
+    threshold: u32,
     /// The largest of the block, of the last block, and, in 1/256, of what was before.
     block: u32,
     last: u32,
     recent: u32,
     /// Of the touch: whether this began it, its threshold then, its peak.
     began: bool,
-    threshold: u32,
+    at_onset: u32,
     peak: u32,
 }
 
@@ -386,24 +390,18 @@ impl Quick {
             factor,
             level: 8 << FRACTION,
             least: LEAST << LEAST_FRACTION,
+            threshold: LEAST,
             block: 0,
             last: 0,
             recent: 0,
             began: false,
-            threshold: 0,
+            at_onset: 0,
             peak: 0,
         }
     }
 
-    /// Codes.
-    fn threshold(&self) -> u32 {
-        // A level has 30 bits, a factor 8.
-        let of_level = ((self.level >> 8) * self.factor) >> 8;
-        of_level.max(self.least >> LEAST_FRACTION)
-    }
-
-    const fn is_above_recent(&self, sign: u32) -> bool {
-        (sign << 12) > self.recent * ABOVE_RECENT
+    const fn begins(&self, sign: u32) -> bool {
+        sign > self.threshold && (sign << 12) > self.recent * ABOVE_RECENT
     }
 
     /// A touch was missed.
@@ -414,18 +412,20 @@ impl Quick {
     /// The touch was none.
     fn raise(&mut self) {
         if self.began {
-            let least = (self.threshold + self.threshold / 4).min(4095);
+            let least = (self.at_onset + self.at_onset / 4).min(4095);
             self.least = least << LEAST_FRACTION;
+            self.threshold = self.threshold.max(least);
         }
     }
 
-    fn note(&mut self, sign: u32, is_block: bool) {
-        self.block = self.block.max(sign);
-        if is_block {
-            let fallen = self.recent - (self.recent >> RECENT);
-            self.recent = fallen.max(self.last << 8);
-            self.last = core::mem::take(&mut self.block);
-        }
+    fn end_block(&mut self) {
+        let fallen = self.recent - (self.recent >> RECENT);
+        self.recent = fallen.max(self.last << 8);
+        self.last = core::mem::take(&mut self.block);
+        self.least -= self.least >> FALL;
+        // A level has 30 bits, a factor 8.
+        let of_level = ((self.level >> 8) * self.factor) >> 8;
+        self.threshold = of_level.max(self.least >> LEAST_FRACTION);
     }
 }
 
