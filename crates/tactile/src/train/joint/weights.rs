@@ -7,8 +7,8 @@
 //!
 //! One recording of a few trials says little of the weights; so their sum is drawn to what
 //! textures ask for in the mean ([`Prior`]), the more the more trials differ in what they
-//! ask for. Floors refuse the strangest stretches, which would make the rest look less certain than it is:
-//! where there are floors, what they refuse is left out ([`Known`]).
+//! ask for. Floors refuse the strangest stretches, which would make the rest look less
+//! certain than it is: where there are floors, what they refuse is left out ([`Known`]).
 
 use core::f64::consts::LN_2;
 use std::vec;
@@ -34,7 +34,7 @@ pub(super) struct Prior {
 }
 
 impl Prior {
-    /// Chosen by the scenes `textures` and `whisker`.
+    /// Chosen by the scenes `textures` and `whisker` (docs/decisions.md, record 25).
     pub(super) const TEXTURES: Self = Self {
         mean: 1.2,
         deviation: 0.3,
