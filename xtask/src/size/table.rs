@@ -20,9 +20,10 @@ pub(crate) const TABLE: Table = Table {
 ///
 /// 1024 of stack were met by settings in flash, a class count as a type, and the papers'
 /// classifier alone. Now scene `full` takes most, on the G071: what is perceived with is
-/// built on the stack at the start and moved to its place once.
+/// built on the stack at the start and moved to its place once. 24 KiB of flash were met
+/// before touches were told within 2 ms at 8 Hz as well, which takes most of a KiB more.
 const PASSIVE_FLASH: u64 = 8 * 1024;
-const ACTIVE_FLASH: u64 = 24 * 1024;
+const ACTIVE_FLASH: u64 = 25 * 1024;
 const RAM: u64 = 4 * 1024;
 const STACK: u64 = 1536;
 
@@ -153,7 +154,7 @@ mod tests {
         assert!(fault.contains("b,b is not in the table"));
         assert!(fault.contains("a,b is no longer measured"));
         assert_eq!(compare(&[a.figure(), b.figure()], &[b], false), Ok(()));
-        let mut big = row("c", 24 * 1024 + 100, 4 * 1024 + 1, 1_537);
+        let mut big = row("c", 25 * 1024 + 100, 4 * 1024 + 1, 1_537);
         let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
         assert_eq!(fault.matches("goal").count(), 3, "{fault}");
         big.model = 100;
