@@ -59,25 +59,22 @@
 //! a tenth are missed.
 //!
 //! Not seen: a touch in the first second, in which a, b and levels are learnt; in the next
-//! ten some false ones may be told. Touches that all
-//! bend the whisker by less than an eighth of the sensor's range count as none, and are told
-//! later and later. What does not move is let go after some twenty seconds.
+//! ten some false ones may be told. Touches that all bend the whisker by less than an eighth
+//! of the sensor's range count as none, and are told later and later. What does not move is
+//! let go after some twenty seconds.
+
+mod level;
+mod quick;
+
+use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES};
+use quick::Quick;
 
 /// Samples that are kept.
 const KEPT: usize = 6;
 /// How often its level a sign is that begins a touch, sixteenths: curvature, surprise.
 const FACTORS: [u32; 2] = [144, 96];
-/// Least thresholds at the start, codes.
-const LEAST: u32 = 64;
-/// Bits of a least threshold below one code, and by 2^−n of itself it falls a block.
-const LEAST_FRACTION: u32 = 20;
-const FALL: u32 = 18;
-/// How often what was lately a sign is that begins a touch, sixteenths.
-const ABOVE_RECENT: u32 = 22;
-/// Samples of a block, after which thresholds follow the levels. Of each block the largest
-/// sign is kept; what was lately falls by 2^−n of itself a block.
+/// Samples of a block, after which thresholds follow the levels.
 const BLOCK: u8 = 8;
-const RECENT: u32 = 3;
 /// A quick sign that rises to this many times its threshold is a touch.
 const SURE: u32 = 3;
 /// So is a deflection of this many times its level and, codes, this much more, or of this
@@ -93,8 +90,7 @@ const MISSED: u8 = 32;
 const SETTLED: u8 = 11;
 /// Samples without a sign that end a contact.
 const QUIET: u8 = 16;
-/// Bits of a level, of the rest, of the mean and of a and b below one.
-const FRACTION: u32 = 12;
+/// Bits of the mean and of a and b below one.
 const MEAN_FRACTION: u32 = 8;
 const WEIGHT_FRACTION: u32 = 24;
 /// The mean moves by 2^−n of the difference a sample.
@@ -103,19 +99,6 @@ const MEAN: u32 = 4;
 /// within ±2.
 const LEARN: [i32; 2] = [2, 4];
 const WEIGHT_MOST: i32 = 2 << WEIGHT_FRACTION;
-/// A level moves by 2^−n of itself a sample, up and down: quick signs to their lower
-/// fifth, deflection to its upper ninth. In a touch slowly: enough to let go of what does
-/// not end.
-const QUICK_RATES: Rates = Rates {
-    start: [8, 6],
-    air: [10, 8],
-    touch: [13, 11],
-};
-const DEFLECTION_RATES: Rates = Rates {
-    start: [6, 8],
-    air: [8, 11],
-    touch: [13, 16],
-};
 /// The rest moves by 2^−n of the difference a sample.
 const REST: u32 = 12;
 const REST_AT_START: u32 = 8;
@@ -363,92 +346,4 @@ struct Signs {
     /// Of each axis: what was not foretold, and what it was foretold from.
     left: [i32; 2],
     from: [[i32; 2]; 2],
-}
-
-/// What is known of curvature or surprise.
-#[derive(Debug, Clone)]
-struct Quick {
-    /// How often its level begins a touch, sixteenths.
-    factor: u32,
-    level: u32,
-    least: u32,
-    /// From where it begins a contact, codes.
-    threshold: u32,
-    /// The largest of the block, of the last block, and, in 1/256, of what was before.
-    block: u32,
-    last: u32,
-    recent: u32,
-    /// Of the touch: whether this began it, its threshold then, its peak.
-    began: bool,
-    at_onset: u32,
-    peak: u32,
-}
-
-impl Quick {
-    const fn new(factor: u32) -> Self {
-        Self {
-            factor,
-            level: 8 << FRACTION,
-            least: LEAST << LEAST_FRACTION,
-            threshold: LEAST,
-            block: 0,
-            last: 0,
-            recent: 0,
-            began: false,
-            at_onset: 0,
-            peak: 0,
-        }
-    }
-
-    const fn begins(&self, sign: u32) -> bool {
-        sign > self.threshold && (sign << 12) > self.recent * ABOVE_RECENT
-    }
-
-    /// A touch was missed.
-    const fn lower(&mut self) {
-        self.least -= self.least / 4;
-    }
-
-    /// The touch was none.
-    fn raise(&mut self) {
-        if self.began {
-            let least = (self.at_onset + self.at_onset / 4).min(4095);
-            self.least = least << LEAST_FRACTION;
-            self.threshold = self.threshold.max(least);
-        }
-    }
-
-    fn end_block(&mut self) {
-        let fallen = self.recent - (self.recent >> RECENT);
-        self.recent = fallen.max(self.last << 8);
-        self.last = core::mem::take(&mut self.block);
-        self.least -= self.least >> FALL;
-        // A level has 30 bits, a factor 8.
-        let of_level = ((self.level >> 8) * self.factor) >> 8;
-        self.threshold = of_level.max(self.least >> LEAST_FRACTION);
-    }
-}
-
-/// By how much a level moves, up and down.
-struct Rates {
-    start: [u32; 2],
-    air: [u32; 2],
-    touch: [u32; 2],
-}
-
-impl Rates {
-    /// Steps up and down of a share each, by which a level becomes a quantile.
-    fn follow(&self, level: &mut u32, sign: u32, in_touch: bool, is_start: bool) {
-        let [up, down] = match (in_touch, is_start) {
-            (_, true) => self.start,
-            (true, false) => self.touch,
-            (false, false) => self.air,
-        };
-        if sign > *level >> FRACTION {
-            // Below 2^31: signs are below 2^18.
-            *level += *level >> up;
-        } else {
-            *level = (*level - (*level >> down)).max(1 << FRACTION);
-        }
-    }
 }
