@@ -123,6 +123,7 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
                     retry: firmware::design_parameters::retry(TICK_HZ),
                     stall: firmware::design_parameters::stall(TICK_HZ, #stall_q15),
                 },
+                stop_all: whisking::Absent,
             }
         },
     };

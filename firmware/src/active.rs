@@ -1,7 +1,7 @@
 //! Active whiskers: the pattern generator of the module, and a servo for each.
 
 use whisking::motor::MotorDriver;
-use whisking::{PatternGenerator, Real};
+use whisking::{Absent, Optional, PatternGenerator, Real};
 
 use crate::io::AngleInput;
 use crate::motion::{Command, Motion, MotorControl, NoActiveWhisker};
@@ -9,13 +9,20 @@ use crate::sensing::Reading;
 use crate::servo::{Servo, ServoConfig};
 use crate::{Event, Place};
 
-/// Constants of an active module; `W` is its pattern generator.
+/// A fault of any whisker switches every motor off until it is gone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StopAll;
+
+/// Constants of an active module; `W` is its pattern generator, `A` says whether it has
+/// [`StopAll`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ActiveConfig<R: Real, W = whisking::Config<R>> {
+pub struct ActiveConfig<R: Real, W = whisking::Config<R>, A = Absent> {
     /// Oscillators, muscles and gates.
     pub whisking: W,
     /// Position control, and what is done about faults of a motor.
     pub servo: ServoConfig<R>,
+    /// [`StopAll`]; absent: a fault switches off the motor of its whisker alone.
+    pub stop_all: A,
 }
 
 /// Whiskers that whisk.
@@ -47,31 +54,40 @@ impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
     }
 }
 
-impl<R, W, M, A, const S: usize, const N: usize> Motion<R, ActiveConfig<R, W>, S, N>
+impl<R, W, O, M, A, const S: usize, const N: usize> Motion<R, ActiveConfig<R, W, O>, S, N>
     for Active<R, M, A, S, N>
 where
     R: Real,
     W: PatternGenerator<R>,
+    O: Optional<StopAll>,
     M: MotorDriver,
     A: AngleInput,
 {
     #[inline]
     fn step(
         &mut self,
-        config: &ActiveConfig<R, W>,
+        config: &ActiveConfig<R, W, O>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
         events: &mut impl FnMut(Event),
     ) {
         config.whisking.step(&mut self.state, contact);
+        let all_stop = config.stop_all.part().is_some()
+            && readings.iter().flatten().any(|reading| !reading.valid);
         let sides = self.servos.iter_mut().zip(&self.state.whiskers);
         for (side, (servos, whiskers)) in sides.enumerate() {
             for (w, (servo, whisker)) in servos.iter_mut().zip(whiskers).enumerate() {
                 let place = Place::new(side as u8, w as u8);
-                let valid = readings[side][w].valid;
-                servo.step(&config.servo, whisker.muscle.theta, valid, place, events);
+                let may_run = readings[side][w].valid && !all_stop;
+                servo.step(&config.servo, whisker.muscle.theta, may_run, place, events);
             }
         }
+    }
+
+    #[inline]
+    fn rests(&self, side: usize, whisker: usize) -> bool {
+        let servo = self.servos.get(side).and_then(|side| side.get(whisker));
+        servo.is_some_and(Servo::rests)
     }
 }
 

@@ -16,8 +16,8 @@ pub const HOLD_S: f64 = 0.005;
 
 /// How long readings must be good before a whisker with a sensor fault moves again, s.
 ///
-/// 40 ms: the envelope of the 50 Hz contact filter falls by e^(−π 50 t), to
-/// 0.2 % by then, so that what it remembers of the fault has gone.
+/// 40 ms, two periods of the mains: a line that what hums disturbs only at the
+/// peaks is not taken for sound between them.
 pub const RECOVER_S: f64 = 0.04;
 
 /// How long a motor rests after a fault before it is tried again, s.

@@ -73,11 +73,11 @@ pub enum Event {
     /// A decision fell.
     Decision(Decision),
     /// Readings of a whisker have been bad for longer than they may be: its
-    /// motor is off (fault).
+    /// motor is off (fault) and it touches nothing.
     SensorLost(Place, SensorFault),
     /// Readings are good again; the whisker moves again.
     SensorBack(Place),
-    /// A motor was switched off (fault).
+    /// A motor was switched off (fault): its whisker touches nothing while it rests.
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.
     MotorRetry(Place),

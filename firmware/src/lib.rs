@@ -7,7 +7,8 @@
 //!   gate, step, position control, classify, in this order.
 //! - *frame*: the eight bytes of one sensor reading; the tick uses the one
 //!   that was complete before it began.
-//! - *fault*: the motor of that whisker is off until a retry succeeds.
+//! - *fault*: the motor of that whisker is off until a retry succeeds; meanwhile it
+//!   feels nothing. Whether the others go on is the scene's choice ([`StopAll`]).
 //! - *limit*: something out of the ordinary while the module still runs.
 //! - *event*: what a tick reports; queued, and logged elsewhere.
 //! - *servo*: a whisker's motor, angle input and position control.
@@ -32,7 +33,7 @@ mod sensing;
 mod servo;
 mod timing;
 
-pub use active::{Active, ActiveConfig};
+pub use active::{Active, ActiveConfig, StopAll};
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
 pub use module::{Config, Module};

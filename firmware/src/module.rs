@@ -70,7 +70,14 @@ where
     {
         self.timing.begin(self.clock.now(), config.period);
 
-        let readings = self.sense(config.decoder, config.hold_limits, events);
+        let mut readings = self.sense(config.decoder, config.hold_limits, events);
+        for (side, readings) in readings.iter_mut().enumerate() {
+            for (w, reading) in readings.iter_mut().enumerate() {
+                if self.motion.rests(side, w) {
+                    *reading = Reading::FAULT;
+                }
+            }
+        }
         if let Some(h50) = config.contact.part() {
             self.feel(h50, &readings);
         }
@@ -99,13 +106,19 @@ where
         readings
     }
 
-    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9).
+    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9). A
+    /// whisker with a fault has none, and begins anew when it is gone.
     #[inline]
     fn feel(&mut self, h50: &filter::Config<R>, readings: &[[Reading; N]; S]) {
         for (side, contact) in self.contact.iter_mut().enumerate() {
             let whiskers = self.filters[side].iter_mut().zip(&readings[side]);
-            let sizes = whiskers
-                .map(|(filter, reading)| h50.process(filter, normalised::<R>(reading.x)).abs());
+            let sizes = whiskers.map(|(filter, reading)| {
+                if !reading.valid {
+                    *filter = filter::State::default();
+                    return R::ZERO;
+                }
+                h50.process(filter, normalised::<R>(reading.x)).abs()
+            });
             // No comparison with zero where there is one whisker.
             *contact = sizes.reduce(|most, size| size.max(most)).unwrap_or(R::ZERO);
         }

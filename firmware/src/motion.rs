@@ -13,6 +13,9 @@ pub trait Motion<R, C, const S: usize, const N: usize> {
         readings: &[[Reading; N]; S],
         events: &mut impl FnMut(Event),
     );
+
+    /// Whether the motor of a whisker (its side and number) rests after a fault.
+    fn rests(&self, side: usize, whisker: usize) -> bool;
 }
 
 /// An intervention between two ticks, for one whisker.
@@ -54,6 +57,11 @@ impl<R, const S: usize, const N: usize> Motion<R, (), S, N> for Passive {
         _events: &mut impl FnMut(Event),
     ) {
     }
+
+    #[inline]
+    fn rests(&self, _side: usize, _whisker: usize) -> bool {
+        false
+    }
 }
 
 impl<R> MotorControl<R> for Passive {
@@ -78,6 +86,12 @@ impl<R, C, M: Motion<R, C, S, N>, const S: usize, const N: usize> Motion<R, Opti
         if let (Some(motion), Some(config)) = (self, config) {
             motion.step(config, contact, readings, events);
         }
+    }
+
+    #[inline]
+    fn rests(&self, side: usize, whisker: usize) -> bool {
+        let motion = self.as_ref();
+        motion.is_some_and(|motion| motion.rests(side, whisker))
     }
 }
 

@@ -88,6 +88,9 @@ pub trait SampleClassifier {
     /// Whether it is to be told touches; otherwise all is of the air to it.
     fn knows_touches(&self) -> bool;
 
+    /// There is no sample: the next does not follow the last.
+    fn interrupt(&mut self);
+
     /// Starts anew.
     fn reset(&mut self);
 }
@@ -105,8 +108,8 @@ pub struct ClassifyingConfig<T, D> {
 /// Classifies what the first whisker of the module (left side first) touches.
 ///
 /// Samples are the sensor's raw 14-bit codes, not the filtered contact signal:
-/// texture is in the vibration above 50 Hz. While the sensor has a fault there
-/// are no samples.
+/// texture is in the vibration above 50 Hz. While the whisker has a fault it touches
+/// nothing and there are no samples.
 #[derive(Debug)]
 pub struct Classifying<L> {
     classifier: L,
@@ -141,6 +144,20 @@ impl<L> Classifying<L> {
     pub const fn touching(&self) -> Touching {
         self.touches.touching()
     }
+
+    /// A tick of a whisker with a fault.
+    #[cold]
+    fn interrupt(&mut self, place: Place, events: &mut impl FnMut(Event))
+    where
+        L: SampleClassifier,
+    {
+        let Touching { number, .. } = self.touches.touching();
+        if number != 0 {
+            events(Event::TouchEnd { place, number });
+        }
+        self.touches.interrupt();
+        self.classifier.interrupt();
+    }
 }
 
 impl<R, T, D, L, const S: usize, const N: usize> Perception<R, ClassifyingConfig<T, D>, S, N>
@@ -162,7 +179,9 @@ where
         let (Some(reading), Some(contact)) = (reading, contact.first()) else {
             return;
         };
+        let place = Place::new(0, 0);
         if !reading.valid {
+            self.interrupt(place, events);
             return;
         }
         let codes = [reading.x.code14(), reading.y.code14()];
@@ -174,7 +193,6 @@ where
         } else {
             Touching::default()
         };
-        let place = Place::new(0, 0);
         if is_onset {
             events(Event::Touch { place, number });
         } else if number == 0 && last != 0 {
@@ -276,6 +294,10 @@ impl<R: DecisionRule, W: Words> SampleClassifier for CodeClassifier<R, W> {
     #[inline]
     fn knows_touches(&self) -> bool {
         W::JOINT && self.needs_touch
+    }
+
+    fn interrupt(&mut self) {
+        self.bayes.interrupt();
     }
 
     fn reset(&mut self) {

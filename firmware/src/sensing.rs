@@ -14,8 +14,8 @@ pub struct Reading {
     pub y: Word,
     /// A new frame arrived in this tick; otherwise the last good one is held.
     pub fresh: bool,
-    /// False while the sensor has a fault: x and y are then at rest and the
-    /// motor must be off.
+    /// False while the whisker has a fault, of its sensor or of its motor: x and y
+    /// are then at rest and the motor must be off.
     pub valid: bool,
 }
 
@@ -25,6 +25,12 @@ impl Reading {
         y: Word::MID,
         fresh: false,
         valid: true,
+    };
+
+    /// Of a whisker with a fault.
+    pub(crate) const FAULT: Self = Self {
+        valid: false,
+        ..Self::REST
     };
 }
 
@@ -162,10 +168,7 @@ impl<F: FrameSource> Sensor<F> {
                 SensorHealth::Ok { bad: bad + 1 }
             }
             SensorHealth::Ok { .. } => {
-                self.last = Reading {
-                    valid: false,
-                    ..Reading::REST
-                };
+                self.last = Reading::FAULT;
                 events(Event::SensorLost(place, fault));
                 SensorHealth::Faulted { good: 0 }
             }

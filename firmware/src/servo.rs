@@ -21,8 +21,8 @@ pub struct ServoConfig<R: Real> {
 /// What a servo is doing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ServoState<R> {
-    /// The motor is off: before the first tick, and while the whisker's sensor
-    /// has a fault.
+    /// The motor is off: before the first tick, while the whisker's sensor has a
+    /// fault, and where any fault [stops all](crate::StopAll).
     Off,
     /// It follows the setpoint.
     Running {
@@ -76,6 +76,12 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         &self.state
     }
 
+    /// Whether the motor rests after a fault.
+    #[inline]
+    pub const fn rests(&self) -> bool {
+        matches!(self.state, ServoState::Resting { .. })
+    }
+
     /// The setpoint that was commanded, if any.
     pub const fn setpoint(&self) -> Option<R> {
         self.setpoint
@@ -96,14 +102,14 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// One tick towards protraction `setpoint`, unless another was commanded;
-    /// off while the whisker's sensor is not `valid`.
+    /// off while it `may_run` not.
     // Apart: a tick in one piece runs out of registers.
     #[inline(never)]
     pub fn step(
         &mut self,
         config: &ServoConfig<R>,
         setpoint: R,
-        valid: bool,
+        may_run: bool,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
@@ -115,7 +121,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             self.rest(left, place, events);
             return;
         }
-        if !valid {
+        if !may_run {
             self.off();
             return;
         }

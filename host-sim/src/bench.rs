@@ -4,7 +4,7 @@
 use firmware::design_parameters::{hold_limits, retry, stall};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
-    NoActiveWhisker, Place, Polled, Servo, ServoConfig,
+    NoActiveWhisker, Place, Polled, Servo, ServoConfig, StopAll,
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
@@ -78,7 +78,7 @@ type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyA
 type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
 
 type HostConfig<R> = Config<
-    Option<ActiveConfig<R>>,
+    Option<ActiveConfig<R, whisking::Config<R>, Option<StopAll>>>,
     Option<ClassifyingConfig<Option<R>, ()>>,
     Option<filter::Config<R>>,
 >;
@@ -262,6 +262,7 @@ where
                 retry: retry(scene.tick_hz),
                 stall: stall(scene.tick_hz, plan.stall_q15),
             },
+            stop_all: plan.stop_all.then_some(StopAll),
         }),
         perception: Some(ClassifyingConfig {
             contact_min: contact_min.map(R::from_f64),

@@ -61,6 +61,10 @@ impl SampleClassifier for Classifier {
         self.codes.knows_touches()
     }
 
+    fn interrupt(&mut self) {
+        self.codes.interrupt();
+    }
+
     fn reset(&mut self) {
         self.codes.reset();
     }
@@ -108,6 +112,12 @@ impl SampleClassifier for Tap {
         // A recording has them for whatever model is made of it.
         let classifier = self.classifier.as_ref();
         classifier.is_none_or(SampleClassifier::knows_touches)
+    }
+
+    fn interrupt(&mut self) {
+        if let Some(classifier) = &mut self.classifier {
+            classifier.interrupt();
+        }
     }
 
     fn reset(&mut self) {

@@ -259,6 +259,12 @@ impl<B: Bench + ?Sized> Run<B> {
         self.bench.slave_mut(n)
     }
 
+    /// Holds whisker `n`, counted from 0, left side first, where it is, or lets it go:
+    /// its motor stalls. Nothing where motors are ideal.
+    pub fn block(&mut self, n: usize, blocked: bool) {
+        self.world.block(n, blocked);
+    }
+
     /// The module.
     pub fn module_mut(&mut self) -> &mut B {
         &mut self.bench

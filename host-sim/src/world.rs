@@ -99,6 +99,15 @@ impl World {
         &self.angles_deg
     }
 
+    /// Holds whisker `n` where it is, or lets it go; nothing where motors are ideal.
+    pub fn block(&mut self, n: usize, blocked: bool) {
+        if let Motors::Real(motors) = &mut self.motors
+            && let Some(motor) = motors.get_mut(n)
+        {
+            motor.block(blocked);
+        }
+    }
+
     /// Advances by `dt_s`; `theta_deg` are the module's setpoints, used by ideal motors.
     pub fn advance(&mut self, theta_deg: &[f64], dt_s: f64) {
         match &mut self.motors {

@@ -10,7 +10,7 @@ mod stability;
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
-use scene::Scene;
+use scene::{OnFault, Scene};
 use whisking::motor::Duty;
 use whisking::{Error, Real, filter, pd};
 
@@ -26,6 +26,8 @@ pub struct MotionPlan<R: Real, const S: usize, const N: usize> {
     /// Duty above which a motor that does not move counts as stalled, Q15:
     /// half of what it may be driven with.
     pub stall_q15: i16,
+    /// Whether a fault of any whisker switches every motor off.
+    pub stop_all: bool,
 }
 
 /// What is wrong with a scene for a module of a given shape.
@@ -131,6 +133,7 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
         }
         .build(tick_hz)?,
         stall_q15: stall_q15(motor),
+        stop_all: motor.on_fault == OnFault::StopAll,
     }))
 }
 

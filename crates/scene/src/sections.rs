@@ -15,7 +15,7 @@ mod whisking;
 
 pub use classifier::{ClassifierSection, Rule};
 pub use head::{HeadSection, Sides};
-pub use motor::{Driver, MotorSection};
+pub use motor::{Driver, MotorSection, OnFault};
 pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
@@ -61,8 +61,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nine of the motor, two of the plant, one of the head and of whisking.
-        assert_eq!(defaults, 13);
+        // Ten of the motor, two of the plant, one of the head and of whisking.
+        assert_eq!(defaults, 14);
     }
 
     #[test]

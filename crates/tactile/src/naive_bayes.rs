@@ -121,6 +121,14 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
         self.state.sums.clear(self.rule.interval());
     }
 
+    /// Samples are missing before the next: the differences of which roughness is made
+    /// begin anew.
+    pub const fn interrupt(&mut self) {
+        if W::JOINT {
+            self.state.sums.roughness.interrupt();
+        }
+    }
+
     #[inline]
     const fn check(&self, codes: &[i32]) -> Result<(), WrongChannels> {
         let expected = self.model.channels();

@@ -73,6 +73,12 @@ impl Roughness {
         octaves(sum.saturating_add(1))
     }
 
+    /// Samples are missing: there is no difference again until the delay line is full.
+    #[inline]
+    pub const fn interrupt(&mut self) {
+        self.oldest = 0;
+    }
+
     /// Begins another block.
     #[inline]
     pub fn clear(&mut self) {
@@ -142,6 +148,20 @@ mod tests {
         assert_eq!(roughness.code(0), octaves(51));
         roughness.clear();
         assert_eq!(roughness.code(0), 0);
+    }
+
+    #[test]
+    fn across_a_gap_there_is_no_difference() {
+        let mut roughness = Roughness::new();
+        for n in 0..30 {
+            if n == 20 {
+                roughness.interrupt();
+            }
+            roughness.push(&[if n < 20 { 0 } else { 1000 }], true);
+        }
+        assert_eq!(roughness.code(0), 0);
+        roughness.push(&[1050], true);
+        assert_eq!(roughness.code(0), octaves(51), "the line is full again");
     }
 
     #[test]

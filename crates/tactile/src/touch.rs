@@ -114,6 +114,13 @@ pub struct Touching {
     pub is_onset: bool,
 }
 
+/// Whether the next sample follows the last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Course {
+    Begins,
+    GoesOn,
+}
+
 /// Tells touches from the codes of one whisker's sensor.
 #[derive(Debug, Clone)]
 pub struct TouchDetector {
@@ -129,6 +136,7 @@ pub struct TouchDetector {
     deflection: u32,
     far: u32,
     peak: u32,
+    course: Course,
     /// Samples of the start that have been, of the block, and in contact without a sign, or
     /// in the air far from rest.
     seen: u16,
@@ -163,6 +171,7 @@ impl TouchDetector {
             deflection: 64 << FRACTION,
             far: FAR,
             peak: 0,
+            course: Course::Begins,
             seen: 0,
             of_block: 0,
             quiet: 0,
@@ -192,10 +201,8 @@ impl TouchDetector {
     /// Takes the sensor's codes of 14 bits.
     pub fn step(&mut self, codes: [u16; 2]) -> Touching {
         let sample = codes.map(|code| i32::from(code.min(0x3fff)));
-        if self.seen == 0 {
-            self.kept = [sample; KEPT];
-            self.mean = sample.map(|code| code << MEAN_FRACTION);
-            self.rest = sample.map(|code| code << FRACTION);
+        if self.course == Course::Begins {
+            self.splice(sample);
         }
         let now = self.signs(sample);
         self.compare(now.quick, now.deflection);
@@ -204,6 +211,28 @@ impl TouchDetector {
         self.kept = [sample, one, two, three, four, five];
         self.count();
         self.touching
+    }
+
+    /// Samples are missing: the touch is over without a word. What was learnt stays, and
+    /// the numbers of touches go on.
+    pub fn interrupt(&mut self) {
+        self.course = Course::Begins;
+        self.in_contact = false;
+        self.in_touch = false;
+        self.is_sure = false;
+        self.quiet = 0;
+        self.touching = Touching::default();
+    }
+
+    /// Nothing has moved before this sample.
+    #[cold]
+    fn splice(&mut self, sample: [i32; 2]) {
+        self.course = Course::GoesOn;
+        self.kept = [sample; KEPT];
+        self.mean = sample.map(|code| code << MEAN_FRACTION);
+        if self.seen == 0 {
+            self.rest = sample.map(|code| code << FRACTION);
+        }
     }
 
     fn signs(&mut self, sample: [i32; 2]) -> Signs {

@@ -80,6 +80,7 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
                     threshold: Duty::FULL,
                 },
             },
+            stop_all: Absent,
         },
         perception: (),
         period: 0,

@@ -10,7 +10,7 @@ use firmware::{
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{Duty, HBridge, StallConfig};
-use whisking::{GateSettings, Integrator, Present, Settings, filter, pd};
+use whisking::{Absent, GateSettings, Integrator, Present, Settings, filter, pd};
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
@@ -120,6 +120,7 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
                 retry: 10,
                 stall: STALL,
             },
+            stop_all: Absent,
         },
         perception: (),
         period: 500,

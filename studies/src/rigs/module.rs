@@ -12,7 +12,7 @@ use host_sim::drive::{self, AnyAngle, AnyMotor};
 use host_sim::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
 use whisking::motor::Duty;
-use whisking::{State, degrees, filter, pd};
+use whisking::{Absent, State, degrees, filter, pd};
 
 use super::read::keys;
 use crate::refused::refused;
@@ -113,6 +113,7 @@ impl HeadModule {
                     retry: retry(ticks_per_s),
                     stall,
                 },
+                stop_all: Absent,
             },
             perception: (),
             period: 0,

@@ -6,6 +6,7 @@ mod common;
 mod disturbances;
 mod euler_trace;
 mod faults;
+mod faults_by_side;
 mod formats;
 mod played;
 mod precision;

@@ -137,6 +137,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
                 retry: retry(TICK_HZ),
                 stall: STALL,
             },
+            stop_all: Absent,
         },
         perception: ClassifyingConfig {
             contact_min: Absent,

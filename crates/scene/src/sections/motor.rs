@@ -16,6 +16,16 @@ choice! {
     }
 }
 
+choice! {
+    /// What a fault switches off.
+    pub enum OnFault {
+        /// The motor of its whisker.
+        StopWhisker = "stop-whisker",
+        /// Every motor, until no whisker has a fault.
+        StopAll = "stop-all",
+    }
+}
+
 keys! {
     /// Motor, gear, encoder and the proportional-derivative position control.
     pub struct MotorSection {
@@ -47,5 +57,9 @@ keys! {
 
         /// Encoder counts per motor revolution.
         counts_per_rev: u32 = integer(4..=65_536).unit("counts").default("512"),
+
+        /// What a fault of a sensor or a motor switches off: the motor of its whisker, or
+        /// every motor until no whisker has a fault.
+        on_fault: OnFault = word().default("\"stop-whisker\""),
     }
 }

@@ -3,8 +3,8 @@
 use crate::common::{FULL, with};
 use scene::{
     ClassifierSection, Driver, Exchanged, GateSettings, HeadSection, Integrator, MotorSection,
-    Numbers, Obstacles, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
-    ShaftNumbers, Sides, Texture, WhiskingSection,
+    Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice,
+    ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -59,6 +59,7 @@ fn every_key_reaches_its_field() {
             max_deg: 160.0,
             gear: 11.0,
             counts_per_rev: 512,
+            on_fault: OnFault::StopWhisker,
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
@@ -84,7 +85,7 @@ fn every_key_reaches_its_field() {
 fn the_motor_is_read_key_by_key() {
     let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
-                 counts_per_rev = 1024\n\n[plant]\n";
+                 counts_per_rev = 1024\non_fault = 'stop-all'\n\n[plant]\n";
     let expected = MotorSection {
         driver: Driver::SixStep,
         kp: 1.0,
@@ -95,6 +96,7 @@ fn the_motor_is_read_key_by_key() {
         max_deg: 200.5,
         gear: 4.4,
         counts_per_rev: 1024,
+        on_fault: OnFault::StopAll,
     };
     assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));
     // Without the table the defaults hold, as with an empty one.

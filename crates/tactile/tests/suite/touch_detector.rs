@@ -108,6 +108,34 @@ proptest! {
     }
 
     #[test]
+    fn an_interruption_ends_a_touch_and_its_jump_is_none(
+        seed: u64,
+        codes in 1500.0..4000.0_f64,
+        offset in -700.0..700.0_f64,
+    ) {
+        let mut noise = Noise(seed);
+        let mut detector = TouchDetector::new();
+        let mut step = |detector: &mut TouchDetector, x: f64| {
+            let code = |x: f64| (x + noise.next()).round() as u16;
+            detector.step([REST + x, REST].map(code))
+        };
+        for n in 0..4100 {
+            step(&mut detector, if n < 4000 { 0.0 } else { codes });
+        }
+        let Touching { number, .. } = detector.touching();
+        prop_assert!(number != 0);
+        detector.interrupt();
+        prop_assert_eq!(detector.touching(), Touching::default());
+        prop_assert!(!detector.is_sure());
+        // Back elsewhere: no step was seen.
+        for _ in 0..100 {
+            prop_assert_eq!(step(&mut detector, offset), Touching::default());
+        }
+        let next = Touching { number: number + 1, is_onset: true };
+        prop_assert_eq!(step(&mut detector, offset + codes), next);
+    }
+
+    #[test]
     fn any_codes_are_taken(codes in proptest::collection::vec(any::<[u16; 2]>(), 6000)) {
         let mut detector = TouchDetector::new();
         for codes in codes {
