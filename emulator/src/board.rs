@@ -217,7 +217,8 @@ impl Emulated {
         self.meter
             .logged(board.machine.ring.writer(&board.machine.memories)?);
         let decisions = board.watch.decisions(&board.machine.memories)?;
-        events.extend(decisions.into_iter().map(Event::Decision));
+        let decisions = decisions.into_iter();
+        events.extend(decisions.map(|(place, decision)| Event::Decision(place, decision)));
         Ok(())
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::commands::run::Loaded;
+use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 use plan::NumberFormat;
@@ -66,7 +67,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
             found.contact = [0.0; 2];
         }
         if scene.classifier.is_none() {
-            expected.touch = 0;
+            expected.touch = [0; 2];
         }
         if let Some(column) = difference(&expected, &found) {
             return Err(Error::Work(format!(
@@ -74,7 +75,8 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
                 path.display()
             )));
         }
-        let (expected, found) = (host.decision(), target.decision());
+        let expected: Vec<Decided> = host.decisions().collect();
+        let found: Vec<Decided> = target.decisions().collect();
         if expected != found {
             return Err(Error::Work(format!(
                 "{}: tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}",
@@ -82,7 +84,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
             )));
         }
         agreement.ticks = n;
-        agreement.decisions += u64::from(found.is_some());
+        agreement.decisions += found.len() as u64;
     }
     let board = target.module_mut();
     let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);

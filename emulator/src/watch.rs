@@ -3,6 +3,7 @@
 //!
 //! It costs the firmware nothing. What a scene leaves out is not there.
 
+use firmware::Place as Whisker;
 use host_sim::bench::Snapshot;
 use tactile::Decision;
 use whisking::{Fix, Real};
@@ -35,8 +36,10 @@ mod name {
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
     /// Where perception lies: a list of one.
     pub(super) const PERCEPTION: &str = "__rtic_internal_local_init_place";
-    /// In it: the number of the touch.
-    pub(super) const TOUCHING: [&str; 3] = ["touches", "touching", "number"];
+    /// In it: what tells the touches of the whiskers of each side.
+    pub(super) const TOUCHES: &str = "touches";
+    /// In that: the number of the touch.
+    pub(super) const TOUCHING: [&str; 2] = ["touching", "number"];
     /// In the queue.
     pub(super) const TAIL: &str = "tail";
     /// In it and in a list.
@@ -46,6 +49,11 @@ mod name {
     pub(super) const SAMPLES: &str = "samples";
     pub(super) const PACKED: &str = "packed";
     pub(super) const TOUCH: &str = "touch";
+    /// In the event of a decision: the whisker, and the decision.
+    pub(super) const PLACED: [&str; 2] = ["__0", "__1"];
+    /// In the whisker.
+    pub(super) const SIDE: &str = "side";
+    pub(super) const WHISKER: &str = "whisker";
 }
 
 /// A number at an address.
@@ -81,6 +89,8 @@ struct Queue {
     /// where the decision's words stand.
     tag: (u32, u8),
     words: [u32; 3],
+    /// Where side and number of the whisker stand.
+    whisker: [u32; 2],
     seen: u32,
 }
 
@@ -93,7 +103,8 @@ pub(crate) struct Watch {
     theta: Vec<Variable>,
     gain: Vec<[Variable; 2]>,
     missed: u32,
-    touch: Option<u32>,
+    /// Of the first whisker of each side that is heard.
+    touch: Vec<u32>,
     queue: Queue,
 }
 
@@ -112,13 +123,22 @@ fn elements(array: Place<'_>) -> Result<Vec<Place<'_>>, Fault> {
     (0..array.length()?).map(|n| array.element(n)).collect()
 }
 
-/// Where the number of the touch stands; nowhere, if nothing is felt.
-fn touch(info: &DebugInfo) -> Result<Option<u32>, Fault> {
+/// Where the numbers of touches stand, of the first whisker of each side; nowhere, if
+/// nothing is felt.
+fn touches(info: &DebugInfo) -> Result<Vec<u32>, Fault> {
     let list = info.variable(name::PERCEPTION)?;
     // The list's storage, and the array in it.
     let storage = list.member(name::BUFFER)?.member(name::BUFFER)?;
     let perception = storage.element(0)?;
-    Ok(along(perception, &name::TOUCHING)?.map(|number| number.address))
+    let Some(sides) = perception.find(name::TOUCHES)? else {
+        return Ok(Vec::new());
+    };
+    let mut addresses = Vec::new();
+    for side in elements(sides)? {
+        let number = along(side.element(0)?, &name::TOUCHING)?;
+        addresses.extend(number.map(|number| number.address));
+    }
+    Ok(addresses)
 }
 
 impl Watch {
@@ -132,7 +152,7 @@ impl Watch {
         let missed = along(module, &name::MISSED)?.ok_or_else(|| missing("count of ticks"))?;
         let mut watch = Self {
             missed: missed.scalar()?.0,
-            touch: touch(&info)?,
+            touch: touches(&info)?,
             contact: numbers(module.member(name::CONTACT)?)?,
             z: Vec::new(),
             theta: Vec::new(),
@@ -173,10 +193,10 @@ impl Watch {
         for (place, theta) in snapshot.theta_deg.iter_mut().zip(&self.theta) {
             *place = whisking::degrees(theta.read(ram)?);
         }
-        if let Some(address) = self.touch {
+        for (touch, address) in snapshot.touch.iter_mut().zip(&self.touch) {
             let mut number = [0; 2];
-            ram.read(address, &mut number)?;
-            snapshot.touch = u16::from_le_bytes(number);
+            ram.read(*address, &mut number)?;
+            *touch = u16::from_le_bytes(number);
         }
         Ok(())
     }
@@ -192,7 +212,7 @@ impl Watch {
     }
 
     /// The decisions that have been queued since the last call.
-    pub(crate) fn decisions(&mut self, ram: &Memories) -> Result<Vec<Decision>, Fault> {
+    pub(crate) fn decisions(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Decision)>, Fault> {
         self.queue.take(ram)
     }
 }
@@ -202,7 +222,9 @@ impl Queue {
         let queue = info.variable(name::QUEUE)?;
         let buffer = queue.member(name::BUFFER)?;
         let first = buffer.element(0)?;
-        let (tag, value, decision) = first.variant(name::DECISION)?;
+        let (tag, value, event) = first.variant(name::DECISION)?;
+        let [whisker, decision] = name::PLACED.map(|part| event.member(part));
+        let (whisker, decision) = (whisker?, decision?);
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
@@ -216,11 +238,15 @@ impl Queue {
                 offset(name::PACKED)?,
                 offset(name::TOUCH)?,
             ],
+            whisker: [
+                whisker.member(name::SIDE)?.address - first.address,
+                whisker.member(name::WHISKER)?.address - first.address,
+            ],
             seen: 0,
         })
     }
 
-    fn take(&mut self, ram: &Memories) -> Result<Vec<Decision>, Fault> {
+    fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Decision)>, Fault> {
         let tail = ram.word(self.tail)?;
         let mut decisions = Vec::new();
         while self.seen != tail && self.seen < self.length {
@@ -229,11 +255,18 @@ impl Queue {
             ram.read(event + self.tag.0, &mut tag)?;
             if tag == [self.tag.1] {
                 let [samples, packed, touch] = self.words;
-                decisions.extend(Decision::from_memory(
+                let decision = Decision::from_memory(
                     ram.word(event + samples)?,
                     ram.word(event + packed)?,
                     ram.word(event + touch)?,
-                ));
+                );
+                let mut place = [[0]; 2];
+                for (byte, offset) in place.iter_mut().zip(self.whisker) {
+                    ram.read(event + offset, byte)?;
+                }
+                let [[side], [whisker]] = place;
+                let place = Whisker::new(side, whisker);
+                decisions.extend(decision.map(|decision| (place, decision)));
             }
             self.seen = (self.seen + 1) % self.length;
         }

@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use scene::{Driver, Rule, Scene};
+use scene::{Deciding, Driver, Rule, Scene};
 use tactile::{Model, ModelBuf};
 use whisking::{Real, Source};
 
@@ -98,6 +98,15 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
     let (generator, whisking) = (whisking.of_type, whisking.value);
     let (pd, start) = (plan.pd.bake(&env), plan.start.bake(&env));
     let (stall_q15, seed) = (plan.stall_q15, scene.seed);
+    let (stop_all_type, stop_all) = if plan.stop_all {
+        let stop_all = quote! { firmware::StopAll };
+        (
+            quote! { whisking::Present<#stop_all> },
+            quote! { whisking::Present(#stop_all) },
+        )
+    } else {
+        (quote! { whisking::Absent }, quote! { whisking::Absent })
+    };
     let items = vec![
         quote! { pub(crate) const HAS_MOTOR: bool = true; },
         quote! {
@@ -114,7 +123,7 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
         },
     ];
     let config = Source {
-        of_type: quote! { firmware::ActiveConfig<Number, #generator> },
+        of_type: quote! { firmware::ActiveConfig<Number, #generator, #stop_all_type> },
         value: quote! {
             firmware::ActiveConfig {
                 whisking: #whisking,
@@ -123,7 +132,7 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
                     retry: firmware::design_parameters::retry(TICK_HZ),
                     stall: firmware::design_parameters::stall(TICK_HZ, #stall_q15),
                 },
-                stop_all: whisking::Absent,
+                stop_all: #stop_all,
             }
         },
     };
@@ -135,6 +144,7 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
     let (Some(classifier), Some(model)) = (&scene.classifier, model) else {
         let items = vec![
             quote! { pub(crate) const CLASS_NAMES: &[&str] = &[]; },
+            quote! { pub(crate) const HEARS_SEVERAL: bool = false; },
             quote! { pub(crate) type Perception = (); },
             quote! {
                 pub(crate) fn start_perception() -> Option<Perception> {
@@ -164,6 +174,20 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         ),
         Rule::Window { samples } => (quote! { WindowRule }, quote! { u32 }, quote! { #samples }),
     };
+    let rule = quote! { tactile::#rule };
+    let (sides, each) = match classifier.whiskers {
+        Deciding::First => (1, 1),
+        Deciding::Each | Deciding::Together => {
+            (scene.head.sides.count(), scene.head.whiskers_per_side)
+        }
+    };
+    let heard = sides * each;
+    let bayes = match classifier.whiskers {
+        Deciding::First => quote! { tactile::NaiveBayes<#rule, #words> },
+        Deciding::Each => quote! { tactile::Each<#rule, #words, #heard> },
+        Deciding::Together => quote! { tactile::Together<#words, #heard> },
+    };
+    let hears_several = heard > 1;
     let contact_min = Source::optional(
         contact_min.map(R::from_f64).as_ref(),
         &quote! { Number },
@@ -172,15 +196,17 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
     let (contact_min_type, contact_min) = (contact_min.of_type, contact_min.value);
     let items = vec![
         quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
+        quote! { pub(crate) const HEARS_SEVERAL: bool = #hears_several; },
+        quote! { type Bayes = #bayes; },
         quote! {
             pub(crate) type Perception =
-                firmware::Classifying<firmware::CodeClassifier<tactile::#rule, #words>>;
+                firmware::Classifying<firmware::CodeClassifier<Bayes>, #sides, #each>;
         },
         quote! {
             pub(crate) fn start_perception() -> Option<Perception> {
                 let bytes = tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"));
                 let model = tactile::Model::linked(bytes).ok()? #into_words;
-                let bayes = tactile::NaiveBayes::new(model, SETTINGS.perception.rule).ok()?;
+                let bayes = Bayes::new(model, SETTINGS.perception.rule).ok()?;
                 let classifier = firmware::CodeClassifier::new(bayes).ok()?;
                 Some(firmware::Classifying::new(classifier))
             }

@@ -19,6 +19,11 @@ impl Place {
     pub const fn new(side: u8, whisker: u8) -> Self {
         Self { side, whisker }
     }
+
+    /// The word for its side.
+    pub const fn side_name(self) -> &'static str {
+        if self.side == 0 { "left" } else { "right" }
+    }
 }
 
 /// Why a whisker's readings cannot be used.
@@ -70,8 +75,9 @@ pub enum Event {
         /// The number of the touch that has ended.
         number: u16,
     },
-    /// A decision fell.
-    Decision(Decision),
+    /// A decision fell, by the samples of this whisker, or of all together: then by a
+    /// block of this one.
+    Decision(Place, Decision),
     /// Readings of a whisker have been bad for longer than they may be: its
     /// motor is off (fault) and it touches nothing.
     SensorLost(Place, SensorFault),

@@ -33,6 +33,7 @@ pub struct Config<M, P, H> {
 pub struct Module<R, F, M, P, C, const S: usize, const N: usize> {
     sensors: [[Sensor<F>; N]; S],
     filters: [[filter::State<R>; N]; S],
+    felt: [[R; N]; S],
     contact: [R; S],
     motion: M,
     perception: P,
@@ -52,6 +53,7 @@ where
         Self {
             sensors: sources.map(|side| side.map(Sensor::new)),
             filters: [[filter::State::default(); N]; S],
+            felt: [[R::ZERO; N]; S],
             contact: [R::ZERO; S],
             motion,
             perception,
@@ -84,7 +86,7 @@ where
         self.motion
             .step(&config.motion, self.contact, &readings, events);
         self.perception
-            .step(&config.perception, self.contact, &readings, events);
+            .step(&config.perception, &self.felt, &readings, events);
 
         self.timing.end(self.clock.now());
     }
@@ -110,23 +112,30 @@ where
     /// whisker with a fault has none, and begins anew when it is gone.
     #[inline]
     fn feel(&mut self, h50: &filter::Config<R>, readings: &[[Reading; N]; S]) {
-        for (side, contact) in self.contact.iter_mut().enumerate() {
+        for (side, felt) in self.felt.iter_mut().enumerate() {
             let whiskers = self.filters[side].iter_mut().zip(&readings[side]);
-            let sizes = whiskers.map(|(filter, reading)| {
-                if !reading.valid {
+            for (felt, (filter, reading)) in felt.iter_mut().zip(whiskers) {
+                if reading.valid {
+                    *felt = h50.process(filter, normalised::<R>(reading.x)).abs();
+                } else {
                     *filter = filter::State::default();
-                    return R::ZERO;
+                    *felt = R::ZERO;
                 }
-                h50.process(filter, normalised::<R>(reading.x)).abs()
-            });
+            }
             // No comparison with zero where there is one whisker.
-            *contact = sizes.reduce(|most, size| size.max(most)).unwrap_or(R::ZERO);
+            let most = felt.iter().copied().reduce(|most, size| size.max(most));
+            self.contact[side] = most.unwrap_or(R::ZERO);
         }
     }
 
     /// Contact π of each side in the last tick.
     pub const fn contact(&self) -> [R; S] {
         self.contact
+    }
+
+    /// Contact of each whisker in the last tick.
+    pub const fn felt(&self) -> &[[R; N]; S] {
+        &self.felt
     }
 
     /// How it moves.

@@ -8,7 +8,7 @@ use firmware::{
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
-use scene::Scene;
+use scene::{Deciding, Scene};
 use whisking::motor::StallConfig;
 use whisking::{Fix, Real, Start, filter};
 
@@ -40,8 +40,9 @@ pub struct Snapshot {
     pub g: [f64; 2],
     /// Contact π of each side.
     pub contact: [f64; 2],
-    /// The number of the first whisker's touch; 0 in the air.
-    pub touch: u16,
+    /// The number of the touch of the first whisker of each side; 0 in the air, and where
+    /// it is not heard.
+    pub touch: [u16; 2],
 }
 
 /// A module as a run sees it.
@@ -70,11 +71,15 @@ pub trait HostModule: Bench + Send {
     /// [`NoActiveWhisker`].
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker>;
 
-    /// What the classifier of the first whisker gets.
+    /// What the classifier gets.
     fn tap(&mut self) -> Option<&mut Tap>;
+
+    /// Contact of each whisker, left side first.
+    fn felt(&self) -> Vec<f64>;
 }
 
 type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
+type Ears<const S: usize, const N: usize> = Option<Classifying<Tap, S, N>>;
 type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
 
 type HostConfig<R> = Config<
@@ -84,7 +89,7 @@ type HostConfig<R> = Config<
 >;
 
 struct Shaped<R: Real, const S: usize, const N: usize> {
-    module: Module<R, Polled<Slave>, Motors<R, S, N>, Option<Classifying<Tap>>, NoClock, S, N>,
+    module: Module<R, Polled<Slave>, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
     config: HostConfig<R>,
     start: Option<Start<R, S, N>>,
 }
@@ -92,7 +97,7 @@ struct Shaped<R: Real, const S: usize, const N: usize> {
 impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     fn tick(&mut self, events: &mut Vec<Event>) {
         if let Some(perception) = self.module.perception_mut() {
-            perception.classifier_mut().sample = None;
+            perception.classifier_mut().samples.fill(None);
         }
         self.module
             .tick(&self.config, &mut |event| events.push(event));
@@ -100,7 +105,9 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
 
     fn look(&mut self, snapshot: &mut Snapshot) {
         if let Some(perception) = self.module.perception_mut() {
-            snapshot.touch = perception.touching().number;
+            for (place, touching) in snapshot.touch.iter_mut().zip(perception.touching()) {
+                *place = touching.first().map_or(0, |touching| touching.number);
+            }
         }
         for (place, pi) in snapshot.contact.iter_mut().zip(self.module.contact()) {
             *place = pi.to_f64();
@@ -162,6 +169,11 @@ where
     fn tap(&mut self) -> Option<&mut Tap> {
         Some(self.module.perception_mut().as_mut()?.classifier_mut())
     }
+
+    fn felt(&self) -> Vec<f64> {
+        let felt = self.module.felt().as_flattened();
+        felt.iter().map(|felt| felt.to_f64()).collect()
+    }
 }
 
 fn misfit(what: &str) -> Error {
@@ -188,8 +200,20 @@ fn motors<R: Real, const S: usize, const N: usize>(
     Ok(Active::new(state, servos.ok_or_else(|| misfit("motors"))?))
 }
 
+/// How many whiskers of a scene are heard by its classifier.
+pub fn heard(scene: &Scene) -> usize {
+    match scene
+        .classifier
+        .as_ref()
+        .map(|classifier| classifier.whiskers)
+    {
+        None | Some(Deciding::First) => 1,
+        Some(Deciding::Each | Deciding::Together) => scene.whiskers(),
+    }
+}
+
 /// Makes the module of `scene`: its motors on `pins`, left side first (none
-/// where the whiskers are passive), its first whisker's samples going to `classifier`.
+/// where the whiskers are passive), the samples of its whiskers going to `classifier`.
 ///
 /// # Errors
 /// [`Error::Work`] if the parts do not fit the scene, [`Error::Input`] if the
@@ -237,7 +261,7 @@ where
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
 
     // The trace shows contact wherever there is something to touch.
-    let tap = Tap::new(classifier);
+    let tap = Tap::new(classifier, heard(scene));
     let touch = tap.touch_rule();
     let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate)).map_err(broken)?;
     // A recording has the touches that a model of it will know.

@@ -3,37 +3,78 @@
 use std::fmt::Display;
 
 use firmware::{CodeClassifier, Sample, SampleClassifier};
-use scene::Rule;
+use scene::{Deciding, Rule};
 use tactile::{
-    AnyRule, AnyRuleSettings, Decision, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
-    Threshold, TouchRule,
+    AnyRule, AnyRuleSettings, Decision, Each, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
+    Streams, Threshold, Together, TouchRule,
 };
 
 /// Contact from which a sample counts, unless scene or model say otherwise.
 pub const GATE: f64 = 0.05;
 
+/// Most whiskers that a module has; those beyond it say nothing.
+const MOST: usize = 24;
+
+type Words = Box<[u32]>;
+
+/// How decisions come from whiskers.
+#[derive(Debug, Clone)]
+enum Judge {
+    /// By the evidence of each.
+    Each(Box<CodeClassifier<Each<AnyRule, Words, MOST>>>),
+    /// By the sum of all.
+    Together(Box<CodeClassifier<Together<Words, MOST>>>),
+}
+
 /// The classifier that a board runs, with its model.
 #[derive(Debug, Clone)]
 pub struct Classifier {
-    codes: CodeClassifier<AnyRule, Box<[u32]>>,
+    judge: Judge,
+    deciding: Deciding,
     classes: Vec<String>,
 }
 
 impl Classifier {
-    /// A classifier by a rule.
+    /// A classifier of the first whisker, by a rule.
     ///
     /// # Errors
     /// [`Fault::Model`] for other than two channels or a model that was not
     /// trained on sensor codes, [`Fault::Rule`] for a window that is no multiple
     /// of the model's block or a threshold too near to 1.
     pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
+        Self::of(model, rule, Deciding::First)
+    }
+
+    /// A classifier of some whiskers, by a rule.
+    ///
+    /// # Errors
+    /// As [`Classifier::new`], and [`Fault::Rule`] for windows together.
+    pub fn of(model: ModelBuf, rule: Rule, deciding: Deciding) -> Result<Self, Fault> {
         quantisers(&model)?;
         let classes = names(&model);
-        let bayes = bayes(model, rule)?;
+        let judge = match (deciding, settings(rule)?) {
+            (Deciding::First | Deciding::Each, settings) => {
+                let bayes = Each::new(model, settings).map_err(of_rule)?;
+                Judge::Each(Box::new(CodeClassifier::new(bayes).map_err(of_model)?))
+            }
+            (Deciding::Together, AnyRuleSettings::Sequential(threshold)) => {
+                let bayes = Together::new(model, threshold).map_err(of_rule)?;
+                Judge::Together(Box::new(CodeClassifier::new(bayes).map_err(of_model)?))
+            }
+            (Deciding::Together, AnyRuleSettings::Window(_)) => {
+                return Err(Fault::Rule("a window counts the samples of one".to_owned()));
+            }
+        };
         Ok(Self {
-            codes: CodeClassifier::new(bayes).map_err(of_model)?,
+            judge,
+            deciding,
             classes,
         })
+    }
+
+    /// Which whiskers decide, and by what.
+    pub const fn deciding(&self) -> Deciding {
+        self.deciding
     }
 
     /// The names of its classes.
@@ -43,45 +84,71 @@ impl Classifier {
 
     /// What a touch means to its model.
     pub fn touch_rule(&self) -> Option<TouchRule> {
-        self.codes.bayes().model().touch_rule()
+        match &self.judge {
+            Judge::Each(codes) => codes.bayes().model().touch_rule(),
+            Judge::Together(codes) => codes.bayes().model().touch_rule(),
+        }
     }
 
-    /// Posterior of each class after the last full block.
+    /// Posterior of each class after the last full block: of the first whisker, or of all
+    /// together.
     pub fn posteriors(&self) -> Posteriors {
-        self.codes.bayes().posteriors()
+        match &self.judge {
+            Judge::Each(codes) => codes.bayes().posteriors(0),
+            Judge::Together(codes) => codes.bayes().posteriors(0),
+        }
+    }
+
+    fn codes(&self) -> &dyn SampleClassifier {
+        match &self.judge {
+            Judge::Each(codes) => &**codes,
+            Judge::Together(codes) => &**codes,
+        }
+    }
+
+    fn codes_mut(&mut self) -> &mut dyn SampleClassifier {
+        match &mut self.judge {
+            Judge::Each(codes) => &mut **codes,
+            Judge::Together(codes) => &mut **codes,
+        }
     }
 }
 
 impl SampleClassifier for Classifier {
-    fn push(&mut self, sample: Sample) -> Option<Decision> {
-        self.codes.push(sample)
+    fn hears(&self, whisker: usize) -> bool {
+        whisker == 0 || self.deciding != Deciding::First
+    }
+
+    fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
+        self.codes_mut().push(whisker, sample)
     }
 
     fn knows_touches(&self) -> bool {
-        self.codes.knows_touches()
+        self.codes().knows_touches()
     }
 
-    fn interrupt(&mut self) {
-        self.codes.interrupt();
+    fn interrupt(&mut self, whisker: usize) {
+        self.codes_mut().interrupt(whisker);
     }
 
     fn reset(&mut self) {
-        self.codes.reset();
+        self.codes_mut().reset();
     }
 }
 
-/// What stands between the first whisker and its classifier, if there is one:
-/// it keeps the last sample, for recordings.
+/// What stands between the whiskers that are heard and their classifier, if there is one:
+/// it keeps the last samples, for recordings.
 pub struct Tap {
-    /// The sample of the last tick, if there was one.
-    pub(crate) sample: Option<Sample>,
+    /// The samples of the last tick, of each whisker that is heard, if there was one.
+    pub(crate) samples: Vec<Option<Sample>>,
     classifier: Option<Classifier>,
 }
 
 impl Tap {
-    pub(crate) const fn new(classifier: Option<Classifier>) -> Self {
+    /// Of the first `heard` whiskers.
+    pub(crate) fn new(classifier: Option<Classifier>, heard: usize) -> Self {
         Self {
-            sample: None,
+            samples: vec![None; heard],
             classifier,
         }
     }
@@ -103,9 +170,13 @@ impl Tap {
 }
 
 impl SampleClassifier for Tap {
-    fn push(&mut self, sample: Sample) -> Option<Decision> {
-        self.sample = Some(sample);
-        self.classifier.as_mut()?.push(sample)
+    fn hears(&self, whisker: usize) -> bool {
+        whisker < self.samples.len()
+    }
+
+    fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
+        *self.samples.get_mut(whisker)? = Some(sample);
+        self.classifier.as_mut()?.push(whisker, sample)
     }
 
     fn knows_touches(&self) -> bool {
@@ -114,14 +185,14 @@ impl SampleClassifier for Tap {
         classifier.is_none_or(SampleClassifier::knows_touches)
     }
 
-    fn interrupt(&mut self) {
+    fn interrupt(&mut self, whisker: usize) {
         if let Some(classifier) = &mut self.classifier {
-            classifier.interrupt();
+            classifier.interrupt(whisker);
         }
     }
 
     fn reset(&mut self) {
-        self.sample = None;
+        self.samples.fill(None);
         if let Some(classifier) = &mut self.classifier {
             classifier.reset();
         }
@@ -139,14 +210,17 @@ pub(crate) fn quantisers(model: &ModelBuf) -> Result<[Quantiser; 2], Fault> {
 }
 
 /// A model under a rule.
-pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, Box<[u32]>>, Fault> {
-    let settings = match rule {
+pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, Words>, Fault> {
+    NaiveBayes::new(model, settings(rule)?).map_err(of_rule)
+}
+
+fn settings(rule: Rule) -> Result<AnyRuleSettings, Fault> {
+    Ok(match rule {
         Rule::Sequential { threshold } => {
             AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
         }
         Rule::Window { samples } => AnyRuleSettings::Window(samples),
-    };
-    NaiveBayes::new(model, settings).map_err(of_rule)
+    })
 }
 
 /// The class names of a model.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io::{self, Write};
 
+use firmware::Place;
 use tactile::Decision;
 use tactile::score::{Confusion, Statistics};
 
@@ -41,6 +42,9 @@ impl fmt::Display for Verdict {
 pub struct Decided {
     /// When it fell in a run of a scene, s; none: in a recording.
     pub t_s: Option<f64>,
+    /// The whisker that decided, or, of all together, whose block made it fall; none: in a
+    /// recording.
+    pub place: Option<Place>,
     /// True class.
     pub label: String,
     /// Which stream of that label.
@@ -79,10 +83,12 @@ pub enum Columns {
     OfRecording,
     /// And last the time of the tick, as in the trace.
     OfScene,
+    /// And then the whisker, by its side and its number from 1: where several are heard.
+    OfSeveral,
 }
 
-/// The columns in order; of a recording all but the last.
-const COLUMNS: [&str; 7] = [
+/// The columns in order; those of a recording first, and of a scene.
+const COLUMNS: [&str; 9] = [
     "label",
     "trial",
     "decision",
@@ -90,14 +96,24 @@ const COLUMNS: [&str; 7] = [
     "posterior",
     "touch",
     "t_s",
+    "side",
+    "whisker",
 ];
+
+/// How many of them a recording has, and a scene with one whisker that is heard.
+const OF_RECORDING: usize = 6;
+const OF_SCENE: usize = 7;
 
 /// Writes `decisions.csv`.
 ///
 /// # Errors
 /// Any error of the writer.
 pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
-    let columns = COLUMNS.len() - usize::from(columns == Columns::OfRecording);
+    let columns = match columns {
+        Columns::OfRecording => OF_RECORDING,
+        Columns::OfScene => OF_SCENE,
+        Columns::OfSeveral => COLUMNS.len(),
+    };
     let mut table = csv::Writer::from_writer(table);
     table.write_record(&COLUMNS[..columns])?;
     for d in decisions {
@@ -109,6 +125,10 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
             format!("{:.9}", d.posterior),
             d.touch.to_string(),
             d.t_s.map_or_else(String::new, |t_s| format!("{t_s:.9}")),
+            d.place
+                .map_or_else(String::new, |place| place.side_name().to_owned()),
+            d.place
+                .map_or_else(String::new, |place| (place.whisker + 1).to_string()),
         ];
         table.write_record(&cells[..columns])?;
     }
@@ -241,11 +261,12 @@ impl fmt::Display for Score {
 
 #[cfg(test)]
 mod tests {
-    use super::{Columns, Decided, Score, UNKNOWN, Verdict, write};
+    use super::{Columns, Decided, Place, Score, UNKNOWN, Verdict, write};
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
         Decided {
             t_s: Some(0.25),
+            place: Some(Place::new(1, 0)),
             label: label.into(),
             trial: "1".into(),
             decision: decision.into(),
@@ -328,6 +349,11 @@ mod tests {
             written(Columns::OfScene),
             "label,trial,decision,samples,posterior,touch,t_s\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000\n"
+        );
+        assert_eq!(
+            written(Columns::OfSeveral),
+            "label,trial,decision,samples,posterior,touch,t_s,side,whisker\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1\n"
         );
     }
 }

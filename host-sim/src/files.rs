@@ -60,24 +60,25 @@ pub struct TraceFile {
 }
 
 impl TraceFile {
-    /// Opens a trace and writes its header.
+    /// Opens a trace and writes its header; `hears_right`: whether whiskers of the right
+    /// side are heard.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn create(path: &Path) -> Result<Self, Error> {
-        let trace = TraceWriter::new(Output::create(path)?);
+    pub fn create(path: &Path, hears_right: bool) -> Result<Self, Error> {
+        let trace = TraceWriter::new(Output::create(path)?, hears_right);
         Ok(Self {
             trace: trace.map_err(|source| Error::write(path, source))?,
             path: path.to_owned(),
         })
     }
 
-    /// One row, with the name of what was decided in its tick.
+    /// One row, with the name of what a whisker of each side decided in its tick.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn row(&mut self, row: &Row, decision: Option<&str>) -> Result<(), Error> {
-        let written = self.trace.row(row, decision);
+    pub fn row(&mut self, row: &Row, decisions: [Option<&str>; 2]) -> Result<(), Error> {
+        let written = self.trace.row(row, decisions);
         written.map_err(|source| Error::write(&self.path, source))
     }
 

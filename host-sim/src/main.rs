@@ -45,7 +45,7 @@ enum Command {
         #[arg(long, value_name = "FILE.svg", value_parser = picture)]
         plot: Option<PathBuf>,
     },
-    /// Runs one scene and records what its first whisker feels, to train on
+    /// Runs one scene and records what its first whisker feels, or each that decides, to train on
     Record {
         /// The scene file
         scene: PathBuf,

@@ -185,7 +185,7 @@ fn curves(
 }
 
 /// A row for each class, and one of what was unknown: grey where it was presented, a dot
-/// for each decision.
+/// for each decision, a ring for one of the right side.
 fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> Result<(), Fault> {
     let classes = picture.classes.iter().map(String::as_str);
     let rows: Vec<&str> = classes.chain([UNKNOWN]).collect();
@@ -201,12 +201,17 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
         let name = rows.get(class as usize).filter(|_| on_row);
         name.copied().unwrap_or_default().to_owned()
     };
+    let mut legend =
+        "s; grey: presented; a dot: a decision, green right, red wrong, blue refused".to_owned();
+    if picture.decided.iter().any(is_right) {
+        legend.push_str("; a ring: by the right side");
+    }
     chart
         .configure_mesh()
         .disable_mesh()
         .y_labels(count)
         .y_label_formatter(&name)
-        .x_desc("s; grey: presented; a dot: a decision, green right, red wrong, blue refused")
+        .x_desc(legend)
         .draw()?;
     // What the model does not know stands where the right decision does.
     let row = |label: &str| rows.iter().position(|row| *row == label);
@@ -236,9 +241,19 @@ fn decisions(area: &Area<'_>, picture: &Picture<'_>, (from, to): (f64, f64)) -> 
             Verdict::Wrong => WRONG,
             Verdict::Refused => MEASURED,
         };
-        chart.draw_series([Circle::new((t_s, row as f64), 4, colour.filled())])?;
+        let style = if is_right(decided) {
+            colour.stroke_width(2)
+        } else {
+            colour.filled()
+        };
+        chart.draw_series([Circle::new((t_s, row as f64), 4, style)])?;
     }
     Ok(())
+}
+
+/// Whether a whisker of the right side decided.
+fn is_right(decided: &Decided) -> bool {
+    decided.place.is_some_and(|place| place.side != 0)
 }
 
 /// The least error that the picture of a calibration shows, as a power of ten: what states

@@ -59,29 +59,41 @@ impl Stream {
 }
 
 /// Collects the samples that the classifier of a run gets, in the air too, tick by
-/// tick, one stream for each presentation. The run needs no classifier for it.
+/// tick, one stream for each presentation and whisker that is heard. The run needs no
+/// classifier for it.
 #[derive(Debug, Default)]
 pub struct Recorder {
-    streams: Vec<Stream>,
+    /// Of each whisker.
+    streams: Vec<Vec<Stream>>,
 }
 
 impl Recorder {
-    /// Takes the sample of the run's last tick, if there was one.
+    /// Takes the samples of the run's last tick, if there were any.
     pub fn take(&mut self, run: &mut Run) {
-        let [contact, _] = run.row().contact;
-        let sample = run.sample().map(|sample| Cells {
-            channels: sample.codes.map(f64::from),
-            // As the board computes it, or nearer: more digits say nothing.
-            contact: Some(f64::from(contact as f32)),
-            touch: Some(sample.touch),
-        });
+        let felt = run.felt();
         let (label, trial) = run.presented();
-        append(&mut self.streams, label, &trial.to_string(), sample);
+        let samples = run.samples();
+        self.streams.resize_with(samples.len(), Vec::new);
+        for (n, (streams, sample)) in self.streams.iter_mut().zip(samples).enumerate() {
+            let contact = felt.get(n).copied().unwrap_or(0.0);
+            let cells = sample.map(|sample| Cells {
+                channels: sample.codes.map(f64::from),
+                // As the board computes it, or nearer: more digits say nothing.
+                contact: Some(f64::from(contact as f32)),
+                touch: Some(sample.touch),
+            });
+            // Each presentation to each whisker is a trial.
+            let trial = match n {
+                0 => trial.to_string(),
+                _ => format!("{trial} whisker {}", n + 1),
+            };
+            append(streams, label, &trial, cells);
+        }
     }
 
-    /// The recorded streams.
+    /// The recorded streams, those of the first whisker first.
     pub fn into_streams(self) -> Vec<Stream> {
-        self.streams
+        self.streams.into_iter().flatten().collect()
     }
 }
 

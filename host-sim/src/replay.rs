@@ -78,6 +78,7 @@ impl Replay {
             };
             decided.push(Decided {
                 t_s: None,
+                place: None,
                 label: stream.label.clone(),
                 trial: stream.trial.clone(),
                 decision: decisions::name(decision, &self.classes).to_owned(),

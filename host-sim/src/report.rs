@@ -41,12 +41,10 @@ pub fn exit(program: &str, done: Result<(), Error>) -> ExitCode {
 
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].
 pub fn limits_and_faults(t_s: f64, event: &Event) {
-    let place = |place: &firmware::Place| {
-        let side = if place.side == 0 { "left" } else { "right" };
-        format!("{side} whisker {}", place.whisker + 1)
-    };
+    let place =
+        |place: &firmware::Place| format!("{} whisker {}", place.side_name(), place.whisker + 1);
     match event {
-        Event::Decision(_) | Event::Touch { .. } | Event::TouchEnd { .. } => {}
+        Event::Decision(..) | Event::Touch { .. } | Event::TouchEnd { .. } => {}
         Event::SensorLost(at, fault) => {
             warn(format_args!(
                 "{t_s:.4} s: {}: sensor fault {}: {fault}",

@@ -104,8 +104,7 @@ impl Presented {
 }
 
 impl Run {
-    /// A scene before its first tick, the samples of its first whisker going to
-    /// `classifier`.
+    /// A scene before its first tick, the samples of its whiskers going to `classifier`.
     ///
     /// # Errors
     /// [`Error::Work`] if the module cannot be put together, [`Error::Input`] if
@@ -162,14 +161,27 @@ impl Run {
         done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))
     }
 
-    /// What the classifier got in the last tick, or would have got: nothing while the
-    /// sensor has a fault.
+    /// What the classifier got of the first whisker in the last tick, or would have got:
+    /// nothing while it has a fault.
     pub fn sample(&mut self) -> Option<Sample> {
-        self.bench.tap()?.sample
+        self.samples().first().copied().flatten()
     }
 
-    /// The posterior of each class after the classifier's last full block; equal
-    /// before it and after a decision. None without a classifier.
+    /// The same of each whisker that is heard.
+    pub fn samples(&mut self) -> &[Option<Sample>] {
+        let tap = self.bench.tap();
+        tap.map(|tap| tap.samples.as_slice()).unwrap_or_default()
+    }
+
+    /// Contact of each whisker in the last tick, left side first; that of a side is the
+    /// largest of its whiskers'.
+    pub fn felt(&self) -> Vec<f64> {
+        self.bench.felt()
+    }
+
+    /// The posterior of each class after the classifier's last full block, of the first
+    /// whisker or of all together; equal before it and after a decision. None without a
+    /// classifier.
     pub fn posteriors(&mut self) -> Option<Posteriors> {
         self.bench.tap()?.posteriors()
     }
@@ -218,7 +230,7 @@ impl<B: Bench + ?Sized> Run<B> {
             z: pair(0.0),
             g: pair(0.0),
             contact: pair(0.0),
-            touch: 0,
+            touch: [0; 2],
         };
         self.row = Row {
             t_s: 0.0,
@@ -229,7 +241,7 @@ impl<B: Bench + ?Sized> Run<B> {
             angle_deg: rest,
             x: pair(0.0),
             y: pair(0.0),
-            touch: 0,
+            touch: [0; 2],
         };
         self.events.clear();
     }
@@ -319,13 +331,14 @@ impl<B: Bench + ?Sized> Run<B> {
         &self.events
     }
 
-    /// The decision of the last tick, with what was presented.
-    pub fn decision(&self) -> Option<Decided> {
-        self.events.iter().find_map(|event| {
-            let Event::Decision(decision) = event else {
+    /// The decisions of the last tick, with what was presented.
+    pub fn decisions(&self) -> impl Iterator<Item = Decided> + '_ {
+        self.events.iter().filter_map(|event| {
+            let Event::Decision(place, decision) = event else {
                 return None;
             };
             Some(Decided {
+                place: Some(*place),
                 t_s: Some(self.row.t_s),
                 label: self.presented.label.to_owned(),
                 trial: self.presented.trial.to_string(),

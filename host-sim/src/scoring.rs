@@ -1,11 +1,12 @@
 //! A run of a scene, scored: what its decisions are worth, and how long they took by
 //! the clock on the wall.
 
-use firmware::{Sample, SampleClassifier};
-use scene::Scene;
+use firmware::{Place, Sample, SampleClassifier};
+use scene::{Deciding, Scene};
 use tactile::score::Statistics;
 
 use crate::Error;
+use crate::bench;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided, UNKNOWN};
 use crate::evaluation::{Evaluation, Shown};
@@ -19,8 +20,8 @@ pub struct Scored {
     /// The figures of them.
     pub evaluation: Evaluation,
     /// Mean ticks, those in the air among them, from the first sample that counted
-    /// since the decision before to a decision for a class, on surfaces that the model
-    /// knows; not a number without one.
+    /// since the decision before, of the whisker that decides or of all together, to a
+    /// decision for a class, on surfaces that the model knows; not a number without one.
     pub wall: f64,
 }
 
@@ -30,18 +31,22 @@ struct Scoring {
     presentations: Vec<Shown>,
     walls: Vec<f64>,
     ticks: u64,
-    /// When evidence for a decision began.
-    began: Option<u64>,
+    /// When evidence for a decision began, of each whisker that is heard.
+    began: Vec<Option<u64>>,
+    deciding: Deciding,
+    whiskers_per_side: usize,
 }
 
 impl Scoring {
-    fn new(classes: &[String]) -> Self {
+    fn new(classifier: &Classifier, heard: usize, whiskers_per_side: usize) -> Self {
         Self {
-            classes: classes.to_vec(),
+            classes: classifier.classes().to_vec(),
             presentations: Vec::new(),
             walls: Vec::new(),
             ticks: 0,
-            began: None,
+            began: vec![None; heard],
+            deciding: classifier.deciding(),
+            whiskers_per_side,
         }
     }
 
@@ -52,19 +57,35 @@ impl Scoring {
         });
     }
 
-    fn tick(&mut self, sample: Option<Sample>, decided: Option<Decided>) {
-        if sample.is_some_and(|sample| sample.counts) {
-            self.began = self.began.or(Some(self.ticks));
+    fn tick(&mut self, samples: &[Option<Sample>], decided: impl Iterator<Item = Decided>) {
+        for (began, sample) in self.began.iter_mut().zip(samples) {
+            if sample.is_some_and(|sample| sample.counts) {
+                *began = began.or(Some(self.ticks));
+            }
         }
         self.ticks += 1;
-        let Some(decided) = decided else { return };
-        let ticks = self.began.take().map_or(1, |began| self.ticks - began);
-        if decided.decision != UNKNOWN && self.classes.contains(&decided.label) {
-            self.walls.push(ticks as f64);
+        for decided in decided {
+            let began = self.take_began(decided.place);
+            let ticks = began.map_or(1, |began| self.ticks - began);
+            if decided.decision != UNKNOWN && self.classes.contains(&decided.label) {
+                self.walls.push(ticks as f64);
+            }
+            if let Some(presentation) = self.presentations.last_mut() {
+                presentation.decided.push(decided);
+            }
         }
-        if let Some(presentation) = self.presentations.last_mut() {
-            presentation.decided.push(decided);
+    }
+
+    /// When the evidence for a decision of this whisker began; there is none afterwards.
+    fn take_began(&mut self, place: Option<Place>) -> Option<u64> {
+        if self.deciding == Deciding::Together {
+            let first = self.began.iter().flatten().min().copied();
+            self.began.fill(None);
+            return first;
         }
+        let Place { side, whisker } = place?;
+        let n = usize::from(side) * self.whiskers_per_side + usize::from(whisker);
+        self.began.get_mut(n)?.take()
     }
 
     fn scored(self) -> Scored {
@@ -81,8 +102,9 @@ impl Scoring {
 /// # Errors
 /// As [`Run::new`].
 pub fn run(scene: &Scene, classifier: Classifier, mut tick: impl FnMut()) -> Result<Scored, Error> {
+    let whiskers_per_side = scene.head.whiskers_per_side;
+    let mut scoring = Scoring::new(&classifier, bench::heard(scene), whiskers_per_side);
     let mut run = Run::new(scene, Some(classifier))?;
-    let mut scoring = Scoring::new(run.classes());
     let mut last = None;
     for _ in 0..run.ticks() {
         run.tick();
@@ -91,7 +113,8 @@ pub fn run(scene: &Scene, classifier: Classifier, mut tick: impl FnMut()) -> Res
         if last.replace(presented) != Some(presented) {
             scoring.present(presented.0);
         }
-        scoring.tick(run.sample(), run.decision());
+        let decided: Vec<Decided> = run.decisions().collect();
+        scoring.tick(run.samples(), decided.into_iter());
     }
     Ok(scoring.scored())
 }
@@ -102,6 +125,10 @@ pub fn run(scene: &Scene, classifier: Classifier, mut tick: impl FnMut()) -> Res
 pub struct Heard {
     /// Ticks a second.
     pub tick_hz: u32,
+    /// How many whiskers are heard.
+    pub heard: usize,
+    /// Whiskers on each side.
+    pub whiskers_per_side: usize,
     /// What was presented, in order.
     pub presentations: Vec<HeardPresentation>,
 }
@@ -113,7 +140,7 @@ pub struct HeardPresentation {
     pub label: String,
     /// How often it has been presented before.
     pub trial: u64,
-    /// Of each tick; none while the sensor has a fault.
+    /// Of each tick those of all whiskers that are heard; none while one has a fault.
     pub samples: Vec<Option<Sample>>,
 }
 
@@ -139,33 +166,46 @@ impl Heard {
                 });
             }
             if let Some(presentation) = presentations.last_mut() {
-                presentation.samples.push(run.sample());
+                presentation.samples.extend(run.samples());
             }
         }
         Ok(Self {
             tick_hz: scene.tick_hz,
+            heard: bench::heard(scene),
+            whiskers_per_side: scene.head.whiskers_per_side,
             presentations,
         })
     }
 
     /// What [`run`] gives.
     pub fn score(&self, mut classifier: Classifier) -> Scored {
-        let mut scoring = Scoring::new(classifier.classes());
+        let mut scoring = Scoring::new(&classifier, self.heard, self.whiskers_per_side);
         for presentation in &self.presentations {
             scoring.present(&presentation.label);
-            for &sample in &presentation.samples {
-                let decision = sample.and_then(|sample| classifier.push(sample));
-                let ticks = scoring.ticks + 1;
-                let decided = decision.map(|decision| Decided {
-                    t_s: Some(ticks as f64 / f64::from(self.tick_hz)),
-                    label: presentation.label.clone(),
-                    trial: presentation.trial.to_string(),
-                    decision: decisions::name(decision, classifier.classes()).to_owned(),
-                    samples: decision.samples(),
-                    posterior: decision.posterior().to_f64(),
-                    touch: decision.touch(),
-                });
-                scoring.tick(sample, decided);
+            for samples in presentation.samples.chunks(self.heard.max(1)) {
+                let t_s = (scoring.ticks + 1) as f64 / f64::from(self.tick_hz);
+                let mut decided = Vec::new();
+                for (n, sample) in samples.iter().enumerate() {
+                    let Some(sample) = sample else {
+                        classifier.interrupt(n);
+                        continue;
+                    };
+                    let Some(decision) = classifier.push(n, *sample) else {
+                        continue;
+                    };
+                    let each = self.whiskers_per_side.max(1);
+                    decided.push(Decided {
+                        t_s: Some(t_s),
+                        place: Some(Place::new((n / each) as u8, (n % each) as u8)),
+                        label: presentation.label.clone(),
+                        trial: presentation.trial.to_string(),
+                        decision: decisions::name(decision, classifier.classes()).to_owned(),
+                        samples: decision.samples(),
+                        posterior: decision.posterior().to_f64(),
+                        touch: decision.touch(),
+                    });
+                }
+                scoring.tick(samples, decided.into_iter());
             }
         }
         scoring.scored()

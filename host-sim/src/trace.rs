@@ -23,8 +23,9 @@ pub struct Row {
     pub x: [f64; 2],
     /// The 14-bit codes of y of the first whisker of each side.
     pub y: [f64; 2],
-    /// The number of the touch of the module's first whisker; 0 in the air.
-    pub touch: u16,
+    /// The number of the touch of the first whisker of each side; 0 in the air, and where
+    /// it is not heard.
+    pub touch: [u16; 2],
 }
 
 impl Row {
@@ -47,33 +48,41 @@ pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_le
 contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right,touch,\
 decision";
 
+/// Further columns where whiskers of the right side are heard: `touch` and `decision` are
+/// then of the left side.
+pub const OF_RIGHT: &str = ",touch_right,decision_right";
+
 /// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
 pub struct TraceWriter<W> {
     table: W,
+    /// How many sides are heard.
+    sides: usize,
     line: Vec<u8>,
 }
 
 impl<W: Write> TraceWriter<W> {
-    /// Writes the header.
+    /// Writes the header; `hears_right`: whether whiskers of the right side are heard.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn new(mut table: W) -> io::Result<Self> {
-        writeln!(table, "{HEADER}")?;
+    pub fn new(mut table: W, hears_right: bool) -> io::Result<Self> {
+        let more = if hears_right { OF_RIGHT } else { "" };
+        writeln!(table, "{HEADER}{more}")?;
         Ok(Self {
             table,
+            sides: 1 + usize::from(hears_right),
             line: Vec::new(),
         })
     }
 
-    /// One row, with the name of what was decided in its tick. Nine decimals show the
-    /// error of the integrators; the cells of a side that does not exist are empty, and
-    /// so is that of a decision where none fell.
+    /// One row, with the name of what a whisker of each side decided in its tick. Nine
+    /// decimals show the error of the integrators; the cells of a side that does not exist
+    /// are empty, and so is that of a decision where none fell.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn row(&mut self, row: &Row, decision: Option<&str>) -> io::Result<()> {
+    pub fn row(&mut self, row: &Row, decisions: [Option<&str>; 2]) -> io::Result<()> {
         let line = &mut self.line;
         line.clear();
         decimals::append(line, row.t_s, 9);
@@ -85,9 +94,12 @@ impl<W: Write> TraceWriter<W> {
         for value in codes {
             cell(line, *value, 0);
         }
-        cell(line, row.touch.into(), 0);
-        line.push(b',');
-        text(line, decision.unwrap_or_default());
+        let sides = row.touch.into_iter().zip(decisions);
+        for (touch, decision) in sides.take(self.sides) {
+            cell(line, touch.into(), 0);
+            line.push(b',');
+            text(line, decision.unwrap_or_default());
+        }
         line.push(b'\n');
         self.table.write_all(line)
     }
@@ -118,11 +130,11 @@ fn text(line: &mut Vec<u8>, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::{HEADER, Row, TraceWriter};
+    use super::{HEADER, OF_RIGHT, Row, TraceWriter};
 
     #[test]
     fn rows_have_as_many_cells_as_the_header_and_the_fixed_ones_first() {
-        let mut table = TraceWriter::new(Vec::new()).unwrap();
+        let mut table = TraceWriter::new(Vec::new(), false).unwrap();
         let row = Row {
             t_s: 0.0005,
             theta_deg: [50.0, f64::NAN],
@@ -132,10 +144,10 @@ mod tests {
             angle_deg: [50.5, f64::NAN],
             x: [8192.0, f64::NAN],
             y: [8191.0, f64::NAN],
-            touch: 7,
+            touch: [7, 0],
         };
         for decision in [None, Some("unknown"), Some("sand, \"wet\"")] {
-            table.row(&row, decision).unwrap();
+            table.row(&row, [decision, None]).unwrap();
         }
         let text = String::from_utf8(table.into_inner()).unwrap();
         let lines: Vec<_> = text.lines().collect();
@@ -151,5 +163,20 @@ mod tests {
         );
         assert!(lines[2].ends_with(",7,unknown"));
         assert!(lines[3].ends_with(",7,\"sand, \"\"wet\"\"\""));
+    }
+
+    #[test]
+    fn the_right_side_has_cells_of_its_own_where_it_is_heard() {
+        let mut table = TraceWriter::new(Vec::new(), true).unwrap();
+        let row = Row {
+            touch: [7, 9],
+            ..Row::default()
+        };
+        table.row(&row, [None, Some("ice")]).unwrap();
+        table.row(&row, [Some("loam"), None]).unwrap();
+        let text = String::from_utf8(table.into_inner()).unwrap();
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines[0], format!("{HEADER}{OF_RIGHT}"));
+        assert!(lines[1].ends_with(",7,,9,ice") && lines[2].ends_with(",7,loam,9,"));
     }
 }

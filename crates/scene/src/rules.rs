@@ -3,7 +3,7 @@
 //! A rule that turns on a value that was itself refused is left alone: that
 //! value's own message comes first.
 
-use crate::sections::PlantKind;
+use crate::sections::{Deciding, PlantKind, RuleName, Sides};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -14,6 +14,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     limits_in_order(values, text);
     textured_is_active(values, text);
     shaft_is_slender(values, text);
+    several_can_decide(values, text);
 }
 
 fn at_least_one_tick(
@@ -89,4 +90,28 @@ fn shaft_is_slender(values: &Values, text: &mut Text<'_>) {
             text.report(offset, format!("plant.{key}"), found, allowed);
         }
     }
+}
+
+/// More than the first whisker decide only where there are more, and together only where
+/// evidence waits for others'.
+fn several_can_decide(values: &Values, text: &mut Text<'_>) {
+    let deciding = values.get::<Deciding>("classifier", "whiskers");
+    let Some(deciding) = deciding.filter(|deciding| *deciding != Deciding::First) else {
+        return;
+    };
+    let whiskers = values.get::<usize>("head", "whiskers_per_side");
+    let sides = values.get::<Sides>("head", "sides");
+    let is_alone = (whiskers, sides) == (Some(1), Some(Sides::Left));
+    let by_window = values.get::<RuleName>("classifier", "rule") == Some(RuleName::Window);
+    let allowed = if is_alone {
+        "allowed: \"first\", as there is one whisker"
+    } else if by_window && deciding == Deciding::Together {
+        "allowed: \"first\" or \"each\", as a window counts the samples of one whisker"
+    } else {
+        return;
+    };
+    let offset = values.offset("classifier", "whiskers").unwrap_or(0);
+    let found = format!("found \"{deciding}\"");
+    let path = "classifier.whiskers".to_owned();
+    text.report(offset, path, found, allowed.to_owned());
 }

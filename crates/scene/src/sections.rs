@@ -13,7 +13,8 @@ mod scene;
 mod shaft;
 mod whisking;
 
-pub use classifier::{ClassifierSection, Rule};
+pub(crate) use classifier::RuleName;
+pub use classifier::{ClassifierSection, Deciding, Rule};
 pub use head::{HeadSection, Sides};
 pub use motor::{Driver, MotorSection, OnFault};
 pub use plant::{
@@ -61,8 +62,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Ten of the motor, two of the plant, one of the head and of whisking.
-        assert_eq!(defaults, 14);
+        // Ten of the motor, two of the plant, one of the head, of whisking and of the classifier.
+        assert_eq!(defaults, 15);
     }
 
     #[test]

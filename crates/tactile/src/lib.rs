@@ -36,6 +36,9 @@
 //! type; [`AnyRule`] is chosen at run time. After training everything is an
 //! integer; there is no logarithm at run time.
 //!
+//! Where several whiskers are heard, [`Each`] has evidence for each under one model, and
+//! [`Together`] decides by its sum.
+//!
 //! The classifiers that the papers compare these with are in
 //! `studies/classifiers`.
 //!
@@ -78,6 +81,8 @@ mod rule;
 #[cfg(feature = "std")]
 pub mod score;
 mod sequential;
+mod several;
+mod stream;
 mod sums;
 mod totals;
 mod touch;
@@ -102,11 +107,13 @@ pub use layout::TouchRule;
 pub use model::{Aligned, Floors, Model};
 #[cfg(feature = "std")]
 pub use model_buf::{Axis, ModelBuf, ModelParts, TableParts, TableSource};
-pub use naive_bayes::{NaiveBayes, Posteriors, WrongChannels};
+pub use naive_bayes::{NaiveBayes, Posteriors};
 pub use quantiser::Quantiser;
 pub use roughness::Roughness;
 pub use rule::DecisionRule;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
+pub use several::{ByOwn, BySum, DecidesBy, Each, Several, Together};
+pub use stream::{Streams, WrongChannels};
 pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};

@@ -1,14 +1,11 @@
-//! The step that all rules share: look up the log-likelihoods of a sample, add them to
-//! the sums of the open block, at its end those of its roughness, and ask the rule.
-
-use core::fmt;
+//! The classifier of one whisker: a model, a rule, and the evidence so far.
 
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::format::MAX_CLASSES;
 use crate::model::Model;
 use crate::rule::DecisionRule;
-use crate::sums::Sums;
+use crate::stream::{StreamState, Streams, WrongChannels};
 use crate::words::Words;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
@@ -18,39 +15,12 @@ use crate::words::Words;
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     model: Model<W>,
     rule: R,
-    state: State<R::Evidence>,
+    stream: StreamState<R::Evidence>,
 }
-
-/// What changes as samples come in.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct State<E> {
-    sums: Sums,
-    evidence: E,
-    /// The number of the touch.
-    touch: u16,
-}
-
-/// A sample with another number of channels than the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct WrongChannels {
-    /// Of the model.
-    pub expected: usize,
-    /// Of the sample.
-    pub found: usize,
-}
-
-impl fmt::Display for WrongChannels {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { expected, found } = self;
-        write!(f, "a sample of {found} channels; the model has {expected}")
-    }
-}
-
-impl core::error::Error for WrongChannels {}
 
 impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// Bytes that change as samples come in.
-    pub const STATE_BYTES: usize = size_of::<State<R::Evidence>>();
+    pub const STATE_BYTES: usize = size_of::<StreamState<R::Evidence>>();
 
     /// Joins a model and a rule; nothing is seen yet, all classes are equal.
     ///
@@ -60,11 +30,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let rule = R::new(&model, settings)?;
         Ok(Self {
-            state: State {
-                sums: Sums::new(rule.interval()),
-                evidence: rule.start(),
-                touch: 0,
-            },
+            stream: StreamState::new(&rule),
             model,
             rule,
         })
@@ -84,11 +50,8 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// is then not taken.
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
-        self.check(codes)?;
-        let has_roughness = self.model.has_roughness();
-        let sums = &mut self.state.sums;
-        if sums.push(self.model.parts(), codes, has_roughness) {
-            return Ok(self.end_of_block());
+        if self.stream.push(&self.model, codes)? {
+            return Ok(self.stream.end_of_block(&self.model, &self.rule));
         }
         Ok(None)
     }
@@ -101,72 +64,27 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.check(codes)?;
-        if self.model.has_roughness() {
-            self.state.sums.roughness.push(codes, false);
-        }
-        Ok(())
+        self.stream.pass(&self.model, codes)
     }
 
     /// A touch begins, whose `number` its decisions bear. Where the model has a
     /// [`TouchRule`](crate::TouchRule), the open block is dropped and what came before
     /// is limited: the surface may have changed.
     pub fn touch(&mut self, number: u16) {
-        self.state.touch = number;
-        let Some(touch) = self.model.touch_rule() else {
-            return;
-        };
-        let limit = touch.limit.saturating_mul(self.model.block());
-        self.rule.limit(&mut self.state.evidence, limit);
-        self.state.sums.clear(self.rule.interval());
+        self.stream.begin_touch(&self.model, &self.rule, number);
     }
 
     /// Samples are missing before the next: the differences of which roughness is made
     /// begin anew.
     pub const fn interrupt(&mut self) {
-        if W::JOINT {
-            self.state.sums.roughness.interrupt();
-        }
-    }
-
-    #[inline]
-    const fn check(&self, codes: &[i32]) -> Result<(), WrongChannels> {
-        let expected = self.model.channels();
-        let found = codes.len();
-        if found == expected {
-            Ok(())
-        } else {
-            Err(WrongChannels { expected, found })
-        }
-    }
-
-    // Once a block: apart from the samples, which then need less of the stack.
-    #[inline(never)]
-    fn end_of_block(&mut self) -> Option<Decision> {
-        let State {
-            sums,
-            evidence,
-            touch,
-        } = &mut self.state;
-        if self.model.has_roughness() || self.model.has_floors() {
-            sums.end_of_block(self.model.parts());
-        }
-        sums.left = self.rule.interval();
-        let of_classes = sums.classes.get_mut(..self.model.classes());
-        let decision = self
-            .rule
-            .end_of_block(of_classes.unwrap_or_default(), evidence)?;
-        let excess = sums.excess.get(decision.leader());
-        let is_below = self.model.has_floors()
-            && excess.is_some_and(|excess| excess.iter().any(|tables| *tables < 0));
-        Some(decision.in_touch(*touch, is_below))
+        self.stream.interrupt::<W>();
     }
 
     /// The end of a whisk or of a recording: rules that wait for it decide here
     /// (None if there was no sample), the others drop what they have. All
     /// evidence is then forgotten.
     pub fn finish(&mut self) -> Option<Decision> {
-        let State { sums, evidence, .. } = &self.state;
+        let StreamState { sums, evidence, .. } = &self.stream;
         let samples = self.rule.interval().saturating_sub(sums.left);
         let sums = sums.classes.get(..self.model.classes()).unwrap_or_default();
         let decision = self.rule.finish(sums, samples, evidence.clone());
@@ -176,24 +94,66 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
 
     /// Forgets all evidence.
     pub fn reset(&mut self) {
-        self.state.sums = Sums::new(self.rule.interval());
-        self.state.evidence = self.rule.start();
-        self.state.touch = 0;
+        self.stream = StreamState::new(&self.rule);
     }
 
     /// Posterior of each class after the last full block. For display: costs
     /// an exponential a class and a division.
     pub fn posteriors(&self) -> Posteriors {
-        let mut posteriors = Posteriors {
-            q32: [0; MAX_CLASSES],
-            classes: self.model.classes(),
-        };
-        let values = posteriors.q32.get_mut(..posteriors.classes);
-        let values = values.unwrap_or_default();
-        self.rule.deficits(&self.state.evidence, values);
-        self.rule.scale().posteriors(values);
-        posteriors
+        posteriors(&self.model, &self.rule, &self.stream.evidence)
     }
+}
+
+impl<R: DecisionRule, W: Words> Streams for NaiveBayes<R, W> {
+    type Words = W;
+
+    fn model(&self) -> &Model<W> {
+        &self.model
+    }
+
+    #[inline]
+    fn push_to(&mut self, _: usize, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
+        self.push(codes)
+    }
+
+    #[inline]
+    fn pass_to(&mut self, _: usize, codes: &[i32]) -> Result<(), WrongChannels> {
+        self.pass(codes)
+    }
+
+    #[inline]
+    fn touch_of(&self, _: usize) -> u16 {
+        self.stream.touch
+    }
+
+    fn begin_touch(&mut self, _: usize, number: u16) {
+        self.touch(number);
+    }
+
+    fn interrupt_stream(&mut self, _: usize) {
+        self.interrupt();
+    }
+
+    fn restart(&mut self) {
+        self.reset();
+    }
+}
+
+/// Posterior of each class by this evidence.
+pub(crate) fn posteriors<R: DecisionRule, W: Words>(
+    model: &Model<W>,
+    rule: &R,
+    evidence: &R::Evidence,
+) -> Posteriors {
+    let mut posteriors = Posteriors {
+        q32: [0; MAX_CLASSES],
+        classes: model.classes(),
+    };
+    let values = posteriors.q32.get_mut(..posteriors.classes);
+    let values = values.unwrap_or_default();
+    rule.deficits(evidence, values);
+    rule.scale().posteriors(values);
+    posteriors
 }
 
 /// Posterior probability of each class of a model.
@@ -284,13 +244,13 @@ mod tests {
         let samples = 7 * (block - 1);
         let full = samples * u32::from(ENTRY_MAX);
         assert_eq!(
-            c.state.sums.classes[..5],
+            c.stream.sums.classes[..5],
             [full, full, 0, full, samples * 3]
         );
-        assert_eq!(c.state.sums.classes[5..], [0; 27]);
+        assert_eq!(c.stream.sums.classes[5..], [0; 27]);
         let decision = c.push(&[1; 7]).unwrap().unwrap();
         assert_eq!((decision.class(), decision.samples()), (Some(0), block));
-        assert_eq!(c.state.sums.classes, [0; MAX_CLASSES]);
+        assert_eq!(c.stream.sums.classes, [0; MAX_CLASSES]);
     }
 
     proptest! {
@@ -318,7 +278,7 @@ mod tests {
                         }
                     }
                 }
-                prop_assert_eq!(&c.state.sums.classes[..9], &expected);
+                prop_assert_eq!(&c.stream.sums.classes[..9], &expected);
             }
         }
     }

@@ -81,7 +81,77 @@ pub struct SequentialEvidence {
     blocks: u32,
 }
 
+impl SequentialEvidence {
+    /// Whether it has seen a block.
+    pub(crate) const fn is_begun(&self) -> bool {
+        self.blocks > 0
+    }
+}
+
 impl SequentialRule {
+    /// Takes in the sums of a full block and leaves zeros; how many classes are too near
+    /// for a decision, the leader among them.
+    ///
+    /// No overflow, however many blocks pass without a decision: sums are
+    /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
+    /// here fits an i32.
+    #[inline]
+    fn gather_near(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) -> usize {
+        let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
+        let levels = sums.iter().zip(&evidence.deficits);
+        let lead = levels.map(|(&sum, &deficit)| level(sum, deficit)).max();
+        let lead = lead.unwrap_or(0);
+        let mut near = 0;
+        for (deficit, sum) in evidence.deficits.iter_mut().zip(sums) {
+            let behind = (lead - level(core::mem::take(sum), *deficit)) as u32;
+            near += usize::from(behind < self.far);
+            *deficit = behind.min(MAX_DEFICIT);
+        }
+        evidence.blocks = evidence.blocks.saturating_add(1);
+        near
+    }
+
+    /// Takes in the sums of a full block and leaves zeros.
+    pub(crate) fn gather(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) {
+        let _ = self.gather_near(sums, evidence);
+    }
+
+    /// The evidence of several streams together: log-likelihoods add up.
+    pub(crate) fn sum<'e>(
+        classes: usize,
+        all: impl Iterator<Item = &'e SequentialEvidence>,
+    ) -> SequentialEvidence {
+        let (mut sums, mut blocks) = ([0_u64; MAX_CLASSES], 0_u32);
+        for evidence in all {
+            blocks = blocks.saturating_add(evidence.blocks);
+            for (sum, deficit) in sums.iter_mut().zip(evidence.deficits) {
+                *sum += u64::from(deficit);
+            }
+        }
+        // Beyond the model's classes all are zero, and are not looked at.
+        let least = sums.iter().take(classes).copied().min().unwrap_or(0);
+        let behind = |sum: u64| u32::try_from(sum.saturating_sub(least)).unwrap_or(MAX_DEFICIT);
+        SequentialEvidence {
+            deficits: sums.map(|sum| behind(sum).min(MAX_DEFICIT)),
+            blocks,
+        }
+    }
+
+    /// Decides by evidence in which no rival is too near.
+    pub(crate) fn decide_by(
+        &self,
+        classes: usize,
+        evidence: &SequentialEvidence,
+    ) -> Option<Decision> {
+        let deficits = evidence.deficits.iter().take(classes);
+        // The leader is near itself.
+        let near = deficits.filter(|deficit| **deficit < self.far).count();
+        if near > 1 {
+            return None;
+        }
+        self.decide(classes, evidence)
+    }
+
     /// Decides, if the posterior exceeds the threshold.
     fn decide(&self, classes: usize, evidence: &SequentialEvidence) -> Option<Decision> {
         let deficits = evidence.deficits.get(..classes).unwrap_or_default();
@@ -119,9 +189,6 @@ impl DecisionRule for SequentialRule {
         }
     }
 
-    /// No overflow, however many blocks pass without a decision: sums are
-    /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
-    /// here fits an i32.
     // Once a block: apart from the samples, which then need less of the stack.
     #[inline(never)]
     fn end_of_block(
@@ -129,16 +196,7 @@ impl DecisionRule for SequentialRule {
         sums: &mut [u32],
         evidence: &mut SequentialEvidence,
     ) -> Option<Decision> {
-        let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
-        let levels = sums.iter().zip(&evidence.deficits);
-        let lead = levels.map(|(&sum, &deficit)| level(sum, deficit)).max()?;
-        let mut near = 0;
-        for (deficit, sum) in evidence.deficits.iter_mut().zip(&mut *sums) {
-            let behind = (lead - level(core::mem::take(sum), *deficit)) as u32;
-            near += usize::from(behind < self.far);
-            *deficit = behind.min(MAX_DEFICIT);
-        }
-        evidence.blocks = evidence.blocks.saturating_add(1);
+        let near = self.gather_near(sums, evidence);
         // The leader is near itself.
         if near > 1 {
             return None;

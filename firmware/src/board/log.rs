@@ -14,7 +14,7 @@ use whisking::motor;
 
 use super::counters::TICKS;
 use super::reset::{Cause, ClockError};
-use super::scene::{NAME, TICK_HZ};
+use super::scene::{HEARS_SEVERAL, NAME, TICK_HZ};
 use crate::here::CLOCKS;
 
 // Lines begin with the time since the first tick, in seconds to the tick.
@@ -95,26 +95,41 @@ pub(crate) fn health(now: &Health, before: &Health) {
     }
 }
 
-const fn side(place: Place) -> &'static str {
-    if place.side == 0 { "left" } else { "right" }
+/// A line about what a whisker feels; where several are heard it begins with the whisker's
+/// side and number, and reads as the second text.
+macro_rules! felt_line {
+    ($place:ident, $text:literal, $of_several:literal $(, $value:expr)* $(,)?) => {
+        if HEARS_SEVERAL {
+            defmt::info!($of_several, $place.side_name(), $place.whisker $(, $value)*);
+        } else {
+            defmt::info!($text $(, $value)*);
+        }
+    };
 }
 
 /// A touch begins.
-pub(crate) fn touch(number: u16) {
-    defmt::info!("touch {=u16}", number);
+pub(crate) fn touch(place: Place, number: u16) {
+    felt_line!(place, "touch {=u16}", "{=str} {=u8}: touch {=u16}", number);
 }
 
 /// A touch has ended.
-pub(crate) fn touch_end(number: u16) {
-    defmt::info!("touch {=u16} has ended", number);
+pub(crate) fn touch_end(place: Place, number: u16) {
+    felt_line!(
+        place,
+        "touch {=u16} has ended",
+        "{=str} {=u8}: touch {=u16} has ended",
+        number
+    );
 }
 
 /// A decision for the class `name`.
-pub(crate) fn decision(name: &str, decided: tactile::Decision) {
+pub(crate) fn decision(place: Place, name: &str, decided: tactile::Decision) {
     // Percent with four decimals, rounded down: at most 99.9999.
     let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
-    defmt::info!(
+    felt_line!(
+        place,
         "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
+        "{=str} {=u8}: decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
         name,
         posterior / 10_000,
         posterior % 10_000,
@@ -132,7 +147,7 @@ macro_rules! fault_line {
 
 /// A motor was switched off.
 pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
-    let at = (side(place), place.whisker, fault.code());
+    let at = (place.side_name(), place.whisker, fault.code());
     match fault {
         motor::Fault::Pin => fault_line!(at, "{=str} {=u8}: fault {=u8}, a motor pin"),
         motor::Fault::Pwm => fault_line!(at, "{=str} {=u8}: fault {=u8}, PWM"),
@@ -156,19 +171,23 @@ pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
 pub(crate) fn motor_retry(place: Place) {
     defmt::info!(
         "{=str} {=u8}: motor is tried again",
-        side(place),
+        place.side_name(),
         place.whisker
     );
 }
 
 /// A sensor is trusted again.
 pub(crate) fn sensor_back(place: Place) {
-    defmt::info!("{=str} {=u8}: sensor is back", side(place), place.whisker);
+    defmt::info!(
+        "{=str} {=u8}: sensor is back",
+        place.side_name(),
+        place.whisker
+    );
 }
 
 /// A sensor has a fault; the motor is off.
 pub(crate) fn sensor_lost(place: Place, fault: SensorFault) {
-    let at = (side(place), place.whisker, fault.code());
+    let at = (place.side_name(), place.whisker, fault.code());
     match fault {
         SensorFault::NoFrame => fault_line!(at, "{=str} {=u8}: fault {=u8}, no frame in time"),
         SensorFault::Bus => fault_line!(at, "{=str} {=u8}: fault {=u8}, SPI or its DMA"),

@@ -108,20 +108,22 @@ pub(crate) fn end_of_frame(module: &mut Module) {
 /// Writes an event to the log. What the scene cannot do has no line.
 fn write(event: Event) {
     match event {
-        Event::Decision(decision) if !scene::CLASS_NAMES.is_empty() => {
+        Event::Decision(place, decision) if !scene::CLASS_NAMES.is_empty() => {
             let class = decision.class();
             let name = class.and_then(|class| scene::CLASS_NAMES.get(class));
-            log::decision(name.unwrap_or(&"unknown"), decision);
+            log::decision(place, name.unwrap_or(&"unknown"), decision);
         }
-        Event::Touch { number, .. } if !scene::CLASS_NAMES.is_empty() => log::touch(number),
-        Event::TouchEnd { number, .. } if !scene::CLASS_NAMES.is_empty() => {
-            log::touch_end(number);
+        Event::Touch { place, number } if !scene::CLASS_NAMES.is_empty() => {
+            log::touch(place, number);
+        }
+        Event::TouchEnd { place, number } if !scene::CLASS_NAMES.is_empty() => {
+            log::touch_end(place, number);
         }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
         Event::SensorBack(place) => log::sensor_back(place),
         Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
         Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
-        Event::Decision(_)
+        Event::Decision(..)
         | Event::Touch { .. }
         | Event::TouchEnd { .. }
         | Event::MotorFault(..)

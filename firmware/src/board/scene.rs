@@ -7,6 +7,7 @@
 //!   is left out by type.
 //! - `Motion`, `start_motion`, `HAS_MOTOR`: how it moves.
 //! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides.
+//! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
     clippy::excessive_precision,
     clippy::unreadable_literal,

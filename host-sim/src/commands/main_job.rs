@@ -89,13 +89,13 @@ fn decide(
     let Some(classifier) = &scene.classifier else {
         return Err(Error::Work("the scene has no classifier".to_owned()));
     };
-    let classifier =
-        Classifier::new(model, classifier.rule).map_err(|fault| Error::Work(fault.to_string()))?;
+    let classifier = Classifier::of(model, classifier.rule, classifier.whiskers);
+    let classifier = classifier.map_err(|fault| Error::Work(fault.to_string()))?;
     let run = Run::new(scene, Some(classifier))?;
     let mut film = Film::default();
     let played = run::play(run, scene, out, verbosity, |run, progress| {
         film.take(run);
-        if let Some(decided) = run.decision() {
+        for decided in run.decisions() {
             progress.pause(|| report::decision(&decided, run.classes()));
         }
         Ok(())

@@ -10,7 +10,7 @@ use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
 
-/// Runs the scene in `path` and writes what its first whisker feels to `out`:
+/// Runs the scene in `path` and writes what its whiskers feel that are heard to `out`:
 /// a recording for `host-sim train`, the air included. Its classifier, if any, is not
 /// used. `seed` takes the place of the scene's.
 ///
@@ -35,7 +35,7 @@ pub fn record(
     ))
 }
 
-/// What the classifier of `scene` would get, a stream a presentation.
+/// What the classifier of `scene` would get, a stream a presentation and whisker.
 ///
 /// # Errors
 /// [`Error::Work`] if the module cannot be put together.

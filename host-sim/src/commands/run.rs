@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use scene::{Rule, Scene, Texture};
 use tactile::ModelBuf;
 
-use crate::bench::Bench;
+use crate::bench::{self, Bench};
 use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
@@ -91,7 +91,7 @@ impl Loaded {
             Rule::Sequential { .. } => "threshold",
             Rule::Window { .. } => "window",
         };
-        let classifier = Classifier::new(model.clone(), classifier.rule);
+        let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
         let classifier = classifier.map_err(|fault| match fault {
             Fault::Model(fault) => Error::file(model_path, fault),
             Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
@@ -147,25 +147,30 @@ pub fn play<B: Bench + ?Sized>(
     verbosity: Verbosity,
     mut after: impl FnMut(&mut Run<B>, &Progress) -> Result<(), Error>,
 ) -> Result<Played, Error> {
-    let mut trace = TraceFile::create(&out.join("trace.csv"))?;
+    let hears_right = bench::heard(scene) > scene.head.whiskers_per_side;
+    let mut trace = TraceFile::create(&out.join("trace.csv"), hears_right)?;
     let mut decided: Vec<Decided> = Vec::new();
     let mut progress = Progress::new(verbosity, "simulating", run.ticks());
     for n in 0..run.ticks() {
         let row = run.tick();
         after(&mut run, &progress)?;
-        let decision = run.decision();
-        trace.row(&row, decision.as_ref().map(|d| d.decision.as_str()))?;
+        let first = decided.len();
+        decided.extend(run.decisions());
+        trace.row(&row, by_side(decided.get(first..).unwrap_or_default()))?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
-        decided.extend(decision);
         progress.tick(n);
     }
     drop(progress);
 
     let classifies = scene.classifier.is_some();
     if classifies {
-        files::write_decisions(&out.join("decisions.csv"), &decided, Columns::OfScene)?;
+        let columns = match bench::heard(scene) {
+            1 => Columns::OfScene,
+            _ => Columns::OfSeveral,
+        };
+        files::write_decisions(&out.join("decisions.csv"), &decided, columns)?;
     }
     trace.finish()?;
     Ok(Played {
@@ -173,6 +178,15 @@ pub fn play<B: Bench + ?Sized>(
         classes: run.classes().to_vec(),
         tick_hz: scene.tick_hz,
         classifies,
+    })
+}
+
+/// What a whisker of each side decided in one tick; of several of a side the first.
+fn by_side(decided: &[Decided]) -> [Option<&str>; 2] {
+    [0, 1].map(|side| {
+        let is_its = |decided: &&Decided| decided.place.is_some_and(|place| place.side == side);
+        let decided = decided.iter().find(is_its);
+        decided.map(|decided| decided.decision.as_str())
     })
 }
 

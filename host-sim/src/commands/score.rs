@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::Args;
 use rayon::prelude::*;
-use scene::{Rule, Scene};
+use scene::{Deciding, Rule, Scene};
 
 use crate::classifier::{Classifier, Fault};
 use crate::commands::record;
@@ -91,10 +91,13 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     }
 
     let trained = train(&scene, train_seed, &how, arguments, verbosity)?;
-    let classifier = Classifier::new(trained.model, rule).map_err(|fault| match fault {
-        Fault::Model(fault) => Error::Work(fault),
-        Fault::Rule(fault) => Error::file(path, fault),
-    })?;
+    let deciding = scene.classifier.as_ref().map(|c| c.whiskers);
+    let deciding = deciding.unwrap_or(Deciding::First);
+    let classifier =
+        Classifier::of(trained.model, rule, deciding).map_err(|fault| match fault {
+            Fault::Model(fault) => Error::Work(fault),
+            Fault::Rule(fault) => Error::file(path, fault),
+        })?;
     let runs = runs(&scene, seeds, &classifier, verbosity)?;
     let presentations: Vec<Shown> = runs
         .iter()

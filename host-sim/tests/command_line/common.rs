@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use firmware::Place as Whisker;
 use host_sim::decisions::Decided;
 use tactile::train::{Options, Trainer};
 use tempfile::TempDir;
@@ -221,18 +222,29 @@ pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
 }
 
-/// Reads `decisions.csv`; checks its header. That of a scene tells the time as well.
+/// The whisker of a row's last cells; none of a recording's.
+fn whisker(cells: &[&str]) -> Option<Whisker> {
+    let [side, number] = cells else { return None };
+    let side = ["left", "right"].iter().position(|name| name == side);
+    let number: u8 = number.parse().unwrap();
+    Some(Whisker::new(side.unwrap() as u8, number - 1))
+}
+
+/// Reads `decisions.csv`; checks its header. That of a scene tells the time as well, and
+/// where several whiskers are heard which one.
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
     let header = rows.next().unwrap().join(",");
     let of_recording = "label,trial,decision,samples,posterior,touch";
     let of_scene = format!("{of_recording},t_s");
+    let of_several = format!("{of_scene},side,whisker");
     assert!(
-        [of_recording, &of_scene].contains(&header.as_str()),
+        [of_recording, &of_scene, &of_several].contains(&header.as_str()),
         "{header}"
     );
     rows.map(|row| Decided {
         t_s: row.get(6).map(|t_s| t_s.parse().unwrap()),
+        place: row.get(7..).and_then(whisker),
         label: row[0].into(),
         trial: row[1].into(),
         decision: row[2].into(),

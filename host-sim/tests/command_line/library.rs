@@ -60,7 +60,7 @@ fn see(run: &mut Run) -> Seen {
         }
         seen.rows.push(bits);
         seen.samples.push(run.sample());
-        seen.decisions.extend(run.decision());
+        seen.decisions.extend(run.decisions());
         seen.events.extend_from_slice(run.events());
     }
     seen
@@ -179,7 +179,10 @@ fn posteriors_are_seen_between_decisions() {
         let posteriors: Vec<f64> = run.posteriors().unwrap().to_f64().collect();
         assert_eq!(posteriors.len(), run.classes().len());
         assert!((posteriors.iter().sum::<f64>() - 1.0).abs() < 1e-4);
-        (run.decision(), posteriors.into_iter().fold(0.0, f64::max))
+        (
+            run.decisions().next(),
+            posteriors.into_iter().fold(0.0, f64::max),
+        )
     };
     // Equal before the end of the first block, of 20 samples, and after a decision.
     assert_eq!(highest(19), (None, 0.5));

@@ -12,7 +12,7 @@ use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured, TexturedS
 use host_sim::recording::{GATE, Recorder, Stream};
 use host_sim::run::Run;
 use physics::{Biotact, Shaft};
-use scene::{ClassifierSection, PlantKind, Rule, Scene, Texture};
+use scene::{ClassifierSection, Deciding, PlantKind, Rule, Scene, Texture};
 use tactile::train::joint::{Options, Trial, train};
 
 const TEXTURES: &str = include_str!("../../../scenes/textures.toml");
@@ -109,13 +109,13 @@ impl Found {
             for plant in [&mut whisker, &mut free] {
                 plant.advance(&[row.angle_deg[0]], 1.0 / TICK_HZ);
             }
-            let is_onset = row.touch != 0 && row.touch != last;
+            let is_onset = row.touch[0] != 0 && row.touch[0] != last;
             if n >= LEARNT {
                 self.ticks += 1;
                 let begins = touches && still >= PARTED;
                 if begins {
-                    self.missed += u64::from(contact || (row.touch != 0 && !is_onset));
-                    contact = row.touch == 0 || is_onset;
+                    self.missed += u64::from(contact || (row.touch[0] != 0 && !is_onset));
+                    contact = row.touch[0] == 0 || is_onset;
                     noticeable = None;
                 }
                 if contact && added.fold(0.0, f64::max) >= NOTICEABLE {
@@ -130,7 +130,7 @@ impl Found {
                     self.more += 1;
                 }
             }
-            last = row.touch;
+            last = row.touch[0];
             still = if touches { 0 } else { still.saturating_add(1) };
         }
     }
@@ -175,10 +175,10 @@ fn in_air(scene: &Scene) -> Vec<f64> {
     let (mut last, mut told) = (0, Vec::new());
     for _ in 0..run.ticks() {
         let row = run.tick();
-        if row.touch != 0 && row.touch != last {
+        if row.touch[0] != 0 && row.touch[0] != last {
             told.push(row.t_s);
         }
-        last = row.touch;
+        last = row.touch[0];
     }
     told
 }
@@ -227,12 +227,13 @@ fn nothing_is_decided_in_the_air() {
             rule,
             model: String::new(),
             contact_min: None,
+            whiskers: Deciding::First,
         });
         let classifier = Classifier::new(model.clone(), rule).unwrap();
         let mut run = Run::new(&scene, Some(classifier)).unwrap();
         let decisions = (0..run.ticks()).filter(|_| {
             run.tick();
-            run.decision().is_some()
+            run.decisions().next().is_some()
         });
         assert_eq!(decisions.count() > 0, limit_deg < 200.0, "{limit_deg} {hz}");
     }

@@ -53,7 +53,7 @@ pub(super) fn section(
         let (mut decisions, mut touches) = (0_u32, 0_u32);
         for _ in 0..run.ticks() {
             run.tick();
-            decisions += u32::from(run.decision().is_some());
+            decisions += u32::from(run.decisions().next().is_some());
             let is_onset = |event: &&Event| matches!(event, Event::Touch { .. });
             touches += run.events().iter().filter(is_onset).count() as u32;
         }

@@ -11,7 +11,7 @@ use firmware::{
     CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FRAME_LEN};
-use tactile::{Model, Sequential, SequentialRule};
+use tactile::{Model, Sequential};
 use whisking::motor::{HBridge, StallConfig};
 use whisking::{Absent, Present, Start, State, filter, muscle, oscillator};
 
@@ -109,7 +109,7 @@ impl Clock for Counter {
 
 type Motor = HBridge<Compare, Pin>;
 type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
-type Perception = Classifying<CodeClassifier<SequentialRule>>;
+type Perception = Classifying<CodeClassifier<Sequential>>;
 
 type Whisking<R> = Generator<R, oscillator::Exact<R>, muscle::Exact<R>>;
 type Settings<R> =

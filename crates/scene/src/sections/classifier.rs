@@ -8,7 +8,7 @@ use crate::values::{Part, Read};
 
 choice! {
     /// The rules' words.
-    enum RuleName {
+    pub(crate) enum RuleName {
         /// [`Rule::Sequential`].
         Sequential = "sequential",
         /// [`Rule::Window`].
@@ -44,6 +44,18 @@ impl Read for Rule {
     }
 }
 
+choice! {
+    /// Which whiskers decide, and by what.
+    pub enum Deciding {
+        /// The first of the array, left side first, by its own evidence.
+        First = "first",
+        /// Every one by itself.
+        Each = "each",
+        /// All, by the sum of their evidence.
+        Together = "together",
+    }
+}
+
 const SEQUENTIAL: &[Condition] = &[Is("rule", RuleName::Sequential.name())];
 const WINDOW: &[Condition] = &[Is("rule", RuleName::Window.name())];
 
@@ -72,5 +84,9 @@ keys! {
         /// was trained from one on, its gate: no other is allowed.
         contact_min: Option<f64> = number(0.0..=1.0)
             .optional("the gate of the model; without one every sample is classified"),
+
+        /// Which whiskers decide: the first of the left side; each by its own evidence; or
+        /// all together, their evidence added, with rule `sequential`.
+        whiskers: Deciding = word().default("\"first\""),
     }
 }

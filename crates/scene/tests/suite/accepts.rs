@@ -2,9 +2,9 @@
 
 use crate::common::{FULL, with};
 use scene::{
-    ClassifierSection, Driver, Exchanged, GateSettings, HeadSection, Integrator, MotorSection,
-    Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice,
-    ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
+    ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
+    MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene,
+    ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -74,6 +74,7 @@ fn every_key_reaches_its_field() {
             rule: Rule::Sequential { threshold: 0.99 },
             model: "models/example.model".to_owned(),
             contact_min: None,
+            whiskers: Deciding::First,
         }),
     };
     assert_eq!(read(&text), expected);

@@ -86,3 +86,50 @@ fn all_problems_are_listed_in_file_order() {
     assert_eq!(seen, expected.map(|(line, key)| (Some(line), key)));
     assert_eq!(problems.to_string().lines().count(), expected.len());
 }
+
+#[test]
+fn several_decide_only_where_they_can() {
+    let classifier = |whiskers: &str| {
+        let keys = format!("whiskers = \"{whiskers}\"\n");
+        with(
+            FULL,
+            "window    = 400\n",
+            &format!("window    = 400\n{keys}"),
+        )
+    };
+    for whiskers in ["first", "each", "together"] {
+        assert_eq!(complaint(&classifier(whiskers)), "");
+    }
+    let window = |whiskers| {
+        let text = classifier(whiskers);
+        with(&text, "= \"sequential\"    #", "= \"window\"    #")
+    };
+    assert_eq!(complaint(&window("each")), "");
+    assert_eq!(
+        complaint(&window("together")),
+        "s.toml:35: classifier.whiskers: found \"together\"; allowed: \"first\" or \"each\", as a \
+         window counts the samples of one whisker"
+    );
+    let alone = |whiskers| {
+        let text = classifier(whiskers);
+        let text = with(&text, "[whisking]", "sides = 'left'\n[whisking]");
+        let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", "[[1.0, 0.0]]");
+        with(&text, "[100.0, 125.0]", "[100.0]")
+    };
+    assert_eq!(complaint(&alone("first")), "");
+    let two = with(
+        &alone("each"),
+        "whiskers_per_side = 1 ",
+        "whiskers_per_side = 2 ",
+    );
+    assert_eq!(complaint(&two), "");
+    for whiskers in ["each", "together"] {
+        assert_eq!(
+            complaint(&alone(whiskers)),
+            format!(
+                "s.toml:36: classifier.whiskers: found \"{whiskers}\"; allowed: \"first\", as \
+                 there is one whisker"
+            )
+        );
+    }
+}

@@ -6,6 +6,7 @@ mod joint;
 mod model_file;
 mod rules;
 mod score;
+mod several;
 mod touch_detector;
 mod touches;
 mod training;
