@@ -50,10 +50,15 @@ struct Trained {
 }
 
 /// Those but the main job.
-const TRAINED: [Trained; 3] = [
+const TRAINED: [Trained; 4] = [
     Trained {
         scene: "scenes/whisker.toml",
         model: "scenes/models/whisker.model",
+        options: &[],
+    },
+    Trained {
+        scene: "scenes/both.toml",
+        model: "scenes/models/both.model",
         options: &[],
     },
     Trained {

@@ -212,7 +212,7 @@ fn a_touch_is_over_when_its_sensor_is_lost() {
     }
     for _ in 0..500 {
         run.tick();
-        assert_eq!((run.row().touch, told(&run).len()), (0, 0));
+        assert_eq!((run.row().touch[0], told(&run).len()), (0, 0));
     }
     run.slave_mut(0).unwrap().set_fault(None);
     let next = loop {

@@ -11,6 +11,7 @@ mod formats;
 mod played;
 mod precision;
 mod reference_claims;
+mod several;
 mod stability;
 mod terrain;
 mod unstable_scenes;
