@@ -26,7 +26,7 @@ mod board {
 use board::timing::{Clocks, TICK_MIN_HZ};
 use databake::quote;
 use plan::NumberFormat;
-use scene::Scene;
+use scene::{Driver, MotorSection, Scene};
 use whisking::Fix;
 
 /// What the build must know of a board.
@@ -39,6 +39,7 @@ struct Board {
     clocks: Clocks,
     has_fpu: bool,
     max_classes: usize,
+    max_sides: usize,
 }
 
 macro_rules! boards {
@@ -50,6 +51,7 @@ macro_rules! boards {
             clocks: board::$module::CLOCKS,
             has_fpu: board::$module::HAS_FPU,
             max_classes: board::$module::MAX_CLASSES,
+            max_sides: board::$module::MAX_SIDES,
         }),*]
     };
 }
@@ -67,6 +69,7 @@ fn main() {
     println!("cargo::rerun-if-changed=build");
     println!("cargo::rerun-if-changed=src/board");
     println!("cargo::rerun-if-env-changed=WHISKER_SCENE");
+    println!("cargo::rustc-check-cfg=cfg(right_side)");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
@@ -144,21 +147,37 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     };
     let source = source.map_err(|error| wrong(error.to_string()))?;
     fs::write(output("scene.rs")?, source)?;
+    if scene.head.sides.count() > 1 {
+        println!("cargo::rustc-cfg=right_side");
+    }
     Ok(())
 }
 
 /// What this board cannot do.
 fn fits(scene: &Scene, board: &Board) -> Result<(), String> {
-    if scene.whiskers() != 1 {
+    let sides = scene.head.sides.count();
+    if sides > board.max_sides || scene.head.whiskers_per_side != 1 {
+        let (most, allowed) = match board.max_sides {
+            1 => ("one whisker, the left", "\"left\""),
+            _ => ("one whisker a side", "\"left\" or \"both\""),
+        };
         return Err(format!(
-            "the {} carries one whisker, the left: found {} with {} a side; \
-             allowed: head.sides = \"left\", head.whiskers_per_side = 1",
+            "the {} carries {most}: found {} with {} a side; \
+             allowed: head.sides = {allowed}, head.whiskers_per_side = 1",
             board.name,
-            match scene.head.sides.count() {
+            match sides {
                 1 => "one side",
                 _ => "two sides",
             },
             scene.head.whiskers_per_side
+        ));
+    }
+    let is_brushless = |motor: &MotorSection| motor.driver == Driver::SixStep;
+    if sides > 1 && scene.motor.as_ref().is_some_and(is_brushless) {
+        return Err(format!(
+            "motor.driver: found \"six-step\" on two sides; allowed on the {}: \"h-bridge\", \
+             because one brushless motor takes every output of the PWM's timer",
+            board.name
         ));
     }
     let clocks = &board.clocks;

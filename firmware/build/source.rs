@@ -3,9 +3,9 @@
 use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use scene::{Deciding, Driver, Rule, Scene};
+use scene::{Deciding, Driver, Rule, Scene, Sides};
 use tactile::{Model, ModelBuf};
-use whisking::{Real, Source};
+use whisking::{Real, Source, Start};
 
 /// Writes the source in number format `R`, which the firmware calls `number`.
 /// `model` is the classifier's.
@@ -25,7 +25,11 @@ pub(crate) fn source<R: Real>(
         &quote! { whisking::filter::Config<Number> },
         &CrateEnv::default(),
     );
-    let motion = motion::<R>(scene)?;
+    let (sides, motion) = match scene.head.sides {
+        Sides::Left => (quote! { LEFT }, motion::<R, 1>(scene)?),
+        Sides::Both => (quote! { LEFT, &crate::here::RIGHT }, motion::<R, 2>(scene)?),
+    };
+    let count = scene.head.sides.count();
     let perception = perception::<R>(scene, model, contact_min);
 
     let (contact_type, contact_value) = (contact.of_type, contact.value);
@@ -34,6 +38,9 @@ pub(crate) fn source<R: Real>(
     let items = [
         quote! { pub(crate) const NAME: &str = #name; },
         quote! { pub(crate) const TICK_HZ: u32 = #tick_hz; },
+        quote! {
+            pub(crate) const SIDES: [&super::wiring::Side; #count] = [&crate::here::#sides];
+        },
         quote! { pub(crate) type Number = #number; },
         quote! {
             pub(crate) type Settings =
@@ -72,8 +79,11 @@ fn nothing() -> Source {
 }
 
 /// The pattern generator and the position control.
-fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
-    let (Some(motor), Some(plan)) = (&scene.motor, plan::motion::<R, 1, 1>(scene)?) else {
+fn motion<R: Real, const S: usize>(scene: &Scene) -> Result<Part, Box<dyn Error>>
+where
+    Start<R, S, 1>: Bake,
+{
+    let (Some(motor), Some(plan)) = (&scene.motor, plan::motion::<R, S, 1>(scene)?) else {
         let items = vec![
             quote! { pub(crate) const HAS_MOTOR: bool = false; },
             quote! { pub(crate) type Motion = firmware::Passive; },
@@ -87,10 +97,10 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
         return Ok(Part { items, config });
     };
     let (motor, start_motor) = match motor.driver {
-        Driver::HBridge => (quote! { Brushed }, quote! { start_brushed() }),
+        Driver::HBridge => (quote! { Brushed }, quote! { super::motors::start_brushed }),
         Driver::SixStep => (
             quote! { Brushless },
-            quote! { start_brushless(SETTINGS.motion.servo.stall) },
+            quote! { |_| super::motors::start_brushless(SETTINGS.motion.servo.stall) },
         ),
     };
     let env = CrateEnv::default();
@@ -111,14 +121,13 @@ fn motion<R: Real>(scene: &Scene) -> Result<Part, Box<dyn Error>> {
         quote! { pub(crate) const HAS_MOTOR: bool = true; },
         quote! {
             pub(crate) type Motion = firmware::Active<
-                Number, super::motors::#motor, super::encoder::Encoder, 1, 1
+                Number, super::motors::#motor, super::encoder::Encoder, #S, 1
             >;
         },
-        quote! { const START: whisking::Start<Number, 1, 1> = #start; },
+        quote! { const START: whisking::Start<Number, #S, 1> = #start; },
         quote! {
             pub(crate) fn start_motion() -> Motion {
-                let motor = || super::motors::#start_motor;
-                super::motion::start(motor, &START, #seed)
+                super::motion::start(SIDES, #start_motor, &START, #seed)
             }
         },
     ];

@@ -1,4 +1,4 @@
-//! The whisker module on a NUCLEO-F446RE: one whisker, the left. The board is
+//! The whisker module on a NUCLEO-F446RE: one whisker a side. The board is
 //! `board/nucleo_f446re.rs`, the program `board/program.rs`.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -10,8 +10,10 @@ pub mod board;
 #[path = "../board/nucleo_f446re.rs"]
 mod here;
 
-#[cfg(target_os = "none")]
-program!(tick: TIM3, end_of_frame: DMA2_STREAM0);
+#[cfg(all(target_os = "none", not(right_side)))]
+program!(tick: TIM7, end_of_frame: DMA2_STREAM0);
+#[cfg(all(target_os = "none", right_side))]
+program!(tick: TIM7, end_of_frame: DMA2_STREAM0, end_of_right_frame: DMA1_STREAM3);
 
 /// On a PC there is nothing to do: this program is for the board.
 #[cfg(not(target_os = "none"))]

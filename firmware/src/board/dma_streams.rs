@@ -1,90 +1,143 @@
-//! DMA with streams, which end by themselves (STM32F4): DMA2 stream 0 moves
-//! the bytes that the SPI received (rx), stream 1 sends it one a request (tx).
-//!
-//! Requests (RM0390, DMA2 request mapping): stream 0 channel 3 is SPI1_RX,
-//! stream 1 channel 7 is TIM8_UP.
+//! DMA with streams, which end by themselves (STM32F4): one moves the bytes that the SPI
+//! received (rx), one sends it a byte a request (tx). The board's file names them.
 
-use stm32_metapac::DMA2;
+use stm32_metapac::dma::regs::Ixr;
 use stm32_metapac::dma::vals::{Dir, Pl};
+use stm32_metapac::dma::{Dma, St};
 
-const RX_DMA: usize = 0;
-const SPI1_RX: u8 = 3;
-const TX_DMA: usize = 1;
-const TIM8_UP: u8 = 7;
+/// Two streams of one controller, of its first four, each with the channel of its request
+/// (RM0390, DMA request mapping).
+pub(crate) struct Route {
+    pub(crate) dma: Dma,
+    /// By the SPI's reception.
+    pub(crate) rx: (u8, u8),
+    /// By the byte timer's update.
+    pub(crate) tx: (u8, u8),
+}
 
-/// Sets the addresses of both.
-///
-/// `received` must have room for as many bytes as each [`start`] moves, and
-/// both must be static.
-pub(crate) fn set_up(data_register: u32, received: u32, sent: u32) {
-    for (stream, memory) in [(RX_DMA, received), (TX_DMA, sent)] {
-        DMA2.st(stream).par().write_value(data_register);
-        DMA2.st(stream).m0ar().write_value(memory);
+/// The transfers on a route.
+pub(crate) struct Transfers {
+    dma: Dma,
+    rx: Stream,
+    tx: Stream,
+}
+
+/// A stream and the channel of its request.
+#[derive(Clone, Copy)]
+struct Stream {
+    registers: St,
+    channel: u8,
+    /// Where its flags begin in LISR and LIFCR.
+    flags: u32,
+}
+
+/// Flags of a stream, from where they begin (RM0390, DMA low interrupt status register).
+mod flag {
+    pub(super) const FIFO_ERROR: u32 = 1;
+    pub(super) const MODE_ERROR: u32 = 1 << 2;
+    pub(super) const ERROR: u32 = 1 << 3;
+    pub(super) const HALF: u32 = 1 << 4;
+    pub(super) const COMPLETE: u32 = 1 << 5;
+    pub(super) const ALL: u32 = FIFO_ERROR | MODE_ERROR | ERROR | HALF | COMPLETE;
+}
+
+impl Stream {
+    /// Stream and channel of a controller.
+    fn new(dma: Dma, (number, channel): (u8, u8)) -> Self {
+        let number = usize::from(number % 4);
+        Self {
+            registers: dma.st(number),
+            channel,
+            flags: [0, 6, 16, 22][number],
+        }
+    }
+
+    /// Whether one of these flags is among `found`.
+    #[inline]
+    const fn has(self, found: Ixr, flags: u32) -> bool {
+        found.0 & flags << self.flags != 0
     }
 }
 
-/// Starts a transfer of `bytes` on both: the rx DMA to successive addresses, the
-/// tx DMA always from the same one.
-#[inline]
-pub(crate) fn start(bytes: u16) {
-    DMA2.ifcr(0).write(|w| {
-        for stream in [RX_DMA, TX_DMA] {
-            w.set_tcif(stream, true);
-            w.set_htif(stream, true);
-            w.set_teif(stream, true);
-            w.set_dmeif(stream, true);
-            w.set_feif(stream, true);
+impl Transfers {
+    /// On a route that has its clock.
+    pub(crate) fn new(&Route { dma, rx, tx }: &Route) -> Self {
+        let (rx, tx) = (Stream::new(dma, rx), Stream::new(dma, tx));
+        Self { dma, rx, tx }
+    }
+
+    /// Sets the addresses of both.
+    ///
+    /// `received` must have room for as many bytes as each [`start`](Self::start) moves, and
+    /// both must be static.
+    pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {
+        for (stream, memory) in [(&self.rx, received), (&self.tx, sent)] {
+            stream.registers.par().write_value(data_register);
+            stream.registers.m0ar().write_value(memory);
         }
-    });
-    DMA2.st(RX_DMA).ndtr().write(|w| w.set_ndt(bytes));
-    DMA2.st(RX_DMA).cr().write(|w| {
-        w.set_chsel(SPI1_RX);
-        w.set_dir(Dir::PERIPHERAL_TO_MEMORY);
-        w.set_minc(true);
-        w.set_pl(Pl::VERY_HIGH);
-        w.set_tcie(true);
-        w.set_teie(true);
-        w.set_en(true);
-    });
-    DMA2.st(TX_DMA).ndtr().write(|w| w.set_ndt(bytes));
-    DMA2.st(TX_DMA).cr().write(|w| {
-        w.set_chsel(TIM8_UP);
-        w.set_dir(Dir::MEMORY_TO_PERIPHERAL);
-        w.set_en(true);
-    });
-}
+    }
 
-/// Whether the rx DMA has ended, with or without an error.
-#[inline]
-pub(crate) fn has_ended() -> bool {
-    let flags = DMA2.isr(0).read();
-    flags.tcif(RX_DMA) || flags.teif(RX_DMA)
-}
+    /// Starts a transfer of `bytes` on both: the rx DMA to successive addresses, the
+    /// tx DMA always from the same one.
+    #[inline]
+    pub(crate) fn start(&self, bytes: u16) {
+        let flags = flag::ALL << self.rx.flags | flag::ALL << self.tx.flags;
+        self.dma.ifcr(0).write_value(Ixr(flags));
+        let Self { rx, tx, .. } = self;
+        rx.registers.ndtr().write(|w| w.set_ndt(bytes));
+        rx.registers.cr().write(|w| {
+            w.set_chsel(rx.channel);
+            w.set_dir(Dir::PERIPHERAL_TO_MEMORY);
+            w.set_minc(true);
+            w.set_pl(Pl::VERY_HIGH);
+            w.set_tcie(true);
+            w.set_teie(true);
+            w.set_en(true);
+        });
+        tx.registers.ndtr().write(|w| w.set_ndt(bytes));
+        tx.registers.cr().write(|w| {
+            w.set_chsel(tx.channel);
+            w.set_dir(Dir::MEMORY_TO_PERIPHERAL);
+            w.set_en(true);
+        });
+    }
 
-/// Whether the rx DMA has moved all bytes, and neither met an error.
-#[inline]
-pub(crate) fn is_complete() -> bool {
-    let flags = DMA2.isr(0).read();
-    let error = |stream| flags.teif(stream) || flags.dmeif(stream);
-    flags.tcif(RX_DMA) && !error(RX_DMA) && !error(TX_DMA)
-}
+    #[inline]
+    fn flags(&self) -> Ixr {
+        self.dma.isr(0).read()
+    }
 
-/// Acknowledges the interrupt. The flags stay.
-#[inline]
-pub(crate) fn acknowledge() {
-    DMA2.st(RX_DMA).cr().modify(|w| {
-        w.set_tcie(false);
-        w.set_teie(false);
-    });
-}
+    /// Whether the rx DMA has ended, with or without an error.
+    #[inline]
+    pub(crate) fn has_ended(&self) -> bool {
+        self.rx.has(self.flags(), flag::COMPLETE | flag::ERROR)
+    }
 
-/// Stops both at once, in the middle of a transfer too.
-pub(crate) fn stop() {
-    for stream in [RX_DMA, TX_DMA] {
-        let stream = DMA2.st(stream);
-        stream.cr().write(|_| {});
-        // A stream stops after the current byte, some bus cycles. If it does
-        // not, the next frame fails.
-        let _ = (0..1_000).any(|_| !stream.cr().read().en());
+    /// Whether the rx DMA has moved all bytes, and neither met an error.
+    #[inline]
+    pub(crate) fn is_complete(&self) -> bool {
+        let flags = self.flags();
+        let error = |stream: Stream| stream.has(flags, flag::ERROR | flag::MODE_ERROR);
+        self.rx.has(flags, flag::COMPLETE) && !error(self.rx) && !error(self.tx)
+    }
+
+    /// Acknowledges the interrupt. The flags stay.
+    #[inline]
+    pub(crate) fn acknowledge(&self) {
+        self.rx.registers.cr().modify(|w| {
+            w.set_tcie(false);
+            w.set_teie(false);
+        });
+    }
+
+    /// Stops both at once, in the middle of a transfer too.
+    pub(crate) fn stop(&self) {
+        for stream in [&self.rx, &self.tx] {
+            let cr = stream.registers.cr();
+            cr.write(|_| {});
+            // A stream stops after the current byte, some bus cycles. If it does
+            // not, the next frame fails.
+            let _ = (0..1_000).any(|_| !cr.read().en());
+        }
     }
 }

@@ -1,82 +1,97 @@
-//! Pins as types without size, behind the traits of embedded-hal. How a pin is
-//! configured differs between chip families (`gpio_v1.rs`, `gpio_v2.rs`, by the
-//! version of their registers).
+//! Pins behind the traits of embedded-hal. How a pin is configured differs between
+//! chip families (`gpio_v1.rs`, `gpio_v2.rs`, by the version of their registers).
 
 use core::convert::Infallible;
 
 use embedded_hal::digital::{ErrorType, InputPin, OutputPin};
-use stm32_metapac::gpio::{Gpio, vals::Idr};
+use stm32_metapac::gpio::Gpio;
+use stm32_metapac::gpio::regs::Bsrr;
 use stm32_metapac::{GPIOA, GPIOB, GPIOC};
 
 use super::pin_config::PinConfig;
 use crate::here::gpio::configure;
 
-/// Pin `N` of the port with the letter `PORT`.
-pub(crate) struct Pin<const PORT: char, const N: usize>(());
+/// A pin of the chip: what a wiring table names.
+#[derive(Clone, Copy)]
+pub(crate) struct PinName {
+    port: Gpio,
+    /// 0 to 15.
+    number: u8,
+}
 
-impl<const PORT: char, const N: usize> Pin<PORT, N> {
-    const REGISTERS: Gpio = match PORT {
-        'A' => GPIOA,
-        'B' => GPIOB,
-        'C' => GPIOC,
-        _ => panic!("no such port"),
-    };
-    /// The registers of its port and its number there.
-    pub(crate) const PORT_AND_NUMBER: (Gpio, usize) = (Self::REGISTERS, N);
+impl PinName {
+    /// Pin `number` of the port with this letter. For constants: does not compile for a
+    /// pin that no board brings out.
+    pub(crate) const fn new(port: char, number: u8) -> Self {
+        assert!(number < 16);
+        let port = match port {
+            'A' => GPIOA,
+            'B' => GPIOB,
+            'C' => GPIOC,
+            _ => panic!("no such port"),
+        };
+        Self { port, number }
+    }
 
+    /// Configures it.
+    pub(crate) fn configure(self, config: PinConfig) {
+        configure(self.port, usize::from(self.number % 16), config);
+    }
+
+    /// Its output low.
+    #[inline]
+    pub(crate) fn low(self) {
+        self.port.bsrr().write_value(Bsrr(1 << (16 + self.number)));
+    }
+
+    /// Its output high.
+    #[inline]
+    pub(crate) fn high(self) {
+        self.port.bsrr().write_value(Bsrr(1 << self.number));
+    }
+}
+
+/// A pin that was configured.
+pub(crate) struct Pin(PinName);
+
+impl Pin {
     /// Configured from now on; an output starts low.
-    pub(crate) fn new(config: PinConfig) -> Self {
-        let mut pin = Self(());
-        pin.low();
-        configure(Self::REGISTERS, N, config);
-        pin
+    pub(crate) fn new(name: PinName, config: PinConfig) -> Self {
+        name.low();
+        name.configure(config);
+        Self(name)
     }
 
     /// An output that starts high.
-    pub(crate) fn new_high() -> Self {
-        let mut pin = Self(());
-        pin.high();
-        configure(Self::REGISTERS, N, PinConfig::OUTPUT);
-        pin
-    }
-
-    /// Output low.
-    #[inline]
-    pub(crate) fn low(&mut self) {
-        const { assert!(N < 16) };
-        Self::REGISTERS.bsrr().write(|w| w.set_br(N, true));
-    }
-
-    /// Output high.
-    #[inline]
-    pub(crate) fn high(&mut self) {
-        const { assert!(N < 16) };
-        Self::REGISTERS.bsrr().write(|w| w.set_bs(N, true));
+    pub(crate) fn new_high(name: PinName) -> Self {
+        name.high();
+        name.configure(PinConfig::OUTPUT);
+        Self(name)
     }
 }
 
-impl<const PORT: char, const N: usize> ErrorType for Pin<PORT, N> {
+impl ErrorType for Pin {
     type Error = Infallible;
 }
 
-impl<const PORT: char, const N: usize> OutputPin for Pin<PORT, N> {
+impl OutputPin for Pin {
     #[inline]
     fn set_low(&mut self) -> Result<(), Infallible> {
-        self.low();
+        self.0.low();
         Ok(())
     }
 
     #[inline]
     fn set_high(&mut self) -> Result<(), Infallible> {
-        self.high();
+        self.0.high();
         Ok(())
     }
 }
 
-impl<const PORT: char, const N: usize> InputPin for Pin<PORT, N> {
+impl InputPin for Pin {
     #[inline]
     fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(Self::REGISTERS.idr().read().idr(N) == Idr::HIGH)
+        Ok(self.0.port.idr().read().0 & 1 << self.0.number != 0)
     }
 
     #[inline]

@@ -2,12 +2,12 @@
 //! families share, and the program.
 //!
 //! A board has a file of its own beside this one, which is `crate::here`. It
-//! names three things: its clocks; its peripherals as constants; and which of
-//! the drivers that exist in several versions (`gpio_*`, `spi_*`, `dma_*`) fit
-//! its chip. The pins are the same on every board: [`wiring`]. The scene's types
+//! names three things: its clocks; the peripherals and pins of each side, a
+//! table by the types of [`wiring`]; and which of the drivers that exist in
+//! several versions (`gpio_*`, `spi_*`, `dma_*`) fit its chip. The scene's types
 //! and settings come from the build script into [`scene`]; nothing else depends
-//! on the scene, no feature and no `cfg`. See docs/boards.md for how to add a
-//! board.
+//! on the scene but the `cfg` by which a program binds the interrupt of the right
+//! side. See docs/boards.md for how to add a board.
 //!
 //! Register-level throughout: for time, safety and size, and because that is
 //! what the families share. All `unsafe` of the firmware is in here.

@@ -1,19 +1,24 @@
-//! Starts the motion of an active scene: motor, encoder and pattern generator.
+//! Starts the motion of an active scene: motors, encoders and pattern generator.
 
 use firmware::{Active, Servo};
 use whisking::motor::MotorDriver;
 use whisking::{Real, Start, State};
 
 use super::encoder::Encoder;
-use crate::here::clock_motor;
+use super::pwm;
+use super::wiring::Side;
+use crate::here::clock_motors;
 
-/// Motion at its start, the whisker being at rest now; `seed` is that of the noise.
-pub(crate) fn start<R: Real, M: MotorDriver>(
-    motor: impl FnOnce() -> M,
-    start: &Start<R, 1, 1>,
+/// Motion at its start, every whisker being at rest now; `motor` starts that of a side, and
+/// `seed` is that of the noise.
+pub(crate) fn start<R: Real, M: MotorDriver, const S: usize>(
+    sides: [&Side; S],
+    motor: impl Fn(&Side) -> M,
+    start: &Start<R, S, 1>,
     seed: u64,
-) -> Active<R, M, Encoder, 1, 1> {
-    clock_motor();
-    let encoder = Encoder::start();
-    Active::new(State::new(start, seed), [[Servo::new(motor(), encoder)]])
+) -> Active<R, M, Encoder, S, 1> {
+    clock_motors();
+    pwm::start();
+    let servos = sides.map(|side| [Servo::new(motor(side), Encoder::start(&side.encoder))]);
+    Active::new(State::new(start, seed), servos)
 }

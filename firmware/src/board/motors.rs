@@ -2,43 +2,45 @@
 
 use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 
-use super::gpio::Pin;
+use super::gpio::{Pin, PinName};
 use super::pin_config::{Mode, PinConfig};
-use super::pwm::{self, Channel};
-use super::wiring::{Direction, Enables, Halls, Pwm1, Pwm2, Pwm3};
+use super::pwm::{Channel, Output};
+use super::wiring::{ENABLES, HALLS, PWMS, Side};
 use crate::here::{PWM_FUNCTION, free_hall_pins};
 
 /// A pin as output of the PWM timer.
 const PWM_PIN: PinConfig = PinConfig::new(Mode::AlternateOutput(PWM_FUNCTION));
 
 /// A brushed motor on an H-bridge.
-pub(crate) type Brushed = HBridge<Channel<0>, Direction>;
+pub(crate) type Brushed = HBridge<Channel, Pin>;
 
 /// A brushless motor with Hall sensors on three half-bridges (L6230).
-pub(crate) type Brushless = SixStep<(Channel<0>, Channel<1>, Channel<2>), Enables, Halls>;
+pub(crate) type Brushless = SixStep<(Channel, Channel, Channel), (Pin, Pin, Pin), (Pin, Pin, Pin)>;
 
 /// A brushed motor that is off.
-pub(crate) fn start_brushed() -> Brushed {
-    let (pwm, _, _) = pwm::start();
-    let motor = HBridge::new(pwm, Direction::new(PinConfig::OUTPUT)).with_buffered_pwm();
-    Pwm1::new(PWM_PIN);
+pub(crate) fn start_brushed(side: &Side) -> Brushed {
+    let bridge = &side.bridge;
+    let direction = Pin::new(bridge.direction, PinConfig::OUTPUT);
+    let motor = HBridge::new(Channel::of(bridge.output), direction).with_buffered_pwm();
+    Pin::new(bridge.pwm, PWM_PIN);
     motor
 }
 
-/// A brushless motor that is off.
+/// A brushless motor that is off. It takes every output of the timer, so there is one.
 pub(crate) fn start_brushless(stall: StallConfig) -> Brushless {
     let config = SixStepConfig {
         stall,
         ..SixStepConfig::DEFAULT
     };
+    let pins = |names: [PinName; 3], config| {
+        let [a, b, c] = names.map(|name| Pin::new(name, config));
+        (a, b, c)
+    };
     free_hall_pins();
-    let output = PinConfig::OUTPUT;
-    let enables = (Pin::new(output), Pin::new(output), Pin::new(output));
-    let input = PinConfig::INPUT.pulled_up();
-    let halls = (Pin::new(input), Pin::new(input), Pin::new(input));
-    let motor = SixStep::new(pwm::start(), enables, halls, config).with_buffered_pwm();
-    Pwm1::new(PWM_PIN);
-    Pwm2::new(PWM_PIN);
-    Pwm3::new(PWM_PIN);
+    let enables = pins(ENABLES, PinConfig::OUTPUT);
+    let halls = pins(HALLS, PinConfig::INPUT.pulled_up());
+    let [a, b, c] = [Output::One, Output::Two, Output::Three].map(Channel::of);
+    let motor = SixStep::new((a, b, c), enables, halls, config).with_buffered_pwm();
+    pins(PWMS, PWM_PIN);
     motor
 }

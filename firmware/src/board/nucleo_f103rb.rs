@@ -1,12 +1,8 @@
 //! The NUCLEO-F103RB: STM32F103RB, Cortex-M3 at 72 MHz, no FPU.
 //!
-//! | for | peripheral | pins |
-//! |---|---|---|
-//! | sensor | SPI1, bytes spaced by TIM4, moved by DMA1 channels 2 and 7 | PA5 PA6 PA7, /SS PB6 |
-//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
-//! | angle | TIM2, 16 bits | PA0 PA1 |
-//! | tick | TIM3 | |
-//! | time | SysTick | |
+//! One whisker: [`LEFT`] says what it hangs on. A brushless motor has TIM1's outputs PA8 to
+//! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
+//! measures them.
 
 use crate::board::timing::Clocks;
 
@@ -17,6 +13,8 @@ pub(crate) const HAS_FPU: bool = false;
 /// Most classes of a model: its two tables of 32 by 32 bins then take 24 KiB of the
 /// 128 KiB of flash.
 pub(crate) const MAX_CLASSES: usize = 6;
+/// Most sides, of one whisker each.
+pub(crate) const MAX_SIDES: usize = 1;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
@@ -35,7 +33,7 @@ const _: () = assert!(CORE_HZ == 72_000_000 && APB1_HZ <= 36_000_000);
 /// bus clock itself, which is not divided.
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
-    spi_bus_hz: CORE_HZ,
+    spi_hz: CORE_HZ / 256,
     byte_timer_hz: 2 * APB1_HZ,
     tick_timer_hz: 2 * APB1_HZ,
     counter_hz: CORE_HZ,
@@ -66,37 +64,65 @@ mod chip {
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
-    use stm32_metapac::timer::TimGp16;
-    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, TIM2, TIM3, TIM4};
+    use stm32_metapac::spi::vals::Br;
+    use stm32_metapac::timer::{TimBasic, TimGp16};
+    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4};
 
+    use super::dma::Route;
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
+    use crate::board::sensor::Received;
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
+    use crate::board::wiring::{
+        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, SensorPort, Side,
+    };
 
-    /// Requests each byte of a frame.
-    pub(crate) const BYTE_TIMER: TimGp16 = TIM4;
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    /// Counts the encoder's edges.
-    pub(crate) const ENCODER: TimGp16 = TIM2;
-    /// Bits of its count.
-    pub(crate) const ENCODER_BITS: u32 = 16;
-    /// DMA1 channel 2, counted from 0: requested by SPI1_RX (RM0008, table 78).
-    pub(crate) const RX_DMA: usize = 1;
-    /// DMA1 channel 7: requested by TIM4_UP.
-    pub(crate) const TX_DMA: usize = 6;
-    /// Each pin has one alternate function without remapping: SPI1, TIM2, TIM1.
-    pub(crate) const SPI_FUNCTION: AlternateFunction = 0;
-    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 0;
-    pub(crate) const PWM_FUNCTION: AlternateFunction = 0;
 
-    /// The encoder's count.
-    #[inline]
-    pub(crate) fn encoder_count() -> u32 {
-        ENCODER.cnt().read().cnt().into()
-    }
+    /// Each pin has one alternate function without remapping.
+    const ONLY: AlternateFunction = 0;
+    /// Alternate function of the PWM's pins, TIM1.
+    pub(crate) const PWM_FUNCTION: AlternateFunction = ONLY;
+
+    /// The whisker: SPI1 by TIM4 and DMA1, PWM 1, TIM2.
+    pub(crate) static LEFT: Side = Side {
+        sensor: SensorPort {
+            spi: SPI1,
+            divider: Br::DIV256,
+            #[allow(unsafe_code, reason = "a general timer begins with a basic one's registers")]
+            // SAFETY: the registers of both have the same offsets and bits (RM0008,
+            // chapters 15 and 17).
+            byte_timer: unsafe { TimBasic::from_ptr(TIM4.as_ptr()) },
+            byte_timer_divider: 1,
+            // Channels 2 and 7: SPI1_RX, TIM4_UP (RM0008, table 78).
+            dma: Route { rx: 1, tx: 6 },
+            received: {
+                static RECEIVED: Received = Received::new();
+                &RECEIVED
+            },
+            pins: LEFT_SENSOR,
+            function: ONLY,
+            start_clocks: || {
+                RCC.ahbenr().modify(|w| w.set_dma1en(true));
+                RCC.apb1enr().modify(|w| w.set_tim4en(true));
+                RCC.apb2enr().modify(|w| w.set_spi1en(true));
+            },
+            reset_spi: || {
+                RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+                RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+            },
+        },
+        bridge: LEFT_BRIDGE,
+        encoder: EncoderPort {
+            timer: TIM2,
+            a: LEFT_ENCODER[0],
+            b: LEFT_ENCODER[1],
+            function: ONLY,
+        },
+    };
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
     pub(crate) fn reset_cause() -> Cause {
@@ -152,23 +178,10 @@ mod chip {
         });
     }
 
-    /// Clock for what reads the sensor.
-    pub(crate) fn clock_sensor() {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apb1enr().modify(|w| w.set_tim4en(true));
-        RCC.apb2enr().modify(|w| w.set_spi1en(true));
-    }
-
     /// Clock for motor and encoder.
-    pub(crate) fn clock_motor() {
+    pub(crate) fn clock_motors() {
         RCC.apb1enr().modify(|w| w.set_tim2en(true));
         RCC.apb2enr().modify(|w| w.set_tim1en(true));
-    }
-
-    /// The SPI as after a reset.
-    pub(crate) fn reset_spi() {
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
     }
 
     /// PA15 and PB3 are the debugger's after a reset, for JTAG. The ST-LINK

@@ -1,12 +1,8 @@
 //! The NUCLEO-F446RE: STM32F446RE, Cortex-M4F at 160 MHz.
 //!
-//! | for | peripheral | pins |
-//! |---|---|---|
-//! | sensor | SPI1, bytes spaced by TIM8, moved by DMA2 streams 0 and 1 | PA5 PA6 PA7, /SS PB6 |
-//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
-//! | angle | TIM2, 32 bits | PA0 PA1 |
-//! | tick | TIM3 | |
-//! | time | TIM5, 32 bits | |
+//! Two whiskers, one a side: [`LEFT`] and [`RIGHT`] say what each hangs on. A brushless
+//! motor, of which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls
+//! on PA15, PB3 and PB10. TIM7 makes the ticks, TIM5 measures them.
 
 use crate::board::timing::Clocks;
 
@@ -17,6 +13,8 @@ pub(crate) const HAS_FPU: bool = true;
 /// Most classes of a model: its two tables of 32 by 32 bins then take 64 KiB of the
 /// 512 KiB of flash.
 pub(crate) const MAX_CLASSES: usize = 16;
+/// Most sides, of one whisker each.
+pub(crate) const MAX_SIDES: usize = 2;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
@@ -39,12 +37,14 @@ const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 30_000_000) as u8;
 
 const _: () = assert!(CORE_HZ == 160_000_000 && CORE_HZ <= 168_000_000);
 const _: () = assert!(APB1_HZ <= 45_000_000 && APB2_HZ <= 90_000_000);
+// The two sides' SPIs and byte timers run alike, from buses that do not.
+const _: () = assert!(APB2_HZ / 256 == APB1_HZ / 128 && APB2_HZ == 2 * APB1_HZ);
 
 /// Timers count at twice the clock of their bus.
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
-    spi_bus_hz: APB2_HZ,
-    byte_timer_hz: 2 * APB2_HZ,
+    spi_hz: APB2_HZ / 256,
+    byte_timer_hz: 2 * APB1_HZ,
     tick_timer_hz: 2 * APB1_HZ,
     counter_hz: 2 * APB1_HZ,
     pwm_hz: 2 * APB2_HZ,
@@ -53,7 +53,7 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 .checked();
 
 // 25.6 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 75.6 µs at 1 kHz.
-const _: () = assert!(CLOCKS.slot_counts(2_000) == 8_000 && CLOCKS.slot_counts(1_000) == 12_096);
+const _: () = assert!(CLOCKS.slot_counts(2_000) == 4_000 && CLOCKS.slot_counts(1_000) == 6_048);
 
 #[cfg(target_os = "none")]
 #[path = "dma_streams.rs"]
@@ -74,33 +74,124 @@ mod chip {
     use firmware::Clock;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
-    use stm32_metapac::timer::{TimAdv, TimGp16, TimGp32};
-    use stm32_metapac::{DBGMCU, FLASH, RCC, TIM2, TIM3, TIM5, TIM8};
+    use stm32_metapac::spi::vals::Br;
+    use stm32_metapac::timer::{TimBasic, TimGp16};
+    use stm32_metapac::{DBGMCU, DMA1, DMA2, FLASH, RCC, SPI1, SPI2};
+    use stm32_metapac::{TIM2, TIM3, TIM5, TIM6, TIM7, TIM8};
 
+    use super::dma::Route;
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
+    use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
+    use crate::board::pwm::Output;
     use crate::board::reset::{Cause, ClockError, settle, wait};
+    use crate::board::sensor::Received;
+    use crate::board::wiring::{
+        BridgePort, EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, PWMS, SensorPins,
+        SensorPort, Side,
+    };
 
-    /// Requests each byte of a frame.
-    pub(crate) const BYTE_TIMER: TimAdv = TIM8;
     /// Interrupts once a tick.
-    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    /// Counts the encoder's edges.
-    pub(crate) const ENCODER: TimGp32 = TIM2;
-    /// Bits of its count.
-    pub(crate) const ENCODER_BITS: u32 = 32;
-    /// Alternate function of the SPI's pins, SPI1.
-    pub(crate) const SPI_FUNCTION: AlternateFunction = 5;
-    /// Of the encoder's pins, TIM2.
-    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 1;
-    /// Of the PWM's pins, TIM1.
+    pub(crate) const TICK_TIMER: TimBasic = TIM7;
+    /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
 
-    /// The encoder's count.
-    #[inline]
-    pub(crate) fn encoder_count() -> u32 {
-        ENCODER.cnt().read()
-    }
+    /// The left whisker: SPI1 by TIM8 and DMA2, PWM 1, TIM2.
+    pub(crate) static LEFT: Side = Side {
+        sensor: SensorPort {
+            spi: SPI1,
+            divider: Br::DIV256,
+            #[allow(unsafe_code, reason = "an advanced timer begins with a basic one's registers")]
+            // SAFETY: the registers of both have the same offsets and bits (RM0390,
+            // chapters 17 and 20).
+            byte_timer: unsafe { TimBasic::from_ptr(TIM8.as_ptr()) },
+            byte_timer_divider: 2,
+            // SPI1_RX, TIM8_UP.
+            dma: Route {
+                dma: DMA2,
+                rx: (0, 3),
+                tx: (1, 7),
+            },
+            received: {
+                static RECEIVED: Received = Received::new();
+                &RECEIVED
+            },
+            pins: LEFT_SENSOR,
+            function: 5,
+            start_clocks: || {
+                RCC.ahb1enr().modify(|w| w.set_dma2en(true));
+                RCC.apb2enr().modify(|w| {
+                    w.set_tim8en(true);
+                    w.set_spi1en(true);
+                });
+                settle();
+            },
+            reset_spi: || {
+                RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+                RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+            },
+        },
+        bridge: LEFT_BRIDGE,
+        encoder: EncoderPort {
+            #[allow(unsafe_code, reason = "a timer of 32 bits has the registers of one of 16")]
+            // SAFETY: the registers of both have the same offsets, and the lower halves of
+            // count, reload and compare values the same bits (RM0390, chapter 18).
+            timer: unsafe { TimGp16::from_ptr(TIM2.as_ptr()) },
+            a: LEFT_ENCODER[0],
+            b: LEFT_ENCODER[1],
+            function: 1,
+        },
+    };
+
+    /// The right whisker: SPI2 by TIM6 and DMA1, PWM 2, TIM3.
+    pub(crate) static RIGHT: Side = Side {
+        sensor: SensorPort {
+            spi: SPI2,
+            divider: Br::DIV128,
+            byte_timer: TIM6,
+            byte_timer_divider: 1,
+            // SPI2_RX, TIM6_UP.
+            dma: Route {
+                dma: DMA1,
+                rx: (3, 0),
+                tx: (1, 7),
+            },
+            received: {
+                static RECEIVED: Received = Received::new();
+                &RECEIVED
+            },
+            pins: SensorPins {
+                sck: PinName::new('B', 13),
+                miso: PinName::new('B', 14),
+                mosi: PinName::new('B', 15),
+                select: PinName::new('B', 12),
+            },
+            function: 5,
+            start_clocks: || {
+                RCC.ahb1enr().modify(|w| w.set_dma1en(true));
+                RCC.apb1enr().modify(|w| {
+                    w.set_tim6en(true);
+                    w.set_spi2en(true);
+                });
+                settle();
+            },
+            reset_spi: || {
+                RCC.apb1rstr().modify(|w| w.set_spi2rst(true));
+                RCC.apb1rstr().modify(|w| w.set_spi2rst(false));
+            },
+        },
+        bridge: BridgePort {
+            output: Output::Two,
+            pwm: PWMS[1],
+            direction: PinName::new('C', 8),
+        },
+        encoder: EncoderPort {
+            timer: TIM3,
+            a: PinName::new('C', 6),
+            b: PinName::new('C', 7),
+            function: 2,
+        },
+    };
 
     /// TIM5, counting through 32 bits.
     pub(crate) struct Counter(());
@@ -174,8 +265,8 @@ mod chip {
         RCC.cr().modify(|w| w.set_csson(true));
 
         RCC.apb1enr().modify(|w| {
-            w.set_tim3en(true);
             w.set_tim5en(true);
+            w.set_tim7en(true);
         });
         settle();
         Ok(())
@@ -191,27 +282,14 @@ mod chip {
         settle();
     }
 
-    /// Clock for what reads the sensor.
-    pub(crate) fn clock_sensor() {
-        RCC.ahb1enr().modify(|w| w.set_dma2en(true));
-        RCC.apb2enr().modify(|w| {
-            w.set_tim8en(true);
-            w.set_spi1en(true);
+    /// Clock for motors and encoders.
+    pub(crate) fn clock_motors() {
+        RCC.apb1enr().modify(|w| {
+            w.set_tim2en(true);
+            w.set_tim3en(true);
         });
-        settle();
-    }
-
-    /// Clock for motor and encoder.
-    pub(crate) fn clock_motor() {
-        RCC.apb1enr().modify(|w| w.set_tim2en(true));
         RCC.apb2enr().modify(|w| w.set_tim1en(true));
         settle();
-    }
-
-    /// The SPI as after a reset.
-    pub(crate) fn reset_spi() {
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
     }
 
     /// Setting a pin's mode takes it from the debugger on this chip.

@@ -1,12 +1,8 @@
 //! The NUCLEO-G071RB: STM32G071RB, Cortex-M0+ at 64 MHz, no FPU.
 //!
-//! | for | peripheral | pins |
-//! |---|---|---|
-//! | sensor | SPI1, bytes spaced by TIM6, moved by DMA1 channels 1 and 2 | PA5 PA6 PA7, /SS PB6 |
-//! | motor | TIM1 | PA8 and PB5; six-step PA8 to PA10, PC10 to PC12, Halls PA15 PB3 PB10 |
-//! | angle | TIM2, 32 bits | PA0 PA1 |
-//! | tick | TIM3 | |
-//! | time | SysTick | |
+//! One whisker: [`LEFT`] says what it hangs on. A brushless motor has TIM1's outputs PA8 to
+//! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
+//! measures them.
 
 use crate::board::timing::Clocks;
 
@@ -17,6 +13,8 @@ pub(crate) const HAS_FPU: bool = false;
 /// Most classes of a model: its two tables of 32 by 32 bins then take 24 KiB of the
 /// 128 KiB of flash.
 pub(crate) const MAX_CLASSES: usize = 6;
+/// Most sides, of one whisker each.
+pub(crate) const MAX_SIDES: usize = 1;
 
 /// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
 /// board comes without a clock on the HSE input; so the tick is as exact as this.
@@ -37,7 +35,7 @@ const _: () = assert!(CORE_HZ == 64_000_000);
 /// All the same: no bus is divided.
 pub(crate) const CLOCKS: Clocks = Clocks {
     core_hz: CORE_HZ,
-    spi_bus_hz: CORE_HZ,
+    spi_hz: CORE_HZ / 256,
     byte_timer_hz: CORE_HZ,
     tick_timer_hz: CORE_HZ,
     counter_hz: CORE_HZ,
@@ -66,43 +64,77 @@ pub(crate) use chip::*;
 mod chip {
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
-    use stm32_metapac::timer::{TimBasic, TimGp16, TimGp32};
-    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, TIM2, TIM3, TIM6};
+    use stm32_metapac::spi::vals::Br;
+    use stm32_metapac::timer::TimGp16;
+    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, TIM2, TIM3, TIM6};
 
+    use super::dma::Route;
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, settle, wait};
+    use crate::board::sensor::Received;
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
+    use crate::board::wiring::{
+        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, SensorPort, Side,
+    };
 
-    /// Requests each byte of a frame.
-    pub(crate) const BYTE_TIMER: TimBasic = TIM6;
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    /// Counts the encoder's edges.
-    pub(crate) const ENCODER: TimGp32 = TIM2;
-    /// Bits of its count.
-    pub(crate) const ENCODER_BITS: u32 = 32;
+
     /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
-    pub(crate) const RX_DMA: usize = 0;
+    const RX_DMA: usize = 0;
     /// DMA1 channel 2.
-    pub(crate) const TX_DMA: usize = 1;
+    const TX_DMA: usize = 1;
     /// Number of the request SPI1_RX (RM0444, table of the DMAMUX inputs).
     const SPI1_RX: u8 = 16;
     /// Of TIM6_UP.
     const TIM6_UP: u8 = 38;
-    /// Alternate function of the SPI's pins, SPI1.
-    pub(crate) const SPI_FUNCTION: AlternateFunction = 0;
-    /// Of the encoder's pins, TIM2.
-    pub(crate) const ENCODER_FUNCTION: AlternateFunction = 2;
-    /// Of the PWM's pins, TIM1.
+    /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
 
-    /// The encoder's count.
-    #[inline]
-    pub(crate) fn encoder_count() -> u32 {
-        ENCODER.cnt().read()
-    }
+    /// The whisker: SPI1 by TIM6 and DMA1, PWM 1, TIM2.
+    pub(crate) static LEFT: Side = Side {
+        sensor: SensorPort {
+            spi: SPI1,
+            divider: Br::DIV256,
+            byte_timer: TIM6,
+            byte_timer_divider: 1,
+            dma: Route {
+                rx: RX_DMA,
+                tx: TX_DMA,
+            },
+            received: {
+                static RECEIVED: Received = Received::new();
+                &RECEIVED
+            },
+            pins: LEFT_SENSOR,
+            function: 0,
+            start_clocks: || {
+                RCC.ahbenr().modify(|w| w.set_dma1en(true));
+                RCC.apbenr1().modify(|w| w.set_tim6en(true));
+                RCC.apbenr2().modify(|w| w.set_spi1en(true));
+                settle();
+                // The routes of the requests.
+                DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
+                DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
+            },
+            reset_spi: || {
+                RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
+                RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
+            },
+        },
+        bridge: LEFT_BRIDGE,
+        encoder: EncoderPort {
+            #[allow(unsafe_code, reason = "a timer of 32 bits has the registers of one of 16")]
+            // SAFETY: the registers of both have the same offsets, and the lower halves of
+            // count, reload and compare values the same bits (RM0444, chapter 22).
+            timer: unsafe { TimGp16::from_ptr(TIM2.as_ptr()) },
+            a: LEFT_ENCODER[0],
+            b: LEFT_ENCODER[1],
+            function: 2,
+        },
+    };
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
     pub(crate) fn reset_cause() -> Cause {
@@ -161,27 +193,11 @@ mod chip {
         settle();
     }
 
-    /// Clock for what reads the sensor, and the routes of its DMA requests.
-    pub(crate) fn clock_sensor() {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apbenr1().modify(|w| w.set_tim6en(true));
-        RCC.apbenr2().modify(|w| w.set_spi1en(true));
-        settle();
-        DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
-        DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
-    }
-
     /// Clock for motor and encoder.
-    pub(crate) fn clock_motor() {
+    pub(crate) fn clock_motors() {
         RCC.apbenr1().modify(|w| w.set_tim2en(true));
         RCC.apbenr2().modify(|w| w.set_tim1en(true));
         settle();
-    }
-
-    /// The SPI as after a reset.
-    pub(crate) fn reset_spi() {
-        RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
-        RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
     }
 
     /// The debugger has no claim to them on this chip.

@@ -4,11 +4,11 @@ use stm32_metapac::TIM1;
 use stm32_metapac::timer::vals::Ossi;
 
 use super::pin_config::PinConfig;
-use super::wiring::MOTOR_OUTPUTS;
-use crate::here::{clock_ports, gpio::configure};
+use super::wiring::{ENABLES, PWMS};
+use crate::here::clock_ports;
 
-/// Takes all motor outputs of the board low. The pins become plain outputs, so that no timer can
-/// raise them again.
+/// Takes all motor outputs of the board low, of either side: the PWMs and the enables.
+/// The pins become plain outputs, so that no timer can raise them again.
 ///
 /// For the start and for fault handlers: no locks, nothing that can fail, and
 /// calling it again changes nothing. The motor drivers are not told: after it
@@ -23,8 +23,8 @@ pub(crate) fn off() {
         w.set_ossi(Ossi::IDLE_LEVEL);
     });
     clock_ports();
-    for (port, n) in MOTOR_OUTPUTS {
-        port.bsrr().write(|w| w.set_br(n, true));
-        configure(port, n, PinConfig::OUTPUT);
+    for pin in PWMS.into_iter().chain(ENABLES) {
+        pin.low();
+        pin.configure(PinConfig::OUTPUT);
     }
 }

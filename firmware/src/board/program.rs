@@ -3,27 +3,31 @@
 //! | task | priority | does |
 //! |---|---|---|
 //! | `tick` | 2 | one [`firmware::Module::tick`]; puts its events into a queue |
-//! | `end_of_frame` | 2 | raises /SS after the sensor's last byte |
+//! | `end_of_frame` | 2 | raises /SS after the left sensor's last byte |
+//! | `end_of_right_frame` | 2 | the same on the right, where the scene has that side |
 //! | `idle` | 0 | writes the log, feeds the watchdog, sleeps |
 //!
-//! The first two have one priority, as they work on the same registers: neither can
-//! interrupt the other, and they share the module without a lock. They are bound to
+//! All but the last have one priority, as they work on the same registers: none can
+//! interrupt another, and they share the module without a lock. They are bound to
 //! a board's interrupts by [`program!`](crate::program).
 
 use firmware::Event;
 use heapless::spsc::{Consumer, Producer};
 
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
-use super::scene::{self, Motion, Number, Perception, SETTINGS, Settings, TICK_HZ};
+use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::watchdog::Watchdog;
 use super::{faults, log, outputs};
 use crate::here::{self, CLOCKS, Counter};
 
+type Inner =
+    firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, { SIDES.len() }, 1>;
+
 /// The module and its settings. A type of its own, because RTIC would make
 /// those inside public.
 pub struct Module {
-    inner: firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, 1, 1>,
+    inner: Inner,
     /// In RAM, where they can be changed.
     settings: Settings,
     /// The next full second, in [`TICKS`].
@@ -58,13 +62,14 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
     if let Err(error) = here::start_clocks() {
         faults::die(|| log::clock(error));
     }
-    let frames = Frames::new(const { CLOCKS.slot_counts(TICK_HZ) });
+    let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
+    let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
     let motion = scene::start_motion();
     let Some(perception) = place.fill() else {
         faults::die(log::model)
     };
     let counter = Counter::start(core);
-    let inner = firmware::Module::new([[frames]], motion, perception, counter);
+    let inner = firmware::Module::new(sources, motion, perception, counter);
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
@@ -97,10 +102,10 @@ fn tell_timing(module: &mut Module) {
     MISSED.set(timing.missed());
 }
 
-/// The sensor's frame has ended.
+/// The frame of a side's sensor has ended.
 #[inline]
-pub(crate) fn end_of_frame(module: &mut Module) {
-    if let Some(sensor) = module.inner.sensor_mut(0, 0) {
+pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
+    if let Some(sensor) = module.inner.sensor_mut(side, 0) {
         sensor.source_mut().end_of_frame();
     }
 }
@@ -180,10 +185,10 @@ impl Idle {
 }
 
 /// The program of a board: binds the tasks to the interrupts of the tick timer
-/// and of the rx DMA.
+/// and of each side's rx DMA.
 #[macro_export]
 macro_rules! program {
-    (tick: $tick:ident, end_of_frame: $end_of_frame:ident) => {
+    (tick: $tick:ident, end_of_frame: $left:ident $(, end_of_right_frame: $right:ident)?) => {
         #[rtic::app(device = stm32_metapac, peripherals = false)]
         #[allow(
             unsafe_op_in_unsafe_fn,
@@ -201,7 +206,7 @@ macro_rules! program {
 
             #[shared]
             struct Shared {
-                // Its two tasks cannot interrupt each other.
+                // Its tasks cannot interrupt each other.
                 #[lock_free]
                 module: Module,
             }
@@ -213,7 +218,7 @@ macro_rules! program {
                 idle: Idle,
             }
 
-            // Sixteen events: idle drains them after every tick, which has four at most.
+            // Sixteen events: idle drains them after every tick, which has four a side at most.
             #[init(local = [queue: Queue<Event, 17> = Queue::new(), place: Place = Place::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
                 let module = program::start(cx.core, cx.local.place);
@@ -232,10 +237,15 @@ macro_rules! program {
                 program::tick(cx.shared.module, cx.local.events);
             }
 
-            #[task(binds = $end_of_frame, priority = 2, shared = [module])]
+            #[task(binds = $left, priority = 2, shared = [module])]
             fn end_of_frame(cx: end_of_frame::Context) {
-                program::end_of_frame(cx.shared.module);
+                program::end_of_frame(cx.shared.module, 0);
             }
+
+            $(#[task(binds = $right, priority = 2, shared = [module])]
+            fn end_of_right_frame(cx: end_of_right_frame::Context) {
+                program::end_of_frame(cx.shared.module, 1);
+            })?
 
             #[idle(local = [idle])]
             fn idle(cx: idle::Context) -> ! {

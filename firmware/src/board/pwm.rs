@@ -8,6 +8,8 @@ use core::convert::Infallible;
 
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use stm32_metapac::TIM1;
+use stm32_metapac::common::{RW, Reg};
+use stm32_metapac::timer::regs::Ccr1ch;
 use stm32_metapac::timer::vals::{Ossi, Ossr};
 
 use crate::here::CLOCKS;
@@ -16,25 +18,33 @@ const COUNTS: u16 = CLOCKS.pwm_counts();
 /// PWM mode 1: high while the count is below the compare value. As a number,
 /// because its type has another name in each version of the timer.
 const PWM_MODE_1: u8 = 6;
-/// Channels in use.
-const CHANNELS: usize = 3;
+/// Outputs in use.
+const OUTPUTS: usize = 3;
 
-/// Channel `C` + 1 of TIM1.
-pub(crate) struct Channel<const C: usize>(());
+/// An output of TIM1.
+#[derive(Clone, Copy)]
+pub(crate) enum Output {
+    One,
+    Two,
+    Three,
+}
+
+/// The duty of an output.
+pub(crate) struct Channel(Reg<Ccr1ch, RW>);
 
 /// Starts the timer with all duties zero. The pins are the caller's.
-pub(crate) fn start() -> (Channel<0>, Channel<1>, Channel<2>) {
+pub(crate) fn start() {
     TIM1.arr().write(|w| w.set_arr(COUNTS - 1));
-    for pair in 0..CHANNELS.div_ceil(2) {
+    for pair in 0..OUTPUTS.div_ceil(2) {
         TIM1.ccmr_output(pair).write(|w| {
-            for channel in 0..2.min(CHANNELS - 2 * pair) {
+            for channel in 0..2.min(OUTPUTS - 2 * pair) {
                 w.set_ocm(channel, PWM_MODE_1.into());
                 w.set_ocpe(channel, true);
             }
         });
     }
     TIM1.ccer().write(|w| {
-        for channel in 0..CHANNELS {
+        for channel in 0..OUTPUTS {
             w.set_cce(channel, true);
         }
     });
@@ -50,14 +60,24 @@ pub(crate) fn start() -> (Channel<0>, Channel<1>, Channel<2>) {
         w.set_arpe(true);
         w.set_cen(true);
     });
-    (Channel(()), Channel(()), Channel(()))
 }
 
-impl<const C: usize> ErrorType for Channel<C> {
+impl Channel {
+    /// That of an output, once the timer was started.
+    pub(crate) fn of(output: Output) -> Self {
+        Self(match output {
+            Output::One => TIM1.ccr(0),
+            Output::Two => TIM1.ccr(1),
+            Output::Three => TIM1.ccr(2),
+        })
+    }
+}
+
+impl ErrorType for Channel {
     type Error = Infallible;
 }
 
-impl<const C: usize> SetDutyCycle for Channel<C> {
+impl SetDutyCycle for Channel {
     #[inline]
     fn max_duty_cycle(&self) -> u16 {
         COUNTS
@@ -65,8 +85,7 @@ impl<const C: usize> SetDutyCycle for Channel<C> {
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        const { assert!(C < CHANNELS) };
-        TIM1.ccr(C).write(|w| w.set_ccr(duty));
+        self.0.write(|w| w.set_ccr(duty));
         Ok(())
     }
 }

@@ -2,6 +2,7 @@
 //! by the build script from the scene file.
 //!
 //! - `NAME`, `TICK_HZ`.
+//! - `SIDES`: what its whiskers hang on, left first.
 //! - `Number`: the number format of the tick.
 //! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
 //!   is left out by type.

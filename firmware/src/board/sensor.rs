@@ -1,4 +1,4 @@
-//! Reads the sensor's frames without the core: an SPI, whose bytes a timer
+//! Reads a sensor's frames without the core: an SPI, whose bytes a timer
 //! spaces and DMA moves.
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
@@ -18,22 +18,31 @@ use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 
 use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
-use stm32_metapac::SPI1;
-use stm32_metapac::spi::vals::{Br, Cpha, Mstr};
+use stm32_metapac::spi::vals::{Cpha, Mstr};
 
+use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
-use super::wiring::{SensorMiso, SensorMosi, SensorSck, SensorSelect};
-use crate::here::{BYTE_TIMER, SPI_FUNCTION, clock_sensor, dma, reset_spi, spi};
+use super::wiring::SensorPort;
+use crate::here::{dma::Transfers, spi};
 
-/// Where the rx DMA puts the bytes, as words. Atomic because the compiler does
+/// Where an rx DMA puts the bytes, as words. Atomic because the compiler does
 /// not see the DMA's writes.
-static RECEIVED: [AtomicU32; FRAME_LEN / 4] = [const { AtomicU32::new(0) }; FRAME_LEN / 4];
-/// What the tx DMA sends.
+pub(crate) struct Received([AtomicU32; FRAME_LEN / 4]);
+
+impl Received {
+    /// Of zeros.
+    pub(crate) const fn new() -> Self {
+        Self([const { AtomicU32::new(0) }; FRAME_LEN / 4])
+    }
+}
+
+/// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
 
-/// The sensor's frames.
+/// A sensor's frames.
 pub(crate) struct Frames {
-    select: SensorSelect,
+    port: &'static SensorPort,
+    transfers: Transfers,
     running: bool,
 }
 
@@ -41,25 +50,37 @@ impl Frames {
     /// Sets everything up; the first frame starts with the first
     /// [`take`](FrameSource::take). The sensor must have had its start-up time
     /// by then.
-    pub(crate) fn new(slot_counts: u16) -> Self {
-        let select = SensorSelect::new_high();
-        clock_sensor();
-        BYTE_TIMER
+    pub(crate) fn new(port: &'static SensorPort, slot_counts: u16) -> Self {
+        let pins = &port.pins;
+        Pin::new_high(pins.select);
+        (port.start_clocks)();
+        let timer = port.byte_timer;
+        timer.psc().write_value(port.byte_timer_divider - 1);
+        timer
             .arr()
             .write(|w| w.set_arr(slot_counts.saturating_sub(1)));
+        // The divider takes effect with an update.
+        timer.egr().write(|w| w.set_ug(true));
         // Pointers have 32 bits on these chips.
-        let (received, sent) = (RECEIVED.as_ptr() as u32, SENT.as_ptr() as u32);
-        dma::set_up(spi::data_register(), received, sent);
-        set_up_spi();
+        let (received, sent) = (port.received.0.as_ptr() as u32, SENT.as_ptr() as u32);
+        let transfers = Transfers::new(&port.dma);
+        transfers.set_up(spi::data_register(port.spi), received, sent);
+        set_up_spi(port);
 
         // Only now, so that the clock line never carries anything but the clock.
         // A fast edge: a slow one delays the clock that the SPI itself sees and
         // may cost it the last bit (errata sheet of the STM32F4).
-        SensorSck::new(PinConfig::new(Mode::AlternateOutput(SPI_FUNCTION)).fast());
-        SensorMiso::new(PinConfig::new(Mode::AlternateInput(SPI_FUNCTION)));
-        SensorMosi::new(PinConfig::new(Mode::AlternateOpenDrain(SPI_FUNCTION)));
+        let function = port.function;
+        let sck = PinConfig::new(Mode::AlternateOutput(function)).fast();
+        Pin::new(pins.sck, sck);
+        Pin::new(pins.miso, PinConfig::new(Mode::AlternateInput(function)));
+        Pin::new(
+            pins.mosi,
+            PinConfig::new(Mode::AlternateOpenDrain(function)),
+        );
         Self {
-            select,
+            port,
+            transfers,
             running: false,
         }
     }
@@ -67,14 +88,15 @@ impl Frames {
     #[inline]
     fn start(&mut self) {
         // A byte left over would come before the first of this frame.
-        spi::drain();
+        spi::drain(self.port.spi);
         compiler_fence(Ordering::Release);
-        dma::start(FRAME_LEN as u16);
-        self.select.low();
-        BYTE_TIMER.cnt().write(|_| {});
-        BYTE_TIMER.sr().write(|_| {});
-        BYTE_TIMER.dier().write(|w| w.set_ude(true));
-        BYTE_TIMER.cr1().write(|w| w.set_cen(true));
+        self.transfers.start(FRAME_LEN as u16);
+        self.port.pins.select.low();
+        let timer = self.port.byte_timer;
+        timer.cnt().write(|_| {});
+        timer.sr().write(|_| {});
+        timer.dier().write(|w| w.set_ude(true));
+        timer.cr1().write(|w| w.set_cen(true));
         self.running = true;
     }
 
@@ -82,53 +104,53 @@ impl Frames {
     /// too: one that is still pending would put a byte before the next frame.
     #[inline]
     fn stop(&mut self) {
-        BYTE_TIMER.cr1().write(|_| {});
-        BYTE_TIMER.dier().write(|_| {});
-        self.select.high();
+        let timer = self.port.byte_timer;
+        timer.cr1().write(|_| {});
+        timer.dier().write(|_| {});
+        self.port.pins.select.high();
     }
 
     /// The rx DMA's interrupt: the frame is complete, or broken.
     #[inline]
     pub(crate) fn end_of_frame(&mut self) {
-        if !dma::has_ended() {
+        if !self.transfers.has_ended() {
             // The interrupt came late, after `take` had begun another frame.
             return;
         }
         self.stop();
         // The flags stay for `take`; only the interrupt has been served.
-        dma::acknowledge();
+        self.transfers.acknowledge();
+    }
+
+    /// Whether all eight bytes were moved and none was lost.
+    #[inline]
+    fn is_complete(&self) -> bool {
+        let wire = self.port.spi.sr().read();
+        self.transfers.is_complete() && !wire.ovr() && !wire.modf()
     }
 
     /// Ends a frame that went wrong and makes ready for another one.
     #[cold]
     fn abort(&mut self) {
         self.stop();
-        dma::stop();
-        set_up_spi();
+        self.transfers.stop();
+        set_up_spi(self.port);
     }
 }
 
-/// Mode 1, most significant bit first, bytes, the slowest clock
-/// ([`SPI_DIVIDER`](super::timing::SPI_DIVIDER)); /SS is ours. Also discards a
-/// frame that broke off in the middle of a byte.
-fn set_up_spi() {
-    reset_spi();
-    spi::set_up_bytes();
-    SPI1.cr1().write(|w| {
+/// Mode 1, most significant bit first, bytes; /SS is ours. Also discards a frame that
+/// broke off in the middle of a byte.
+fn set_up_spi(port: &SensorPort) {
+    (port.reset_spi)();
+    spi::set_up_bytes(port.spi);
+    port.spi.cr1().write(|w| {
         w.set_mstr(Mstr::MASTER);
         w.set_ssm(true);
         w.set_ssi(true);
         w.set_cpha(Cpha::SECOND_EDGE);
-        w.set_br(Br::DIV256);
+        w.set_br(port.divider);
         w.set_spe(true);
     });
-}
-
-/// Whether all eight bytes were moved and none was lost.
-#[inline]
-fn is_complete() -> bool {
-    let wire = SPI1.sr().read();
-    dma::is_complete() && !wire.ovr() && !wire.modf()
 }
 
 impl FrameSource for Frames {
@@ -143,14 +165,19 @@ impl FrameSource for Frames {
             return Ok(None);
         }
         self.running = false;
-        if !is_complete() {
+        if !self.is_complete() {
             self.abort();
             return Err(BusError);
         }
         // In case the interrupt, and with it `end_of_frame`, is late.
         self.stop();
         compiler_fence(Ordering::Acquire);
-        let words = RECEIVED.each_ref().map(|word| word.load(Ordering::Relaxed));
+        let words = self
+            .port
+            .received
+            .0
+            .each_ref()
+            .map(|word| word.load(Ordering::Relaxed));
         self.start();
         let [low, high] = words.map(u64::from);
         Ok(Some((high << 32 | low).to_le_bytes()))

@@ -1,20 +1,20 @@
 //! SPI controllers that hold one byte (STM32F1, STM32F4).
 
-use stm32_metapac::SPI1;
+use stm32_metapac::spi::Spi;
 
 /// Bytes, each received one a request for the DMA.
-pub(crate) fn set_up_bytes() {
-    SPI1.cr2().write(|w| w.set_rxdmaen(true));
+pub(crate) fn set_up_bytes(spi: Spi) {
+    spi.cr2().write(|w| w.set_rxdmaen(true));
 }
 
 /// Where bytes go and come from.
-pub(crate) fn data_register() -> u32 {
+pub(crate) fn data_register(spi: Spi) -> u32 {
     // Pointers have 32 bits on these chips.
-    SPI1.dr().as_ptr() as u32
+    spi.dr().as_ptr() as u32
 }
 
 /// Throws away a byte that was left over.
 #[inline]
-pub(crate) fn drain() {
-    let _ = SPI1.dr().read();
+pub(crate) fn drain(spi: Spi) {
+    let _ = spi.dr().read();
 }

@@ -1,11 +1,11 @@
 //! SPI controllers with a queue of four bytes (STM32G0).
 
-use stm32_metapac::SPI1;
+use stm32_metapac::spi::Spi;
 use stm32_metapac::spi::vals::{Ds, Frxth};
 
 /// Bytes, each received one a request for the DMA.
-pub(crate) fn set_up_bytes() {
-    SPI1.cr2().write(|w| {
+pub(crate) fn set_up_bytes(spi: Spi) {
+    spi.cr2().write(|w| {
         w.set_ds(Ds::BITS8);
         // Each byte is reported, not each pair.
         w.set_frxth(Frxth::QUARTER);
@@ -14,17 +14,17 @@ pub(crate) fn set_up_bytes() {
 }
 
 /// Where bytes go and come from.
-pub(crate) fn data_register() -> u32 {
+pub(crate) fn data_register(spi: Spi) -> u32 {
     // Pointers have 32 bits on these chips.
-    SPI1.dr8().as_ptr() as u32
+    spi.dr8().as_ptr() as u32
 }
 
 /// Throws away bytes that were left over, at most the four of the queue.
 #[inline]
-pub(crate) fn drain() {
+pub(crate) fn drain(spi: Spi) {
     for _ in 0..4 {
-        if SPI1.sr().read().rxne() {
-            let _ = SPI1.dr8().read();
+        if spi.sr().read().rxne() {
+            let _ = spi.dr8().read();
         }
     }
 }

@@ -13,9 +13,9 @@ use mlx90333::timing::{BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, START_U
 pub(crate) struct Clocks {
     /// The core's.
     pub(crate) core_hz: u32,
-    /// What the sensor's SPI divides.
-    pub(crate) spi_bus_hz: u32,
-    /// What the byte timer counts.
+    /// The clock of every sensor's SPI.
+    pub(crate) spi_hz: u32,
+    /// What every byte timer counts.
     pub(crate) byte_timer_hz: u32,
     /// What the tick timer counts.
     pub(crate) tick_timer_hz: u32,
@@ -26,9 +26,6 @@ pub(crate) struct Clocks {
     /// The watchdog's oscillator: least, nominal, most (the chip's data sheet).
     pub(crate) watchdog_hz: [u32; 3],
 }
-
-/// Divider of the SPI clock, the largest there is: the sensor is slow.
-pub(crate) const SPI_DIVIDER: u32 = 256;
 
 /// From the start of a byte to that of the next where the tick leaves no more
 /// room, ns: a gap of 18 µs or more, half as much again as the sensor asks for
@@ -55,7 +52,7 @@ impl Clocks {
     /// These clocks, once it is certain that all that follows from them is in
     /// range. For constants: does not compile otherwise.
     pub(crate) const fn checked(self) -> Self {
-        assert!(self.spi_hz() <= CLOCK_MAX_HZ);
+        assert!(self.spi_hz <= CLOCK_MAX_HZ);
         assert!(SLOT_FAST_NS >= self.byte_ns() + BYTE_GAP_FAST_NS);
         assert!(self.tick_max_hz() >= 2_000);
         assert!(self.slot_counts(TICK_MIN_HZ) > 0);
@@ -71,14 +68,9 @@ impl Clocks {
         self
     }
 
-    /// SPI clock, Hz.
-    pub(crate) const fn spi_hz(&self) -> u32 {
-        self.spi_bus_hz / SPI_DIVIDER
-    }
-
     /// One byte on the wire, ns.
     pub(crate) const fn byte_ns(&self) -> u32 {
-        (8_000_000_000_u64 / self.spi_hz() as u64) as u32
+        (8_000_000_000_u64 / self.spi_hz as u64) as u32
     }
 
     /// From the start of a byte to that of the next with the gap that is safe

@@ -1,43 +1,106 @@
-//! Which pin does what: the same on every board. The peripherals behind the
-//! pins are in the board's own file.
+//! Which pin does what. A side's pins and the peripherals behind them are a table in the
+//! board's own file; the left side has the same pins on every board.
 
-use stm32_metapac::gpio::Gpio;
+use stm32_metapac::spi::Spi;
+use stm32_metapac::spi::vals::Br;
+use stm32_metapac::timer::{TimBasic, TimGp16};
 
-use super::gpio::Pin;
+use super::gpio::PinName;
+use super::pin_config::AlternateFunction;
+use super::pwm::Output;
+use super::sensor::Received;
+use crate::here::dma::Route;
 
-/// Clock of the sensor's SPI.
-pub(crate) type SensorSck = Pin<'A', 5>;
-/// Data from the sensor; joined to [`SensorMosi`] outside, one open-drain line.
-pub(crate) type SensorMiso = Pin<'A', 6>;
-/// Data to the sensor.
-pub(crate) type SensorMosi = Pin<'A', 7>;
-/// /SS of the sensor.
-pub(crate) type SensorSelect = Pin<'B', 6>;
+/// Everything that a whisker hangs on.
+pub(crate) struct Side {
+    /// Its sensor.
+    pub(crate) sensor: SensorPort,
+    /// Its motor, if that has brushes.
+    pub(crate) bridge: BridgePort,
+    /// Its angle.
+    pub(crate) encoder: EncoderPort,
+}
 
-/// Channel A of the encoder.
-pub(crate) type EncoderA = Pin<'A', 0>;
-/// Channel B of the encoder.
-pub(crate) type EncoderB = Pin<'A', 1>;
+/// What reads a sensor.
+pub(crate) struct SensorPort {
+    /// The SPI, and what divides its clock.
+    pub(crate) spi: Spi,
+    pub(crate) divider: Br,
+    /// Requests each byte of a frame.
+    pub(crate) byte_timer: TimBasic,
+    /// From its clock to that of [`CLOCKS`](crate::here::CLOCKS).
+    pub(crate) byte_timer_divider: u16,
+    /// Moves the bytes.
+    pub(crate) dma: Route,
+    /// Where it puts what came.
+    pub(crate) received: &'static Received,
+    /// Its pins.
+    pub(crate) pins: SensorPins,
+    /// Alternate function of the three that are the SPI's.
+    pub(crate) function: AlternateFunction,
+    /// Gives a clock to all of it.
+    pub(crate) start_clocks: fn(),
+    /// The SPI as after a reset.
+    pub(crate) reset_spi: fn(),
+}
 
-/// PWM of the H-bridge, and of the first of three half-bridges.
-pub(crate) type Pwm1 = Pin<'A', 8>;
-/// PWM of the second half-bridge.
-pub(crate) type Pwm2 = Pin<'A', 9>;
-/// PWM of the third half-bridge.
-pub(crate) type Pwm3 = Pin<'A', 10>;
-/// Direction of the H-bridge.
-pub(crate) type Direction = Pin<'B', 5>;
+/// A sensor's wires.
+pub(crate) struct SensorPins {
+    /// Clock.
+    pub(crate) sck: PinName,
+    /// Data from the sensor; joined to `mosi` outside, one open-drain line.
+    pub(crate) miso: PinName,
+    /// Data to the sensor.
+    pub(crate) mosi: PinName,
+    /// /SS.
+    pub(crate) select: PinName,
+}
+
+/// What drives an H-bridge.
+pub(crate) struct BridgePort {
+    /// The output of the PWM's timer, and its pin.
+    pub(crate) output: Output,
+    pub(crate) pwm: PinName,
+    /// Direction.
+    pub(crate) direction: PinName,
+}
+
+/// What counts an encoder's edges.
+pub(crate) struct EncoderPort {
+    /// A timer of at least 16 bits.
+    pub(crate) timer: TimGp16,
+    /// Its channels' pins.
+    pub(crate) a: PinName,
+    pub(crate) b: PinName,
+    /// Their alternate function.
+    pub(crate) function: AlternateFunction,
+}
+
+const fn pin(port: char, number: u8) -> PinName {
+    PinName::new(port, number)
+}
+
+/// The left sensor.
+pub(crate) const LEFT_SENSOR: SensorPins = SensorPins {
+    sck: pin('A', 5),
+    miso: pin('A', 6),
+    mosi: pin('A', 7),
+    select: pin('B', 6),
+};
+
+/// The left encoder.
+pub(crate) const LEFT_ENCODER: [PinName; 2] = [pin('A', 0), pin('A', 1)];
+
+/// The left H-bridge.
+pub(crate) const LEFT_BRIDGE: BridgePort = BridgePort {
+    output: Output::One,
+    pwm: PWMS[0],
+    direction: pin('B', 5),
+};
+
+/// The outputs of the PWM's timer: three half-bridges, or an H-bridge each.
+pub(crate) const PWMS: [PinName; 3] = [pin('A', 8), pin('A', 9), pin('A', 10)];
 /// Enable inputs of the three half-bridges.
-pub(crate) type Enables = (Pin<'C', 10>, Pin<'C', 11>, Pin<'C', 12>);
+pub(crate) const ENABLES: [PinName; 3] = [pin('C', 10), pin('C', 11), pin('C', 12)];
 /// Hall sensors of the brushless motor.
-pub(crate) type Halls = (Pin<'A', 15>, Pin<'B', 3>, Pin<'B', 10>);
-
-/// Every output that can drive a motor: the PWM and the enables.
-pub(crate) const MOTOR_OUTPUTS: [(Gpio, usize); 6] = [
-    Pwm1::PORT_AND_NUMBER,
-    Pwm2::PORT_AND_NUMBER,
-    Pwm3::PORT_AND_NUMBER,
-    Pin::<'C', 10>::PORT_AND_NUMBER,
-    Pin::<'C', 11>::PORT_AND_NUMBER,
-    Pin::<'C', 12>::PORT_AND_NUMBER,
-];
+pub(crate) const HALLS: [PinName; 3] = [pin('A', 15), pin('B', 3), pin('B', 10)];
