@@ -23,6 +23,7 @@ mod memory;
 mod meter;
 pub mod overload;
 mod paint;
+pub mod picture;
 mod program;
 mod rtt;
 pub mod sensor_loss;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use emulator::{compare, deadlines, emulate, overload, sensor_loss};
+use emulator::{compare, deadlines, emulate, overload, picture, sensor_loss};
+use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
 
@@ -32,6 +33,18 @@ enum Command {
         flashed: Flashed,
         /// Where to write
         #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
+    /// Draws what both sides do in scenes with obstacles, one below the other
+    Picture {
+        /// The scene files
+        #[arg(required = true)]
+        scenes: Vec<PathBuf>,
+        /// The programs that were built for them, in the same order
+        #[arg(long, value_name = "ELF", required = true)]
+        program: Vec<PathBuf>,
+        /// The SVG file to write
+        #[arg(long, value_name = "FILE")]
         out: PathBuf,
     },
     /// Runs one scene on PC and board and compares every tick
@@ -72,6 +85,15 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             if let Some(summary) = emulate::emulate(&scene, &program, &out, verbosity)? {
                 report::say(summary);
             }
+        }
+        Command::Picture {
+            scenes,
+            program,
+            out,
+        } => {
+            let flashed = scenes.iter().zip(&program);
+            let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
+            write_whole(&out, picture::picture(&flashed)?.as_bytes())?;
         }
         Command::Compare(Flashed { scene, program }) => {
             let agreed = compare::compare(&scene, &program)?;

@@ -1,4 +1,9 @@
-//! Pictures: of a run, position, contact and what was decided; and of a calibration.
+//! Pictures: of a run, position, contact and what was decided; of both sides of some runs;
+//! and of a calibration.
+
+mod sides;
+
+pub use sides::{Panel, sides};
 
 use plotters::prelude::*;
 use tactile::score::Interval;

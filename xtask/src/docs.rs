@@ -1,9 +1,11 @@
 //! Generated documents: written by commands, never by hand.
 
+mod harness;
 mod main_job;
 
-use crate::cost;
+use crate::firmware::Board;
 use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top};
+use crate::{cost, emulate};
 use main_job::DECISIONS;
 
 /// Writes every generated document, or checks that they are up to date.
@@ -12,6 +14,8 @@ use main_job::DECISIONS;
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
+    document("docs/harness.svg", harness::svg()?.as_bytes(), check)?;
+    asymmetry(check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
     cost::write_page(check)?;
     // The main job's page quotes what it measures over many runs.
@@ -32,6 +36,14 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
         document(scene.model, &scene.train()?, check)?;
     }
     studies("report", check)
+}
+
+/// Draws contact-induced asymmetry without CIA and with it, from the emulated board.
+fn asymmetry(check: bool) -> Result<(), Fault> {
+    let scenes = ["scenes/rcp.toml", "scenes/cia.toml"].map(|scene| top().join(scene));
+    let drawn = target().join("picture/asymmetry.svg");
+    emulate::picture(Board::named("nucleo-f446re")?, &scenes, &drawn)?;
+    document("docs/asymmetry.svg", &read_bytes(&drawn)?, check)
 }
 
 /// Makes a page of the studies. They show docs/measured/instructions.csv, which

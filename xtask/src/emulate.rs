@@ -5,7 +5,7 @@ mod variants;
 use std::path::{Path, PathBuf};
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, absolute, cargo, listing, output, run, target, top};
+use crate::run::{Fault, absolute, cargo, listing, output, read_bytes, run, target, top, write};
 
 /// What is done with a scene.
 #[derive(Debug, Clone)]
@@ -46,6 +46,23 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Compare | Task::Overload | Task::SensorLoss => &mut command,
     };
     run(command.arg("--program").arg(program))
+}
+
+/// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
+///
+/// # Errors
+/// As [`emulate`].
+pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
+    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "picture"]);
+    for scene in scenes {
+        // Each in a place of its own: the next build takes that of the last.
+        let built = firmware::build(board, scene)?;
+        let name = scene.file_stem().unwrap_or_default();
+        let kept = target().join("picture").join(name).with_extension("elf");
+        write(&kept, read_bytes(&built)?)?;
+        command.arg(absolute(scene)?).arg("--program").arg(kept);
+    }
+    run(command.arg("--out").arg(absolute(out)?))
 }
 
 /// What [`Task::Deadlines`] measures, as `what,mean,worst` lines.

@@ -49,6 +49,15 @@ enum Command {
     /// Builds the firmware of a scene and runs it on an emulated board: writes
     /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
     Emulate(Emulate),
+    /// Draws what both sides do in scenes with obstacles, on an emulated NUCLEO-F446RE
+    Picture {
+        /// The scenes, from above
+        #[arg(required = true)]
+        scenes: Vec<PathBuf>,
+        /// The SVG file to write
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+    },
     /// Counts the instructions of every kernel on emulated processors
     /// (needs qemu-system-arm) and writes docs/measured/instructions.csv
     Count {
@@ -174,6 +183,8 @@ fn main() -> ExitCode {
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),
+        Command::Picture { scenes, out } => firmware::Board::named("nucleo-f446re")
+            .and_then(|board| emulate::picture(board, &scenes, &out)),
         Command::Cost {
             deadlines: true, ..
         } => cost::deadlines(),

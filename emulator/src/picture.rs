@@ -1,0 +1,49 @@
+//! What both sides do in some scenes, from the emulated board, as a picture.
+
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::commands::run::Loaded;
+use host_sim::plot::{Panel, sides};
+
+use crate::emulate::start;
+use crate::program::Program;
+
+/// Runs each scene on the board that the program beside it was built for, and draws them one
+/// below the other: an SVG document.
+///
+/// # Errors
+/// [`Error::Input`] for a scene that is wrong or has not an obstacle on each of two sides,
+/// [`Error::Work`] for what the board cannot go along with.
+pub fn picture(flashed: &[(&Path, &Path)]) -> Result<String, Error> {
+    let panels = flashed.iter().map(|(scene, program)| panel(scene, program));
+    sides(&panels.collect::<Result<Vec<_>, Error>>()?)
+}
+
+fn panel(path: &Path, program: &Path) -> Result<Panel, Error> {
+    let loaded = Loaded::new(path)?;
+    let scene = &loaded.scene;
+    let obstacle = scene.plant.obstacle.as_ref();
+    let Some(&[left, right]) = obstacle.map(|obstacle| obstacle.obstacle_deg.as_slice()) else {
+        let reason = "plant.obstacle_deg: found none for each of two sides; the picture shows both";
+        return Err(Error::file(path, reason));
+    };
+    let mut run = start(scene, loaded.classes()?, &Program::load(program)?)?;
+    let mut rows = Vec::new();
+    for _ in 0..run.ticks() {
+        rows.push(run.tick());
+        run.module_mut().check()?;
+    }
+    let on = |part: bool| if part { "with" } else { "without" };
+    let title = format!(
+        "{}: {} RCP, {} CIA",
+        scene.name,
+        on(scene.rcp.is_some()),
+        on(scene.cia.is_some())
+    );
+    Ok(Panel {
+        title,
+        rows,
+        obstacle_deg: [left, right],
+    })
+}

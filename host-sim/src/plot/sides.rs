@@ -1,0 +1,65 @@
+//! A picture of what both sides do: a panel a run.
+
+use plotters::prelude::*;
+
+use super::{Area, Curve, Fault, MEASURED, SETPOINT, curves, envelope};
+use crate::Error;
+use crate::trace::Row;
+
+/// Colours of the sides, and of what is in their way.
+const SIDES: [RGBColor; 2] = [MEASURED, RGBColor(200, 90, 0)];
+const OBSTACLES: [RGBColor; 2] = [RGBColor(150, 185, 215), RGBColor(235, 190, 150)];
+/// Height of a panel, and width of the picture, pixels.
+const PANEL: (u32, u32) = (1000, 230);
+
+/// A run to be shown.
+#[derive(Debug)]
+pub struct Panel {
+    /// What it shows.
+    pub title: String,
+    /// Its ticks.
+    pub rows: Vec<Row>,
+    /// Where the obstacle of each side is, degrees.
+    pub obstacle_deg: [f64; 2],
+}
+
+/// Both sides of each run as an SVG document: measured angles, and obstacles as lines in the
+/// colour of their side.
+///
+/// # Errors
+/// [`Error::Work`] if the drawing library fails.
+pub fn sides(panels: &[Panel]) -> Result<String, Error> {
+    drawn(panels).map_err(|fault| Error::Work(format!("plot: {fault}")))
+}
+
+fn drawn(panels: &[Panel]) -> Result<String, Fault> {
+    let mut svg = String::new();
+    {
+        let size = (PANEL.0, PANEL.1 * panels.len() as u32);
+        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        root.fill(&WHITE)?;
+        for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
+            draw(area, panel)?;
+        }
+        root.present()?;
+    }
+    Ok(svg)
+}
+
+fn draw(area: &Area<'_>, panel: &Panel) -> Result<(), Fault> {
+    let rows = &panel.rows;
+    let span = (0.0, rows.last().map_or(1.0, |row| row.t_s));
+    let obstacle = |name, side: usize| -> Curve {
+        let at = panel.obstacle_deg[side];
+        (name, OBSTACLES[side], vec![(span.0, at), (span.1, at)])
+    };
+    let shown = vec![
+        obstacle("obstacle, left", 0),
+        obstacle("obstacle, right", 1),
+        ("left", SIDES[0], envelope(rows, |row| row.angle_deg[0])),
+        ("right", SIDES[1], envelope(rows, |row| row.angle_deg[1])),
+    ];
+    let style = ("sans-serif", 18).into_font().color(&SETPOINT);
+    let area = area.titled(&panel.title, style)?;
+    curves(&area, "degrees", span, (40.0, 150.0), shown)
+}
