@@ -6,8 +6,8 @@
 //! table by the types of [`wiring`]; and which of the drivers that exist in
 //! several versions (`gpio_*`, `spi_*`, `dma_*`) fit its chip. The scene's types
 //! and settings come from the build script into [`scene`]; nothing else depends
-//! on the scene but the `cfg` by which a program binds the interrupt of the right
-//! side. See docs/boards.md for how to add a board.
+//! on the scene but the `cfg` `right_side`, by which a board gives that side its
+//! clocks and its interrupt. See docs/boards.md for how to add a board.
 //!
 //! Register-level throughout: for time, safety and size, and because that is
 //! what the families share. All `unsafe` of the firmware is in here.

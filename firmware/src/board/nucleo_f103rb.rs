@@ -64,6 +64,7 @@ mod chip {
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
+    use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
     use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4};
@@ -105,15 +106,6 @@ mod chip {
             },
             pins: LEFT_SENSOR,
             function: ONLY,
-            start_clocks: || {
-                RCC.ahbenr().modify(|w| w.set_dma1en(true));
-                RCC.apb1enr().modify(|w| w.set_tim4en(true));
-                RCC.apb2enr().modify(|w| w.set_spi1en(true));
-            },
-            reset_spi: || {
-                RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
-                RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
-            },
         },
         bridge: LEFT_BRIDGE,
         encoder: EncoderPort {
@@ -176,6 +168,19 @@ mod chip {
             w.set_gpiocen(true);
             w.set_afioen(true);
         });
+    }
+
+    /// Clock for what reads the sensor.
+    pub(crate) fn clock_sensors() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apb1enr().modify(|w| w.set_tim4en(true));
+        RCC.apb2enr().modify(|w| w.set_spi1en(true));
+    }
+
+    /// The SPI, of which there is one, as after a reset.
+    pub(crate) fn reset_spi(_: Spi) {
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
     }
 
     /// Clock for motor and encoder.

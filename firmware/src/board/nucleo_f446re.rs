@@ -74,6 +74,7 @@ mod chip {
     use firmware::Clock;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
+    use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
     use stm32_metapac::{DBGMCU, DMA1, DMA2, FLASH, RCC, SPI1, SPI2};
@@ -118,18 +119,6 @@ mod chip {
             },
             pins: LEFT_SENSOR,
             function: 5,
-            start_clocks: || {
-                RCC.ahb1enr().modify(|w| w.set_dma2en(true));
-                RCC.apb2enr().modify(|w| {
-                    w.set_tim8en(true);
-                    w.set_spi1en(true);
-                });
-                settle();
-            },
-            reset_spi: || {
-                RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
-                RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
-            },
         },
         bridge: LEFT_BRIDGE,
         encoder: EncoderPort {
@@ -167,18 +156,6 @@ mod chip {
                 select: PinName::new('B', 12),
             },
             function: 5,
-            start_clocks: || {
-                RCC.ahb1enr().modify(|w| w.set_dma1en(true));
-                RCC.apb1enr().modify(|w| {
-                    w.set_tim6en(true);
-                    w.set_spi2en(true);
-                });
-                settle();
-            },
-            reset_spi: || {
-                RCC.apb1rstr().modify(|w| w.set_spi2rst(true));
-                RCC.apb1rstr().modify(|w| w.set_spi2rst(false));
-            },
         },
         bridge: BridgePort {
             output: Output::Two,
@@ -282,11 +259,39 @@ mod chip {
         settle();
     }
 
-    /// Clock for motors and encoders.
+    /// Clock for what reads the sensors of the scene's sides.
+    pub(crate) fn clock_sensors() {
+        RCC.ahb1enr().modify(|w| w.set_dma2en(true));
+        RCC.apb2enr().modify(|w| {
+            w.set_tim8en(true);
+            w.set_spi1en(true);
+        });
+        if cfg!(right_side) {
+            RCC.ahb1enr().modify(|w| w.set_dma1en(true));
+            RCC.apb1enr().modify(|w| {
+                w.set_tim6en(true);
+                w.set_spi2en(true);
+            });
+        }
+        settle();
+    }
+
+    /// A side's SPI as after a reset.
+    pub(crate) fn reset_spi(spi: Spi) {
+        if cfg!(right_side) && spi == SPI2 {
+            RCC.apb1rstr().modify(|w| w.set_spi2rst(true));
+            RCC.apb1rstr().modify(|w| w.set_spi2rst(false));
+        } else {
+            RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+            RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+        }
+    }
+
+    /// Clock for motors and encoders of the scene's sides.
     pub(crate) fn clock_motors() {
         RCC.apb1enr().modify(|w| {
             w.set_tim2en(true);
-            w.set_tim3en(true);
+            w.set_tim3en(cfg!(right_side));
         });
         RCC.apb2enr().modify(|w| w.set_tim1en(true));
         settle();

@@ -64,6 +64,7 @@ pub(crate) use chip::*;
 mod chip {
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
+    use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::TimGp16;
     use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, TIM2, TIM3, TIM6};
@@ -110,19 +111,6 @@ mod chip {
             },
             pins: LEFT_SENSOR,
             function: 0,
-            start_clocks: || {
-                RCC.ahbenr().modify(|w| w.set_dma1en(true));
-                RCC.apbenr1().modify(|w| w.set_tim6en(true));
-                RCC.apbenr2().modify(|w| w.set_spi1en(true));
-                settle();
-                // The routes of the requests.
-                DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
-                DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
-            },
-            reset_spi: || {
-                RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
-                RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
-            },
         },
         bridge: LEFT_BRIDGE,
         encoder: EncoderPort {
@@ -191,6 +179,22 @@ mod chip {
             w.set_gpiocen(true);
         });
         settle();
+    }
+
+    /// Clock for what reads the sensor, and the routes of its DMA requests.
+    pub(crate) fn clock_sensors() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apbenr1().modify(|w| w.set_tim6en(true));
+        RCC.apbenr2().modify(|w| w.set_spi1en(true));
+        settle();
+        DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
+        DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
+    }
+
+    /// The SPI, of which there is one, as after a reset.
+    pub(crate) fn reset_spi(_: Spi) {
+        RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
+        RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
     }
 
     /// Clock for motor and encoder.

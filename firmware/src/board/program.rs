@@ -62,6 +62,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
     if let Err(error) = here::start_clocks() {
         faults::die(|| log::clock(error));
     }
+    here::clock_sensors();
     let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
     let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
     let motion = scene::start_motion();

@@ -23,7 +23,7 @@ use stm32_metapac::spi::vals::{Cpha, Mstr};
 use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
-use crate::here::{dma::Transfers, spi};
+use crate::here::{dma::Transfers, reset_spi, spi};
 
 /// Where an rx DMA puts the bytes, as words. Atomic because the compiler does
 /// not see the DMA's writes.
@@ -47,13 +47,11 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    /// Sets everything up; the first frame starts with the first
-    /// [`take`](FrameSource::take). The sensor must have had its start-up time
-    /// by then.
+    /// Sets everything up, once the sensors' clocks run; the first frame starts with the
+    /// first [`take`](FrameSource::take). The sensor must have had its start-up time by then.
     pub(crate) fn new(port: &'static SensorPort, slot_counts: u16) -> Self {
         let pins = &port.pins;
         Pin::new_high(pins.select);
-        (port.start_clocks)();
         let timer = port.byte_timer;
         timer.psc().write_value(port.byte_timer_divider - 1);
         timer
@@ -141,7 +139,7 @@ impl Frames {
 /// Mode 1, most significant bit first, bytes; /SS is ours. Also discards a frame that
 /// broke off in the middle of a byte.
 fn set_up_spi(port: &SensorPort) {
-    (port.reset_spi)();
+    reset_spi(port.spi);
     spi::set_up_bytes(port.spi);
     port.spi.cr1().write(|w| {
         w.set_mstr(Mstr::MASTER);

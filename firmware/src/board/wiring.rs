@@ -38,10 +38,6 @@ pub(crate) struct SensorPort {
     pub(crate) pins: SensorPins,
     /// Alternate function of the three that are the SPI's.
     pub(crate) function: AlternateFunction,
-    /// Gives a clock to all of it.
-    pub(crate) start_clocks: fn(),
-    /// The SPI as after a reset.
-    pub(crate) reset_spi: fn(),
 }
 
 /// A sensor's wires.
