@@ -1,15 +1,15 @@
-//! The machine with host-sim's sensor and motor on its pins, as a module that
-//! host-sim's runs can drive.
+//! The machine with host-sim's sensors and motors on its pins, as a module that
+//! host-sim's runs can drive. A whisker a side; a scene with one side has the left.
 //!
 //! A tick of the simulation is from the return of the tick's handler to its
 //! next return. Between two, the core asleep, the world moves on by a tick at
-//! once, as in host-sim: the motor follows the pins as the tick left them, the
-//! plant follows the motor, and the sensor is set. The frame that was begun in
+//! once, as in host-sim: the motors follow the pins as the tick left them, the
+//! plant follows the motors, and the sensors are set. A frame that was begun in
 //! the tick before clocks its first byte a slot (50 µs or more) after /SS has
 //! fallen, so it latches the new deflection, as long as a tick is shorter than
 //! that; the next tick uses it. So tick n uses the deflection after tick n − 1
 //! on the board as on the PC. In the first tick there is no frame yet, and the
-//! module takes the sensor to be at rest, which in host-sim's first tick it is.
+//! module takes its sensor to be at rest, which in host-sim's first tick it is.
 
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
@@ -24,8 +24,8 @@ use crate::meter::Meter;
 use crate::program::Program;
 use crate::watch::Watch;
 
-/// The sensor on its wires: host-sim's slave.
-#[derive(Debug)]
+/// A sensor on its wires: host-sim's slave.
+#[derive(Debug, Default)]
 struct Wired {
     slave: Slave,
     exchange: Option<Exchange>,
@@ -48,8 +48,10 @@ impl SensorEnd for Wired {
 pub(crate) struct Board {
     pub(crate) machine: Machine,
     watch: Watch,
-    sensor: Wired,
-    pins: Option<Pins>,
+    /// Left side first.
+    sensors: Vec<Wired>,
+    /// Left side first; none where the whiskers are passive.
+    pins: Vec<Pins>,
     log: Vec<u8>,
     /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
@@ -64,21 +66,18 @@ fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
 }
 
 impl Board {
-    /// A board with `program` in its flash, a sensor, and a motor where the
-    /// program drives one; started, and before its first tick.
-    pub(crate) fn new(program: &Program, pins: Option<Pins>) -> Result<Self, Fault> {
+    /// A board with `program` in its flash, sensors on so many `sides`, and the motors
+    /// behind `pins`; started, and before its first tick.
+    pub(crate) fn new(program: &Program, sides: usize, pins: Vec<Pins>) -> Result<Self, Fault> {
         let mut board = Self {
             machine: Machine::new(program)?,
             watch: Watch::new(program)?,
-            sensor: Wired {
-                slave: Slave::new(),
-                exchange: None,
-            },
+            sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
             pins,
             log: Vec::new(),
             reset: None,
         };
-        match board.machine.run(PATIENCE, &mut board.sensor, &mut ())? {
+        match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
             Stop::Tick | Stop::Time => return Err(Fault::Asleep),
@@ -91,7 +90,7 @@ impl Board {
         self.inputs();
         let limit = self.machine.now + PATIENCE;
         loop {
-            let stop = self.machine.run(limit, &mut self.sensor, observer)?;
+            let stop = self.machine.run(limit, &mut self.sensors, observer)?;
             match stop {
                 Stop::Tick => break,
                 Stop::Ready => {}
@@ -118,45 +117,49 @@ impl Board {
         Ok(())
     }
 
-    /// Brings angle and Hall sensors to the chip's pins.
+    /// Brings angles and Hall sensors to the chip's pins.
     fn inputs(&mut self) {
-        let (position, halls) = match &mut self.pins {
-            None => return,
-            Some(Pins::Ideal(motor)) => (motor.counts(), None),
-            Some(Pins::Brushed(pins)) => (pins.encoder.counts(), None),
-            Some(Pins::Brushless(pins)) => {
-                let (a, b, c) = &mut pins.halls;
-                let halls = [a.is_high(), b.is_high(), c.is_high()];
-                (pins.encoder.counts(), Some(halls.map(|Ok(high)| high)))
-            }
-        };
-        self.machine.with_chip(|chip| {
-            chip.set_encoder(position);
-            if let Some(halls) = halls {
-                chip.set_halls(halls);
-            }
-        });
+        for (side, pins) in self.pins.iter_mut().enumerate() {
+            let (position, halls) = match pins {
+                Pins::Ideal(motor) => (motor.counts(), None),
+                Pins::Brushed(pins) => (pins.encoder.counts(), None),
+                Pins::Brushless(pins) => {
+                    let (a, b, c) = &mut pins.halls;
+                    let halls = [a.is_high(), b.is_high(), c.is_high()];
+                    (pins.encoder.counts(), Some(halls.map(|Ok(high)| high)))
+                }
+            };
+            self.machine.with_chip(|chip| {
+                chip.set_encoder(side, position);
+                if let Some(halls) = halls {
+                    chip.set_halls(halls);
+                }
+            });
+        }
     }
 
-    /// Brings the chip's motor pins to the motor.
+    /// Brings the chip's motor pins to the motors.
     fn outputs(&mut self) {
-        let (duties, (direction, enables)) = self
-            .machine
-            .with_chip(|chip| (chip.motor_duties(), chip.motor_pins()));
-        match &mut self.pins {
-            None | Some(Pins::Ideal(_)) => {}
-            Some(Pins::Brushed(pins)) => {
-                set_pwm(&mut pins.pwm, duties[0]);
-                let Ok(()) = pins.dir.set_state(direction.into());
-            }
-            Some(Pins::Brushless(pins)) => {
-                let (a, b, c) = &mut pins.pwms;
-                for (pwm, duty) in [a, b, c].into_iter().zip(duties) {
-                    set_pwm(pwm, duty);
+        let (duties, directions, enables) = self.machine.with_chip(|chip| {
+            let (directions, enables) = (chip.motor_directions(), chip.motor_enables());
+            (chip.motor_duties(), directions, enables)
+        });
+        for (side, pins) in self.pins.iter_mut().enumerate() {
+            match pins {
+                Pins::Ideal(_) => {}
+                Pins::Brushed(pins) => {
+                    set_pwm(&mut pins.pwm, duties[side]);
+                    let Ok(()) = pins.dir.set_state(directions[side].into());
                 }
-                let (a, b, c) = &mut pins.enables;
-                for (pin, high) in [a, b, c].into_iter().zip(enables) {
-                    let Ok(()) = pin.set_state(high.into());
+                Pins::Brushless(pins) => {
+                    let (a, b, c) = &mut pins.pwms;
+                    for (pwm, duty) in [a, b, c].into_iter().zip(duties) {
+                        set_pwm(pwm, duty);
+                    }
+                    let (a, b, c) = &mut pins.enables;
+                    for (pin, high) in [a, b, c].into_iter().zip(enables) {
+                        let Ok(()) = pin.set_state(high.into());
+                    }
                 }
             }
         }
@@ -236,6 +239,7 @@ impl Bench for Emulated {
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        (n == 0).then_some(&mut self.board.sensor.slave)
+        let sensor = self.board.sensors.get_mut(n)?;
+        Some(&mut sensor.slave)
     }
 }

@@ -10,40 +10,44 @@
 mod dma;
 mod fault;
 mod gpio;
+mod pins;
 mod plain;
 mod rcc;
 mod registers;
+mod requests;
 mod reset;
 mod sensor_lines;
 mod spi;
 mod time;
 mod timer;
+mod timers;
 mod watchdog;
+mod wiring;
 
 pub(crate) use fault::Fault;
 pub(crate) use reset::ResetCause;
 pub(crate) use sensor_lines::SensorEnd;
 pub(crate) use time::Ps;
+pub(crate) use wiring::SIDE_NAMES;
 
-use dma::{Dma, Move};
-use gpio::{Gpio, Role};
+use dma::Dma;
+use gpio::Gpio;
 use plain::Plain;
 use rcc::{Clocks, Rcc};
 use sensor_lines::SensorLines;
 use spi::Spi;
 use timer::Timer;
+use timers::{KINDS, TIM1, TIM7};
 use watchdog::Watchdog;
+use wiring::SIDES;
 
-/// The interrupt of the tick, TIM3, in the NVIC.
-pub(crate) const TICK_IRQ: u16 = 29;
-/// The interrupt of the sensor's frame, DMA2 stream 0.
-pub(crate) const FRAME_IRQ: u16 = 56;
+/// The interrupt of the tick, TIM7, in the NVIC.
+pub(crate) const TICK_IRQ: u16 = 55;
+/// The interrupts of the sensors' frames, left and right, in the NVIC.
+pub(crate) const FRAME_IRQS: [u16; 2] = [SIDES[0].end_of_frame, SIDES[1].end_of_frame];
 
-/// TIM2, TIM3, TIM5, TIM1, TIM8 in [`Chip::timers`].
-const ENCODER: usize = 0;
-const TICK: usize = 1;
-const MOTOR: usize = 3;
-const PACER: usize = 4;
+/// The timer that makes the ticks.
+const TICK: usize = TIM7;
 
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
@@ -55,11 +59,14 @@ pub(crate) struct Chip {
     flash: Plain,
     debug: Plain,
     gpio: [Gpio; 3],
-    timers: [Timer; 5],
-    spi: Spi,
-    dma: Dma,
+    timers: [Timer; 7],
+    /// SPI1 and SPI2: that of the left side, and of the right.
+    spis: [Spi; 2],
+    /// DMA1 and DMA2.
+    dmas: [Dma; 2],
     watchdog: Watchdog,
-    lines: SensorLines,
+    /// The wires of each side's sensor.
+    lines: [SensorLines; 2],
     fault: Option<Fault>,
 }
 
@@ -79,17 +86,11 @@ impl Chip {
                 Gpio::new([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
                 Gpio::new([0; 3]),
             ],
-            timers: [
-                Timer::new(u32::MAX, false),
-                Timer::new(0xFFFF, false),
-                Timer::new(u32::MAX, false),
-                Timer::new(0xFFFF, true),
-                Timer::new(0xFFFF, true),
-            ],
-            spi: Spi::default(),
-            dma: Dma::default(),
+            timers: KINDS.map(Timer::new),
+            spis: Default::default(),
+            dmas: Default::default(),
             watchdog: Watchdog::new(),
-            lines: SensorLines::default(),
+            lines: SIDE_NAMES.map(SensorLines::new),
             fault: None,
         })
     }
@@ -102,11 +103,11 @@ impl Chip {
         self.debug.reset();
         self.gpio.iter_mut().for_each(Gpio::reset);
         self.timers.iter_mut().for_each(Timer::reset);
-        self.spi = Spi::default();
-        self.dma = Dma::default();
+        self.spis = Default::default();
+        self.dmas = Default::default();
         self.watchdog = Watchdog::new();
         // /SS floats, with the sensor's own pull-up.
-        self.lines.select(false);
+        self.select_sensors();
         Ok(())
     }
 
@@ -115,12 +116,15 @@ impl Chip {
         self.clocks.core
     }
 
-    /// Whether the interrupt lines of tick and frame are up.
-    pub(crate) fn interrupts(&self) -> [(u16, bool); 2] {
-        [
-            (TICK_IRQ, self.timers[TICK].interrupts()),
-            (FRAME_IRQ, self.dma.interrupts(0)),
-        ]
+    /// Whether the interrupt lines of tick and frames are up.
+    pub(crate) fn interrupts(&self) -> [(u16, bool); 3] {
+        let frame = |side: usize| {
+            let wires = &SIDES[side];
+            let up = self.dmas[wires.dma].interrupts(wires.rx.stream);
+            (wires.end_of_frame, up)
+        };
+        let tick = (TICK_IRQ, self.timers[TICK].interrupts());
+        [tick, frame(0), frame(1)]
     }
 
     /// When the tick's timer had its last update.
@@ -128,47 +132,17 @@ impl Chip {
         self.timers[TICK].updated
     }
 
-    /// Moves the encoder to this position, counts.
-    pub(crate) const fn set_encoder(&mut self, position: i32) {
-        self.timers[ENCODER].set_position(position);
-    }
-
-    /// Sets the levels of the Hall sensors on PA15, PB3 and PB10.
-    pub(crate) fn set_halls(&mut self, [first, second, third]: [bool; 3]) {
-        self.gpio[0].drive(15, first);
-        self.gpio[1].drive(3, second);
-        self.gpio[1].drive(10, third);
-    }
-
-    /// Duty on the motor pins PA8 to PA10, counts of a period of counts; zero
-    /// where the pin is not the timer's.
-    pub(crate) fn motor_duties(&self) -> [(u32, u32); 3] {
-        [0, 1, 2].map(|channel: u32| {
-            let (on, period) = self.timers[MOTOR].duty(channel as usize);
-            match self.gpio[0].role(8 + channel) {
-                Role::Alternate(1) => (on, period),
-                Role::Output(true) => (period, period),
-                _ => (0, period),
-            }
-        })
-    }
-
-    /// Levels of the motor's other outputs: direction on PB5, and enables on
-    /// PC10 to PC12. A pin that is not driven is low.
-    pub(crate) fn motor_pins(&self) -> (bool, [bool; 3]) {
-        let high = |port: usize, pin| self.gpio[port].role(pin) == Role::Output(true);
-        (high(1, 5), [high(2, 10), high(2, 11), high(2, 12)])
-    }
-
     /// The next time at which something happens by itself.
     pub(crate) fn next_event(&self) -> Option<Ps> {
         let timers =
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
-        let byte = self.spi.shift.map(|shift| shift.ends);
-        timers.chain(byte).chain(self.watchdog.bites()).min()
+        let bytes = self.spis.iter().filter_map(|spi| spi.shift);
+        let bytes = bytes.map(|shift| shift.ends);
+        timers.chain(bytes).chain(self.watchdog.bites()).min()
     }
 
-    /// Lets everything happen that is due by `now`. Returns what resets the chip.
+    /// Lets everything happen that is due by `now`; `sensors` hang on the wires, the
+    /// left one first. Returns what resets the chip.
     ///
     /// # Errors
     /// The first fault since the last call.
@@ -176,17 +150,14 @@ impl Chip {
         &mut self,
         now: Ps,
         memory: &dyn Memory,
-        sensor: &mut dyn SensorEnd,
+        sensors: &mut [impl SensorEnd],
     ) -> Result<Option<ResetCause>, Fault> {
         loop {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
             self.serve_requests(memory)?;
-            if let Some(shift) = self.spi.shift {
-                let bit = self.spi.bit(self.clocks.apb2);
-                self.lines.begin(shift.began, bit, sensor)?;
-            }
+            self.begin_bytes(sensors)?;
             let Some(due) = self.next_event().filter(|&due| due <= now) else {
                 break;
             };
@@ -198,59 +169,44 @@ impl Chip {
                 let clock = self.timer_clock(n);
                 self.timers[n].sync(due, clock);
             }
-            if let Some(shift) = self.spi.shift.filter(|shift| shift.ends == due) {
-                let heard = self.sensor_is_connected();
-                let answer = self.lines.end(shift.sent, due, heard, sensor);
-                self.spi.end(answer, due, self.clocks.apb2);
-            }
+            self.end_bytes(sensors);
         }
         self.now = now;
         Ok(None)
     }
 
-    /// Whether the SPI's pins and mode are those that the sensor's wires need.
-    fn sensor_is_connected(&self) -> bool {
-        let port = &self.gpio[0];
-        let spi = |pin| port.role(pin) == Role::Alternate(5);
-        spi(5) && spi(6) && spi(7) && port.is_open_drain(7) && self.spi.is_mode_1()
-    }
-
-    /// Moves bytes for every request that a stream listens to.
-    fn serve_requests(&mut self, memory: &dyn Memory) -> Result<(), Fault> {
-        loop {
-            let moved = if self.spi.requests() {
-                self.dma.request(0, 3)
-            } else {
-                None
-            };
-            if let Some(Move { from, to }) = moved {
-                self.move_byte(from, to, memory)?;
-                continue;
+    /// Tells the sensors of bytes that have begun.
+    fn begin_bytes(&mut self, sensors: &mut [impl SensorEnd]) -> Result<(), Fault> {
+        for (side, sensor) in sensors.iter_mut().enumerate() {
+            if let Some(shift) = self.spis[side].shift {
+                let bit = self.spis[side].bit(self.spi_clock(side));
+                self.lines[side].begin(shift.began, bit, sensor)?;
             }
-            if !self.timers[PACER].request {
-                return Ok(());
-            }
-            let Some(Move { from, to }) = self.dma.request(1, 7) else {
-                return Ok(());
-            };
-            self.timers[PACER].request = false;
-            self.move_byte(from, to, memory)?;
-        }
-    }
-
-    fn move_byte(&mut self, from: u32, to: u32, memory: &dyn Memory) -> Result<(), Fault> {
-        let byte = match memory.get(from) {
-            Some(byte) => byte,
-            None => self.read(from)? as u8,
-        };
-        if memory.put(to, byte).is_none() {
-            self.write(to, byte.into(), u32::MAX)?;
         }
         Ok(())
     }
 
+    /// Ends the bytes that are due.
+    fn end_bytes(&mut self, sensors: &mut [impl SensorEnd]) {
+        let now = self.now;
+        for side in 0..self.spis.len() {
+            let shift = self.spis[side].shift.filter(|shift| shift.ends == now);
+            if let Some(shift) = shift {
+                let sensor = sensors.get_mut(side);
+                let sensor = sensor.filter(|_| self.sensor_is_connected(side));
+                let answer = self.lines[side].end(shift.sent, now, sensor);
+                self.spis[side].end(answer, now, self.spi_clock(side));
+            }
+        }
+    }
+
+    /// The clock of a side's SPI: that of APB2 for SPI1, of APB1 for SPI2.
+    fn spi_clock(&self, side: usize) -> Ps {
+        [self.clocks.apb2, self.clocks.apb1][side]
+    }
+
     fn timer_clock(&self, n: usize) -> Ps {
-        if n < 3 {
+        if n < TIM1 {
             self.clocks.apb1_timer
         } else {
             self.clocks.apb2_timer

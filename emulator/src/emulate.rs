@@ -5,6 +5,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::{Loaded, play};
+use host_sim::motor::Pins;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
@@ -30,10 +31,17 @@ pub(crate) fn start(
     program: &Program,
 ) -> Result<Run<Emulated>, Error> {
     let (world, pins) = World::wired(scene)?;
-    if scene.whiskers() != 1 {
-        return Err(Error::Work("the board carries one whisker".to_owned()));
+    if scene.head.whiskers_per_side != 1 {
+        return Err(Error::Work(
+            "the board carries one whisker a side".to_owned(),
+        ));
     }
-    let board = Board::new(program, pins.into_iter().next())?;
+    if pins.len() > 1 && pins.iter().any(|pins| matches!(pins, Pins::Brushless(_))) {
+        return Err(Error::Work(
+            "the board carries one six-step motor".to_owned(),
+        ));
+    }
+    let board = Board::new(program, scene.head.sides.count(), pins)?;
     Ok(Run::of(
         scene,
         Box::new(Emulated::new(board)),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
-use crate::chip::{Chip, FRAME_IRQ, Fault, Ps, ResetCause, SensorEnd, TICK_IRQ};
+use crate::chip::{Chip, FRAME_IRQS, Fault, Ps, ResetCause, SensorEnd, TICK_IRQ};
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
@@ -16,7 +16,7 @@ use crate::rtt::Ring;
 
 /// Exception numbers begin sixteen before those of the interrupts.
 const TICK: u32 = TICK_IRQ as u32 + 16;
-const FRAME: u32 = FRAME_IRQ as u32 + 16;
+const FRAMES: [u32; 2] = [FRAME_IRQS[0] as u32 + 16, FRAME_IRQS[1] as u32 + 16];
 /// The exception number in xPSR.
 const EXCEPTION: u32 = 0x1FF;
 
@@ -41,7 +41,7 @@ pub(crate) enum Stop {
 pub(crate) struct Spent {
     /// In the tick's handler.
     pub tick: u64,
-    /// In the handler at the end of a frame.
+    /// In the handlers at the end of a frame.
     pub frame: u64,
     /// In idle, and before it.
     pub thread: u64,
@@ -125,16 +125,17 @@ impl Machine {
         self.hold = time;
     }
 
-    /// Runs until the tick's handler has returned, the chip has been reset, the
-    /// program is ready, or the time is `until`.
+    /// Runs, with `sensors` on the wires, the left one first, until the tick's handler
+    /// has returned, the chip has been reset, the program is ready, or the time is
+    /// `until`.
     pub(crate) fn run(
         &mut self,
         until: Ps,
-        sensor: &mut dyn SensorEnd,
+        sensors: &mut [impl SensorEnd],
         observer: &mut impl Observer,
     ) -> Result<Stop, Fault> {
         loop {
-            if let Some(cause) = self.look(sensor)? {
+            if let Some(cause) = self.look(sensors)? {
                 self.reset(cause)?;
                 return Ok(Stop::Reset(cause));
             }
@@ -179,7 +180,7 @@ impl Machine {
         }
         let counter = match before {
             TICK => &mut self.spent.tick,
-            FRAME => &mut self.spent.frame,
+            exception if FRAMES.contains(&exception) => &mut self.spent.frame,
             0 => &mut self.spent.thread,
             _ => &mut self.spent.other,
         };
@@ -199,13 +200,13 @@ impl Machine {
     }
 
     /// Lets the chip do what is due and sets the core's interrupt lines.
-    fn look(&mut self, sensor: &mut dyn SensorEnd) -> Result<Option<ResetCause>, Fault> {
+    fn look(&mut self, sensors: &mut [impl SensorEnd]) -> Result<Option<ResetCause>, Fault> {
         let due = self.due.is_some_and(|due| due <= self.now);
         if !self.shared.take_touched() && !due {
             return Ok(None);
         }
         let mut chip = self.shared.chip();
-        let reset = match chip.advance(self.now, &self.memories, sensor) {
+        let reset = match chip.advance(self.now, &self.memories, sensors) {
             Ok(reset) => reset,
             Err(Fault::Unmodelled { address, write, .. }) => {
                 let pc = self.core.pc();

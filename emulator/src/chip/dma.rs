@@ -10,10 +10,11 @@ const STREAM_SIZE: u32 = 0x18;
 
 const EN: u32 = 1 << 0;
 const TCIE: u32 = 1 << 4;
+const DIR_FROM_MEMORY: u32 = 1 << 6;
 const MINC: u32 = 1 << 10;
 /// DMEIE, TEIE, TCIE, DIR to memory or from it, MINC, priority and channel: the rest is not
 /// modelled.
-const MODELLED: u32 = EN | 0b10110 | 1 << 6 | MINC | 3 << 16 | 7 << 25;
+const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | 3 << 16 | 7 << 25;
 
 /// The flags of a stream in LISR or HISR begin at these bits; TCIF is the sixth.
 const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
@@ -32,8 +33,9 @@ struct Stream {
 /// A byte to be moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Move {
-    pub(super) from: u32,
-    pub(super) to: u32,
+    pub(super) peripheral: u32,
+    pub(super) memory: u32,
+    pub(super) to_memory: bool,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -58,11 +60,11 @@ impl Dma {
             s.cr &= !EN;
             self.flags[stream] |= TCIF;
         }
-        let (from, to) = match s.cr & (1 << 6) {
-            0 => (s.par, memory),
-            _ => (memory, s.par),
-        };
-        Some(Move { from, to })
+        Some(Move {
+            peripheral: s.par,
+            memory,
+            to_memory: s.cr & DIR_FROM_MEMORY == 0,
+        })
     }
 
     pub(super) fn interrupts(&self, stream: usize) -> bool {

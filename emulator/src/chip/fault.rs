@@ -26,8 +26,13 @@ pub enum Fault {
         what: &'static str,
     },
     /// The sensor's wires are driven in a way that the sensor does not bear.
-    #[error("sensor's wires: {0}")]
-    Wires(&'static str),
+    #[error("{side} sensor's wires: {what}")]
+    Wires {
+        /// Whose.
+        side: &'static str,
+        /// How.
+        what: &'static str,
+    },
     /// The core has locked up: a fault within a fault handler.
     #[error("the core locked up at pc {pc:#010x}")]
     LockUp {

@@ -62,6 +62,7 @@ pub(super) struct Clocks {
     pub(super) core: Ps,
     pub(super) apb1_timer: Ps,
     pub(super) apb2_timer: Ps,
+    pub(super) apb1: Ps,
     pub(super) apb2: Ps,
 }
 
@@ -188,6 +189,7 @@ impl Rcc {
             core: period(core_hz),
             apb1_timer: timer(apb1),
             apb2_timer: timer(apb2),
+            apb1: period(core_hz / apb1),
             apb2: period(core_hz / apb2),
         })
     }

@@ -2,47 +2,51 @@
 //! peripheral resets.
 
 use super::dma::Dma;
-use super::gpio::Role;
 use super::rcc::Bus;
 use super::spi::Spi;
+use super::timers::{TIM1, TIM2, TIM3, TIM5, TIM6, TIM7, TIM8};
 use super::{Chip, Fault};
 
 /// What lies at an address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Unit {
+pub(super) enum Unit {
     Tim(usize),
     Watchdog,
-    Spi1,
+    Spi(usize),
     Gpio(usize),
     Rcc,
     Flash,
-    Dma2,
+    Dma(usize),
     Debug,
 }
 
 /// A unit, its base address, and its gate in RCC where it has one.
-type Entry = (Unit, u32, Option<(Bus, u32)>);
+pub(super) type Entry = (Unit, u32, Option<(Bus, u32)>);
 
-const MAP: [Entry; 14] = [
-    (Unit::Tim(0), 0x4000_0000, Some((Bus::Apb1, 0))),
-    (Unit::Tim(1), 0x4000_0400, Some((Bus::Apb1, 1))),
-    (Unit::Tim(2), 0x4000_0C00, Some((Bus::Apb1, 3))),
+pub(super) const MAP: [Entry; 18] = [
+    (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
+    (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
+    (Unit::Tim(TIM5), 0x4000_0C00, Some((Bus::Apb1, 3))),
+    (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
+    (Unit::Tim(TIM7), 0x4000_1400, Some((Bus::Apb1, 5))),
     (Unit::Watchdog, 0x4000_3000, None),
-    (Unit::Tim(3), 0x4001_0000, Some((Bus::Apb2, 0))),
-    (Unit::Tim(4), 0x4001_0400, Some((Bus::Apb2, 1))),
-    (Unit::Spi1, 0x4001_3000, Some((Bus::Apb2, 12))),
+    (Unit::Spi(1), 0x4000_3800, Some((Bus::Apb1, 14))),
+    (Unit::Tim(TIM1), 0x4001_0000, Some((Bus::Apb2, 0))),
+    (Unit::Tim(TIM8), 0x4001_0400, Some((Bus::Apb2, 1))),
+    (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
     (Unit::Gpio(0), 0x4002_0000, Some((Bus::Ahb1, 0))),
     (Unit::Gpio(1), 0x4002_0400, Some((Bus::Ahb1, 1))),
     (Unit::Gpio(2), 0x4002_0800, Some((Bus::Ahb1, 2))),
     (Unit::Rcc, 0x4002_3800, None),
     (Unit::Flash, 0x4002_3C00, None),
-    (Unit::Dma2, 0x4002_6400, Some((Bus::Ahb1, 22))),
+    (Unit::Dma(0), 0x4002_6000, Some((Bus::Ahb1, 21))),
+    (Unit::Dma(1), 0x4002_6400, Some((Bus::Ahb1, 22))),
     (Unit::Debug, 0xE004_2000, None),
 ];
 
 impl Chip {
     /// The unit at an address, whether it has its clock, and the offset in it.
-    fn find(&self, address: u32) -> Option<(Unit, bool, u32)> {
+    pub(super) fn find(&self, address: u32) -> Option<(Unit, bool, u32)> {
         let (unit, base, gate) = MAP
             .into_iter()
             .find(|(_, base, _)| (*base..base + 0x400).contains(&address))?;
@@ -66,11 +70,11 @@ impl Chip {
                     self.timers[n].read(offset, now, clock)
                 }
                 Unit::Watchdog => self.watchdog.read(offset, now),
-                Unit::Spi1 => self.spi.read(offset),
+                Unit::Spi(n) => self.spis[n].read(offset),
                 Unit::Gpio(n) => self.gpio[n].read(offset),
                 Unit::Rcc => self.rcc.read(offset),
                 Unit::Flash => self.flash.read(offset),
-                Unit::Dma2 => self.dma.read(offset),
+                Unit::Dma(n) => self.dmas[n].read(offset),
                 Unit::Debug => self.debug.read(offset),
             }
         });
@@ -100,7 +104,7 @@ impl Chip {
             return Ok(());
         }
         // Timers, SPI and watchdog have registers of 16 bits: a half-word is all.
-        let half = matches!(unit, Unit::Tim(_) | Unit::Spi1 | Unit::Watchdog);
+        let half = matches!(unit, Unit::Tim(_) | Unit::Spi(_) | Unit::Watchdog);
         let value = if mask == u32::MAX || (half && mask == 0xFFFF) {
             value
         } else {
@@ -112,11 +116,14 @@ impl Chip {
                 self.timers[n].write(offset, value, now, clock)
             }
             Unit::Watchdog => self.watchdog.write(offset, value, now),
-            Unit::Spi1 => self.spi.write(offset, value, now, self.clocks.apb2),
+            Unit::Spi(n) => {
+                let clock = self.spi_clock(n);
+                self.spis[n].write(offset, value, now, clock)
+            }
             Unit::Gpio(n) => self.gpio[n].write(offset, value),
             Unit::Rcc => self.rcc.write(offset, value),
             Unit::Flash => self.flash.write(offset, value),
-            Unit::Dma2 => self.dma.write(offset, value),
+            Unit::Dma(n) => self.dmas[n].write(offset, value),
             Unit::Debug => self.debug.write(offset, value),
         };
         if !known {
@@ -126,18 +133,12 @@ impl Chip {
             Unit::Rcc => {
                 self.clocks = self.rcc.clocks()?;
                 self.reset_peripherals();
-                self.select_sensor();
+                self.select_sensors();
             }
-            Unit::Gpio(1) => self.select_sensor(),
+            Unit::Gpio(_) => self.select_sensors(),
             _ => {}
         }
         Ok(())
-    }
-
-    /// Brings the level of PB6 to the sensor's /SS.
-    fn select_sensor(&mut self) {
-        let low = self.gpio[1].role(6) == Role::Output(false);
-        self.lines.select(low);
     }
 
     /// Resets what RCC's reset registers name.
@@ -152,9 +153,9 @@ impl Chip {
             }
             match unit {
                 Unit::Tim(n) => self.timers[n].reset(),
-                Unit::Spi1 => self.spi = Spi::default(),
+                Unit::Spi(n) => self.spis[n] = Spi::default(),
                 Unit::Gpio(n) => self.gpio[n].reset(),
-                Unit::Dma2 => self.dma = Dma::default(),
+                Unit::Dma(n) => self.dmas[n] = Dma::default(),
                 Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Debug => {}
             }
         }

@@ -24,6 +24,8 @@ const fn ps(nanoseconds: u32) -> Ps {
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct SensorLines {
+    /// What messages call the side.
+    side: &'static str,
     selected: bool,
     /// No byte has been clocked since /SS fell.
     fresh: bool,
@@ -34,6 +36,13 @@ pub(super) struct SensorLines {
 }
 
 impl SensorLines {
+    pub(super) fn new(side: &'static str) -> Self {
+        Self {
+            side,
+            ..Self::default()
+        }
+    }
+
     /// /SS is at this level now.
     pub(super) const fn select(&mut self, low: bool) {
         if low && !self.selected {
@@ -51,21 +60,23 @@ impl SensorLines {
         &mut self,
         began: Ps,
         bit: Ps,
-        sensor: &mut dyn SensorEnd,
+        sensor: &mut impl SensorEnd,
     ) -> Result<(), Fault> {
         if self.told == Some(began) || !self.selected {
             return Ok(());
         }
         self.told = Some(began);
+        let side = self.side;
+        let wrong = |what| Err(Fault::Wires { side, what });
         if bit * Ps::from(CLOCK_MAX_HZ) < 1_000_000_000_000 {
-            return Err(Fault::Wires("the clock is too fast"));
+            return wrong("the clock is too fast");
         }
         if began < ps(START_UP_US * 1_000) {
-            return Err(Fault::Wires("a frame within the sensor's start-up"));
+            return wrong("a frame within the sensor's start-up");
         }
         let gap = self.ended.map(|ended| began.saturating_sub(ended));
         if gap.is_some_and(|gap| gap < ps(BYTE_GAP_FAST_NS)) {
-            return Err(Fault::Wires("the gap between two bytes is too short"));
+            return wrong("the gap between two bytes is too short");
         }
         if self.fresh {
             self.fresh = false;
@@ -74,13 +85,12 @@ impl SensorLines {
         Ok(())
     }
 
-    /// A byte ended: what the master has read.
-    pub(super) fn end(&mut self, sent: u8, now: Ps, heard: bool, sensor: &mut dyn SensorEnd) -> u8 {
+    /// A byte ended: what the master has read from the sensor, if it is connected.
+    pub(super) fn end(&mut self, sent: u8, now: Ps, sensor: Option<&mut impl SensorEnd>) -> u8 {
         self.ended = Some(now);
-        if self.selected && heard {
-            sensor.exchange(sent)
-        } else {
-            0xFF
+        match sensor {
+            Some(sensor) if self.selected => sensor.exchange(sent),
+            _ => 0xFF,
         }
     }
 }

@@ -52,21 +52,21 @@ impl Spi {
     }
 
     /// The period of the SPI's clock, from that of its bus.
-    pub(super) fn bit(&self, apb2: Ps) -> Ps {
-        apb2 << (((self.cr1 >> 3) & 7) + 1)
+    pub(super) fn bit(&self, bus: Ps) -> Ps {
+        bus << (((self.cr1 >> 3) & 7) + 1)
     }
 
-    fn begin(&mut self, now: Ps, apb2: Ps) {
+    fn begin(&mut self, now: Ps, bus: Ps) {
         if self.shift.is_none()
             && let Some(sent) = self.waiting.take()
         {
-            let (began, ends) = (now, now + 8 * self.bit(apb2));
+            let (began, ends) = (now, now + 8 * self.bit(bus));
             self.shift = Some(Shift { sent, began, ends });
         }
     }
 
     /// The byte on its way has come to its end: `answer` was on the line.
-    pub(super) fn end(&mut self, answer: u8, now: Ps, apb2: Ps) {
+    pub(super) fn end(&mut self, answer: u8, now: Ps, bus: Ps) {
         self.shift = None;
         if self.received.is_some() {
             self.overrun = true;
@@ -74,7 +74,7 @@ impl Spi {
         } else {
             self.received = Some(answer);
         }
-        self.begin(now, apb2);
+        self.begin(now, bus);
     }
 
     /// Whether a received byte asks the DMA to fetch it.
@@ -109,7 +109,7 @@ impl Spi {
     }
 
     /// Whether register and setting are modelled.
-    pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, apb2: Ps) -> bool {
+    pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, bus: Ps) -> bool {
         match offset {
             CR1 => {
                 let master = value & (MSTR | SSM | SSI) == MSTR | SSM | SSI;
@@ -125,7 +125,7 @@ impl Spi {
             DR => {
                 if self.cr1 & SPE != 0 {
                     self.waiting = Some(value as u8);
-                    self.begin(now, apb2);
+                    self.begin(now, bus);
                 }
             }
             _ => return false,

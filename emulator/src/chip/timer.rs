@@ -1,11 +1,12 @@
-//! A timer, TIM1 to TIM5 and TIM8 (RM0390, chapters 16 to 18): counting up,
-//! updates with interrupt and DMA request, PWM mode 1 and encoder mode 3.
+//! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19): counting up, updates with
+//! interrupt and DMA request, PWM mode 1 and encoder mode 3.
 //!
 //! The count is worked out when somebody looks; only updates that interrupt or
 //! make a DMA request are events. Compare values act at once: the buffering of
 //! a PWM period, 50 µs, is not modelled.
 
 use super::time::Ps;
+use super::timers::Kind;
 
 const CR1: u32 = 0x00;
 const CR2: u32 = 0x04;
@@ -34,10 +35,7 @@ const MOE: u32 = 1 << 15;
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timer {
-    /// Largest count: 16 or 32 bits.
-    mask: u32,
-    /// Whether outputs need BDTR.MOE.
-    advanced: bool,
+    kind: Kind,
     cr1: u32,
     cr2: u32,
     smcr: u32,
@@ -63,12 +61,11 @@ pub(super) struct Timer {
 }
 
 impl Timer {
-    pub(super) fn new(mask: u32, advanced: bool) -> Self {
+    pub(super) fn new(kind: Kind) -> Self {
         Self {
-            mask,
-            advanced,
-            arr: mask,
-            active: [0, mask],
+            kind,
+            arr: kind.mask(),
+            active: [0, kind.mask()],
             ..Self::default()
         }
     }
@@ -76,8 +73,17 @@ impl Timer {
     pub(super) fn reset(&mut self) {
         *self = Self {
             position: self.position,
-            ..Self::new(self.mask, self.advanced)
+            ..Self::new(self.kind)
         };
+    }
+
+    /// Whether it has that register, which is one of those above.
+    const fn has(&self, offset: u32) -> bool {
+        match self.kind {
+            Kind::Basic => !matches!(offset, SMCR | CCMR1..=CCER | CCR1..),
+            Kind::General | Kind::Wide => offset != BDTR,
+            Kind::Advanced => true,
+        }
     }
 
     const fn is_encoder(&self) -> bool {
@@ -137,12 +143,12 @@ impl Timer {
         self.sr & self.dier & UIF != 0
     }
 
-    /// Moves the encoder to `position` counts.
-    pub(super) const fn set_position(&mut self, position: i32) {
+    /// Moves the encoder to `position` counts; heard if its lines are `connected`.
+    pub(super) const fn set_position(&mut self, position: i32, connected: bool) {
         let moved = position.wrapping_sub(self.position);
         self.position = position;
-        if self.is_encoder() && self.cr1 & CEN != 0 {
-            self.count = self.count.wrapping_add_signed(moved) & self.mask;
+        if connected && self.is_encoder() && self.cr1 & CEN != 0 {
+            self.count = self.count.wrapping_add_signed(moved) & self.kind.mask();
         }
     }
 
@@ -151,7 +157,7 @@ impl Timer {
         let mode = (self.ccmr[channel / 2] >> (8 * (channel % 2) + 4)) & 7;
         let enabled = self.cr1 & CEN != 0
             && self.ccer & (1 << (4 * channel)) != 0
-            && (self.bdtr & MOE != 0 || !self.advanced);
+            && (self.bdtr & MOE != 0 || self.kind != Kind::Advanced);
         let period = self.arr.saturating_add(1);
         let on = if enabled && mode == 6 {
             self.ccr[channel].min(period)
@@ -163,6 +169,9 @@ impl Timer {
 
     pub(super) fn read(&mut self, offset: u32, now: Ps, clock: Ps) -> Option<u32> {
         self.sync(now, clock);
+        if !self.has(offset) {
+            return None;
+        }
         Some(match offset {
             CR1 => self.cr1,
             CR2 => self.cr2,
@@ -177,7 +186,7 @@ impl Timer {
             PSC => self.psc,
             ARR => self.arr,
             CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize],
-            BDTR if self.advanced => self.bdtr,
+            BDTR => self.bdtr,
             _ => return None,
         })
     }
@@ -185,6 +194,9 @@ impl Timer {
     /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, clock: Ps) -> bool {
         self.sync(now, clock);
+        if !self.has(offset) {
+            return false;
+        }
         match offset {
             // Up-counting, edge aligned, without one-pulse mode.
             CR1 if value & !(CEN | UDIS | URS | ARPE) != 0 => return false,
@@ -210,18 +222,18 @@ impl Timer {
             CCMR2 => self.ccmr[1] = value,
             CCER => self.ccer = value,
             CNT => {
-                self.count = value & self.mask;
+                self.count = value & self.kind.mask();
                 self.since = now;
             }
             PSC => self.psc = value & 0xFFFF,
             ARR => {
-                self.arr = value & self.mask;
+                self.arr = value & self.kind.mask();
                 if self.cr1 & ARPE == 0 {
                     self.active[1] = self.arr;
                 }
             }
-            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize] = value & self.mask,
-            BDTR if self.advanced => self.bdtr = value & 0xFFFF,
+            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize] = value & self.kind.mask(),
+            BDTR => self.bdtr = value & 0xFFFF,
             _ => return false,
         }
         true

@@ -1,137 +1,185 @@
-//! A sensor frame by SPI, pacing timer and DMA.
+//! A sensor frame by SPI, byte timer and DMA, on either side.
 
-use super::{GPIOA, MS, RAM, Rig, US};
-use crate::chip::{FRAME_IRQ, Fault, Ps};
-
-const GPIOB: u32 = 0x4002_0400;
-const SPI1: u32 = 0x4001_3000;
-const TIM8: u32 = 0x4001_0400;
-const DMA2: u32 = 0x4002_6400;
-const COLLECTOR: u32 = DMA2 + 0x10;
-const FEEDER: u32 = DMA2 + 0x28;
-
-const ANSWERS: [u8; 8] = [0xFF, 1, 2, 3, 4, 5, 6, 7];
-/// From the start of a byte to that of the next.
-const SLOT: Ps = 50 * US;
-/// Eight bits at 312.5 kHz.
-const BYTE: Ps = 25_600_000;
-
-/// A chip that has been up for 20 ms, its pins and SPI set up as the driver does.
-fn rig(divider: u32) -> Rig {
-    let mut rig = Rig::clocked();
-    rig.run_fast();
-    rig.sensor.answers = ANSWERS.to_vec();
-    rig.pass(20 * MS);
-    rig.write(GPIOB + 0x18, 1 << 6);
-    rig.write(GPIOB, 0x280 | 1 << 12);
-    rig.write(GPIOA, 0xA800_0000 | 2 << 10 | 2 << 12 | 2 << 14);
-    rig.write(GPIOA + 0x20, 0x5550_0000);
-    rig.write(GPIOA + 0x04, 1 << 7);
-    rig.write(SPI1 + 4, 1);
-    rig.write(SPI1, 1 | 1 << 2 | divider << 3 | 1 << 6 | 3 << 8);
-    rig
-}
-
-/// Begins a frame of eight bytes, one in each `slot`.
-fn begin(rig: &mut Rig, slot: Ps) {
-    rig.write(TIM8 + 0x2C, (slot / 6_250 - 1) as u32);
-    rig.write(COLLECTOR + 0x08, SPI1 + 0x0C);
-    rig.write(COLLECTOR + 0x0C, RAM + 8);
-    rig.write(COLLECTOR + 0x04, 8);
-    rig.write(COLLECTOR, 3 << 25 | 3 << 16 | 1 << 10 | 1 << 4 | 1);
-    rig.ram.0.borrow_mut()[0] = 0xFF;
-    rig.write(FEEDER + 0x08, SPI1 + 0x0C);
-    rig.write(FEEDER + 0x0C, RAM);
-    rig.write(FEEDER + 0x04, 8);
-    rig.write(FEEDER, 7 << 25 | 1 << 6 | 1);
-    rig.write(GPIOB + 0x18, 1 << 22);
-    rig.write(TIM8 + 0x0C, 1 << 8);
-    rig.write(TIM8, 1);
-}
-
-fn is_done(rig: &Rig) -> bool {
-    rig.chip.interrupts().contains(&(FRAME_IRQ, true))
-}
+use super::side::{ANSWERS, BYTE, LEFT, RIGHT, Registers, SIDES, SLOT};
+use super::{GPIOA, GPIOB, MS, Rig, US};
+use crate::chip::Fault;
 
 #[test]
 fn eight_bytes_reach_memory_without_the_core() {
-    let mut rig = rig(7);
-    begin(&mut rig, SLOT);
-    rig.pass(SLOT - 1);
-    assert_eq!(
-        rig.sensor.latched, 0,
-        "the sensor latches with the first clock"
-    );
+    for on in SIDES {
+        let mut rig = on.rig(on.divider);
+        let (rx, tx) = (on.ended(0), on.ended(1));
+        on.begin(&mut rig, SLOT);
+        rig.pass(SLOT - 1);
+        let latched = |rig: &Rig| rig.sensors[on.side].latched;
+        assert_eq!(latched(&rig), 0, "the sensor latches with the first clock");
+        rig.pass(1);
+        assert_eq!(latched(&rig), 1);
+        rig.pass(7 * SLOT + BYTE - 1);
+        assert!(!on.is_done(&rig));
+        rig.pass(1);
+        assert!(on.is_done(&rig));
+        assert_eq!(rig.sensors[on.side].heard, [0xFF; 8]);
+        assert!(rig.sensors[1 - on.side].heard.is_empty());
+        assert_eq!(on.received(&rig), ANSWERS);
+        assert_eq!(latched(&rig), 1, "once a frame");
+        assert_eq!(
+            rig.read(on.dma) & (rx | tx),
+            rx | tx,
+            "TCIF of both streams"
+        );
+        let enabled = rig.read(on.stream(0)) & 1;
+        assert_eq!(enabled, 0, "the stream has switched itself off");
+        rig.write(on.dma + 8, rx);
+        assert!(!on.is_done(&rig));
+        assert_eq!(rig.read(on.dma) & (rx | tx), tx);
+    }
+}
+
+#[test]
+fn frames_of_both_sides_run_at_once() {
+    let mut rig = LEFT.rig(LEFT.divider);
+    rig.sensors[1].answers = ANSWERS.map(|byte| !byte).to_vec();
+    RIGHT.raise_select(&mut rig);
+    for (address, value) in RIGHT.pins {
+        let before = rig.read(address);
+        rig.write(address, before | value);
+    }
+    RIGHT.set_up_spi(&mut rig, 1, RIGHT.divider);
+    LEFT.begin(&mut rig, SLOT);
+    rig.pass(2 * US);
+    RIGHT.begin(&mut rig, SLOT);
+    rig.pass(8 * SLOT + BYTE - 2 * US - 1);
+    let done = |rig: &Rig| [LEFT.is_done(rig), RIGHT.is_done(rig)];
+    assert_eq!(done(&rig), [false, false]);
     rig.pass(1);
-    assert_eq!(rig.sensor.latched, 1);
-    rig.pass(7 * SLOT + BYTE - 1);
-    assert!(!is_done(&rig));
-    rig.pass(1);
-    assert!(is_done(&rig));
-    assert_eq!(rig.sensor.heard, [0xFF; 8]);
-    assert_eq!(rig.ram.0.borrow()[8..16], ANSWERS);
-    assert_eq!(rig.sensor.latched, 1, "once a frame");
-    assert_eq!(rig.read(DMA2) & 0x820, 0x820, "TCIF of both streams");
-    assert_eq!(
-        rig.read(COLLECTOR) & 1,
-        0,
-        "the stream has switched itself off"
-    );
-    rig.write(DMA2 + 8, 0x20);
-    assert!(!is_done(&rig));
-    assert_eq!(rig.read(DMA2) & 0x820, 0x800);
+    assert_eq!(done(&rig), [true, false]);
+    rig.pass(2 * US);
+    assert_eq!(done(&rig), [true, true]);
+    assert_eq!(LEFT.received(&rig), ANSWERS);
+    assert_eq!(RIGHT.received(&rig), ANSWERS.map(|byte| !byte));
+    assert_eq!(rig.sensors.map(|sensor| sensor.latched), [1, 1]);
 }
 
 #[test]
 fn a_byte_that_nobody_fetches_is_overrun_by_the_next() {
-    let mut rig = rig(7);
-    begin(&mut rig, SLOT);
-    rig.write(SPI1 + 4, 0);
-    rig.pass(SLOT + BYTE);
-    assert_eq!(rig.read(SPI1 + 8), 3, "RXNE and TXE");
-    rig.pass(SLOT);
-    assert_eq!(rig.read(SPI1 + 8) & 0x40, 0x40, "OVR");
-    assert_eq!(
-        rig.read(SPI1 + 0x0C),
-        0xFF,
-        "the first stays, the second is lost"
-    );
-    let _ = rig.read(SPI1 + 8);
-    assert_eq!(rig.read(SPI1 + 8) & 0x41, 0, "DR, then SR: cleared");
+    for on in SIDES {
+        let spi = on.spi;
+        let mut rig = on.rig(on.divider);
+        on.begin(&mut rig, SLOT);
+        rig.write(spi + 4, 0);
+        rig.pass(SLOT + BYTE);
+        assert_eq!(rig.read(spi + 8), 3, "RXNE and TXE");
+        rig.pass(SLOT);
+        assert_eq!(rig.read(spi + 8) & 0x40, 0x40, "OVR");
+        let byte = rig.read(spi + 0x0C);
+        assert_eq!(byte, 0xFF, "the first stays, the second is lost");
+        let _ = rig.read(spi + 8);
+        assert_eq!(rig.read(spi + 8) & 0x41, 0, "DR, then SR: cleared");
+    }
 }
 
 #[test]
-fn bytes_that_come_too_close_or_too_fast_are_told() {
-    let mut close = rig(7);
-    begin(&mut close, 30 * US);
-    let fault = close.try_pass(MS);
-    assert!(matches!(fault, Err(Fault::Wires(_))), "{fault:?}");
-    let mut fast = rig(6);
-    begin(&mut fast, SLOT);
-    let fault = fast.try_pass(MS);
-    assert!(matches!(fault, Err(Fault::Wires(_))), "625 kHz: {fault:?}");
+fn bytes_that_come_too_close_or_too_fast_or_too_early_are_told() {
+    for on in SIDES {
+        let name = ["left", "right"][on.side];
+        let told = |fault, why: &str| {
+            let wires = matches!(fault, Err(Fault::Wires { side, .. }) if side == name);
+            assert!(wires, "{name}, {why}: {fault:?}");
+        };
+        let mut close = on.rig(on.divider);
+        on.begin(&mut close, 30 * US);
+        told(close.try_pass(MS), "a gap of 4.4 us");
+        let mut fast = on.rig(on.divider - 1);
+        on.begin(&mut fast, SLOT);
+        told(fast.try_pass(MS), "625 kHz");
+        let mut early = on.rig_after(MS, on.divider);
+        on.begin(&mut early, SLOT);
+        told(early.try_pass(MS), "start-up");
+    }
 }
 
 #[test]
 fn a_sensor_that_is_not_selected_or_misspoken_to_is_silent() {
-    let mut unselected = rig(7);
-    begin(&mut unselected, SLOT);
-    unselected.write(GPIOB + 0x18, 1 << 6);
-    unselected.pass(MS);
-    assert!(is_done(&unselected));
-    assert_eq!(unselected.ram.0.borrow()[8..16], [0xFF; 8]);
-    assert_eq!(unselected.sensor.latched, 0);
+    for on in SIDES {
+        let mut unselected = on.rig(on.divider);
+        on.begin(&mut unselected, SLOT);
+        on.raise_select(&mut unselected);
+        unselected.pass(MS);
+        assert!(on.is_done(&unselected));
+        assert_eq!(on.received(&unselected), [0xFF; 8]);
+        assert_eq!(unselected.sensors[on.side].latched, 0);
 
-    let mut wrong_mode = rig(7);
-    wrong_mode.write(SPI1, 3 | 1 << 2 | 7 << 3 | 1 << 6 | 3 << 8);
-    begin(&mut wrong_mode, SLOT);
-    wrong_mode.pass(MS);
-    assert_eq!(wrong_mode.ram.0.borrow()[8..16], [0xFF; 8]);
+        let mut wrong_mode = on.rig(on.divider);
+        on.set_up_spi(&mut wrong_mode, 3, on.divider);
+        on.begin(&mut wrong_mode, SLOT);
+        wrong_mode.pass(MS);
+        assert_eq!(on.received(&wrong_mode), [0xFF; 8]);
+    }
+}
 
-    // A line that is driven high against the sensor's open drain.
-    let mut push_pull = rig(7);
-    push_pull.write(GPIOA + 0x04, 0);
-    begin(&mut push_pull, SLOT);
-    push_pull.pass(MS);
-    assert_eq!(push_pull.ram.0.borrow()[8..16], [0xFF; 8]);
+#[test]
+fn a_sensor_whose_pins_are_not_the_spis_is_silent() {
+    let port = |on: &Registers| if on.side == 0 { GPIOA } else { GPIOB };
+    for on in SIDES {
+        // Lines that another peripheral has, or none; and a line that is driven high
+        // against the sensor's open drain.
+        let functions = port(&on) + if on.side == 0 { 0x20 } else { 0x24 };
+        for (why, address, value) in [
+            ("push-pull", port(&on) + 0x04, 0),
+            ("SCK's function", functions, 0x5500_0000 | 0x0060_0000),
+            ("MISO's function", functions, 0x5060_0000),
+            ("MOSI's function", functions, 0x0550_0000),
+        ] {
+            let mut rig = on.rig(on.divider);
+            rig.write(address, value);
+            on.begin(&mut rig, SLOT);
+            rig.pass(MS);
+            assert!(on.is_done(&rig), "the chip itself does not see it");
+            assert_eq!(on.received(&rig), [0xFF; 8], "{why}");
+        }
+    }
+}
+
+#[test]
+fn a_stream_that_listens_to_another_request_moves_nothing() {
+    for on in SIDES {
+        let wrong = Registers {
+            channels: [on.channels[0], on.channels[1] - 1],
+            ..on
+        };
+        let mut rig = wrong.rig(wrong.divider);
+        wrong.begin(&mut rig, SLOT);
+        rig.pass(MS);
+        assert!(!wrong.is_done(&rig));
+        assert!(rig.sensors[wrong.side].heard.is_empty());
+    }
+}
+
+#[test]
+fn dma1_reaches_no_peripheral_beyond_apb1() {
+    let mut rig = RIGHT.rig(RIGHT.divider);
+    RIGHT.begin(&mut rig, SLOT);
+    let tx = RIGHT.stream(1);
+    rig.write(tx, 0);
+    rig.write(tx + 0x08, LEFT.spi + 0x0C);
+    rig.write(tx + 0x04, 8);
+    rig.write(tx, 7 << 25 | 1 << 6 | 1);
+    let fault = rig.try_pass(MS);
+    assert!(matches!(fault, Err(Fault::Misused { .. })), "{fault:?}");
+}
+
+#[test]
+fn a_reset_of_the_spi_ends_the_byte_on_its_way() {
+    for on in SIDES {
+        let mut rig = on.rig(on.divider);
+        on.begin(&mut rig, SLOT);
+        rig.pass(SLOT + BYTE / 2);
+        assert_eq!(rig.read(on.spi + 8) & 0x80, 0x80, "BSY");
+        let (register, bit) = on.reset;
+        rig.write(register, bit);
+        rig.write(register, 0);
+        assert_eq!(rig.read(on.spi + 8), 2, "TXE alone");
+        assert_eq!(rig.read(on.spi), 0);
+    }
 }

@@ -3,12 +3,10 @@
 use super::{MS, RCC, Rig, US};
 use crate::chip::{ResetCause, TICK_IRQ};
 
-const TIM2: u32 = 0x4000_0000;
-const TIM3: u32 = 0x4000_0400;
+const TIM7: u32 = 0x4000_1400;
 const TIM5: u32 = 0x4000_0C00;
 const IWDG: u32 = 0x4000_3000;
 const CR1: u32 = 0x00;
-const SMCR: u32 = 0x08;
 const DIER: u32 = 0x0C;
 const SR: u32 = 0x10;
 const EGR: u32 = 0x14;
@@ -24,13 +22,13 @@ fn ticks(rig: &Rig) -> bool {
 fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
     let mut rig = Rig::clocked();
     rig.run_fast();
-    rig.write(TIM3 + PSC, 0);
-    rig.write(TIM3 + ARR, 39_999);
-    rig.write(TIM3 + CR1, 1 << 2);
-    rig.write(TIM3 + EGR, 1);
-    assert_eq!(rig.read(TIM3 + SR), 0, "URS: that update is no tick");
-    rig.write(TIM3 + DIER, 1);
-    rig.write(TIM3 + CR1, 1 << 2 | 1);
+    rig.write(TIM7 + PSC, 0);
+    rig.write(TIM7 + ARR, 39_999);
+    rig.write(TIM7 + CR1, 1 << 2);
+    rig.write(TIM7 + EGR, 1);
+    assert_eq!(rig.read(TIM7 + SR), 0, "URS: that update is no tick");
+    rig.write(TIM7 + DIER, 1);
+    rig.write(TIM7 + CR1, 1 << 2 | 1);
     assert_eq!(rig.chip.next_event(), Some(500 * US));
     rig.pass(500 * US - 1);
     assert!(!ticks(&rig));
@@ -39,9 +37,9 @@ fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
     rig.pass(100 * US);
     assert!(ticks(&rig), "a level");
     assert_eq!(rig.chip.tick_began(), 500 * US);
-    rig.write(TIM3 + SR, 0);
+    rig.write(TIM7 + SR, 0);
     assert!(!ticks(&rig));
-    assert_eq!(rig.read(TIM3 + CNT), 8_000, "100 us at 80 MHz");
+    assert_eq!(rig.read(TIM7 + CNT), 8_000, "100 us at 80 MHz");
     rig.pass(400 * US);
     assert!(ticks(&rig), "without drift");
 }
@@ -50,13 +48,13 @@ fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
 fn a_prescaler_divides_from_the_next_update_on() {
     let mut rig = Rig::clocked();
     rig.run_fast();
-    rig.write(TIM3 + PSC, 9);
-    rig.write(TIM3 + CR1, 1);
+    rig.write(TIM7 + PSC, 9);
+    rig.write(TIM7 + CR1, 1);
     rig.pass(US);
-    assert_eq!(rig.read(TIM3 + CNT), 80, "not yet");
-    rig.write(TIM3 + EGR, 1);
+    assert_eq!(rig.read(TIM7 + CNT), 80, "not yet");
+    rig.write(TIM7 + EGR, 1);
     rig.pass(US);
-    assert_eq!(rig.read(TIM3 + CNT), 8);
+    assert_eq!(rig.read(TIM7 + CNT), 8);
 }
 
 #[test]
@@ -69,21 +67,6 @@ fn the_free_counter_has_32_bits() {
     rig.pass(60_000 * MS);
     let expected = 80_000_000_u64 * 61 % (1 << 32);
     assert_eq!(u64::from(rig.read(TIM5 + CNT)), expected);
-}
-
-#[test]
-fn the_encoder_counts_both_ways_and_through_zero() {
-    let mut rig = Rig::clocked();
-    rig.write(TIM2 + SMCR, 3);
-    rig.chip.set_encoder(5);
-    assert_eq!(rig.read(TIM2 + CNT), 0, "not enabled");
-    rig.write(TIM2 + CR1, 1);
-    rig.chip.set_encoder(12);
-    assert_eq!(rig.read(TIM2 + CNT), 7);
-    rig.chip.set_encoder(-4);
-    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9);
-    rig.pass(MS);
-    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9, "time moves it not");
 }
 
 /// Starts it as the board does: 160 counts of 8 kHz.

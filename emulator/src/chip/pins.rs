@@ -1,0 +1,76 @@
+//! What hangs on the chip's pins, from outside: motors, encoders, Hall sensors,
+//! sensors. A line whose pin is not its peripheral's is not connected.
+
+use super::Chip;
+use super::gpio::Role;
+use super::timers::TIM1;
+use super::wiring::{ENABLES, HALLS, PWM, PWM_FUNCTION, Pin, SIDES, SPI_FUNCTION};
+
+impl Chip {
+    fn role(&self, Pin { port, number }: Pin) -> Role {
+        self.gpio[port].role(number)
+    }
+
+    fn carries(&self, pins: &[Pin], function: u32) -> bool {
+        let mut roles = pins.iter().map(|&pin| self.role(pin));
+        roles.all(|role| role == Role::Alternate(function))
+    }
+
+    /// Moves the encoder of a side to this position, counts.
+    pub(crate) fn set_encoder(&mut self, side: usize, position: i32) {
+        let wires = &SIDES[side];
+        let connected = self.carries(&wires.encoder, wires.encoder_function);
+        self.timers[wires.encoder_timer].set_position(position, connected);
+    }
+
+    /// Sets the levels of the Hall sensors of a brushless motor.
+    pub(crate) fn set_halls(&mut self, levels: [bool; 3]) {
+        for (Pin { port, number }, high) in HALLS.into_iter().zip(levels) {
+            self.gpio[port].drive(number, high);
+        }
+    }
+
+    /// Duty on the motors' PWM pins, counts of a period of counts; zero where the pin
+    /// is not the timer's.
+    pub(crate) fn motor_duties(&self) -> [(u32, u32); 3] {
+        [0, 1, 2].map(|channel| {
+            let (on, period) = self.timers[TIM1].duty(channel);
+            match self.role(PWM[channel]) {
+                Role::Alternate(PWM_FUNCTION) => (on, period),
+                Role::Output(true) => (period, period),
+                _ => (0, period),
+            }
+        })
+    }
+
+    fn is_high(&self, pin: Pin) -> bool {
+        self.role(pin) == Role::Output(true)
+    }
+
+    /// Level of the direction of each side's H-bridge. A pin that is not driven is low.
+    pub(crate) fn motor_directions(&self) -> [bool; 2] {
+        [0, 1].map(|side: usize| self.is_high(SIDES[side].direction))
+    }
+
+    /// Levels of the enables of three half-bridges. A pin that is not driven is low.
+    pub(crate) fn motor_enables(&self) -> [bool; 3] {
+        ENABLES.map(|pin| self.is_high(pin))
+    }
+
+    /// Whether the pins and mode of a side's SPI are those that the sensor's wires need.
+    pub(super) fn sensor_is_connected(&self, side: usize) -> bool {
+        let pins = SIDES[side].spi;
+        let [_, _, mosi] = pins;
+        self.carries(&pins, SPI_FUNCTION)
+            && self.gpio[mosi.port].is_open_drain(mosi.number)
+            && self.spis[side].is_mode_1()
+    }
+
+    /// Brings the levels of the pins to the sensors' /SS.
+    pub(super) fn select_sensors(&mut self) {
+        for (side, wires) in SIDES.iter().enumerate() {
+            let low = self.role(wires.select) == Role::Output(false);
+            self.lines[side].select(low);
+        }
+    }
+}
