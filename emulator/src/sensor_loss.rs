@@ -1,5 +1,6 @@
-//! A sensor that fails on its wires: does the board switch its motor off, say
-//! why, and carry on once the sensor is back?
+//! A sensor that fails on its wires, on either side or on both: does the board switch
+//! that side's motor off, or all where the scene says so, feel nothing there, say why,
+//! and carry on once the sensor is back?
 
 use std::path::Path;
 
@@ -7,32 +8,52 @@ use host_sim::Error;
 use host_sim::bus::{Slave, WireFault};
 use host_sim::commands::run::Loaded;
 use mlx90333::Faults;
+use scene::OnFault;
 
-use crate::chip::Chip;
+use crate::chip::SIDE_NAMES;
 use crate::trouble::Trouble;
 
-/// What befalls the sensor's frames, and what the log then says.
-const TROUBLES: [(WireFault, &str); 3] = [
-    (WireFault::Silent, "fault 18"),
-    (WireFault::LineLow, "fault 19"),
-    (WireFault::BadSum, "fault 21"),
+/// What befalls a sensor, and what the log then says of its whisker.
+struct Loss {
+    befall: fn(&mut Slave),
+    mend: fn(&mut Slave),
+    said: &'static str,
+    /// A line that follows.
+    reason: Option<&'static str>,
+}
+
+const fn on_the_wire(befall: fn(&mut Slave), said: &'static str) -> Loss {
+    Loss {
+        befall,
+        mend: |slave| slave.set_fault(None),
+        said,
+        reason: None,
+    }
+}
+
+const LOSSES: [Loss; 4] = [
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::Silent)), "fault 18"),
+    on_the_wire(
+        |slave| slave.set_fault(Some(WireFault::LineLow)),
+        "fault 19",
+    ),
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::BadSum)), "fault 21"),
+    Loss {
+        befall: |slave| slave.set_error_word(Faults::FIELD_TOO_LOW),
+        mend: |slave| slave.set_error_word(Faults::NONE),
+        said: "fault 22",
+        reason: Some("field too low"),
+    },
 ];
 
-/// Whether the motor is driven.
-fn is_driven(trouble: &mut Trouble) -> bool {
-    let machine = &mut trouble.board_mut().machine;
-    let duties = machine.with_chip(|chip: &mut Chip| chip.motor_duties());
-    duties.iter().any(|(on, _)| *on > 0)
-}
+/// Of the ticks in which a motor is to whisk, how many it is driven in at least: it rests
+/// where it turns round, and where it is on its setpoint.
+const DRIVEN: f64 = 0.5;
 
-fn sensor(trouble: &mut Trouble) -> Result<&mut Slave, Error> {
-    let slave = trouble.run.slave_mut(0);
-    slave.ok_or_else(|| Error::Work("the scene has no sensor".to_owned()))
-}
-
-/// Breaks the sensor of the scene in `path` in every way and mends it again;
-/// while it is broken the motor must be off, and the log must say why. Returns
-/// the lines of the log.
+/// Breaks the sensors of the scene in `path`, of either side and of both, in every way
+/// and mends them again. Meanwhile there must be no contact on those sides, their motors
+/// must be off and the others driven, unless all are to stop, and the log must say whose
+/// sensor fails, and why. Returns the lines of the log.
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
@@ -40,44 +61,100 @@ pub fn lose(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let loaded = Loaded::new(path)?;
     let mut trouble = Trouble::new(&loaded.scene, program)?;
     let tenth = loaded.scene.tick_hz / 10;
-    let mut heard = Vec::new();
-    trouble.pass(tenth)?;
-    for (fault, text) in TROUBLES {
-        sensor(&mut trouble)?.set_fault(Some(fault));
-        let mend = |slave: &mut Slave| slave.set_fault(None);
-        heard.extend(pass_through(&mut trouble, tenth, text, mend)?);
+    let sides: Vec<usize> = (0..loaded.scene.head.sides.count()).collect();
+    let mut lost: Vec<&[usize]> = sides.chunks(1).collect();
+    if sides.len() > 1 {
+        lost.push(&sides);
     }
-    sensor(&mut trouble)?.set_error_word(Faults::FIELD_TOO_LOW);
-    let mend = |slave: &mut Slave| slave.set_error_word(Faults::NONE);
-    heard.extend(pass_through(&mut trouble, tenth, "field too low", mend)?);
+    trouble.pass(tenth)?;
+    let motor = loaded.scene.motor.as_ref();
+    let stops_all = motor.is_some_and(|motor| motor.on_fault == OnFault::StopAll);
+    let mut heard = Vec::new();
+    for lost in lost {
+        let off = if stops_all { &sides } else { lost };
+        for loss in &LOSSES {
+            heard.extend(pass_through(&mut trouble, tenth, lost, off, loss)?);
+        }
+    }
     Ok(heard)
 }
 
-/// A tenth of a second broken, a tenth mended.
+/// A tenth of a second broken, a tenth mended, each seen to its end for as long again;
+/// the sensors of the sides `lost` break, and the motors of those `off` must rest.
 fn pass_through(
     trouble: &mut Trouble,
     tenth: u32,
-    text: &str,
-    mend: impl Fn(&mut Slave),
-) -> Result<[String; 2], Error> {
+    lost: &[usize],
+    off: &[usize],
+    loss: &Loss,
+) -> Result<Vec<String>, Error> {
     trouble.log.clear();
-    trouble.pass(tenth)?;
-    if is_driven(trouble) {
-        let fault = format!("the motor is driven, after {text}");
-        return Err(Error::Work(fault));
+    for &side in lost {
+        (loss.befall)(sensor(trouble, side)?);
     }
-    let said = trouble.hear(text)?;
-    mend(sensor(trouble)?);
     trouble.pass(tenth)?;
-    let mut driven = is_driven(trouble);
-    // A motor that turns round rests for a tick.
-    for _ in 0..tenth {
+    check(trouble, tenth, off, &format!("after {}", loss.said))?;
+    let contact = trouble.run.row().contact;
+    if let Some(side) = lost.iter().find(|&&side| contact[side] != 0.0) {
+        let what = format!(
+            "the {} still has contact, after {}",
+            SIDE_NAMES[*side], loss.said
+        );
+        return Err(Error::Work(what));
+    }
+    let mut heard = Vec::new();
+    for (side, name) in SIDE_NAMES.into_iter().enumerate() {
+        let line = format!("{name} 0: fault");
+        if lost.contains(&side) {
+            heard.push(trouble.hear(&format!("{name} 0: {}", loss.said))?);
+        } else if trouble.log.iter().any(|said| said.contains(&line)) {
+            let what = format!("the log has a fault of the {name} too, after {}", loss.said);
+            return Err(Error::Work(what));
+        }
+    }
+    if let Some(reason) = loss.reason {
+        heard.push(trouble.hear(reason)?);
+    }
+
+    for &side in lost {
+        (loss.mend)(sensor(trouble, side)?);
+    }
+    trouble.pass(tenth)?;
+    check(trouble, tenth, &[], &format!("mended from {}", loss.said))?;
+    for &side in lost {
+        heard.push(trouble.hear(&format!("{} 0: sensor is back", SIDE_NAMES[side]))?);
+    }
+    Ok(heard)
+}
+
+fn sensor(trouble: &mut Trouble, side: usize) -> Result<&mut Slave, Error> {
+    let slave = trouble.run.slave_mut(side);
+    slave.ok_or_else(|| Error::Work("the scene has no such sensor".to_owned()))
+}
+
+/// Lets so many ticks pass: the motors of the sides `off` must rest in all of them, the
+/// others be driven in [`DRIVEN`] of them.
+fn check(trouble: &mut Trouble, ticks: u32, off: &[usize], when: &str) -> Result<(), Error> {
+    let mut driven = [0; 2];
+    for _ in 0..ticks {
         trouble.pass(1)?;
-        driven |= is_driven(trouble);
+        for (count, is_driven) in driven.iter_mut().zip(trouble.driven()) {
+            *count += u32::from(is_driven);
+        }
     }
-    if !driven {
-        let fault = format!("the motor stays off, after {text}");
-        return Err(Error::Work(fault));
+    let sides = trouble.driven().len();
+    for (side, count) in driven.into_iter().enumerate().take(sides) {
+        let must = if off.contains(&side) { "off" } else { "driven" };
+        let is_right = match must {
+            "off" => count == 0,
+            _ => f64::from(count) >= DRIVEN * f64::from(ticks),
+        };
+        if !is_right {
+            return Err(Error::Work(format!(
+                "{when} the {} motor is driven in {count} of {ticks} ticks, and should be {must}",
+                SIDE_NAMES[side]
+            )));
+        }
     }
-    Ok([said, trouble.hear("sensor is back")?])
+    Ok(())
 }

@@ -15,6 +15,7 @@ use crate::rtt::LogDecoder;
 /// A board in trouble.
 pub(crate) struct Trouble {
     pub(crate) run: Run<Emulated>,
+    sides: usize,
     decoder: LogDecoder,
     pub(crate) log: Vec<String>,
 }
@@ -25,6 +26,7 @@ impl Trouble {
         let program = Program::load(program)?;
         Ok(Self {
             run: start(scene, Vec::new(), &program)?,
+            sides: scene.head.sides.count(),
             decoder: LogDecoder::new(&program)?,
             log: Vec::new(),
         })
@@ -50,6 +52,17 @@ impl Trouble {
     /// The board.
     pub(crate) fn board_mut(&mut self) -> &mut Board {
         &mut self.run.module_mut().board
+    }
+
+    /// Whether the motor of each side is driven. One side may have all three outputs.
+    pub(crate) fn driven(&mut self) -> Vec<bool> {
+        let machine = &mut self.board_mut().machine;
+        let duties = machine.with_chip(|chip| chip.motor_duties());
+        let mut on = duties.map(|(on, _)| on > 0);
+        if self.sides == 1 {
+            on[0] = on.contains(&true);
+        }
+        on[..self.sides].to_vec()
     }
 
     /// The line of the log that says `text`.
