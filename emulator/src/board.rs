@@ -29,10 +29,13 @@ use crate::watch::Watch;
 struct Wired {
     slave: Slave,
     exchange: Option<Exchange>,
+    /// When the last frame began.
+    latched: Ps,
 }
 
 impl SensorEnd for Wired {
-    fn latch(&mut self) {
+    fn latch(&mut self, now: Ps) {
+        self.latched = now;
         self.exchange = Some(self.slave.select());
     }
 
@@ -109,6 +112,11 @@ impl Board {
     /// Ticks that the module has counted as missed since it started.
     pub(crate) fn missed(&self) -> Result<u32, Fault> {
         self.watch.missed(&self.machine.memories)
+    }
+
+    /// When the sensor of a side latched the frame that the last tick has used.
+    pub(crate) fn latched(&self, side: usize) -> Ps {
+        self.sensors.get(side).map_or(0, |sensor| sensor.latched)
     }
 
     fn drain(&mut self) -> Result<(), Fault> {

@@ -5,7 +5,7 @@
 //! - *core*: an emulated Cortex-M4F with NVIC and FPU (rsemu);
 //! - *chip*: the peripherals around it, modelled here register by register;
 //! - *machine*: core, memories and chip in one time;
-//! - *board*: the machine with host-sim's sensor, motor and plant on its pins;
+//! - *board*: the machine with host-sim's sensors, motors and plant on its pins;
 //! - *watch*: the module's variables, read from RAM by their names in the
 //!   debug information, as a debugger does.
 //!
@@ -18,6 +18,7 @@ pub mod compare;
 pub mod deadlines;
 mod debug_info;
 pub mod emulate;
+pub mod latency;
 mod machine;
 mod memory;
 mod meter;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use emulator::{compare, deadlines, emulate, overload, picture, sensor_loss};
+use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -60,9 +60,12 @@ enum Command {
         #[arg(long)]
         csv: bool,
     },
-    /// Breaks the wires of a scene that whisks; fails if the motor is not
-    /// switched off, or stays off
+    /// Breaks the sensors' wires of a scene that whisks, side by side; fails if the motor of
+    /// a lost side is not switched off or stays off, or another rests
     SensorLoss(Flashed),
+    /// Measures how long contact on one side takes to excite the other; fails if it does so
+    /// in another tick than the one that reads it
+    Latency(Flashed),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -122,6 +125,15 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Command::Overload(Flashed { scene, program }) => {
             report::say(overload::overload(&scene, &program)?.join("\n"));
+        }
+        Command::Latency(Flashed { scene, program }) => {
+            let measured = latency::measure(&scene, &program)?;
+            for latency in measured {
+                report::say(latency);
+            }
+            if measured.iter().any(|one| one.ticks != latency::EXPECTED) {
+                return Err(Error::Work("excitation comes in another tick".to_owned()));
+            }
         }
         Command::SensorLoss(Flashed { scene, program }) => {
             report::say(sensor_loss::lose(&scene, &program)?.join("\n"));

@@ -18,8 +18,10 @@ pub(crate) enum Task {
     Deadlines(f64),
     /// Makes ticks too long on purpose.
     Overload,
-    /// Breaks the sensor's wires on purpose.
+    /// Breaks the sensors' wires on purpose.
     SensorLoss,
+    /// Measures how long contact on one side takes to excite the other.
+    Latency,
 }
 
 /// Builds the program of `scene` and does `task` with it.
@@ -38,12 +40,13 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Deadlines(_) => "deadlines",
         Task::Overload => "overload",
         Task::SensorLoss => "sensor-loss",
+        Task::Latency => "latency",
     };
     command.arg(task_name).arg(absolute(scene)?);
     match task {
         Task::Run(out) => command.arg("--out").arg(absolute(out)?),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
-        Task::Compare | Task::Overload | Task::SensorLoss => &mut command,
+        Task::Compare | Task::Overload | Task::SensorLoss | Task::Latency => &mut command,
     };
     run(command.arg("--program").arg(program))
 }

@@ -134,7 +134,7 @@ struct Emulate {
     #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
     board: firmware::Board,
     /// Where to write
-    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss"])]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency"])]
     out: Option<PathBuf>,
     /// Write nothing; compare every tick with host-sim
     #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
@@ -152,9 +152,13 @@ struct Emulate {
     /// the watchdog act
     #[arg(long, conflicts_with = "out")]
     overload: bool,
-    /// Write nothing; break the sensor's wires and see the motor switched off
+    /// Write nothing; break the sensors' wires, side by side, and see the motors of those
+    /// sides switched off
     #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload"])]
     sensor_loss: bool,
+    /// Write nothing; measure how long contact on one side takes to excite the other
+    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss"])]
+    latency: bool,
 }
 
 impl Emulate {
@@ -163,6 +167,7 @@ impl Emulate {
             _ if self.check => emulate::Task::Compare,
             _ if self.overload => emulate::Task::Overload,
             _ if self.sensor_loss => emulate::Task::SensorLoss,
+            _ if self.latency => emulate::Task::Latency,
             Some(out) => emulate::Task::Run(out),
             None => emulate::Task::Deadlines(self.minutes),
         };

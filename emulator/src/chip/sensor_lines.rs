@@ -12,7 +12,7 @@ use super::time::Ps;
 /// The sensor's end of the wires.
 pub(crate) trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with.
-    fn latch(&mut self);
+    fn latch(&mut self, now: Ps);
 
     /// Eight clocks: what is on the line while the master sends `sent`.
     fn exchange(&mut self, sent: u8) -> u8;
@@ -80,7 +80,7 @@ impl SensorLines {
         }
         if self.fresh {
             self.fresh = false;
-            sensor.latch();
+            sensor.latch(began);
         }
         Ok(())
     }

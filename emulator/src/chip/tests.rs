@@ -31,7 +31,7 @@ struct Script {
 }
 
 impl SensorEnd for Script {
-    fn latch(&mut self) {
+    fn latch(&mut self, _: Ps) {
         self.latched += 1;
     }
 
