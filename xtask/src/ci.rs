@@ -29,7 +29,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("README's commands", readme::all)?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, two scenes", size::short)?;
-    steps.run("emulated board, one scene", board)?;
+    steps.run("emulated board, one side and two", board)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
     steps.end()
@@ -63,15 +63,27 @@ fn experiments() -> Result<(), Fault> {
         .arg(target().join("experiments")))
 }
 
-/// The board's own program on the emulated chip: PC and board agree, in single
-/// precision and in fixed point, no tick is missed, and ticks that are too long and a
-/// sensor that is lost are noticed.
+/// The board's own program on the emulated chip: PC and board agree, in single precision
+/// and in fixed point, with one side and with two; contact on one side excites the other
+/// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
+/// either side, are noticed.
 fn board() -> Result<(), Fault> {
     let board = firmware::Board::ALL[0];
-    let scene = Path::new("scenes/full.toml");
-    emulate::emulate(board, scene, &Task::Compare)?;
-    emulate::compare_in_fixed_point(board)?;
-    emulate::emulate(board, scene, &Task::Deadlines(0.05))?;
-    emulate::emulate(board, scene, &Task::Overload)?;
-    emulate::emulate(board, scene, &Task::SensorLoss)
+    let do_all = |scene: &Path, tasks: &[Task]| -> Result<(), Fault> {
+        let mut done = tasks
+            .iter()
+            .map(|task| emulate::emulate(board, scene, task));
+        done.try_for_each(|done| done)
+    };
+    let one_side = [
+        Task::Compare,
+        Task::Deadlines(0.05),
+        Task::Overload,
+        Task::SensorLoss,
+    ];
+    do_all(Path::new(emulate::FULL), &one_side)?;
+    do_all(Path::new(emulate::CIA), &[Task::Compare, Task::Latency])?;
+    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss];
+    do_all(&emulate::noisiest()?, &both_sides)?;
+    emulate::compare_in_fixed_point(board)
 }

@@ -79,26 +79,43 @@ pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<Stri
     output(command.arg(top().join(scene)).arg("--program").arg(program))
 }
 
-/// Compares every scene in `scenes` with host-sim; those that the board does
-/// not take, because they have two sides, by their left half. The scene that has
-/// everything is compared in fixed point too.
+/// Compares every scene in `scenes` with host-sim; one with several whiskers a side by
+/// the first of each. [`IN_FIXED_POINT`] are compared in fixed point too.
 ///
 /// # Errors
 /// The first scene that differs, or that cannot be built.
 pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
     for scene in listing(&top().join("scenes"), "toml")? {
-        let taken = variants::half(&scene, &target().join("left"))?.unwrap_or(scene);
+        let taken = variants::single(&scene, &target().join("single"))?.unwrap_or(scene);
         emulate(board, &taken, &Task::Compare)?;
     }
     compare_in_fixed_point(board)
 }
 
-/// Compares the scene that has everything with host-sim in fixed point.
+/// Everything that one side can run at once; [`noisiest`] gives it to both.
+pub(crate) const FULL: &str = "scenes/full.toml";
+/// Both sides, where contact on one excites the other.
+pub(crate) const CIA: &str = "scenes/cia.toml";
+
+/// Of the scenes, those that are compared in fixed point too.
+const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
+
+/// Compares [`IN_FIXED_POINT`] with host-sim in fixed point.
 ///
 /// # Errors
-/// If it differs or cannot be built.
+/// If one differs or cannot be built.
 pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
-    let full = top().join("scenes/full.toml");
-    let fixed = variants::in_fixed_point(&full, &target().join("fixed"))?;
-    emulate(board, &fixed, &Task::Compare)
+    for scene in IN_FIXED_POINT {
+        let fixed = variants::in_fixed_point(&top().join(scene), &target().join("fixed"))?;
+        emulate(board, &fixed, &Task::Compare)?;
+    }
+    Ok(())
+}
+
+/// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
+///
+/// # Errors
+/// If it cannot be written.
+pub(crate) fn noisiest() -> Result<PathBuf, Fault> {
+    variants::on_both_sides(&top().join(FULL), &target().join("both"))
 }

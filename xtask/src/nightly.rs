@@ -44,9 +44,13 @@ fn lints() -> Result<(), Fault> {
 fn boards() -> Result<(), Fault> {
     for board in Board::ALL.into_iter().filter(|board| board.is_emulated()) {
         emulate::compare_all(board)?;
-        let scene = Path::new("scenes/full.toml");
-        for task in [Task::Deadlines(10.0), Task::Overload, Task::SensorLoss] {
-            emulate::emulate(board, scene, &task)?;
+        emulate::emulate(board, Path::new(emulate::CIA), &Task::Latency)?;
+        let both = emulate::noisiest()?;
+        emulate::emulate(board, &both, &Task::Compare)?;
+        for scene in [Path::new(emulate::FULL), &both] {
+            for task in [Task::Deadlines(10.0), Task::Overload, Task::SensorLoss] {
+                emulate::emulate(board, scene, &task)?;
+            }
         }
     }
     Ok(())

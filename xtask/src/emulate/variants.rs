@@ -1,5 +1,5 @@
-//! Scenes made from others for the comparison of PC and board: the left half of
-//! one with two sides, for a board that carries one whisker; and one in fixed point.
+//! Scenes made from others for the emulated board: one with a single whisker a side,
+//! which is what a board carries; one in fixed point; one with both sides.
 
 use std::path::{Path, PathBuf};
 
@@ -8,26 +8,35 @@ use toml::{Table, Value};
 
 use crate::run::{self, Fault, absolute};
 
-/// Writes the first whisker on the left of `path` as a scene of its own into
+/// Writes the first whisker of each side of `path` as a scene of its own into
 /// `folder` and returns its path; `None` if the scene has no more than that.
 ///
 /// # Errors
-/// If the scene is wrong or the half cannot be written.
-pub(super) fn half(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
     let (scene, mut table) = read(path)?;
-    if scene.whiskers() == 1 {
+    let whiskers = scene.head.whiskers_per_side;
+    if whiskers == 1 {
         return Ok(None);
     }
-    set(&mut table, "head", "sides", "left".into());
     set(&mut table, "head", "whiskers_per_side", 1.into());
-    for (part, key) in [
-        ("whisking", "gain"),
-        ("whisking", "start"),
-        ("plant", "obstacle_deg"),
-    ] {
-        keep_first(&mut table, part, key);
-    }
+    keep_first_of(whiskers, &mut table, "whisking", "gain");
     write(path, &scene, table, folder).map(Some)
+}
+
+/// Writes `path`, which has the left side alone, as a scene with both sides alike and
+/// coupled into `folder` and returns its path.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    set(&mut table, "head", "sides", "both".into());
+    set(&mut table, "whisking", "coupling", true.into());
+    for (part, key) in [("whisking", "start"), ("plant", "obstacle_deg")] {
+        double(&mut table, part, key);
+    }
+    write(path, &scene, table, folder)
 }
 
 /// Writes `path` as a scene in fixed point into `folder` and returns its path.
@@ -65,13 +74,20 @@ fn set(table: &mut Table, part: &str, key: &str, value: Value) {
     }
 }
 
-/// Leaves the first element of a list that has one for each side or whisker.
-fn keep_first(table: &mut Table, part: &str, key: &str) {
-    let list = table
-        .get_mut(part)
-        .and_then(|part| part.get_mut(key))
-        .and_then(Value::as_array_mut);
-    if let Some(list) = list {
-        list.truncate(1);
+fn list<'t>(table: &'t mut Table, part: &str, key: &str) -> Option<&'t mut Vec<Value>> {
+    table.get_mut(part)?.get_mut(key)?.as_array_mut()
+}
+
+/// Leaves the first of every so many `whiskers` of a list that has an element for each.
+fn keep_first_of(whiskers: usize, table: &mut Table, part: &str, key: &str) {
+    if let Some(list) = list(table, part, key) {
+        *list = list.iter().step_by(whiskers).cloned().collect();
+    }
+}
+
+/// Repeats a list.
+fn double(table: &mut Table, part: &str, key: &str) {
+    if let Some(list) = list(table, part, key) {
+        list.extend_from_within(..);
     }
 }
