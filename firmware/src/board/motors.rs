@@ -4,8 +4,8 @@ use whisking::motor::{HBridge, SixStep, SixStepConfig, StallConfig};
 
 use super::gpio::{Pin, PinName};
 use super::pin_config::{Mode, PinConfig};
-use super::pwm::{Channel, Output};
-use super::wiring::{ENABLES, HALLS, PWMS, Side};
+use super::pwm::Channel;
+use super::wiring::{ENABLES, HALLS, Output, PWMS, Side};
 use crate::here::{PWM_FUNCTION, free_hall_pins};
 
 /// A pin as output of the PWM timer.

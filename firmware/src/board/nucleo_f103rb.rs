@@ -73,11 +73,10 @@ mod chip {
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{Cause, ClockError, wait};
-    use crate::board::sensor::Received;
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
     use crate::board::wiring::{
-        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, SensorPort, Side,
+        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
     };
 
     /// Interrupts once a tick.

@@ -84,12 +84,10 @@ mod chip {
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
     use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::pwm::Output;
     use crate::board::reset::{Cause, ClockError, settle, wait};
-    use crate::board::sensor::Received;
     use crate::board::wiring::{
-        BridgePort, EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, PWMS, SensorPins,
-        SensorPort, Side,
+        BridgePort, EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Output, PWMS, Received,
+        SensorPins, SensorPort, Side,
     };
 
     /// Interrupts once a tick.

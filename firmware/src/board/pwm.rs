@@ -12,6 +12,7 @@ use stm32_metapac::common::{RW, Reg};
 use stm32_metapac::timer::regs::Ccr1ch;
 use stm32_metapac::timer::vals::{Ossi, Ossr};
 
+use super::wiring::Output;
 use crate::here::CLOCKS;
 
 const COUNTS: u16 = CLOCKS.pwm_counts();
@@ -20,14 +21,6 @@ const COUNTS: u16 = CLOCKS.pwm_counts();
 const PWM_MODE_1: u8 = 6;
 /// Outputs in use.
 const OUTPUTS: usize = 3;
-
-/// An output of TIM1.
-#[derive(Clone, Copy)]
-pub(crate) enum Output {
-    One,
-    Two,
-    Three,
-}
 
 /// The duty of an output.
 pub(crate) struct Channel(Reg<Ccr1ch, RW>);

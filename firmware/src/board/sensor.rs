@@ -14,7 +14,7 @@
 //! hardware's own flags. What differs between chips is in `spi_*.rs` and
 //! `dma_*.rs`.
 
-use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
+use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
 use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
@@ -24,17 +24,6 @@ use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
 use crate::here::{dma::Transfers, reset_spi, spi};
-
-/// Where an rx DMA puts the bytes, as words. Atomic because the compiler does
-/// not see the DMA's writes.
-pub(crate) struct Received([AtomicU32; FRAME_LEN / 4]);
-
-impl Received {
-    /// Of zeros.
-    pub(crate) const fn new() -> Self {
-        Self([const { AtomicU32::new(0) }; FRAME_LEN / 4])
-    }
-}
 
 /// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);

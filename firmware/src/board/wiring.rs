@@ -1,14 +1,15 @@
 //! Which pin does what. A side's pins and the peripherals behind them are a table in the
 //! board's own file; the left side has the same pins on every board.
 
+use core::sync::atomic::AtomicU32;
+
+use mlx90333::FRAME_LEN;
 use stm32_metapac::spi::Spi;
 use stm32_metapac::spi::vals::Br;
 use stm32_metapac::timer::{TimBasic, TimGp16};
 
 use super::gpio::PinName;
 use super::pin_config::AlternateFunction;
-use super::pwm::Output;
-use super::sensor::Received;
 use crate::here::dma::Route;
 
 /// Everything that a whisker hangs on.
@@ -40,6 +41,17 @@ pub(crate) struct SensorPort {
     pub(crate) function: AlternateFunction,
 }
 
+/// Where an rx DMA puts the bytes, as words. Atomic because the compiler does
+/// not see the DMA's writes.
+pub(crate) struct Received(pub(crate) [AtomicU32; FRAME_LEN / 4]);
+
+impl Received {
+    /// Of zeros.
+    pub(crate) const fn new() -> Self {
+        Self([const { AtomicU32::new(0) }; FRAME_LEN / 4])
+    }
+}
+
 /// A sensor's wires.
 pub(crate) struct SensorPins {
     /// Clock.
@@ -50,6 +62,14 @@ pub(crate) struct SensorPins {
     pub(crate) mosi: PinName,
     /// /SS.
     pub(crate) select: PinName,
+}
+
+/// An output of the PWM's timer.
+#[derive(Clone, Copy)]
+pub(crate) enum Output {
+    One,
+    Two,
+    Three,
 }
 
 /// What drives an H-bridge.
