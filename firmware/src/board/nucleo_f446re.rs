@@ -10,7 +10,7 @@ use crate::board::timing::Clocks;
 pub(crate) const NAME: &str = "NUCLEO-F446RE";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = true;
-/// Most classes of a model: its two tables of 32 by 32 bins then take 64 KiB of the
+/// Most classes of a model: its two tables of 24 by 24 bins then take 36 KiB of the
 /// 512 KiB of flash.
 pub(crate) const MAX_CLASSES: usize = 16;
 /// Most sides, of one whisker each.

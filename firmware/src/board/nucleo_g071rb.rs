@@ -10,7 +10,7 @@ use crate::board::timing::Clocks;
 pub(crate) const NAME: &str = "NUCLEO-G071RB";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = false;
-/// Most classes of a model: its two tables of 32 by 32 bins then take 24 KiB of the
+/// Most classes of a model: its two tables of 24 by 24 bins then take 13.5 KiB of the
 /// 128 KiB of flash.
 pub(crate) const MAX_CLASSES: usize = 6;
 /// Most sides, of one whisker each.

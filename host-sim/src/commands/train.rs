@@ -50,16 +50,17 @@ pub struct How {
     /// Which tables
     #[arg(long, value_enum, default_value_t = Tables::Joint)]
     pub tables: Tables,
-    /// Bins over each channel's range [default: 32; of single tables 100]
+    /// Bins over each channel's range [default: 24; of single tables 100]
     #[arg(long)]
     pub bins: Option<usize>,
     /// Standard deviation of the smoothing, in bins; 0: none [default: 0.7; of single
     /// tables 5]
     #[arg(long)]
     pub smooth: Option<f64>,
-    /// Samples of a block, after each of which a decision may fall
-    #[arg(long, default_value_t = 20)]
-    pub block: u32,
+    /// Samples of a block, after each of which a decision may fall [default: 40; of single
+    /// tables 20]
+    #[arg(long)]
+    pub block: Option<u32>,
     /// Contact from which a sample counts, 0 to 1 [default: as the scene says, or 0.05];
     /// joint tables keep it, and the module gates by it
     #[arg(long, value_name = "PI")]
@@ -97,7 +98,7 @@ impl How {
             tables,
             bins: None,
             smooth: None,
-            block: 20,
+            block: None,
             gate: None,
             gap: None,
         }
@@ -158,7 +159,7 @@ impl How {
                 let options = joint::Options {
                     bins: self.bins.unwrap_or(default.bins),
                     smooth: self.smooth.unwrap_or(default.smooth),
-                    block: self.block,
+                    block: self.block.unwrap_or(default.block),
                     gate: self.least(),
                     gap: self.gap_samples(tick_hz),
                     ..default
@@ -174,7 +175,7 @@ impl How {
                 let options = Options {
                     bins: self.bins.unwrap_or(default.bins),
                     smooth: self.smooth.unwrap_or(default.smooth),
-                    block: self.block,
+                    block: self.block.unwrap_or(default.block),
                 };
                 let streams = recordings.iter().flat_map(|(_, streams)| streams);
                 let model = training::single(Trainer::new(2, options)?, streams, self.least())?;

@@ -236,7 +236,7 @@ fn help_names_every_command_and_option() {
         (
             "train",
             "--data --out --rate --unknown --plot --tables --bins --smooth --block --gate --gap \
-             32 100 0.7 5 20 0.05 0.1",
+             24 100 0.7 5 40 20 0.05 0.1",
         ),
         (
             "evaluate",

@@ -136,7 +136,7 @@ fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), 
             how: How {
                 bins: Some(10),
                 smooth: Some(1.0),
-                block: 2,
+                block: Some(2),
                 ..How::of(tables)
             },
         };

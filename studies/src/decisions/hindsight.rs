@@ -30,9 +30,47 @@ const NOTES: [(&str, &str, &str); 3] = [
     ),
 ];
 
-/// Shares of right decisions that floors may refuse, tried beside the default: none, and
-/// that of the study before.
-const REFUSED: [f64; 2] = [0.0, 0.05];
+/// Choices taken back, tried beside the defaults.
+enum Without {
+    /// Floors: another share that they may refuse, none or that of the study before.
+    Floors(f64),
+    /// Bins and block: those of the study before.
+    Bins { bins: usize, block: u32 },
+}
+
+const WITHOUT: [Without; 3] = [
+    Without::Floors(0.0),
+    Without::Floors(0.05),
+    Without::Bins {
+        bins: 32,
+        block: 20,
+    },
+];
+
+impl Without {
+    fn name(&self) -> String {
+        match *self {
+            Self::Floors(0.0) => "no floors".to_owned(),
+            Self::Floors(share) => format!("{} % refused", 100.0 * share),
+            Self::Bins { bins, block } => format!("{bins} bins with blocks of {block}"),
+        }
+    }
+
+    fn options(&self, defaults: &Options) -> Options {
+        let defaults = defaults.clone();
+        match *self {
+            Self::Floors(refused) => Options {
+                refused,
+                ..defaults
+            },
+            Self::Bins { bins, block } => Options {
+                bins,
+                block,
+                ..defaults
+            },
+        }
+    }
+}
 
 /// The notes, and the figures without what an option can take back.
 pub(super) fn section(
@@ -50,39 +88,43 @@ pub(super) fn section(
         }
     }
     page.say(
-        "Of these the floors' share is an option. The figures without it, mean of all trainings; \
-         the others cannot be taken back by an option, and what was found without them stands in \
-         the notes.",
+        "Of these the floors' share, bins and block are options. The figures without them, one \
+         at a time, mean of all trainings; the others cannot be taken back by an option, and what \
+         was found without them stands in the notes.",
     );
     for (ground, trained) in grounds.iter().zip(trained) {
-        let Some(default) = trained.first().map(|one| one.joint.options.refused) else {
+        let Some(Options {
+            refused: share,
+            bins,
+            block,
+            ..
+        }) = trained.first().map(|one| &one.joint.options)
+        else {
             continue;
         };
+        let share = 100.0 * share;
         let mut rows = vec![of(
-            &format!("{} % refused, the default", 100.0 * default),
+            &format!("by default: {share} % refused, {bins} bins with blocks of {block}"),
             &trained.iter().map(Trained::usual),
         )];
-        for share in REFUSED {
-            let found = each(verbosity, "other floors", trained, |one| {
-                let options = Options {
-                    refused: share,
-                    ..one.joint.options.clone()
-                };
+        for without in WITHOUT {
+            let found = each(verbosity, "taken back", trained, |one| {
+                let options = without.options(&one.joint.options);
                 let streams = ground.recording(one.seed, ground.scene.duration_s);
                 let joint = ground.train_by(streams, &options)?;
                 ground.score(&joint.model().map_err(refused)?, 0.99)
             })?;
-            let name = match share {
-                0.0 => "no floors".to_owned(),
-                _ => format!("{} % refused", 100.0 * share),
-            };
+            let name = without.name();
             for (one, figures) in trained.iter().zip(&found) {
                 table.add(["hindsight", ground.name, &name], one.seed, figures);
             }
             rows.push(of(&name, &found.iter()));
         }
         page.table(
-            &format!("{} | hit rate | stated | found | refused", ground.name),
+            &format!(
+                "{} | hit rate | stated | found | refused | undecided",
+                ground.name
+            ),
             rows,
         );
     }
@@ -96,6 +138,7 @@ fn of<'f>(name: &str, models: &(impl Iterator<Item = &'f Figures> + Clone)) -> V
         number(mean(|f| 100.0 * f.calibration.stated).0, 2),
         plus_minus(mean(|f| 100.0 * f.calibration.found.share), 2),
         plus_minus(mean(|f| 100.0 * f.refused.share), 1),
+        plus_minus(mean(|f| 100.0 * f.undecided.share), 1),
     ];
     row(name, cells)
 }

@@ -5,6 +5,7 @@ mod settings;
 
 use host_sim::Error;
 use host_sim::progress::Verbosity;
+use tactile::train::joint::Options;
 
 use super::extent::Extent;
 use super::figures::{Table, number};
@@ -68,8 +69,9 @@ pub(super) fn section(
         "One setting at a time, all else by default; means of all trainings with bars of a \
          standard error. Fewer bits and bins are less flash, longer blocks fewer instructions a \
          sample, a shorter training less of a user's patience. The goals are those of hit rate, \
-         calibration and time on both scenes, kept by the mean of the trainings with a standard \
-         error to spare.",
+         calibration, time, undecided and refused on both scenes, kept by the mean of the \
+         trainings with a standard error to spare. Instructions are counted with the default \
+         block; of shorter ones they are at most what is shown.",
     );
     let picture = draw_in(FIGURES.len(), &picture::panels(grounds, &tried))?;
     page.picture(
@@ -101,7 +103,13 @@ fn of_setting(
     let rows = measured().map(|(value, of_value)| {
         let figures = of_value.iter().flat_map(|tried| {
             let [errors, apart, ms] = FIGURES.map(|(_, figure)| tried.mean(figure).0);
-            [number(100.0 - errors, 2), number(apart, 2), number(ms, 0)]
+            let refused = tried.mean(settings::known_refused).0;
+            [
+                number(100.0 - errors, 2),
+                number(apart, 2),
+                number(ms, 0),
+                number(refused, 1),
+            ]
         });
         let bytes = of_value.iter().map(|tried| tried.bytes).max().unwrap_or(0);
         // The format has 16 bits; fewer are what a table would take.
@@ -118,7 +126,7 @@ fn of_setting(
     let rows: Vec<_> = rows.collect();
     let of_scenes = grounds.iter().map(|ground| {
         let name = ground.name;
-        format!("{name}: hit rate | apart | ms")
+        format!("{name}: hit rate | apart | ms | refused")
     });
     let last = match setting {
         Setting::Block => "instructions a sample, M4F; M0+",
@@ -179,19 +187,24 @@ const fn reason(setting: Setting) -> &'static str {
             "a half-word is read in one instruction and needs no scale of its own; fewer bits \
              would only save flash"
         }
-        Setting::Bins | Setting::Block => "meant to be the quickest to decide that keeps the goals",
+        Setting::Bins => {
+            "finer ones are quicker, but tell fewer of the unknown textures of the elastic whisker \
+             ([decisions.md](../decisions.md#27-bins-and-block-by-many-trainings))"
+        }
+        Setting::Block => "meant to be the quickest to decide that keeps the goals",
         Setting::Training => "the scene's own length, in which each texture comes several times",
     }
 }
 
 /// Of a sample, the end of a block shared among its samples. Mean and worst were counted
-/// with blocks of 20: the worst holds the whole end, the mean a twentieth of it.
+/// with the default block: the worst holds the whole end, the mean a sample's share of it. Most
+/// ends cost less than the worst: for shorter blocks this is a bound.
 fn instructions(counts: &Counts, block: u32) -> String {
     const KERNEL: &str = "joint classifier push K=4";
-    const COUNTED: f64 = 20.0;
+    let counted = f64::from(Options::default().block);
     let of = |target| {
         let (mean, worst) = counts.mean_and_worst(KERNEL, "integer", target)?;
-        let end = (worst - mean) / (1.0 - 1.0 / COUNTED);
+        let end = (worst - mean) / (1.0 - 1.0 / counted);
         Some(worst - end + end / f64::from(block))
     };
     let cell = |target| of(target).map_or_else(|| "not counted".to_owned(), |n| format!("{n:.0}"));
@@ -204,10 +217,11 @@ mod tests {
 
     #[test]
     fn the_end_of_a_block_is_shared_among_its_samples() {
-        // 100 a sample and 200 for the end.
+        // 100 a sample and 200 for the end, counted with blocks of 40.
         let table = b"kernel,format,target,mean,worst\n\
-            joint classifier push K=4,integer,cortex-m4f,110,300\n";
+            joint classifier push K=4,integer,cortex-m4f,105,300\n";
         let counts = Counts::parse(table);
+        assert_eq!(instructions(&counts, 40), "105; not counted");
         assert_eq!(instructions(&counts, 20), "110; not counted");
         assert_eq!(instructions(&counts, 5), "140; not counted");
     }

@@ -40,7 +40,7 @@ pub fn block_9() -> &'static [u8] {
     model!("block9")
 }
 
-/// A joint model of four classes, with blocks of 20.
+/// A joint model of four classes, with bins and block by default.
 pub fn joint_4() -> &'static [u8] {
     model!("joint4")
 }

@@ -49,6 +49,7 @@ fn trials(count: usize, apart: f64, length: usize) -> Vec<Trial> {
 fn two_normals_have_their_likelihood_ratio_and_posterior() {
     // Blocks of one sample: each is a step of evidence of its own, as in theory.
     let options = Options {
+        bins: 32,
         block: 1,
         refused: 0.0,
         ..Options::default()
@@ -150,7 +151,11 @@ fn faults_are_named() {
 fn the_model_file_decides_as_the_report_says() {
     // Blocks of 20 independent samples deserve far more weight than one recording's ten
     // trials can justify, so that decisions are slow and all right.
-    let trained = train(&two(0.5, 20_000), &Options::default()).unwrap();
+    let options = Options {
+        block: 20,
+        ..Options::default()
+    };
+    let trained = train(&two(0.5, 20_000), &options).unwrap();
     let model = trained.model().unwrap();
     let rule = model.touch_rule().unwrap();
     assert_eq!((rule.limit, rule.gap), (2048, 200));

@@ -39,7 +39,7 @@ impl Setting {
     pub(super) const fn values(self) -> &'static [u32] {
         match self {
             Self::Bits => &[6, 8, 10, 12, 16],
-            Self::Bins => &[8, 16, 32, 64],
+            Self::Bins => &[8, 16, 24, 32, 64],
             Self::Block => &[80, 40, 20, 10, 5],
             Self::Training => &[10, 20, 40, LONGEST_S as u32],
         }
@@ -126,17 +126,33 @@ impl Tried {
 
     /// Whether the mean over the trainings keeps the goals with a standard error to spare.
     pub(super) fn is_enough(&self, ground: &Ground) -> bool {
-        let most = [1.5, 1.0, ground.goals.contact_ms];
-        let keeps = |((_, figure), most): (Drawn, f64)| {
+        let keeps = |(figure, most): (Figure, f64)| {
             let (mean, error) = self.mean(figure);
             mean + error <= most
         };
-        FIGURES.into_iter().zip(most).all(keeps)
+        let most = [1.5, 1.0, ground.goals.contact_ms];
+        let drawn = FIGURES.map(|(_, figure)| figure).into_iter().zip(most);
+        let others: [(Figure, f64); 2] =
+            [(undecided, ground.goals.undecided), (known_refused, 6.0)];
+        drawn.chain(others).all(keeps)
     }
 }
 
+/// Presentations without a decision, percent.
+fn undecided(figures: &Figures) -> f64 {
+    100.0 * figures.undecided.share
+}
+
+/// Decisions on known textures that said "unknown", percent.
+pub(super) fn known_refused(figures: &Figures) -> f64 {
+    100.0 * figures.refused.share
+}
+
+/// What is read off the figures of a model.
+type Figure = fn(&Figures) -> f64;
+
 /// A figure and its name.
-pub(super) type Drawn = (&'static str, fn(&Figures) -> f64);
+pub(super) type Drawn = (&'static str, Figure);
 
 /// What is drawn of each.
 pub(super) const FIGURES: [Drawn; 3] = [

@@ -1,4 +1,4 @@
-//! A sample by a joint model, with its share of the end of a block of 20.
+//! A sample by a joint model, with its share of the end of a block of the default length.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Two;

@@ -37,9 +37,9 @@ impl Default for Options {
     /// As studied; the gap is 100 ms at 2 kHz.
     fn default() -> Self {
         Self {
-            bins: 32,
+            bins: 24,
             smooth: 0.7,
-            block: 20,
+            block: 40,
             gate: 0.05,
             gap: 200,
             limit_bits: 2.0,
