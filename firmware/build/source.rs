@@ -100,14 +100,14 @@ where
         Driver::HBridge => (quote! { Brushed }, quote! { super::motors::start_brushed }),
         Driver::SixStep => (
             quote! { Brushless },
-            quote! { |_| super::motors::start_brushless(SETTINGS.motion.servo.stall) },
+            quote! { |_| super::motors::start_brushless(SETTINGS.motion.servo.guards.stall) },
         ),
     };
     let env = CrateEnv::default();
     let whisking = plan.whisking.source(&quote! { Number }, &env);
     let (generator, whisking) = (whisking.of_type, whisking.value);
     let (pd, start) = (plan.pd.bake(&env), plan.start.bake(&env));
-    let (stall_q15, seed) = (plan.stall_q15, scene.seed);
+    let (guards, seed) = (plan.guards.bake(&env), scene.seed);
     let (stop_all_type, stop_all) = if plan.stop_all {
         let stop_all = quote! { firmware::StopAll };
         (
@@ -139,7 +139,7 @@ where
                 servo: firmware::ServoConfig {
                     pd: #pd,
                     retry: firmware::design_parameters::retry(TICK_HZ),
-                    stall: firmware::design_parameters::stall(TICK_HZ, #stall_q15),
+                    guards: #guards,
                 },
                 stop_all: #stop_all,
             }

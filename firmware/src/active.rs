@@ -106,6 +106,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
         match command {
             Command::Gain(gain) => at(&mut self.state.whiskers, place)?.set_nominal(gain),
             Command::Setpoint(setpoint) => at(&mut self.servos, place)?.set_setpoint(setpoint),
+            Command::Clear => at(&mut self.servos, place)?.clear(),
         }
         Ok(())
     }

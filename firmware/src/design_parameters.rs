@@ -3,9 +3,7 @@
 //! Durations are given in seconds or microseconds and become ticks at the
 //! scene's tick rate.
 
-use whisking::motor::{Duty, StallConfig};
-
-use crate::HoldLimits;
+use crate::{HoldLimits, Retry};
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
@@ -26,9 +24,8 @@ pub const RECOVER_S: f64 = 0.04;
 /// times as long the mean power stays below a sixth of the stall power.
 pub const RETRY_S: f64 = 1.0;
 
-/// How long a motor may be driven hard without moving, s: longer than the pause
-/// at a whisk's turning point, shorter than a small winding takes to overheat.
-pub const STALL_S: f64 = 0.2;
+/// Within how long too many faults give a motor up, s.
+pub const WINDOW_S: u32 = 60;
 
 /// For how long readings are held at `tick_hz` ticks a second.
 pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
@@ -38,17 +35,11 @@ pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
     }
 }
 
-/// How long a motor rests after a fault at `tick_hz` ticks a second.
-pub const fn retry(tick_hz: u32) -> u16 {
-    ticks(RETRY_S, tick_hz)
-}
-
-/// When a motor counts as stalled at `tick_hz` ticks a second: driven above
-/// `threshold_q15` and not moving for [`STALL_S`].
-pub const fn stall(tick_hz: u32, threshold_q15: i16) -> StallConfig {
-    StallConfig {
-        ticks: ticks(STALL_S, tick_hz),
-        threshold: Duty::from_q15(threshold_q15),
+/// What is done after a fault of a motor at `tick_hz` ticks a second.
+pub const fn retry(tick_hz: u32) -> Retry {
+    Retry {
+        rest: ticks(RETRY_S, tick_hz),
+        window: WINDOW_S.saturating_mul(tick_hz),
     }
 }
 

@@ -44,7 +44,7 @@ pub enum SensorFault {
 impl SensorFault {
     /// A stable number for logs: 16 no frame, 17 bus, 18 no sensor, 19 line
     /// stuck low, 20 bad start, 21 bad sum, 22 the sensor's own error word.
-    /// Motor faults have 1 to 6 ([`motor::Fault::code`]).
+    /// Motor faults have 1 to 11 ([`motor::Fault::code`]).
     pub const fn code(self) -> u8 {
         match self {
             Self::NoFrame => 16,
@@ -87,4 +87,7 @@ pub enum Event {
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.
     MotorRetry(Place),
+    /// A motor has had too many faults: it stays off until it is told to run
+    /// ([`Command::Clear`](crate::Command::Clear)).
+    MotorGivenUp(Place),
 }

@@ -43,5 +43,5 @@ pub use perception::{
     shifts,
 };
 pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
-pub use servo::{Servo, ServoConfig, ServoState};
+pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use timing::Timing;

@@ -27,6 +27,8 @@ pub enum Command<R> {
     /// to the range of the position control; `None`: the pattern generator's
     /// again.
     Setpoint(Option<R>),
+    /// Runs a motor that was given up, or that rests, again.
+    Clear,
 }
 
 /// There is no such whisker, or it is passive.

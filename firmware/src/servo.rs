@@ -1,7 +1,7 @@
 //! The servo of one whisker: a motor with an angle input that follows a
 //! setpoint, and what it does about faults.
 
-use whisking::motor::{self, MotorDriver, StallConfig, StallGuard};
+use whisking::motor::{self, Duty, GuardConfig, Guards, Heat, MotorDriver};
 use whisking::{Real, pd};
 
 use crate::io::AngleInput;
@@ -12,11 +12,23 @@ use crate::{Event, Place};
 pub struct ServoConfig<R: Real> {
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Ticks a faulty motor rests before it is tried again; 0 is taken as 1.
-    pub retry: u16,
-    /// When a motor counts as stalled.
-    pub stall: StallConfig,
+    /// What is done after a fault.
+    pub retry: Retry,
+    /// What is a fault of its motion.
+    pub guards: GuardConfig<R>,
 }
+
+/// What is done after a fault of a motor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Retry {
+    /// Ticks that it rests before it is tried again; 0 is taken as 1.
+    pub rest: u16,
+    /// Ticks within which [`FAULTS`] faults are one too many.
+    pub window: u32,
+}
+
+/// So many faults within [`Retry::window`], and the motor is given up.
+pub const FAULTS: usize = 3;
 
 /// What a servo is doing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,14 +40,16 @@ pub enum ServoState<R> {
     Running {
         /// The position control with its terms.
         pd: pd::State<R>,
-        /// How long the motor has been driven without moving.
-        stall: StallGuard,
+        /// Whether it moves as it is driven.
+        guards: Guards,
     },
     /// The motor is off after a fault.
     Resting {
         /// Ticks left until it is tried again.
         left: u16,
     },
+    /// The motor is off after too many faults, until [`Servo::clear`].
+    GivenUp,
 }
 
 /// The motor of one whisker, its angle input and its controller.
@@ -49,6 +63,9 @@ pub struct Servo<R, M, A> {
     /// Takes the place of the pattern generator's θ.
     setpoint: Option<R>,
     state: ServoState<R>,
+    heat: Heat,
+    /// Ticks that are left of the windows of the last faults but one.
+    windows: [u32; FAULTS - 1],
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
@@ -63,6 +80,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             counts: home,
             setpoint: None,
             state: ServoState::Off,
+            heat: Heat::default(),
+            windows: [0; FAULTS - 1],
         }
     }
 
@@ -76,10 +95,19 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         &self.state
     }
 
-    /// Whether the motor rests after a fault.
+    /// Whether the motor rests after a fault, or was given up.
     #[inline]
     pub const fn rests(&self) -> bool {
-        matches!(self.state, ServoState::Resting { .. })
+        matches!(self.state, ServoState::Resting { .. } | ServoState::GivenUp)
+    }
+
+    /// Runs a motor that rests or was given up again; its faults are forgotten.
+    pub fn clear(&mut self) {
+        if self.rests() {
+            self.state = ServoState::Off;
+            self.windows = [0; FAULTS - 1];
+            self.motor.clear();
+        }
     }
 
     /// The setpoint that was commanded, if any.
@@ -116,36 +144,51 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         let counts = self.angle.counts();
         let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
+        for window in &mut self.windows {
+            *window = window.saturating_sub(1);
+        }
 
-        if let ServoState::Resting { left } = self.state {
-            self.rest(left, place, events);
-            return;
+        match self.state {
+            ServoState::Running { .. } | ServoState::Off if !may_run => {
+                self.off();
+                self.cool(&config.guards);
+                return;
+            }
+            ServoState::Off => {
+                self.state = ServoState::Running {
+                    pd: pd::State::default(),
+                    guards: Guards::default(),
+                };
+            }
+            ServoState::Running { .. } => {}
+            ServoState::Resting { left } => {
+                self.rest(left, place, events);
+                self.cool(&config.guards);
+                return;
+            }
+            ServoState::GivenUp => {
+                self.cool(&config.guards);
+                return;
+            }
         }
-        if !may_run {
-            self.off();
-            return;
-        }
-        if let ServoState::Off = self.state {
-            self.state = ServoState::Running {
-                pd: pd::State::default(),
-                stall: StallGuard::default(),
-            };
-        }
-        let ServoState::Running { pd, stall } = &mut self.state else {
+        let ServoState::Running { pd, guards } = &mut self.state else {
             return;
         };
         let setpoint = self.setpoint.unwrap_or(setpoint);
         let at = counts.wrapping_sub(self.home);
         let duty = config.pd.step(pd, setpoint, at, moved);
-        // A rotor that stands on an edge of its encoder flickers by a count.
-        let done = if stall.update(config.stall, duty, moved.unsigned_abs() > 1) {
-            Err(motor::Fault::Stall)
-        } else {
-            self.motor.drive(duty)
-        };
-        if let Err(fault) = done {
+        let checked = guards
+            .check(&config.guards, duty, pd.error, at, moved)
+            .and_then(|()| self.heat.check(&config.guards, duty))
+            .and_then(|()| self.motor.drive(duty));
+        if let Err(fault) = checked {
             self.fail(fault, config.retry, place, events);
         }
+    }
+
+    /// One tick of a motor that is off, whose winding cools.
+    fn cool(&mut self, guards: &GuardConfig<R>) {
+        let _ = self.heat.check(guards, Duty::ZERO);
     }
 
     /// One tick of a motor that rests after a fault.
@@ -164,13 +207,22 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     fn fail(
         &mut self,
         fault: motor::Fault,
-        retry: u16,
+        retry: Retry,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
         self.motor.off();
-        let left = retry.max(1);
-        self.state = ServoState::Resting { left };
         events(Event::MotorFault(place, fault));
+        if self.windows.iter().all(|window| *window > 0) {
+            self.state = ServoState::GivenUp;
+            events(Event::MotorGivenUp(place));
+            return;
+        }
+        // The place of the fault that is longest ago.
+        if let Some(oldest) = self.windows.iter_mut().min() {
+            *oldest = retry.window;
+        }
+        let left = retry.rest.max(1);
+        self.state = ServoState::Resting { left };
     }
 }

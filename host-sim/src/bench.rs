@@ -1,7 +1,7 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use firmware::design_parameters::{hold_limits, retry, stall};
+use firmware::design_parameters::{hold_limits, retry};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
     NoActiveWhisker, Place, Polled, Servo, ServoConfig, StopAll,
@@ -143,7 +143,11 @@ where
     Self: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        let stall = self.config.motion.as_ref().map(|motion| motion.servo.stall);
+        let stall = self
+            .config
+            .motion
+            .as_ref()
+            .map(|motion| motion.servo.guards.stall);
         let motors = match (&self.start, stall) {
             (Some(start), Some(stall)) => Some(motors(start, stall, seed, pins)?),
             _ => None,
@@ -162,6 +166,7 @@ where
         let command = match command {
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
             Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
+            Command::Clear => Command::Clear,
         };
         self.module.command(place, command)
     }
@@ -284,7 +289,7 @@ where
             servo: ServoConfig {
                 pd: plan.pd,
                 retry: retry(scene.tick_hz),
-                stall: stall(scene.tick_hz, plan.stall_q15),
+                guards: plan.guards,
             },
             stop_all: plan.stop_all.then_some(StopAll),
         }),
@@ -295,7 +300,9 @@ where
         period: 0,
     };
     let motors = match (&start, &config.motion) {
-        (Some(start), Some(motion)) => Some(motors(start, motion.servo.stall, scene.seed, pins)?),
+        (Some(start), Some(motion)) => {
+            Some(motors(start, motion.servo.guards.stall, scene.seed, pins)?)
+        }
         _ => None,
     };
     let perception = Some(Classifying::new(tap));

@@ -54,6 +54,10 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
         }
         Event::SensorBack(at) => warn(format_args!("{t_s:.4} s: {}: sensor is back", place(at))),
         Event::MotorFault(at, fault) => warn(format_args!("{t_s:.4} s: {}: {fault}", place(at))),
+        Event::MotorGivenUp(at) => warn(format_args!(
+            "{t_s:.4} s: {}: three faults in a minute: motor off",
+            place(at)
+        )),
         Event::MotorRetry(at) => warn(format_args!("{t_s:.4} s: {}: motor tried again", place(at))),
     }
 }

@@ -10,6 +10,7 @@ use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
+use crate::motor::SimMotor;
 use crate::trace::Row;
 use crate::world::World;
 
@@ -271,10 +272,10 @@ impl<B: Bench + ?Sized> Run<B> {
         self.bench.slave_mut(n)
     }
 
-    /// Holds whisker `n`, counted from 0, left side first, where it is, or lets it go:
-    /// its motor stalls. Nothing where motors are ideal.
-    pub fn block(&mut self, n: usize, blocked: bool) {
-        self.world.block(n, blocked);
+    /// The motor of whisker `n`, counted from 0, left side first: to disturb it. None where
+    /// motors are ideal.
+    pub fn motor_mut(&mut self, n: usize) -> Option<&mut SimMotor> {
+        self.world.motor_mut(n)
     }
 
     /// The module.

@@ -99,12 +99,11 @@ impl World {
         &self.angles_deg
     }
 
-    /// Holds whisker `n` where it is, or lets it go; nothing where motors are ideal.
-    pub fn block(&mut self, n: usize, blocked: bool) {
-        if let Motors::Real(motors) = &mut self.motors
-            && let Some(motor) = motors.get_mut(n)
-        {
-            motor.block(blocked);
+    /// The motor of whisker `n`; none where motors are ideal.
+    pub fn motor_mut(&mut self, n: usize) -> Option<&mut SimMotor> {
+        match &mut self.motors {
+            Motors::Real(motors) => motors.get_mut(n),
+            Motors::None | Motors::Ideal(_) => None,
         }
     }
 

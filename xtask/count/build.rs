@@ -9,6 +9,7 @@ use std::{env, fs};
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
 use tactile::train::{Options, Trainer, joint};
+use whisking::motor::GuardSettings;
 use whisking::{GateSettings, Integrator, Real, Settings, filter, muscle, oscillator, pd};
 
 /// Ticks a second: BIOTACT's.
@@ -129,6 +130,15 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         // BIOTACT's motor: 512 counts a turn, a gear of 11.
         degrees_per_count: 360.0 / (512.0 * 11.0),
     };
+    let guards = GuardSettings {
+        degrees_per_count: pd.degrees_per_count,
+        hard_duty: 0.5,
+        following_deg: 40.0,
+        top_speed_deg_s: 15_000.0,
+        // What moves here are counters: no angle is out of its range.
+        travel_deg: GuardSettings::NONE.travel_deg,
+        continuous_duty: 1.0,
+    };
     let constants = constants! {
         H50: &'static filter::Config<Self> = filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?;
         RCP: &'static gate::Rcp<Self> = whisking.rcp.ok_or(none)?;
@@ -143,6 +153,7 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         START_2: Start<Self, 2, 1> = exact.start::<R, 2, 1>(psi, [[1.0]; 2])?;
         START_24: Start<Self, 2, 12> = exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?;
         PD: &'static pd::Config<Self> = pd.build::<R>(TICK_HZ)?;
+        GUARDS: &'static GuardConfig<Self> = guards.build::<R>(TICK_HZ);
     };
     Ok(format!(
         "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{constants}{}{}}}\n",

@@ -10,8 +10,8 @@ mod stability;
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
-use scene::{OnFault, Scene};
-use whisking::motor::Duty;
+use scene::{OnFault, PlantKind, Scene};
+use whisking::motor::{GuardConfig, GuardSettings};
 use whisking::{Error, Real, filter, pd};
 
 /// Constants of an active module of `S` sides with `N` whiskers each.
@@ -23,9 +23,8 @@ pub struct MotionPlan<R: Real, const S: usize, const N: usize> {
     pub start: whisking::Start<R, S, N>,
     /// Position control.
     pub pd: pd::Config<R>,
-    /// Duty above which a motor that does not move counts as stalled, Q15:
-    /// half of what it may be driven with.
-    pub stall_q15: i16,
+    /// What is a fault of a motor's motion.
+    pub guards: GuardConfig<R>,
     /// Whether a fault of any whisker switches every motor off.
     pub stop_all: bool,
 }
@@ -132,15 +131,37 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
             degrees_per_count,
         }
         .build(tick_hz)?,
-        stall_q15: stall_q15(motor),
+        guards: guards(scene, motor).build(tick_hz),
         stop_all: motor.on_fault == OnFault::StopAll,
     }))
 }
 
-/// Duty above which a motor that does not move counts as stalled, Q15: half of
-/// what it may be driven with.
-pub fn stall_q15(motor: &scene::MotorSection) -> i16 {
-    Duty::from_f32(motor.duty_limit as f32 / 2.0).q15()
+/// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
+/// is within its travel.
+///
+/// With the ideal plant the motor is where it should be whatever it is driven with: what
+/// compares motion with the drive then means nothing, and is left out.
+fn guards(scene: &Scene, motor: &scene::MotorSection) -> GuardSettings {
+    let guards = GuardSettings {
+        degrees_per_count: 360.0 / (f64::from(motor.counts_per_rev) * motor.gear),
+        hard_duty: motor.duty_limit / 2.0,
+        following_deg: motor.following_limit_deg,
+        top_speed_deg_s: motor.top_speed_deg_s,
+        travel_deg: [
+            motor.min_deg.min(whisking::REST_DEG) - motor.travel_margin_deg,
+            motor.max_deg.max(whisking::REST_DEG) + motor.travel_margin_deg,
+        ],
+        continuous_duty: motor.continuous_duty,
+    };
+    match scene.plant.kind {
+        PlantKind::Ideal => GuardSettings {
+            hard_duty: GuardSettings::NONE.hard_duty,
+            top_speed_deg_s: GuardSettings::NONE.top_speed_deg_s,
+            continuous_duty: GuardSettings::NONE.continuous_duty,
+            ..guards
+        },
+        PlantKind::Textured | PlantKind::Whisker => guards,
+    }
 }
 
 /// The contact below which the classifier of a scene does not listen: that of its model,
@@ -221,8 +242,29 @@ kind = "ideal"
         let counts_to_90_deg = 512.0 * 11.0 / 4.0;
         let theta = motion.pd.theta_per_count * counts_to_90_deg;
         assert!((theta - 0.9).abs() < 1e-12);
-        assert_eq!(motion.stall_q15, 16_384, "half of a full duty");
         assert!(contact::<f64>(&scene, false).unwrap().is_some());
+    }
+
+    #[test]
+    fn guards_are_in_counts_of_the_encoder() {
+        let textured = "kind = \"textured\"\nobstacle_deg = [90.0, 90.0]\nstiffness = 0.1\n\
+                        textures = [\"smooth\"]\npresent_s = 1.0";
+        let real = SCENE.replace("kind = \"ideal\"", textured);
+        let scene = Scene::from_str("rcp7.toml", &real).unwrap();
+        let guards = motion::<f64, 2, 2>(&scene).unwrap().unwrap().guards;
+        let hard = guards.stall.threshold.q15();
+        assert_eq!(hard, 16_384, "half of a full duty");
+        // 40 degrees; 30 - 20 and 160 + 20 from a rest of 50; 15,000 degrees in 2000 ticks.
+        assert_eq!((guards.error, guards.error_ticks), (0.4, 80));
+        assert_eq!(guards.travel, [-625, 2034]);
+        assert_eq!((guards.speed, guards.against), (118, 704));
+        // 0.4 squared, and 8.2 s.
+        assert!((f64::from(guards.heat) / f64::from(1 << 30) - 0.16).abs() < 1e-4);
+        assert_eq!(guards.heat_shift, 14);
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let ideal = motion::<f64, 2, 2>(&scene).unwrap().unwrap().guards;
+        assert_eq!((ideal.travel, ideal.error), (guards.travel, guards.error));
+        assert_eq!(ideal.stall.threshold, whisking::motor::Duty::FULL);
     }
 
     #[test]

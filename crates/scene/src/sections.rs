@@ -62,8 +62,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Ten of the motor, two of the plant, one of the head, of whisking and of the classifier.
-        assert_eq!(defaults, 15);
+        // Fourteen of the motor, two of the plant, one of the head, of whisking and of the
+        // classifier.
+        assert_eq!(defaults, 19);
     }
 
     #[test]

@@ -29,6 +29,7 @@
 
 mod commutation;
 mod duty;
+mod guard;
 mod hall;
 mod hbridge;
 mod phases;
@@ -39,6 +40,7 @@ use core::fmt;
 
 pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
+pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
@@ -95,10 +97,25 @@ pub enum Fault {
     /// cause: whisker or gear blocked, a phase wire open, or phases wired in
     /// another order than the Hall sensors.
     Stall,
+    /// 7: the angle was too far from its setpoint for too long. Likely cause: the
+    /// whisker is held, the encoder loses counts, or the gains are too low.
+    Following,
+    /// 8: moves against the drive, or faster than the motor can. Likely cause: motor
+    /// or encoder wired the wrong way round, or noise on the encoder's lines.
+    Runaway,
+    /// 9: driven hard both ways, and not a count. Likely cause: the encoder without
+    /// supply or not connected, or a clamped whisker.
+    Encoder,
+    /// 10: beyond the ends of its travel. Likely cause: it did not start at rest, or
+    /// something turned it.
+    Travel,
+    /// 11: driven with more than its winding bears (I²t of the duty). Likely cause: the
+    /// whisker presses against something hard, or friction.
+    Heat,
 }
 
 impl Fault {
-    /// The stable number of the fault, 1 to 6, for telemetry.
+    /// The stable number of the fault, 1 to 11, for telemetry.
     pub const fn code(self) -> u8 {
         match self {
             Self::Pin => 1,
@@ -107,6 +124,11 @@ impl Fault {
             Self::InvalidHall(_) => 4,
             Self::SkippedSector => 5,
             Self::Stall => 6,
+            Self::Following => 7,
+            Self::Runaway => 8,
+            Self::Encoder => 9,
+            Self::Travel => 10,
+            Self::Heat => 11,
         }
     }
 
@@ -121,6 +143,11 @@ impl Fault {
             4 => Some(Self::InvalidHall(7)),
             5 => Some(Self::SkippedSector),
             6 => Some(Self::Stall),
+            7 => Some(Self::Following),
+            8 => Some(Self::Runaway),
+            9 => Some(Self::Encoder),
+            10 => Some(Self::Travel),
+            11 => Some(Self::Heat),
             _ => None,
         }
     }
@@ -137,6 +164,11 @@ impl fmt::Display for Fault {
             }
             Self::SkippedSector => f.write_str("motor fault 5: Hall sectors skipped"),
             Self::Stall => f.write_str("motor fault 6: driven but not moving"),
+            Self::Following => f.write_str("motor fault 7: does not follow its setpoint"),
+            Self::Runaway => f.write_str("motor fault 8: runs away"),
+            Self::Encoder => f.write_str("motor fault 9: the encoder is silent"),
+            Self::Travel => f.write_str("motor fault 10: beyond its travel"),
+            Self::Heat => f.write_str("motor fault 11: driven too hot"),
         }
     }
 }

@@ -64,6 +64,8 @@ pub struct Config<R: Real> {
 /// is that of a motor that is off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
+    /// Following error ⟨s⟩ − x.
+    pub error: R,
     /// Proportional term k_p (⟨s⟩ − x), a duty before its limits.
     pub p: R,
     /// Derivative term −k_d dx/dt, a duty before its limits.
@@ -121,8 +123,8 @@ impl<R: Real> Config<R> {
         let measured = R::from_counts(counts, self.theta_per_count);
         let moved = R::from_counts(moved, self.theta_per_count);
         state.velocity = state.velocity + (moved - state.velocity).times(self.smooth);
-        let error = self.clamp(setpoint) - measured;
-        state.p = error.times(self.kp);
+        state.error = self.clamp(setpoint) - measured;
+        state.p = state.error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
         // Not `clamp`, which panics where a limit is negative.
         let wanted = (state.p + state.d).to_q24();

@@ -164,6 +164,26 @@ pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
             at,
             "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)"
         ),
+        motor::Fault::Following => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, does not follow its setpoint (held, or encoder slipping?)"
+        ),
+        motor::Fault::Runaway => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, runs away (motor or encoder wired the wrong way round?)"
+        ),
+        motor::Fault::Encoder => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, driven both ways without a count (encoder not connected?)"
+        ),
+        motor::Fault::Travel => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, beyond its travel (not at rest at the start?)"
+        ),
+        motor::Fault::Heat => fault_line!(
+            at,
+            "{=str} {=u8}: fault {=u8}, winding too hot (pressing against something, friction?)"
+        ),
     }
 }
 
@@ -172,6 +192,15 @@ pub(crate) fn motor_retry(place: Place) {
     defmt::info!(
         "{=str} {=u8}: motor is tried again",
         place.side_name(),
+        place.whisker
+    );
+}
+
+/// A motor stays off until the board is reset.
+pub(crate) fn motor_given_up(place: Place) {
+    defmt::error!(
+        "{=str} {=u8}: three faults in a minute: motor off until reset",
+        side(place),
         place.whisker
     );
 }

@@ -129,11 +129,13 @@ fn write(event: Event) {
         Event::SensorBack(place) => log::sensor_back(place),
         Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
         Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
+        Event::MotorGivenUp(place) if scene::HAS_MOTOR => log::motor_given_up(place),
         Event::Decision(..)
         | Event::Touch { .. }
         | Event::TouchEnd { .. }
         | Event::MotorFault(..)
-        | Event::MotorRetry(_) => {}
+        | Event::MotorRetry(_)
+        | Event::MotorGivenUp(_) => {}
     }
 }
 

@@ -2,10 +2,10 @@
 
 use firmware::{
     Active, ActiveConfig, AngleInput, Command, Config, Module, NoActiveWhisker, Passive, Place,
-    Servo, ServoConfig, ServoState,
+    Servo, ServoConfig, ServoState, design_parameters,
 };
 use mlx90333::Decoder;
-use whisking::motor::{Duty, Fault, MotorDriver, StallConfig};
+use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
 use whisking::{Absent, Fix, GateSettings, Integrator, Real, Settings, State, filter, pd};
 
 use crate::hardware::{AT_ONCE, Bent, NoClock, feeling};
@@ -74,11 +74,8 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
             whisking: SETTINGS.build().unwrap(),
             servo: ServoConfig {
                 pd: PD.build(2000.0).unwrap(),
-                retry: 1,
-                stall: StallConfig {
-                    ticks: u16::MAX,
-                    threshold: Duty::FULL,
-                },
+                retry: design_parameters::retry(2000),
+                guards: GuardSettings::NONE.build(2000.0),
             },
             stop_all: Absent,
         },

@@ -6,10 +6,10 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
     Active, ActiveConfig, AngleInput, Clock, Config, Event, HoldLimits, Module, Place, Polled,
-    SensorFault, Servo, ServoConfig,
+    Retry, SensorFault, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
-use whisking::motor::{Duty, HBridge, StallConfig};
+use whisking::motor::{GuardSettings, HBridge};
 use whisking::{Absent, GateSettings, Integrator, Present, Settings, filter, pd};
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
@@ -89,12 +89,6 @@ const SETTINGS: Settings = Settings {
     cia: None,
 };
 
-/// Never stalled.
-const STALL: StallConfig = StallConfig {
-    ticks: 400,
-    threshold: Duty::FULL,
-};
-
 /// Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a tick.
 fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
     let pd = pd::Settings {
@@ -117,8 +111,11 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
             whisking: SETTINGS.build().unwrap(),
             servo: ServoConfig {
                 pd: pd.build(2000.0).unwrap(),
-                retry: 10,
-                stall: STALL,
+                retry: Retry {
+                    rest: 10,
+                    window: 0,
+                },
+                guards: GuardSettings::NONE.build(2000.0),
             },
             stop_all: Absent,
         },

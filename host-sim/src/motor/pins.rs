@@ -28,6 +28,8 @@ pub enum Wire {
     /// The cable of the encoder: its count stands still. Once mended it goes on
     /// from there, off by what it has missed.
     Encoder,
+    /// The encoder's two channels, exchanged: it counts the wrong way round.
+    EncoderChannels,
 }
 
 /// A number that both ends of a wire can reach.
@@ -52,6 +54,7 @@ pub(super) struct Wires {
     cut: [AtomicBool; 3],
     halls_cut: AtomicBool,
     encoder_cut: AtomicBool,
+    encoder_turned: AtomicBool,
     /// Rotor angle, rad.
     angle: Level,
     /// Angle that the encoder has not seen, rad.
@@ -67,6 +70,7 @@ impl Wires {
             cut: Default::default(),
             halls_cut: AtomicBool::new(false),
             encoder_cut: AtomicBool::new(false),
+            encoder_turned: AtomicBool::new(false),
             angle: Level::default(),
             missed: Level::default(),
             counts_per_rad,
@@ -95,6 +99,7 @@ impl Wires {
             }
             Wire::Halls => self.halls_cut.store(cut, Relaxed),
             Wire::Encoder => self.encoder_cut.store(cut, Relaxed),
+            Wire::EncoderChannels => self.encoder_turned.store(cut, Relaxed),
         }
     }
 
@@ -205,6 +210,10 @@ impl InputPin for SimHall {
 impl AngleInput for SimEncoder {
     fn counts(&mut self) -> i32 {
         let seen = self.0.angle.get() - self.0.missed.get();
+        let seen = match self.0.encoder_turned.load(Relaxed) {
+            true => -seen,
+            false => seen,
+        };
         // Through i64, so that the count wraps as a counter does.
         (seen * self.0.counts_per_rad + 0.5).floor() as i64 as i32
     }

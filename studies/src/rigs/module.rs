@@ -2,7 +2,7 @@
 //! that it knows of its whiskers comes by sensor frames and encoders. A whisker
 //! that is bent pulls back on its motor.
 
-use firmware::design_parameters::{hold_limits, retry, stall};
+use firmware::design_parameters::{hold_limits, retry};
 use firmware::{
     Active, ActiveConfig, BusError, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
@@ -11,7 +11,7 @@ use host_sim::bench::NoClock;
 use host_sim::drive::{self, AnyAngle, AnyMotor};
 use host_sim::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
-use whisking::motor::Duty;
+use whisking::motor::GuardSettings;
 use whisking::{Absent, State, degrees, filter, pd};
 
 use super::read::keys;
@@ -101,7 +101,6 @@ impl HeadModule {
             max_deg: control.max_deg,
             degrees_per_count: motor.degrees_per_count(),
         };
-        let stall = stall(ticks_per_s, Duty::from_f32(DUTY_LIMIT as f32 / 2.0).q15());
         let config = Config {
             decoder: Decoder::new(),
             hold_limits: hold_limits(ticks_per_s),
@@ -111,7 +110,7 @@ impl HeadModule {
                 servo: ServoConfig {
                     pd: pd.build(tick_hz).map_err(refused)?,
                     retry: retry(ticks_per_s),
-                    stall,
+                    guards: GuardSettings::NONE.build(tick_hz),
                 },
                 stop_all: Absent,
             },
@@ -137,7 +136,7 @@ impl HeadModule {
             all_pins.push(pins);
         }
         let mut servos = all_pins.into_iter().map(|pins| {
-            let (motor, angle) = drive::on(pins, stall);
+            let (motor, angle) = drive::on(pins, config.motion.servo.guards.stall);
             Servo::new(motor, angle)
         });
         let mut side = || <[_; EACH]>::try_from(servos.by_ref().take(EACH).collect::<Vec<_>>());

@@ -2,12 +2,12 @@
 //! stop; and what is left of the lost side's touch: nothing.
 
 use crate::played::{Played, TICK_HZ, angles, extent, play, scene, textured, undisturbed};
-use firmware::design_parameters::{HOLD_S, RECOVER_S, RETRY_S, STALL_S, ticks};
+use firmware::design_parameters::{HOLD_S, RECOVER_S, RETRY_S, ticks};
 use firmware::{Event, Place};
 use host_sim::bus::WireFault;
 use host_sim::run::Run;
 use scene::Scene;
-use whisking::motor::Fault;
+use whisking::motor::{Fault, STALL_S};
 
 const fn of(seconds: f64) -> u64 {
     ticks(seconds, TICK_HZ as u32) as u64
@@ -99,7 +99,9 @@ fn a_motor_that_stalls_feels_nothing_while_it_rests() {
     for (side, place) in SIDES.into_iter().enumerate() {
         let start = first_touch(&sound, side, 2000) + 4;
         let played = play(&scene, 8000, |tick, run| {
-            run.block(side, (start..start + 2000).contains(&tick));
+            run.motor_mut(side)
+                .unwrap()
+                .block((start..start + 2000).contains(&tick));
         });
         let [
             (fault, Event::MotorFault(_, Fault::Stall)),
@@ -160,7 +162,7 @@ fn a_fault_of_one_stops_all_where_the_scene_says_so() {
             let fault = on.then_some(WireFault::LineLow);
             run.slave_mut(0).unwrap().set_fault(fault);
         },
-        |run, on| run.block(0, on),
+        |run, on| run.motor_mut(0).unwrap().block(on),
     ];
     for disturb in disturbances {
         let start = first_touch(&sound, 0, 2000);

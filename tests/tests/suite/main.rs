@@ -8,6 +8,7 @@ mod euler_trace;
 mod faults;
 mod faults_by_side;
 mod formats;
+mod motion_faults;
 mod played;
 mod precision;
 mod reference_claims;

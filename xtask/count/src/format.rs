@@ -2,12 +2,13 @@
 //! script. A kernel takes them by [`in_memory`], as the tick of a board reads
 //! them from its settings.
 
+use whisking::motor::GuardConfig;
 use whisking::{Absent, Present, Real, Start, filter, gate, muscle, noise, oscillator, pd};
 
 /// Made by the build script.
 #[allow(clippy::unreadable_literal, reason = "numbers as they print")]
 mod constants {
-    use super::{Format, Generator};
+    use super::{Format, Generator, GuardConfig};
     use whisking::{Fix, Start, filter, gate, muscle, noise, oscillator, pd};
 
     include!(concat!(env!("OUT_DIR"), "/constants.rs"));
@@ -46,6 +47,8 @@ pub trait Format: Real {
     const START_24: Start<Self, 2, 12>;
     /// Position control.
     const PD: &'static pd::Config<Self>;
+    /// What is a fault of a motor's motion.
+    const GUARDS: &'static GuardConfig<Self>;
 
     /// A whole pattern generator with the structure-preserving integrators.
     const WHISKING: &'static Generator<Self, oscillator::Exact<Self>, muscle::Exact<Self>>;

@@ -5,14 +5,14 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{hold_limits, retry, stall};
+use firmware::design_parameters::{hold_limits, retry};
 use firmware::{
     Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
     CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FRAME_LEN};
 use tactile::{Model, Sequential};
-use whisking::motor::{HBridge, StallConfig};
+use whisking::motor::HBridge;
 use whisking::{Absent, Present, Start, State, filter, muscle, oscillator};
 
 use crate::format::{Format, Generator};
@@ -23,8 +23,6 @@ use crate::samples::frame;
 const TICK_HZ: u32 = 2000;
 /// Counts of the clock between two ticks.
 const PERIOD: u32 = 45_000;
-/// Half of full duty counts as driven hard.
-const STALL: StallConfig = stall(TICK_HZ, i16::MAX / 2);
 
 /// A sensor that has a new frame in every tick.
 #[derive(Debug)]
@@ -135,7 +133,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
             servo: ServoConfig {
                 pd: *R::PD,
                 retry: retry(TICK_HZ),
-                stall: STALL,
+                guards: *R::GUARDS,
             },
             stop_all: Absent,
         },

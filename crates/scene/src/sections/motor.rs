@@ -58,6 +58,19 @@ keys! {
         /// Encoder counts per motor revolution.
         counts_per_rev: u32 = integer(4..=65_536).unit("counts").default("512"),
 
+        /// Largest following error (setpoint against measured) that lasts for 40 ms without a fault.
+        following_limit_deg: f64 = number(1.0..=720.0).unit("degrees").default("40.0"),
+
+        /// How far beyond `min_deg` and `max_deg` the whisker may be turned without a fault.
+        travel_margin_deg: f64 = number(0.0..=720.0).unit("degrees").default("20.0"),
+
+        /// Faster than the motor can turn the whisker: a fault. A quarter more than the
+        /// simulated motor's speed without load.
+        top_speed_deg_s: f64 = positive(1e6).unit("degrees/s").default("15000.0"),
+
+        /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s.
+        continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),
+
         /// What a fault of a sensor or a motor switches off: the motor of its whisker, or
         /// every motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),

@@ -59,6 +59,10 @@ fn every_key_reaches_its_field() {
             max_deg: 160.0,
             gear: 11.0,
             counts_per_rev: 512,
+            following_limit_deg: 40.0,
+            travel_margin_deg: 20.0,
+            top_speed_deg_s: 15_000.0,
+            continuous_duty: 0.4,
             on_fault: OnFault::StopWhisker,
         }),
         plant: PlantSection {
@@ -86,7 +90,9 @@ fn every_key_reaches_its_field() {
 fn the_motor_is_read_key_by_key() {
     let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
-                 counts_per_rev = 1024\non_fault = 'stop-all'\n\n[plant]\n";
+                 counts_per_rev = 1024\nfollowing_limit_deg = 12.5\n\
+                 travel_margin_deg = 3\ntop_speed_deg_s = 900\ncontinuous_duty = 0.3\n\
+                 on_fault = 'stop-all'\n\n[plant]\n";
     let expected = MotorSection {
         driver: Driver::SixStep,
         kp: 1.0,
@@ -97,6 +103,10 @@ fn the_motor_is_read_key_by_key() {
         max_deg: 200.5,
         gear: 4.4,
         counts_per_rev: 1024,
+        following_limit_deg: 12.5,
+        travel_margin_deg: 3.0,
+        top_speed_deg_s: 900.0,
+        continuous_duty: 0.3,
         on_fault: OnFault::StopAll,
     };
     assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));

@@ -4,6 +4,7 @@
 mod bits;
 mod module_terms;
 mod motor_duty;
+mod motor_guard;
 mod motor_hall;
 mod motor_hbridge;
 mod motor_order;

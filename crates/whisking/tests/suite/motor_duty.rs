@@ -49,6 +49,11 @@ fn fault_numbers_are_stable() {
         (Fault::InvalidHall(7), 4),
         (Fault::SkippedSector, 5),
         (Fault::Stall, 6),
+        (Fault::Following, 7),
+        (Fault::Runaway, 8),
+        (Fault::Encoder, 9),
+        (Fault::Travel, 10),
+        (Fault::Heat, 11),
     ];
     for (fault, code) in all {
         assert_eq!(fault.code(), code);
@@ -60,7 +65,7 @@ fn fault_numbers_are_stable() {
         );
     }
     assert_eq!(Fault::from_code(0), None);
-    assert_eq!(Fault::from_code(7), None);
+    assert_eq!(Fault::from_code(12), None);
 }
 
 proptest! {

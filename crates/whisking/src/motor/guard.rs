@@ -1,0 +1,209 @@
+//! Plausibility of motion: whether what is measured fits what is driven.
+//!
+//! A motor on an [`HBridge`](super::HBridge) gives no sign of motion itself, so the control
+//! loop guards it by its encoder. No guard begins anew because the direction of the drive
+//! changes: an encoder that stands still is found at any whisking frequency.
+
+use super::{Duty, Fault, StallConfig};
+use crate::{DEGREES_PER_UNIT, REST_DEG, Real};
+
+/// How long a following error may be larger than its limit, s: with the tick in which it is
+/// found, and one in which the motor is switched off, less than 50 ms.
+pub const FOLLOWING_S: f64 = 0.04;
+/// How long a motor may be driven hard in all without moving, s: longer than the pause
+/// at a whisk's turning point, shorter than a small winding takes to overheat.
+pub const STALL_S: f64 = 0.2;
+/// Time constant of a small winding, s. Rounded to the nearest power of two in ticks.
+const WINDING_S: f64 = 8.0;
+/// How far a motor may move against a hard drive, degrees: a whisker that is braked from
+/// 4,000 degrees a second stops within 31.
+const AGAINST_DEG: f64 = 45.0;
+
+/// Limits in physical units, of a whisker with its gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GuardSettings {
+    /// Degrees of the whisker a count of the encoder, above 0.
+    pub degrees_per_count: f64,
+    /// Larger than any duty that is not hard: 0 to 1.
+    pub hard_duty: f64,
+    /// Largest following error, degrees.
+    pub following_deg: f64,
+    /// Fastest that the motor can be, degrees a second.
+    pub top_speed_deg_s: f64,
+    /// Lowest and highest angle θ', degrees.
+    pub travel_deg: [f64; 2],
+    /// Duty that the winding bears for ever, 0 to 1.
+    pub continuous_duty: f64,
+}
+
+impl GuardSettings {
+    /// Nothing is a fault: for motors that nothing can harm.
+    pub const NONE: Self = Self {
+        degrees_per_count: 1.0,
+        hard_duty: 1.0,
+        following_deg: 1e4,
+        top_speed_deg_s: f64::MAX,
+        travel_deg: [f64::MIN, f64::MAX],
+        continuous_duty: 1.0,
+    };
+
+    /// The constants at `tick_hz` ticks a second. What its type cannot hold becomes the
+    /// nearest that it can.
+    pub fn build<R: Real>(&self, tick_hz: f64) -> GuardConfig<R> {
+        let ticks = |seconds: f64| libm::round(seconds * tick_hz).max(1.0) as u16;
+        let counts = |degrees: f64| libm::ceil(degrees / self.degrees_per_count);
+        let [lowest, highest] = self.travel_deg.map(|angle| counts(angle - REST_DEG) as i32);
+        let continuous = Duty::from_f32(self.continuous_duty as f32).magnitude();
+        GuardConfig {
+            stall: StallConfig {
+                ticks: ticks(STALL_S),
+                threshold: Duty::from_f32(self.hard_duty as f32),
+            },
+            error: R::from_f64(self.following_deg / DEGREES_PER_UNIT),
+            error_ticks: ticks(FOLLOWING_S),
+            against: counts(AGAINST_DEG) as u32,
+            speed: counts(self.top_speed_deg_s / tick_hz) as u32,
+            travel: [lowest, highest],
+            heat: u32::from(continuous) * u32::from(continuous),
+            heat_shift: libm::round(libm::log2(WINDING_S * tick_hz)).clamp(0.0, 31.0) as u8,
+        }
+    }
+}
+
+/// What a motor may do. Counts are those of the angle input, protraction counting up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
+pub struct GuardConfig<R> {
+    /// How long it may be driven hard in all without moving, and what is hard.
+    pub stall: StallConfig,
+    /// Largest following error, protraction, and the ticks in succession for which it may be
+    /// larger.
+    pub error: R,
+    /// See `error`.
+    pub error_ticks: u16,
+    /// Most counts that it may move against a hard drive.
+    pub against: u32,
+    /// Most counts that it may move in a tick.
+    pub speed: u32,
+    /// Lowest and highest count from rest.
+    pub travel: [i32; 2],
+    /// Duty that its winding bears for ever, squared, Q30.
+    pub heat: u32,
+    /// The winding's time constant is two to this power, ticks.
+    pub heat_shift: u8,
+}
+
+/// What the guards of a motor remember while it runs. The default is that of a motor that was
+/// off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Guards {
+    /// Ticks that it was driven hard forwards and backwards since it last moved.
+    still: [u16; 2],
+    /// How far it has moved since, counts.
+    flicker: i32,
+    /// Ticks in succession with too large a following error.
+    error_ticks: u16,
+    /// Counts that it has moved against a hard drive.
+    against: u32,
+}
+
+/// A rotor that stands on an edge of its encoder flickers by a count or two.
+const FLICKER: u32 = 2;
+
+impl Guards {
+    /// One tick: the `duty` that is to be driven, the following `error` that it comes from,
+    /// the angle `at` in counts from rest and by how many it has `moved` since the last tick.
+    ///
+    /// # Errors
+    /// What is not plausible.
+    #[inline]
+    pub fn check<R: Real>(
+        &mut self,
+        config: &GuardConfig<R>,
+        duty: Duty,
+        error: R,
+        at: i32,
+        moved: i32,
+    ) -> Result<(), Fault> {
+        let size = moved.unsigned_abs();
+        let [lowest, highest] = config.travel;
+        if at < lowest || at > highest {
+            return Err(Fault::Travel);
+        }
+        self.error_ticks = if error.abs() > config.error {
+            self.error_ticks.saturating_add(1)
+        } else {
+            0
+        };
+        if self.error_ticks > config.error_ticks {
+            return Err(Fault::Following);
+        }
+        let is_hard = duty.magnitude() > config.stall.threshold.magnitude();
+        if is_hard {
+            self.against = if moved == 0 {
+                self.against
+            } else if (moved < 0) == duty.is_forward() {
+                self.against.saturating_add(size)
+            } else {
+                0
+            };
+        }
+        if size > config.speed || self.against > config.against {
+            return Err(Fault::Runaway);
+        }
+        self.check_still(config.stall, duty, is_hard, moved)
+    }
+
+    #[inline]
+    fn check_still(
+        &mut self,
+        config: StallConfig,
+        duty: Duty,
+        is_hard: bool,
+        moved: i32,
+    ) -> Result<(), Fault> {
+        self.flicker = self.flicker.saturating_add(moved);
+        if self.flicker.unsigned_abs() > FLICKER {
+            self.flicker = 0;
+            self.still = [0; 2];
+        } else if is_hard {
+            let [forwards, backwards] = &mut self.still;
+            let still = if duty.is_forward() {
+                forwards
+            } else {
+                backwards
+            };
+            *still = still.saturating_add(1);
+        }
+        match self.still {
+            [0, still] | [still, 0] if still >= config.ticks => Err(Fault::Stall),
+            [forwards, backwards] if forwards.saturating_add(backwards) >= config.ticks => {
+                Err(Fault::Encoder)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// How warm a winding is: its duty squared, through a low-pass of its time constant, Q30 (I²t).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Heat(u32);
+
+impl Heat {
+    /// One tick with `duty`.
+    ///
+    /// # Errors
+    /// [`Fault::Heat`] above what the winding bears for ever.
+    #[inline]
+    pub fn check<R>(&mut self, config: &GuardConfig<R>, duty: Duty) -> Result<(), Fault> {
+        let duty = u32::from(duty.magnitude());
+        // At most 2^30, and so is the state; a state that is not falls to it.
+        let shift = u32::from(config.heat_shift & 31);
+        self.0 = self.0 - (self.0 >> shift) + ((duty * duty) >> shift);
+        if self.0 > config.heat {
+            Err(Fault::Heat)
+        } else {
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Motors and encoders that do what they should not: what moves is found out by the
+//! encoder, and switched off.
+
+use crate::played::{Played, TICK_HZ, angles, extent, play, textured, undisturbed};
+use firmware::{Event, FAULTS, Place};
+use host_sim::motor::Wire;
+use scene::Scene;
+use whisking::motor::{FOLLOWING_S, Fault};
+
+const LEFT: Place = Place::new(0, 0);
+/// Ticks in a millisecond.
+const MS: u64 = TICK_HZ / 1000;
+
+/// Free whisking so often a second.
+fn free_at(frequency_hz: f64, motor: &str) -> Scene {
+    let text = format!(
+        "name = \"free\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n\
+         [head]\nwhiskers_per_side = 1\n\
+         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\ncoupling = true\n\
+         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0], [1.0, 0.0]]\n\
+         [plant]\n{}\n[motor]\n{motor}",
+        textured(300.0)
+    );
+    Scene::from_str("free.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// A run in which a wire of the left motor is cut at a tick, and mended never.
+fn cut_at(scene: &Scene, ticks: u64, wire: Wire, start: u64) -> Played {
+    play(scene, ticks, |tick, run| {
+        if tick == start {
+            run.motor_mut(0).unwrap().cut(wire);
+        }
+    })
+}
+
+/// The faults of the left motor with their ticks; nothing may befall the right one.
+#[track_caller]
+fn faults(played: &Played) -> Vec<(u64, Fault)> {
+    let fault = |(tick, event): &(u64, Event)| match event {
+        Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
+        Event::MotorRetry(LEFT) | Event::MotorGivenUp(LEFT) => None,
+        other => panic!("{other:?}"),
+    };
+    played.events.iter().filter_map(fault).collect()
+}
+
+/// Where the left whisker is from a tick on, as the encoder would say it if it could.
+fn turned_by(played: &Played, from: u64) -> f64 {
+    extent(&angles(played, 0)[from as usize..])
+}
+
+#[test]
+fn sound_motors_have_no_fault_at_any_frequency() {
+    for frequency_hz in [0.5, 2.0, 4.0, 8.0] {
+        // Well within the default limits.
+        let narrow = "following_limit_deg = 25\ncontinuous_duty = 0.25\n";
+        let played = undisturbed(&free_at(frequency_hz, narrow), 20 * TICK_HZ);
+        assert_eq!(played.events, [], "{frequency_hz} Hz");
+        assert!(turned_by(&played, TICK_HZ) > 20.0, "it whisks");
+    }
+}
+
+/// At 8 Hz the drive turns round before a guard that begins anew at each turn can trip.
+#[test]
+fn an_encoder_that_stands_still_is_found_at_any_frequency() {
+    for frequency_hz in [0.5, 2.0, 8.0] {
+        let start = 3 * TICK_HZ;
+        let scene = free_at(frequency_hz, "");
+        let played = cut_at(&scene, start + 5 * TICK_HZ, Wire::Encoder, start);
+        let found = faults(&played);
+        let &(first, fault) = found.first().expect("a fault");
+        let silent = [Fault::Stall, Fault::Encoder, Fault::Following];
+        assert!(silent.contains(&fault), "{frequency_hz} Hz: {fault:?}");
+        assert!(
+            first - start < 3 * TICK_HZ / 2,
+            "{frequency_hz} Hz: {first}"
+        );
+    }
+}
+
+#[test]
+fn an_encoder_that_counts_backwards_is_found_before_the_whisker_is_far() {
+    let scene = free_at(8.0, "");
+    let start = 3 * TICK_HZ;
+    let sound = undisturbed(&scene, start + 200 * MS);
+    let played = cut_at(&scene, start + 200 * MS, Wire::EncoderChannels, start);
+    let found = faults(&played);
+    let &(first, fault) = found.first().expect("a fault");
+    // The jump of the count is seen at once, or the whisker is seen to run away.
+    assert!(
+        [Fault::Runaway, Fault::Travel].contains(&fault),
+        "{fault:?}"
+    );
+    assert!(first - start < 50 * MS);
+    let ranged = extent(&angles(&sound, 0)[TICK_HZ as usize..]);
+    assert!(turned_by(&played, start) < ranged + 40.0);
+}
+
+/// Wired the wrong way round from the start, where nothing jumps.
+#[test]
+fn a_motor_wired_backwards_is_given_up() {
+    for frequency_hz in [0.5, 2.0, 8.0] {
+        let scene = free_at(frequency_hz, "");
+        let played = cut_at(&scene, 20 * TICK_HZ, Wire::EncoderChannels, 0);
+        let found = faults(&played);
+        assert_eq!(found.len(), FAULTS, "{frequency_hz} Hz: {found:?}");
+        let given_up = played.events.last().unwrap();
+        assert_eq!(given_up, &(found[FAULTS - 1].0, Event::MotorGivenUp(LEFT)));
+        let off = given_up.0 as usize + 200;
+        assert!(extent(&angles(&played, 0)[off..]) < 0.01, "it is driven");
+        assert!(turned_by(&played, 0) < 360.0, "{frequency_hz} Hz");
+    }
+}
+
+#[test]
+fn a_motor_that_was_given_up_runs_when_it_is_told() {
+    let scene = free_at(2.0, "");
+    let (held, told) = (3 * TICK_HZ, 15 * TICK_HZ);
+    let played = play(&scene, 20 * TICK_HZ, |tick, run| {
+        run.motor_mut(0)
+            .unwrap()
+            .block((held..told).contains(&tick));
+        if tick == told {
+            let done = run.module_mut().command(0, firmware::Command::Clear);
+            done.unwrap();
+        }
+    });
+    assert_eq!(faults(&played).len(), FAULTS);
+    let last = played.events.last().unwrap();
+    assert!(
+        last.0 < told && last.1 == Event::MotorGivenUp(LEFT),
+        "{last:?}"
+    );
+    assert!(turned_by(&played, told + TICK_HZ) > 20.0, "it whisks again");
+}
+
+/// A whisker that is held is let go within the time of the following error and a tick.
+#[test]
+fn a_whisker_that_is_held_is_not_driven_for_long() {
+    let limit = 10.0;
+    let scene = free_at(2.0, &format!("following_limit_deg = {limit:?}\n"));
+    let start = 3 * TICK_HZ;
+    let played = play(&scene, start + TICK_HZ, |tick, run| {
+        run.motor_mut(0).unwrap().block(tick >= start);
+    });
+    let found = faults(&played);
+    let &(first, fault) = found.first().expect("a fault");
+    assert_eq!(fault, Fault::Following);
+    let rows = played.rows.iter();
+    let mut errors = rows.map(|row| (row.theta_deg[0] - row.angle_deg[0]).abs());
+    let left = errors.position(|error| error > limit).unwrap() as u64;
+    let lasted = (first - left) as f64 / TICK_HZ as f64;
+    assert!((FOLLOWING_S..0.045).contains(&lasted), "{lasted} s");
+}
+
+/// Held with less than half of the duty, which no stall guard sees.
+#[test]
+fn a_winding_that_is_driven_for_ever_is_spared() {
+    let motor = "kp = 0.02\nduty_limit = 1.0\ncontinuous_duty = 0.2\nfollowing_limit_deg = 360\n";
+    let scene = free_at(2.0, motor);
+    let played = play(&scene, 20 * TICK_HZ, |tick, run| {
+        run.motor_mut(0).unwrap().block(tick >= 2500);
+    });
+    let found = faults(&played);
+    assert_eq!(found.first().map(|(_, fault)| *fault), Some(Fault::Heat));
+    let sound = undisturbed(&scene, 20 * TICK_HZ);
+    assert_eq!(sound.events, [], "whisking is borne for ever");
+}
