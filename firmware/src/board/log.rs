@@ -200,7 +200,7 @@ pub(crate) fn motor_retry(place: Place) {
 pub(crate) fn motor_given_up(place: Place) {
     defmt::error!(
         "{=str} {=u8}: three faults in a minute: motor off until reset",
-        side(place),
+        place.side_name(),
         place.whisker
     );
 }
