@@ -11,7 +11,7 @@ mod thumb;
 
 use std::path::Path;
 
-use scene::Scene;
+use scene::{Deciding, Scene};
 
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, read_bytes, top};
@@ -162,8 +162,22 @@ fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Resul
         stack: stack::worst(board, elf)?,
         model: model_bytes(scene)?.map_or(0, |model| model.len() as u64),
         is_active: scene.whisking.is_some(),
+        heard: heard(scene),
         host_ns: host,
     })
+}
+
+/// How many whiskers' samples a scene classifies.
+fn heard(scene: &Scene) -> u64 {
+    match scene
+        .classifier
+        .as_ref()
+        .map(|classifier| classifier.whiskers)
+    {
+        None => 0,
+        Some(Deciding::First) => 1,
+        Some(Deciding::Each | Deciding::Together) => scene.whiskers() as u64,
+    }
 }
 
 /// The model that a scene names.

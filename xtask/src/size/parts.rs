@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use plan::NumberFormat;
-use scene::{Driver, Integrator, Rule, Scene};
+use scene::{Deciding, Driver, Integrator, Rule, Scene};
 use tactile::ModelBuf;
 
 use crate::run::Fault;
@@ -49,6 +49,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "contact signal" => scene.rcp.is_some() || scene.cia.is_some() || has_threshold,
         "classifier" => classifier.is_some(),
         "touch detector" => knows_touches,
+        "several whiskers" => classifier.is_some_and(|c| c.whiskers != Deciding::First),
         "roughness" | "roughness or floors" => !is_single,
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
