@@ -210,10 +210,8 @@ impl InputPin for SimHall {
 impl AngleInput for SimEncoder {
     fn counts(&mut self) -> i32 {
         let seen = self.0.angle.get() - self.0.missed.get();
-        let seen = match self.0.encoder_turned.load(Relaxed) {
-            true => -seen,
-            false => seen,
-        };
+        let turned = self.0.encoder_turned.load(Relaxed);
+        let seen = if turned { -seen } else { seen };
         // Through i64, so that the count wraps as a counter does.
         (seen * self.0.counts_per_rad + 0.5).floor() as i64 as i32
     }
