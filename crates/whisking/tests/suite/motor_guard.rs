@@ -114,7 +114,7 @@ fn standing_still_is_a_stall_one_way_and_a_silent_encoder_both_ways() {
     // Four stretches of 83, and 68 of the fifth.
     assert_eq!(found, Some((500 + STALL - 4 * 83 - 1, Fault::Encoder)));
     // Pushing slowly: three counts in a hundred ticks.
-    let slow = |tick: usize| (HARD, 0.0, 0, i32::from(tick % 33 == 0));
+    let slow = |tick: usize| (HARD, 0.0, 0, i32::from(tick.is_multiple_of(33)));
     assert_eq!(trips(20_000, slow), None);
 }
 
