@@ -116,7 +116,7 @@ pub(super) fn compare(known: &[Figure], found: &[Row], is_all: bool) -> Result<(
 
 #[cfg(test)]
 mod tests {
-    use super::{Row, Size, TABLE, compare};
+    use super::{ACTIVE_FLASH, RAM, Row, STACK, STACK_MORE, Size, TABLE, compare};
 
     fn row(scene: &str, flash: u64, ram: u64, stack: u64) -> Row {
         Row {
@@ -161,12 +161,15 @@ mod tests {
         assert!(fault.contains("b,b is not in the table"));
         assert!(fault.contains("a,b is no longer measured"));
         assert_eq!(compare(&[a.figure(), b.figure()], &[b], false), Ok(()));
-        let mut big = row("c", 25 * 1024 + 100, 4 * 1024 + 1, 1_537);
+        let mut big = row("c", ACTIVE_FLASH + 100, RAM + 1, STACK + 1);
         let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
         assert_eq!(fault.matches("goal").count(), 3, "{fault}");
         big.model = 100;
         let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
         assert_eq!(fault.matches("goal").count(), 2, "the model is apart");
+        (big.heard, big.stack) = (2, STACK + STACK_MORE);
+        let fault = compare(&[big.figure()], &[big.clone()], true).unwrap_err();
+        assert_eq!(fault.matches("goal").count(), 1, "a classifier more");
         big.is_active = false;
         let fault = compare(&[big.figure()], &[big], true).unwrap_err();
         assert!(fault.contains("goal 8192"));
