@@ -28,7 +28,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("main job and documents", || docs::all(true))?;
     steps.run("README's commands", readme::all)?;
     steps.run("experiments, cut short", experiments)?;
-    steps.run("firmware, two scenes", size::short)?;
+    steps.run("firmware, three scenes", size::short)?;
     steps.run("emulated board, one side and two", board)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
