@@ -130,15 +130,8 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         // BIOTACT's motor: 512 counts a turn, a gear of 11.
         degrees_per_count: 360.0 / (512.0 * 11.0),
     };
-    let guards = GuardSettings {
-        degrees_per_count: pd.degrees_per_count,
-        hard_duty: 0.5,
-        following_deg: 40.0,
-        top_speed_deg_s: 15_000.0,
-        // What moves here are counters: no angle is out of its range.
-        travel_deg: GuardSettings::NONE.travel_deg,
-        continuous_duty: 1.0,
-    };
+    // What moves here is a counter, which no setpoint leads.
+    let guards = GuardSettings::NONE;
     let constants = constants! {
         H50: &'static filter::Config<Self> = filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?;
         RCP: &'static gate::Rcp<Self> = whisking.rcp.ok_or(none)?;
