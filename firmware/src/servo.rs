@@ -64,7 +64,7 @@ pub struct Servo<R, M, A> {
     setpoint: Option<R>,
     state: ServoState<R>,
     heat: Heat,
-    /// Ticks that are left of the windows of the last faults but one.
+    /// Ticks for which each of the last faults still counts.
     windows: [u32; FAULTS - 1],
 }
 
@@ -130,7 +130,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// One tick towards protraction `setpoint`, unless another was commanded;
-    /// off while it `may_run` not.
+    /// off unless it `may_run`.
     // Apart: a tick in one piece runs out of registers.
     #[inline(never)]
     pub fn step(

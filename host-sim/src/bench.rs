@@ -8,8 +8,8 @@ use firmware::{
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
-use scene::{Deciding, Scene};
-use whisking::motor::StallConfig;
+use scene::{Deciding, PlantKind, Scene};
+use whisking::motor::{GuardSettings, StallConfig};
 use whisking::{Fix, Real, Start, filter};
 
 use crate::Error;
@@ -289,7 +289,11 @@ where
             servo: ServoConfig {
                 pd: plan.pd,
                 retry: retry(scene.tick_hz),
-                guards: plan.guards,
+                // An ideal motor is where it should be whatever it is driven with.
+                guards: match scene.plant.kind {
+                    PlantKind::Ideal => GuardSettings::NONE.build(tick_hz),
+                    PlantKind::Textured | PlantKind::Whisker => plan.guards,
+                },
             },
             stop_all: plan.stop_all.then_some(StopAll),
         }),

@@ -10,7 +10,7 @@ mod stability;
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
-use scene::{OnFault, PlantKind, Scene};
+use scene::{OnFault, Scene};
 use whisking::motor::{GuardConfig, GuardSettings};
 use whisking::{Error, Real, filter, pd};
 
@@ -131,18 +131,15 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
             degrees_per_count,
         }
         .build(tick_hz)?,
-        guards: guards(scene, motor).build(tick_hz),
+        guards: guards(motor).build(tick_hz),
         stop_all: motor.on_fault == OnFault::StopAll,
     }))
 }
 
 /// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
-/// is within its travel.
-///
-/// With the ideal plant the motor is where it should be whatever it is driven with: what
-/// compares motion with the drive then means nothing, and is left out.
-fn guards(scene: &Scene, motor: &scene::MotorSection) -> GuardSettings {
-    let guards = GuardSettings {
+/// is within its travel. Whatever the plant: a board does not know what is simulated.
+fn guards(motor: &scene::MotorSection) -> GuardSettings {
+    GuardSettings {
         degrees_per_count: 360.0 / (f64::from(motor.counts_per_rev) * motor.gear),
         hard_duty: motor.duty_limit / 2.0,
         following_deg: motor.following_limit_deg,
@@ -152,15 +149,6 @@ fn guards(scene: &Scene, motor: &scene::MotorSection) -> GuardSettings {
             motor.max_deg.max(whisking::REST_DEG) + motor.travel_margin_deg,
         ],
         continuous_duty: motor.continuous_duty,
-    };
-    match scene.plant.kind {
-        PlantKind::Ideal => GuardSettings {
-            hard_duty: GuardSettings::NONE.hard_duty,
-            top_speed_deg_s: GuardSettings::NONE.top_speed_deg_s,
-            continuous_duty: GuardSettings::NONE.continuous_duty,
-            ..guards
-        },
-        PlantKind::Textured | PlantKind::Whisker => guards,
     }
 }
 
@@ -247,10 +235,7 @@ kind = "ideal"
 
     #[test]
     fn guards_are_in_counts_of_the_encoder() {
-        let textured = "kind = \"textured\"\nobstacle_deg = [90.0, 90.0]\nstiffness = 0.1\n\
-                        textures = [\"smooth\"]\npresent_s = 1.0";
-        let real = SCENE.replace("kind = \"ideal\"", textured);
-        let scene = Scene::from_str("rcp7.toml", &real).unwrap();
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
         let guards = motion::<f64, 2, 2>(&scene).unwrap().unwrap().guards;
         let hard = guards.stall.threshold.q15();
         assert_eq!(hard, 16_384, "half of a full duty");
@@ -261,10 +246,6 @@ kind = "ideal"
         // 0.4 squared, and 8.2 s.
         assert!((f64::from(guards.heat) / f64::from(1 << 30) - 0.16).abs() < 1e-4);
         assert_eq!(guards.heat_shift, 14);
-        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
-        let ideal = motion::<f64, 2, 2>(&scene).unwrap().unwrap().guards;
-        assert_eq!((ideal.travel, ideal.error), (guards.travel, guards.error));
-        assert_eq!(ideal.stall.threshold, whisking::motor::Duty::FULL);
     }
 
     #[test]

@@ -24,7 +24,7 @@ const AGAINST_DEG: f64 = 45.0;
 pub struct GuardSettings {
     /// Degrees of the whisker a count of the encoder, above 0.
     pub degrees_per_count: f64,
-    /// Larger than any duty that is not hard: 0 to 1.
+    /// Duty above which it is driven hard, 0 to 1.
     pub hard_duty: f64,
     /// Largest following error, degrees.
     pub following_deg: f64,
@@ -76,10 +76,9 @@ impl GuardSettings {
 pub struct GuardConfig<R> {
     /// How long it may be driven hard in all without moving, and what is hard.
     pub stall: StallConfig,
-    /// Largest following error, protraction, and the ticks in succession for which it may be
-    /// larger.
+    /// Largest following error, protraction.
     pub error: R,
-    /// See `error`.
+    /// Ticks in succession for which the following error may be larger.
     pub error_ticks: u16,
     /// Most counts that it may move against a hard drive.
     pub against: u32,
