@@ -1,9 +1,13 @@
 //! What a tick reports. Events are small values; whoever drains the queue
 //! formats them.
 
+use core::fmt;
+
 use mlx90333::FrameError;
 use tactile::Decision;
 use whisking::motor;
+
+use crate::faults::{name, number};
 
 /// A whisker of the array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,36 +31,47 @@ impl Place {
 }
 
 /// Why a whisker's readings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {
-    /// No frame was finished in time. Likely cause: the bus is too slow for
-    /// the tick, or its DMA stands still.
-    #[error("no frame in time")]
+    /// No frame was finished in time.
     NoFrame,
     /// The bus controller reported an error.
-    #[error("bus error")]
     Bus,
-    /// The frame was refused; the reason names the cause.
-    #[error("{0}")]
+    /// The frame was refused; the reason says more.
     Frame(FrameError),
 }
 
 impl SensorFault {
-    /// A stable number for logs: 16 no frame, 17 bus, 18 no sensor, 19 line
-    /// stuck low, 20 bad start, 21 bad sum, 22 the sensor's own error word.
-    /// Motor faults have 1 to 11 ([`motor::Fault::code`]).
+    /// Its number in the [table](crate::faults).
     pub const fn code(self) -> u8 {
         match self {
-            Self::NoFrame => 16,
-            Self::Bus => 17,
-            Self::Frame(FrameError::NoSensor) => 18,
-            Self::Frame(FrameError::LineLow) => 19,
-            Self::Frame(FrameError::BadStart(_)) => 20,
-            Self::Frame(FrameError::BadSum { .. }) => 21,
-            Self::Frame(FrameError::Sensor(_)) => 22,
+            Self::NoFrame => number::NO_FRAME,
+            Self::Bus => number::BUS,
+            Self::Frame(FrameError::NoSensor) => number::NO_SENSOR,
+            Self::Frame(FrameError::LineLow) => number::LINE_LOW,
+            Self::Frame(FrameError::BadStart(_)) => number::BAD_START,
+            Self::Frame(FrameError::BadSum { .. }) => number::BAD_SUM,
+            Self::Frame(FrameError::Sensor(_)) => number::SENSOR_REPORT,
         }
     }
 }
+
+/// The name in the [table](crate::faults), and what was found instead of what was due.
+impl fmt::Display for SensorFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(name(self.code()))?;
+        match self {
+            Self::Frame(FrameError::BadStart(found)) => write!(f, ": {found:#04x}"),
+            Self::Frame(FrameError::BadSum { expected, found }) => {
+                write!(f, ": {found:#04x} instead of {expected:#04x}")
+            }
+            Self::Frame(FrameError::Sensor(reported)) => write!(f, ": {reported}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl core::error::Error for SensorFault {}
 
 /// Something worth a line in the log.
 #[derive(Debug, Clone, Copy, PartialEq)]

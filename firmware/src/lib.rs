@@ -9,7 +9,8 @@
 //!   that was complete before it began.
 //! - *fault*: the motor of that whisker is off until a retry succeeds; meanwhile it
 //!   feels nothing. Whether the others go on is the scene's choice ([`StopAll`]).
-//! - *limit*: something out of the ordinary while the module still runs.
+//! - *limit*: something out of the ordinary while the module still runs. Both are listed in
+//!   [`faults`].
 //! - *event*: what a tick reports; queued, and logged elsewhere.
 //! - *servo*: a whisker's motor, angle input and position control.
 //!
@@ -25,6 +26,7 @@
 mod active;
 pub mod design_parameters;
 mod event;
+pub mod faults;
 mod io;
 mod module;
 mod motion;

@@ -10,6 +10,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use firmware::Event;
+use firmware::faults::name;
 
 use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
@@ -46,14 +47,17 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
     match event {
         Event::Decision(..) | Event::Touch { .. } | Event::TouchEnd { .. } => {}
         Event::SensorLost(at, fault) => {
-            warn(format_args!(
-                "{t_s:.4} s: {}: sensor fault {}: {fault}",
-                place(at),
-                fault.code()
-            ));
+            let (at, code) = (place(at), fault.code());
+            warn(format_args!("{t_s:.4} s: {at}: fault {code}, {fault}"));
         }
         Event::SensorBack(at) => warn(format_args!("{t_s:.4} s: {}: sensor is back", place(at))),
-        Event::MotorFault(at, fault) => warn(format_args!("{t_s:.4} s: {}: {fault}", place(at))),
+        Event::MotorFault(at, fault) => {
+            let (at, code) = (place(at), fault.code());
+            warn(format_args!(
+                "{t_s:.4} s: {at}: fault {code}, {}",
+                name(code)
+            ));
+        }
         Event::MotorGivenUp(at) => warn(format_args!(
             "{t_s:.4} s: {}: three faults in a minute: motor off",
             place(at)

@@ -1,5 +1,6 @@
 //! Generated documents: written by commands, never by hand.
 
+mod faults;
 mod harness;
 mod main_job;
 
@@ -8,13 +9,22 @@ use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, 
 use crate::{cost, emulate};
 use main_job::DECISIONS;
 
+/// Writes the documents that follow from the source alone, or checks that they are up to date.
+///
+/// # Errors
+/// If a file cannot be written, or, checking, differs.
+pub(crate) fn quick(check: bool) -> Result<(), Fault> {
+    document("docs/scenes.md", scene::reference().as_bytes(), check)?;
+    document("docs/faults.md", faults::page().as_bytes(), check)?;
+    document("docs/harness.svg", harness::svg()?.as_bytes(), check)
+}
+
 /// Writes every generated document, or checks that they are up to date.
 ///
 /// # Errors
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
-    document("docs/scenes.md", scene::reference().as_bytes(), check)?;
-    document("docs/harness.svg", harness::svg()?.as_bytes(), check)?;
+    quick(check)?;
     asymmetry(check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
     cost::write_page(check)?;

@@ -78,39 +78,26 @@ pub trait MotorDriver {
 /// Numbers (see [`Fault::code`]) never change meaning; 0 is reserved for "none".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
-    /// 1: a pin could not be read or written. Likely cause: an I/O expander
-    /// off its bus; pins of the chip itself do not fail.
+    /// 1: a pin could not be read or written.
     Pin,
-    /// 2: a PWM channel could not be set. Likely cause: an external PWM chip
-    /// off its bus, or a channel not configured.
+    /// 2: a PWM channel could not be set.
     Pwm,
     /// 3 for code 0, 4 for any other: the Hall sensors gave a code that no
-    /// rotor angle has. Likely cause of 0 (all low): sensors without supply,
-    /// or a shorted cable. Likely cause of 7 (all high): cable unplugged with
-    /// pull-ups fitted, or sensors spaced at 60° instead of 120°.
+    /// rotor angle has.
     InvalidHall(u8),
     /// 5: the rotor skipped Hall sectors in too many ticks in succession.
-    /// Likely cause: motor faster than the tick can follow, a Hall line with
-    /// noise, or two Hall lines exchanged.
     SkippedSector,
-    /// 6: driven above the stall threshold and not moving for too long. Likely
-    /// cause: whisker or gear blocked, a phase wire open, or phases wired in
-    /// another order than the Hall sensors.
+    /// 6: driven above the stall threshold and not moving for too long.
     Stall,
-    /// 7: the angle was too far from its setpoint for too long. Likely cause: the
-    /// whisker is held, the encoder loses counts, or the gains are too low.
+    /// 7: the angle was too far from its setpoint for too long.
     Following,
-    /// 8: moves against the drive, or faster than the motor can. Likely cause: motor
-    /// or encoder wired the wrong way round, or noise on the encoder's lines.
+    /// 8: moves against the drive, or faster than the motor can.
     Runaway,
-    /// 9: driven hard both ways, and not a count. Likely cause: the encoder without
-    /// supply or not connected, or a clamped whisker.
+    /// 9: driven hard both ways, and not a count.
     Encoder,
-    /// 10: beyond the ends of its travel. Likely cause: it did not start at rest, or
-    /// something turned it.
+    /// 10: beyond the ends of its travel.
     Travel,
-    /// 11: driven with more than its winding bears (I²t of the duty). Likely cause: the
-    /// whisker presses against something hard, or friction.
+    /// 11: driven with more than its winding bears (I²t of the duty).
     Heat,
 }
 
@@ -153,23 +140,10 @@ impl Fault {
     }
 }
 
+/// Number and name; texts for people are the business of whoever logs.
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Pin => f.write_str("motor fault 1: a pin failed"),
-            Self::Pwm => f.write_str("motor fault 2: a PWM channel failed"),
-            Self::InvalidHall(code) => {
-                let number = self.code();
-                write!(f, "motor fault {number}: impossible Hall code {code}")
-            }
-            Self::SkippedSector => f.write_str("motor fault 5: Hall sectors skipped"),
-            Self::Stall => f.write_str("motor fault 6: driven but not moving"),
-            Self::Following => f.write_str("motor fault 7: does not follow its setpoint"),
-            Self::Runaway => f.write_str("motor fault 8: runs away"),
-            Self::Encoder => f.write_str("motor fault 9: the encoder is silent"),
-            Self::Travel => f.write_str("motor fault 10: beyond its travel"),
-            Self::Heat => f.write_str("motor fault 11: driven too hot"),
-        }
+        write!(f, "motor fault {}: {self:?}", self.code())
     }
 }
 

@@ -6,8 +6,9 @@ use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use cortex_m_rt::{ExceptionFrame, exception};
+use firmware::faults::number;
 
-use super::{outputs, watchdog};
+use super::{log, outputs, watchdog};
 
 /// Set by the first fault, so that a fault while its line is written adds none.
 static DYING: AtomicBool = AtomicBool::new(false);
@@ -29,8 +30,9 @@ pub(crate) fn die(last_line: impl FnOnce()) -> ! {
 #[panic_handler]
 fn panic(info: &PanicInfo<'_>) -> ! {
     die(|| {
+        log::fatal(number::PANIC);
         if let Some(place) = info.location() {
-            defmt::error!("panic at {=str}:{=u32}", place.file(), place.line());
+            defmt::error!("- at {=str}:{=u32}", place.file(), place.line());
         }
     })
 }
@@ -41,8 +43,9 @@ fn panic(info: &PanicInfo<'_>) -> ! {
 unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
     die(|| {
         let [configurable, hard] = crate::here::fault_status();
+        log::fatal(number::HARD_FAULT);
         defmt::error!(
-            "hard fault at {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}, HFSR {=u32:#x}",
+            "- at {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}, HFSR {=u32:#x}",
             frame.pc(),
             frame.lr(),
             configurable,
@@ -55,12 +58,15 @@ unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
 unsafe fn NonMaskableInt() -> ! {
-    die(|| defmt::error!("the clock stopped"))
+    die(|| log::fatal(number::CLOCK_STOPPED))
 }
 
 #[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
-unsafe fn DefaultHandler(number: i16) -> ! {
-    die(|| defmt::error!("interrupt {=i16} without a handler", number))
+unsafe fn DefaultHandler(interrupt: i16) -> ! {
+    die(|| {
+        log::fatal(number::STRAY_INTERRUPT);
+        defmt::error!("- number {=i16}", interrupt);
+    })
 }

@@ -8,6 +8,7 @@
     reason = "arms differ in their texts, which clippy does not see within a macro"
 )]
 
+use firmware::faults::number;
 use firmware::{Place, SensorFault};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
@@ -39,11 +40,7 @@ pub(crate) fn start(cause: Cause) {
         TICK_HZ
     );
     match cause {
-        Cause::Watchdog => {
-            defmt::warn!(
-                "reset by the watchdog: a fault (logged above), or tick or idle stood still"
-            );
-        }
+        Cause::Watchdog => fatal(number::WATCHDOG),
         Cause::Software => defmt::info!("reset by software"),
         Cause::Power => defmt::info!("reset by power-up"),
         Cause::Pin => defmt::info!("reset by the reset pin"),
@@ -51,17 +48,39 @@ pub(crate) fn start(cause: Cause) {
     }
 }
 
-/// The last line where a clock did not start.
+macro_rules! texts {
+    ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
+        $reaction:ident, $recovery:ident;)*) => {
+        /// What is wrong, and likely causes, of each row of the table of faults.
+        fn texts(number: u8) -> [defmt::Str; 2] {
+            match number {
+                $($number => [defmt::intern!($name), defmt::intern!($causes)],)*
+                _ => [defmt::intern!("not in the table"), defmt::intern!("an older table")],
+            }
+        }
+    };
+}
+firmware::fault_table!(texts);
+
+/// The line of a fault of the board; lines with details may follow.
+pub(crate) fn fatal(number: u8) {
+    let [name, causes] = texts(number);
+    defmt::error!("fault {=u8}, {=istr} ({=istr}?)", number, name, causes);
+}
+
+/// The last lines where a clock did not start.
 pub(crate) fn clock(error: ClockError) {
+    fatal(number::NO_CLOCK);
     match error {
-        ClockError::NoHse => defmt::error!("no 8 MHz clock from the ST-LINK (PH0)"),
-        ClockError::NoPll => defmt::error!("the PLL does not run"),
+        ClockError::NoHse => defmt::error!("- no 8 MHz clock from the ST-LINK (PH0)"),
+        ClockError::NoPll => defmt::error!("- the PLL does not run"),
     }
 }
 
-/// The last line where the classifier cannot start.
-pub(crate) fn model() {
-    defmt::error!("the model in flash is damaged: flash again");
+/// The line of a limit.
+fn limit(number: u8) {
+    let [name, causes] = texts(number);
+    defmt::warn!("limit {=u8}, {=istr} ({=istr}?)", number, name, causes);
 }
 
 /// How the ticks keep their time.
@@ -88,10 +107,10 @@ pub(crate) fn health(now: &Health, before: &Health) {
         now.dropped
     );
     if now.missed != before.missed {
-        defmt::warn!("limit 32: ticks were missed");
+        limit(number::MISSED);
     }
     if now.dropped != before.dropped {
-        defmt::warn!("limit 33: events were dropped");
+        limit(number::DROPPED);
     }
 }
 
@@ -137,53 +156,24 @@ pub(crate) fn decision(place: Place, name: &str, decided: tactile::Decision) {
     );
 }
 
-/// The line of a fault: its text begins with the whisker's side and number, and
-/// the fault's number.
-macro_rules! fault_line {
-    ($at:ident, $text:literal $(, $value:expr)* $(,)?) => {
-        defmt::error!($text, $at.0, $at.1, $at.2 $(, $value)*)
-    };
+/// The line of a whisker's fault.
+fn fault(place: Place, number: u8) {
+    let [name, causes] = texts(number);
+    defmt::error!(
+        "{=str} {=u8}: fault {=u8}, {=istr} ({=istr}?)",
+        place.side_name(),
+        place.whisker,
+        number,
+        name,
+        causes
+    );
 }
 
 /// A motor was switched off.
-pub(crate) fn motor_fault(place: Place, fault: motor::Fault) {
-    let at = (place.side_name(), place.whisker, fault.code());
-    match fault {
-        motor::Fault::Pin => fault_line!(at, "{=str} {=u8}: fault {=u8}, a motor pin"),
-        motor::Fault::Pwm => fault_line!(at, "{=str} {=u8}: fault {=u8}, PWM"),
-        motor::Fault::InvalidHall(hall) => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, impossible Hall code {=u8} (supply or cable of the Halls?)",
-            hall
-        ),
-        motor::Fault::SkippedSector => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, Hall sectors skipped (too fast, noise, lines exchanged?)"
-        ),
-        motor::Fault::Stall => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, driven but not moving (blocked, or encoder not connected?)"
-        ),
-        motor::Fault::Following => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, does not follow its setpoint (held, or encoder slipping?)"
-        ),
-        motor::Fault::Runaway => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, runs away (motor or encoder wired the wrong way round?)"
-        ),
-        motor::Fault::Encoder => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, driven both ways without a count (encoder not connected?)"
-        ),
-        motor::Fault::Travel => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, beyond its travel (not at rest at the start?)"
-        ),
-        motor::Fault::Heat => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, winding too hot (pressing against something, friction?)"
-        ),
+pub(crate) fn motor_fault(place: Place, of: motor::Fault) {
+    fault(place, of.code());
+    if let motor::Fault::InvalidHall(hall) = of {
+        defmt::error!("- Hall code {=u8}", hall);
     }
 }
 
@@ -215,38 +205,20 @@ pub(crate) fn sensor_back(place: Place) {
 }
 
 /// A sensor has a fault; the motor is off.
-pub(crate) fn sensor_lost(place: Place, fault: SensorFault) {
-    let at = (place.side_name(), place.whisker, fault.code());
-    match fault {
-        SensorFault::NoFrame => fault_line!(at, "{=str} {=u8}: fault {=u8}, no frame in time"),
-        SensorFault::Bus => fault_line!(at, "{=str} {=u8}: fault {=u8}, SPI or its DMA"),
-        SensorFault::Frame(FrameError::NoSensor) => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, no sensor answers (/SS or data line open, no supply?)"
-        ),
-        SensorFault::Frame(FrameError::LineLow) => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, data line stuck low (no pull-up, short?)"
-        ),
-        SensorFault::Frame(FrameError::BadStart(found)) => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, frame begins with {=u8:#04x} (slow edges, SPI mode?)",
-            found
-        ),
-        SensorFault::Frame(FrameError::BadSum { expected, found }) => fault_line!(
-            at,
-            "{=str} {=u8}: fault {=u8}, sum {=u8:#04x} instead of {=u8:#04x} (noise, pull-up?)",
-            found,
-            expected
-        ),
+pub(crate) fn sensor_lost(place: Place, of: SensorFault) {
+    fault(place, of.code());
+    match of {
+        SensorFault::Frame(FrameError::BadStart(found)) => {
+            defmt::error!("- it begins with {=u8:#04x}", found);
+        }
+        SensorFault::Frame(FrameError::BadSum { expected, found }) => {
+            defmt::error!("- sum {=u8:#04x} instead of {=u8:#04x}", found, expected);
+        }
         SensorFault::Frame(FrameError::Sensor(faults)) => {
-            fault_line!(
-                at,
-                "{=str} {=u8}: fault {=u8}, the sensor reports {=u16:#06x}",
-                faults.bits()
-            );
+            defmt::error!("- error word {=u16:#06x}", faults.bits());
             sensor_reports(faults);
         }
+        _ => {}
     }
 }
 

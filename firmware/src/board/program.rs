@@ -12,6 +12,7 @@
 //! a board's interrupts by [`program!`](crate::program).
 
 use firmware::Event;
+use firmware::faults::number;
 use heapless::spsc::{Consumer, Producer};
 
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
@@ -67,7 +68,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
     let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
     let motion = scene::start_motion();
     let Some(perception) = place.fill() else {
-        faults::die(log::model)
+        faults::die(|| log::fatal(number::MODEL))
     };
     let counter = Counter::start(core);
     let inner = firmware::Module::new(sources, motion, perception, counter);

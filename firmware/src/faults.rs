@@ -1,0 +1,124 @@
+//! Faults and limits: a number, a text, a reaction and a recovery for each.
+//!
+//! Log, messages and `docs/faults.md` come from one table, `faults/table.rs`.
+
+mod table;
+
+/// What a fault or limit does at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reaction {
+    /// A fault of one whisker: its motor is off, and it touches and decides nothing.
+    WhiskerOff,
+    /// A fault of the board: every motor output low, then a line in the log, then a reset.
+    AllOff,
+    /// A limit: the module goes on.
+    GoesOn,
+}
+
+/// How it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Recovery {
+    /// The motor is tried again after a rest; after too many faults, only once told.
+    Retry,
+    /// Once frames have been good for a while.
+    GoodFrames,
+    /// Nothing to end: it was counted.
+    Counted,
+    /// With the start after the reset; if its cause is still there, it comes again.
+    Restart,
+}
+
+/// A fault or limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FaultRow {
+    /// Its number, which never changes its meaning.
+    pub number: u8,
+    /// What is wrong.
+    pub name: &'static str,
+    /// Likely causes.
+    pub causes: &'static str,
+    /// What to check, in Markdown as of a page in `docs/`.
+    pub check: &'static str,
+    /// What it does at once.
+    pub reaction: Reaction,
+    /// How it ends.
+    pub recovery: Recovery,
+}
+
+macro_rules! rows {
+    ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
+        $reaction:ident, $recovery:ident;)*) => {
+        /// The number of each.
+        pub mod number {
+            $(
+                #[doc = $name]
+                pub const $constant: u8 = $number;
+            )*
+        }
+
+        /// Every fault and limit, by number.
+        pub const TABLE: &[FaultRow] = &[$(
+            FaultRow {
+                number: $number,
+                name: $name,
+                causes: $causes,
+                check: $check,
+                reaction: Reaction::$reaction,
+                recovery: Recovery::$recovery,
+            },
+        )*];
+    };
+}
+crate::fault_table!(rows);
+
+/// The name of the fault or limit with this number; empty if there is none.
+pub fn name(number: u8) -> &'static str {
+    let row = TABLE.iter().find(|row| row.number == number);
+    row.map_or("", |row| row.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Reaction, TABLE, name, number};
+    use whisking::motor::Fault;
+
+    #[test]
+    fn numbers_rise_and_each_kind_keeps_to_its_own() {
+        assert!(TABLE.is_sorted_by(|a, b| a.number < b.number));
+        for row in TABLE {
+            let reaction = match row.number {
+                1..=31 => Reaction::WhiskerOff,
+                32..=47 => Reaction::GoesOn,
+                _ => Reaction::AllOff,
+            };
+            assert_eq!(row.reaction, reaction, "{row:?}");
+        }
+    }
+
+    #[test]
+    fn every_fault_of_a_motor_has_its_row() {
+        let motor = TABLE.iter().filter(|row| row.number < 16);
+        assert!(motor.map(|row| row.number).eq(1..=number::HEAT));
+        assert_eq!(Fault::from_code(number::HEAT + 1), None);
+        let named = [
+            (Fault::Pin, number::MOTOR_PIN),
+            (Fault::Pwm, number::MOTOR_PWM),
+            (Fault::InvalidHall(0), number::HALL_LOW),
+            (Fault::InvalidHall(7), number::HALL_HIGH),
+            (Fault::SkippedSector, number::SKIPPED_SECTOR),
+            (Fault::Stall, number::STALL),
+            (Fault::Following, number::FOLLOWING),
+            (Fault::Runaway, number::RUNAWAY),
+            (Fault::Encoder, number::ENCODER),
+            (Fault::Travel, number::TRAVEL),
+            (Fault::Heat, number::HEAT),
+        ];
+        assert!(named.into_iter().all(|(fault, code)| fault.code() == code));
+    }
+
+    #[test]
+    fn a_number_without_a_row_has_no_name() {
+        assert_eq!(name(number::STALL), "driven but not moving");
+        assert_eq!([name(0), name(255)], ["", ""]);
+    }
+}

@@ -1,0 +1,134 @@
+//! The table of faults and limits: the only place where their texts stand.
+//!
+//! A row is `number NAME: "what is wrong", "likely causes", "what to check", reaction,
+//! recovery;`. The first two texts are what a board logs, as `what is wrong (likely
+//! causes?)`; all of it becomes `docs/faults.md` (`cargo xtask docs --quick`). A number
+//! never changes its meaning and is never used again.
+//!
+//! | numbers | of |
+//! |---|---|
+//! | 1 to 15 | a motor; [`whisking::motor::Fault::code`] gives them |
+//! | 16 to 31 | a sensor; [`SensorFault::code`](crate::SensorFault::code) |
+//! | 32 to 47 | limits |
+//! | 48 on | the board and its program |
+
+/// Hands every row of the table to the macro `$then`, so that each user takes from it what
+/// it needs. (A logger wants texts as literals.)
+#[macro_export]
+macro_rules! fault_table {
+    ($then:ident) => {
+        $then! {
+            1 MOTOR_PIN: "a motor pin failed",
+                "an I/O expander off its bus; the chip's own pins do not fail",
+                "the expander's supply and bus",
+                WhiskerOff, Retry;
+            2 MOTOR_PWM: "a PWM channel failed",
+                "an external PWM chip off its bus; the chip's own timer does not fail",
+                "that chip's supply and bus",
+                WhiskerOff, Retry;
+            3 HALL_LOW: "impossible Hall code 0",
+                "Halls without supply; their cable shorted",
+                "the Halls' supply at the motor",
+                WhiskerOff, Retry;
+            4 HALL_HIGH: "impossible Hall code, mostly 7",
+                "Hall cable unplugged; Halls spaced at 60 degrees",
+                "the plug; the driver needs Halls 120 degrees apart",
+                WhiskerOff, Retry;
+            5 SKIPPED_SECTOR: "Hall sectors skipped",
+                "motor too fast for the tick; noise; two Halls exchanged",
+                "turn it by hand: forward must show 1, 3, 2, 6, 4, 5",
+                WhiskerOff, Retry;
+            6 STALL: "driven but not moving",
+                "blocked; a winding open; motor supply off; encoder not connected; Halls and phases in different order",
+                "[the whisker](troubleshooting.md#the-whisker)",
+                WhiskerOff, Retry;
+            7 FOLLOWING: "does not follow its setpoint",
+                "held; encoder slipping or losing counts; gains too low",
+                "whether it moves freely; `following_limit_deg`",
+                WhiskerOff, Retry;
+            8 RUNAWAY: "runs away",
+                "motor or encoder wired the wrong way round; noise on the encoder's lines",
+                "exchange the motor's two wires, or A and B; `top_speed_deg_s`",
+                WhiskerOff, Retry;
+            9 ENCODER: "driven both ways without a count",
+                "encoder without supply or not connected; whisker clamped",
+                "the encoder's supply; A and B with an oscilloscope",
+                WhiskerOff, Retry;
+            10 TRAVEL: "beyond its travel",
+                "not at rest at the start; turned by something",
+                "start it retracted; `min_deg`, `max_deg`, `travel_margin_deg`",
+                WhiskerOff, Retry;
+            11 HEAT: "winding too hot",
+                "pressing against something for long; friction",
+                "what it presses against; `continuous_duty`",
+                WhiskerOff, Retry;
+
+            16 NO_FRAME: "no frame in time",
+                "none was started: follows another fault",
+                "the line before it",
+                WhiskerOff, GoodFrames;
+            17 BUS: "SPI or its DMA failed",
+                "clock or /SS shorted hard; a fault of this program",
+                "unplug the sensor: if it stays, report it",
+                WhiskerOff, GoodFrames;
+            18 NO_SENSOR: "no sensor answers",
+                "/SS, SCLK or data line open; no supply; sensor still starting",
+                "/SS and SCLK at the sensor with an oscilloscope; 5 V there",
+                WhiskerOff, GoodFrames;
+            19 LINE_LOW: "data line stuck low",
+                "no pull-up; short to ground; something drives the line",
+                "the line at rest: it must be high",
+                WhiskerOff, GoodFrames;
+            20 BAD_START: "bad start of frame",
+                "slow edges; gaps too short for the sensor's mode; a frame cut short",
+                "smaller pull-up, shorter cable; a lower `tick_hz` for longer gaps",
+                WhiskerOff, GoodFrames;
+            21 BAD_SUM: "bad sum",
+                "noise; slow edges; if every frame fails, the sum rule",
+                "as 20; [every frame](troubleshooting.md#the-sensor)",
+                WhiskerOff, GoodFrames;
+            22 SENSOR_REPORT: "the sensor reports an error",
+                "magnet too far, too near or off axis; its converter",
+                "the lines below it; the magnet; keep the motor's magnet away",
+                WhiskerOff, GoodFrames;
+
+            32 MISSED: "ticks were missed",
+                "a debugger halted the core; a tick took too long",
+                "*longest tick* in the log; leave parts of the scene out",
+                GoesOn, Counted;
+            33 DROPPED: "events were dropped",
+                "more events in a tick than idle can log, by a fault that comes and goes",
+                "that fault",
+                GoesOn, Counted;
+
+            48 PANIC: "panic",
+                "a fault of this program",
+                "keep the line below it and report it",
+                AllOff, Restart;
+            49 HARD_FAULT: "hard fault",
+                "a fault of this program; a supply that dips",
+                "keep the line below it and report it",
+                AllOff, Restart;
+            50 CLOCK_STOPPED: "the clock stopped",
+                "USB hub switched off; ST-LINK restarted",
+                "another port or cable",
+                AllOff, Restart;
+            51 STRAY_INTERRUPT: "an interrupt without a handler",
+                "a fault of this program",
+                "keep the line below it and report it",
+                AllOff, Restart;
+            52 WATCHDOG: "reset by the watchdog",
+                "a fault logged before the reset; otherwise tick or idle stood still",
+                "the line before it; if there is none, stop it with a debugger where it stands still",
+                AllOff, Restart;
+            56 MODEL: "the model in flash is damaged",
+                "flashing was interrupted",
+                "flash again",
+                AllOff, Restart;
+            57 NO_CLOCK: "a clock did not start",
+                "solder bridges; ST-LINK cut off",
+                "the bridges in [wiring.md](wiring.md#when-the-program-itself-fails)",
+                AllOff, Restart;
+        }
+    };
+}
