@@ -57,7 +57,7 @@ macro_rules! boards {
 }
 
 const BOARDS: [Board; 3] = boards! {
-    "NUCLEO_F446RE": nucleo_f446re, "memory.x";
+    "NUCLEO_F446RE": nucleo_f446re, "firmware/src/board/nucleo_f446re.x";
     "NUCLEO_F103RB": nucleo_f103rb, "firmware/src/board/nucleo_f103rb.x";
     "NUCLEO_G071RB": nucleo_g071rb, "firmware/src/board/nucleo_g071rb.x";
 };
@@ -98,6 +98,7 @@ fn output(name: &str) -> Result<PathBuf, Box<dyn Error>> {
 
 /// The memory map, and the linker scripts of cortex-m-rt and defmt.
 fn link(board: &Board) -> Result<(), Box<dyn Error>> {
+    // A memory.x in the workspace's root would be taken before this one, whatever the board.
     let memory = workspace()?.join(board.memory);
     println!("cargo::rerun-if-changed={}", memory.display());
     fs::copy(&memory, output("memory.x")?)

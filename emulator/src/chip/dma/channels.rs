@@ -1,0 +1,128 @@
+//! A DMA controller whose channels move single bytes on request (STM32F1 and STM32G0;
+//! RM0008, chapter 13; RM0444, chapter 10): not circular, not from memory to memory.
+
+use super::Move;
+
+const ISR: u32 = 0x00;
+const IFCR: u32 = 0x04;
+const CHANNELS: u32 = 0x08;
+const CHANNEL_SIZE: u32 = 0x14;
+
+const EN: u32 = 1 << 0;
+const TCIE: u32 = 1 << 1;
+const TEIE: u32 = 1 << 3;
+const DIR_FROM_MEMORY: u32 = 1 << 4;
+const MINC: u32 = 1 << 7;
+/// And the priority: the rest is not modelled.
+const MODELLED: u32 = EN | TCIE | TEIE | DIR_FROM_MEMORY | MINC | 3 << 12;
+
+/// Flags of a channel, which has four bits in ISR.
+const GIF: u32 = 1 << 0;
+const TCIF: u32 = 1 << 1;
+const HTIF: u32 = 1 << 2;
+const ALL: u32 = 15;
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Channel {
+    ccr: u32,
+    cndtr: u32,
+    cpar: u32,
+    cmar: u32,
+    /// Bytes to move and bytes moved since it was enabled.
+    length: u32,
+    done: u32,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(in crate::chip) struct Channels {
+    channels: [Channel; 7],
+    isr: u32,
+}
+
+impl Channels {
+    /// Serves a request on a channel, counted from 0: the byte to move, if it listens.
+    pub(super) fn request(&mut self, channel: usize) -> Option<Move> {
+        let c = self.channels.get_mut(channel)?;
+        if c.ccr & EN == 0 || c.cndtr == 0 {
+            return None;
+        }
+        let memory = c.cmar.wrapping_add(if c.ccr & MINC != 0 { c.done } else { 0 });
+        let moved = Move {
+            peripheral: c.cpar,
+            memory,
+            to_memory: c.ccr & DIR_FROM_MEMORY == 0,
+        };
+        c.done += 1;
+        c.cndtr -= 1;
+        let mut flags = 0;
+        if 2 * c.done == c.length {
+            flags |= GIF | HTIF;
+        }
+        if c.cndtr == 0 {
+            // It stays enabled, and moves nothing more.
+            flags |= GIF | TCIF;
+        }
+        self.isr |= flags << (4 * channel);
+        Some(moved)
+    }
+
+    pub(super) fn interrupts(&self, channel: usize) -> bool {
+        let flags = self.isr >> (4 * channel);
+        flags & TCIF != 0 && self.channels[channel].ccr & TCIE != 0
+    }
+
+    pub(super) fn read(&self, offset: u32) -> Option<u32> {
+        Some(match offset {
+            ISR => self.isr,
+            IFCR => 0,
+            _ => {
+                let c = self.channels.get(channel(offset)?)?;
+                match (offset - CHANNELS) % CHANNEL_SIZE {
+                    0x00 => c.ccr,
+                    0x04 => c.cndtr,
+                    0x08 => c.cpar,
+                    0x0C => c.cmar,
+                    _ => return None,
+                }
+            }
+        })
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
+        if offset == IFCR {
+            for channel in 0..self.channels.len() {
+                let flags = (value >> (4 * channel)) & ALL;
+                // The flag of them all clears them all.
+                let flags = if flags & GIF != 0 { ALL } else { flags };
+                self.isr &= !(flags << (4 * channel));
+            }
+            return true;
+        }
+        let Some(c) = channel(offset).and_then(|n| self.channels.get_mut(n)) else {
+            return false;
+        };
+        let enabled = c.ccr & EN != 0;
+        match (offset - CHANNELS) % CHANNEL_SIZE {
+            0x00 if value & !MODELLED != 0 => return false,
+            0x00 => {
+                if value & EN != 0 && !enabled {
+                    c.length = c.cndtr;
+                    c.done = 0;
+                }
+                c.ccr = value;
+            }
+            // The others are locked while the channel is enabled.
+            0x04 | 0x08 | 0x0C if enabled => {}
+            0x04 => c.cndtr = value & 0xFFFF,
+            0x08 => c.cpar = value,
+            0x0C => c.cmar = value,
+            _ => return false,
+        }
+        true
+    }
+}
+
+fn channel(offset: u32) -> Option<usize> {
+    Some((offset.checked_sub(CHANNELS)? / CHANNEL_SIZE) as usize)
+}

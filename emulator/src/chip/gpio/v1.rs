@@ -1,0 +1,69 @@
+//! A port with four bits a pin, MODE and CNF, in two registers (STM32F1; RM0008,
+//! chapter 9).
+
+use super::{Common, Role};
+
+const CRL: u32 = 0x00;
+const CRH: u32 = 0x04;
+
+/// The registers that every port has, where they stand here.
+pub(super) const fn common(offset: u32) -> Option<Common> {
+    match offset {
+        0x08 => Some(Common::Idr),
+        0x0C => Some(Common::Odr),
+        0x10 => Some(Common::Bsrr),
+        0x14 => Some(Common::Brr),
+        _ => None,
+    }
+}
+
+/// CRL and CRH.
+#[derive(Debug, Clone)]
+pub(super) struct TwoRegisters([u32; 2]);
+
+impl Default for TwoRegisters {
+    /// Floating inputs.
+    fn default() -> Self {
+        Self([0x4444_4444; 2])
+    }
+}
+
+impl TwoRegisters {
+    /// MODE and CNF of a pin.
+    const fn of(&self, pin: u32) -> (u32, u32) {
+        let bits = self.0[(pin / 8) as usize] >> (4 * (pin % 8));
+        (bits & 3, (bits >> 2) & 3)
+    }
+
+    pub(super) const fn role(&self, pin: u32, high: bool) -> Role {
+        match self.of(pin) {
+            (0, 0) => Role::Analogue,
+            (0, _) => Role::Input,
+            (_, 0 | 1) => Role::Output(high),
+            _ => Role::Alternate(0),
+        }
+    }
+
+    pub(super) const fn is_open_drain(&self, pin: u32) -> bool {
+        let (mode, cnf) = self.of(pin);
+        mode != 0 && cnf & 1 != 0
+    }
+
+    pub(super) const fn read(&self, offset: u32) -> Option<u32> {
+        match offset {
+            CRL => Some(self.0[0]),
+            CRH => Some(self.0[1]),
+            _ => None,
+        }
+    }
+
+    /// Whether the register is modelled.
+    pub(super) const fn write(&mut self, offset: u32, value: u32) -> bool {
+        match offset {
+            CRL => self.0[0] = value,
+            CRH => self.0[1] = value,
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,74 @@
+//! What tells one chip from another: which peripherals there are, of which version,
+//! where, and what the board has wired to them.
+
+use super::map::Entry;
+use super::rcc::{Bus, Layout};
+use super::timers::Kind;
+use super::wiring::Wiring;
+use super::{dma, gpio, spi};
+
+/// What a core can execute.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CoreKind {
+    /// Cortex-M0+: the instructions of ARMv6-M, no access but an aligned one.
+    M0Plus,
+    /// Cortex-M3: ARMv7-M.
+    M3,
+    /// Cortex-M4 with an FPU: ARMv7E-M.
+    M4F,
+}
+
+/// A chip on its board.
+#[derive(Debug)]
+pub(crate) struct Model {
+    /// The board's program.
+    pub(crate) program: &'static str,
+    pub(crate) core: CoreKind,
+    /// Bits of a priority in the NVIC.
+    pub(crate) priority_bits: u8,
+    /// Bytes of flash, and of RAM.
+    pub(crate) flash: u32,
+    pub(crate) ram: u32,
+    pub(super) map: &'static [Entry],
+    pub(super) rcc: &'static Layout,
+    /// What each timer can do, and the bus whose clock it counts.
+    pub(super) timers: &'static [(Kind, Bus)],
+    pub(super) spi_version: spi::Version,
+    /// The bus of each SPI.
+    pub(super) spis: &'static [Bus],
+    pub(super) dmas: &'static [dma::Version],
+    /// Whether a DMAMUX says which request a channel listens to.
+    pub(super) has_mux: bool,
+    /// Ports A, B and C after a reset.
+    pub(super) ports: [gpio::Reset; 3],
+    /// The watchdog's oscillator, nominal, Hz, and whether it has a window.
+    pub(super) lsi_hz: u64,
+    pub(super) has_window: bool,
+    /// Registers that only keep what is written, and their values after a reset: of the
+    /// flash interface and of the debug unit.
+    pub(super) flash_registers: &'static [(u32, u32)],
+    pub(super) debug_registers: &'static [(u32, u32)],
+    pub(super) wiring: Wiring,
+}
+
+impl Model {
+    /// Sides that the board carries.
+    pub(crate) const fn sides(&self) -> usize {
+        self.wiring.sides.len()
+    }
+
+    /// The interrupt of the tick in the NVIC.
+    pub(crate) const fn tick_irq(&self) -> u16 {
+        self.wiring.tick_irq
+    }
+
+    /// The interrupts at the end of a frame, the left side's first.
+    pub(crate) fn frame_irqs(&self) -> impl Iterator<Item = u16> {
+        self.wiring.sides.iter().map(|side| side.end_of_frame)
+    }
+
+    /// Whether the core computes f32 by itself.
+    pub(crate) fn has_fpu(&self) -> bool {
+        self.core == CoreKind::M4F
+    }
+}

@@ -1,0 +1,90 @@
+//! The STM32F103RB on its NUCLEO board (RM0008).
+
+use crate::chip::dma::Version;
+use crate::chip::gpio::Reset;
+use crate::chip::map::Unit;
+use crate::chip::model::{CoreKind, Model};
+use crate::chip::rcc::{Bus, f1};
+use crate::chip::spi;
+use crate::chip::timers::Kind;
+use crate::chip::wiring::{
+    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, Side, Wiring,
+};
+
+/// The places of the timers.
+const TIM2: usize = 0;
+const TIM3: usize = 1;
+const TIM4: usize = 2;
+const TIM1: usize = 3;
+
+/// Requests are wired to the channels.
+const WIRED: u32 = 0;
+
+/// The chip.
+pub(crate) static F103: Model = Model {
+    program: "nucleo_f103rb",
+    core: CoreKind::M3,
+    priority_bits: 4,
+    flash: 128 * 1024,
+    ram: 20 * 1024,
+    map: &[
+        (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
+        (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
+        (Unit::Tim(TIM4), 0x4000_0800, Some((Bus::Apb1, 2))),
+        (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Remap, 0x4001_0000, Some((Bus::Apb2, 0))),
+        (Unit::Gpio(0), 0x4001_0800, Some((Bus::Apb2, 2))),
+        (Unit::Gpio(1), 0x4001_0C00, Some((Bus::Apb2, 3))),
+        (Unit::Gpio(2), 0x4001_1000, Some((Bus::Apb2, 4))),
+        (Unit::Tim(TIM1), 0x4001_2C00, Some((Bus::Apb2, 11))),
+        (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
+        (Unit::Dma(0), 0x4002_0000, Some((Bus::Ahb, 0))),
+        (Unit::Rcc, 0x4002_1000, None),
+        (Unit::Flash, 0x4002_2000, None),
+        (Unit::Debug, 0xE004_2000, None),
+    ],
+    rcc: &f1::LAYOUT,
+    timers: &[
+        (Kind::General, Bus::Apb1),
+        (Kind::General, Bus::Apb1),
+        (Kind::General, Bus::Apb1),
+        (Kind::Advanced, Bus::Apb2),
+    ],
+    spi_version: spi::Version::One,
+    spis: &[Bus::Apb2],
+    dmas: &[Version::Channels],
+    has_mux: false,
+    ports: [Reset::V1; 3],
+    lsi_hz: 40_000,
+    has_window: false,
+    flash_registers: &[(0x00, 0x30)],
+    debug_registers: &[(0x04, 0)],
+    wiring: Wiring {
+        sides: &[LEFT],
+        tick: TIM3,
+        tick_irq: 29,
+        pwm_timer: TIM1,
+        pwm_function: 0,
+        spi_function: 0,
+    },
+};
+
+const LEFT: Side = Side {
+    spi: LEFT_SPI,
+    select: LEFT_SELECT,
+    byte_timer: TIM4,
+    dma: 0,
+    rx: Request {
+        stream: 1,
+        channel: WIRED,
+    },
+    tx: Request {
+        stream: 6,
+        channel: WIRED,
+    },
+    end_of_frame: 12,
+    encoder: LEFT_ENCODER,
+    encoder_timer: TIM2,
+    encoder_function: 0,
+    direction: LEFT_DIRECTION,
+};

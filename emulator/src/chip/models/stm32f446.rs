@@ -1,0 +1,121 @@
+//! The STM32F446RE on its NUCLEO board (RM0390).
+
+use crate::chip::dma::Version;
+use crate::chip::gpio::Reset;
+use crate::chip::map::Unit;
+use crate::chip::model::{CoreKind, Model};
+use crate::chip::rcc::{Bus, f4};
+use crate::chip::spi;
+use crate::chip::timers::Kind;
+use crate::chip::wiring::{
+    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, Side, Wiring,
+};
+
+/// The places of the timers.
+const TIM2: usize = 0;
+const TIM3: usize = 1;
+const TIM5: usize = 2;
+const TIM6: usize = 3;
+const TIM7: usize = 4;
+const TIM1: usize = 5;
+const TIM8: usize = 6;
+
+/// The chip.
+pub(crate) static F446: Model = Model {
+    program: "nucleo_f446re",
+    core: CoreKind::M4F,
+    priority_bits: 4,
+    flash: 512 * 1024,
+    ram: 128 * 1024,
+    map: &[
+        (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
+        (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
+        (Unit::Tim(TIM5), 0x4000_0C00, Some((Bus::Apb1, 3))),
+        (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
+        (Unit::Tim(TIM7), 0x4000_1400, Some((Bus::Apb1, 5))),
+        (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Spi(1), 0x4000_3800, Some((Bus::Apb1, 14))),
+        (Unit::Tim(TIM1), 0x4001_0000, Some((Bus::Apb2, 0))),
+        (Unit::Tim(TIM8), 0x4001_0400, Some((Bus::Apb2, 1))),
+        (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
+        (Unit::Gpio(0), 0x4002_0000, Some((Bus::Ahb, 0))),
+        (Unit::Gpio(1), 0x4002_0400, Some((Bus::Ahb, 1))),
+        (Unit::Gpio(2), 0x4002_0800, Some((Bus::Ahb, 2))),
+        (Unit::Rcc, 0x4002_3800, None),
+        (Unit::Flash, 0x4002_3C00, None),
+        (Unit::Dma(0), 0x4002_6000, Some((Bus::Ahb, 21))),
+        (Unit::Dma(1), 0x4002_6400, Some((Bus::Ahb, 22))),
+        (Unit::Debug, 0xE004_2000, None),
+    ],
+    rcc: &f4::LAYOUT,
+    timers: &[
+        (Kind::Wide, Bus::Apb1),
+        (Kind::General, Bus::Apb1),
+        (Kind::Wide, Bus::Apb1),
+        (Kind::Basic, Bus::Apb1),
+        (Kind::Basic, Bus::Apb1),
+        (Kind::Advanced, Bus::Apb2),
+        (Kind::Advanced, Bus::Apb2),
+    ],
+    spi_version: spi::Version::One,
+    spis: &[Bus::Apb2, Bus::Apb1],
+    dmas: &[Version::Streams; 2],
+    has_mux: false,
+    ports: [
+        Reset::V2([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
+        Reset::V2([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
+        Reset::V2([0; 3]),
+    ],
+    lsi_hz: 32_000,
+    has_window: false,
+    flash_registers: &[(0x00, 0)],
+    debug_registers: &[(0x04, 0), (0x08, 0), (0x0C, 0)],
+    wiring: Wiring {
+        sides: &[LEFT, RIGHT],
+        tick: TIM7,
+        tick_irq: 55,
+        pwm_timer: TIM1,
+        pwm_function: 1,
+        spi_function: 5,
+    },
+};
+
+const LEFT: Side = Side {
+    spi: LEFT_SPI,
+    select: LEFT_SELECT,
+    byte_timer: TIM8,
+    dma: 1,
+    rx: Request {
+        stream: 0,
+        channel: 3,
+    },
+    tx: Request {
+        stream: 1,
+        channel: 7,
+    },
+    end_of_frame: 56,
+    encoder: LEFT_ENCODER,
+    encoder_timer: TIM2,
+    encoder_function: 1,
+    direction: LEFT_DIRECTION,
+};
+
+const RIGHT: Side = Side {
+    spi: [Pin::new('B', 13), Pin::new('B', 14), Pin::new('B', 15)],
+    select: Pin::new('B', 12),
+    byte_timer: TIM6,
+    dma: 0,
+    rx: Request {
+        stream: 3,
+        channel: 0,
+    },
+    tx: Request {
+        stream: 1,
+        channel: 7,
+    },
+    end_of_frame: 14,
+    encoder: [Pin::new('C', 6), Pin::new('C', 7)],
+    encoder_timer: TIM3,
+    encoder_function: 2,
+    direction: Pin::new('C', 8),
+};

@@ -1,0 +1,92 @@
+//! The STM32G071RB on its NUCLEO board (RM0444).
+
+use crate::chip::dma::Version;
+use crate::chip::gpio::Reset;
+use crate::chip::map::Unit;
+use crate::chip::model::{CoreKind, Model};
+use crate::chip::rcc::{Bus, g0};
+use crate::chip::spi;
+use crate::chip::timers::Kind;
+use crate::chip::wiring::{
+    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, Side, Wiring,
+};
+
+/// The places of the timers.
+const TIM2: usize = 0;
+const TIM3: usize = 1;
+const TIM6: usize = 2;
+const TIM1: usize = 3;
+
+/// The chip.
+pub(crate) static G071: Model = Model {
+    program: "nucleo_g071rb",
+    core: CoreKind::M0Plus,
+    priority_bits: 2,
+    flash: 128 * 1024,
+    ram: 36 * 1024,
+    map: &[
+        (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
+        (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
+        (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
+        (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Tim(TIM1), 0x4001_2C00, Some((Bus::Apb2, 11))),
+        (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
+        (Unit::Debug, 0x4001_5800, Some((Bus::Apb1, 27))),
+        (Unit::Dma(0), 0x4002_0000, Some((Bus::Ahb, 0))),
+        (Unit::Requests, 0x4002_0800, Some((Bus::Ahb, 0))),
+        (Unit::Rcc, 0x4002_1000, None),
+        (Unit::Flash, 0x4002_2000, None),
+        (Unit::Gpio(0), 0x5000_0000, Some((Bus::Ports, 0))),
+        (Unit::Gpio(1), 0x5000_0400, Some((Bus::Ports, 1))),
+        (Unit::Gpio(2), 0x5000_0800, Some((Bus::Ports, 2))),
+    ],
+    rcc: &g0::LAYOUT,
+    timers: &[
+        (Kind::Wide, Bus::Apb1),
+        (Kind::General, Bus::Apb1),
+        (Kind::Basic, Bus::Apb1),
+        (Kind::Advanced, Bus::Apb2),
+    ],
+    spi_version: spi::Version::Queues,
+    spis: &[Bus::Apb2],
+    dmas: &[Version::Channels],
+    has_mux: true,
+    ports: [
+        Reset::V2([0xEBFF_FFFF, 0x0C00_0000, 0x2400_0000]),
+        Reset::V2([0xFFFF_FFFF, 0, 0]),
+        Reset::V2([0xFFFF_FFFF, 0, 0]),
+    ],
+    lsi_hz: 32_000,
+    has_window: true,
+    flash_registers: &[(0x00, 0x0004_0600)],
+    debug_registers: &[(0x04, 0), (0x08, 0), (0x0C, 0)],
+    wiring: Wiring {
+        sides: &[LEFT],
+        tick: TIM3,
+        tick_irq: 16,
+        pwm_timer: TIM1,
+        pwm_function: 2,
+        spi_function: 0,
+    },
+};
+
+const LEFT: Side = Side {
+    spi: LEFT_SPI,
+    select: LEFT_SELECT,
+    byte_timer: TIM6,
+    dma: 0,
+    // SPI1_RX and TIM6_UP in DMAMUX.
+    rx: Request {
+        stream: 0,
+        channel: 16,
+    },
+    tx: Request {
+        stream: 1,
+        channel: 38,
+    },
+    end_of_frame: 9,
+    encoder: LEFT_ENCODER,
+    encoder_timer: TIM2,
+    encoder_function: 2,
+    direction: LEFT_DIRECTION,
+};

@@ -1,0 +1,31 @@
+//! DMAMUX: which request a channel of the DMA listens to (STM32G0; RM0444, chapter 11).
+//! Synchronisation and generators are not modelled.
+
+const CHANNELS: u32 = 7;
+/// The request of a channel.
+const DMAREQ_ID: u32 = 0x3F;
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct Mux {
+    ccr: [u32; CHANNELS as usize],
+}
+
+impl Mux {
+    /// The request that a channel, counted from 0, listens to.
+    pub(super) fn request(&self, channel: usize) -> Option<u32> {
+        self.ccr.get(channel).copied()
+    }
+
+    pub(super) fn read(&self, offset: u32) -> Option<u32> {
+        self.request(offset as usize / 4)
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
+        let known = offset < 4 * CHANNELS && value & !DMAREQ_ID == 0;
+        if known {
+            self.ccr[offset as usize / 4] = value;
+        }
+        known
+    }
+}

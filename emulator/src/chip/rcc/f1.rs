@@ -1,0 +1,86 @@
+//! RCC of the STM32F103 of medium density (RM0008, chapter 7).
+
+use super::{
+    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider,
+};
+use crate::chip::fault::Fault;
+
+/// The internal oscillator, Hz.
+const HSI_HZ: u64 = 8_000_000;
+
+const CFGR: u32 = 0x04;
+const CIR: u32 = 0x08;
+
+const HSION: u32 = 1 << 0;
+const HSEON: u32 = 1 << 16;
+const CSSON: u32 = 1 << 19;
+const PLLON: u32 = 1 << 24;
+
+/// In CFGR: the PLL's input is HSE, and that is halved.
+const PLLSRC: u32 = 1 << 16;
+const PLLXTPRE: u32 = 1 << 17;
+
+/// Flags of CSR: what caused the reset.
+const RMVF: u32 = 1 << 24;
+const PINRSTF: u32 = 1 << 26;
+const PORRSTF: u32 = 1 << 27;
+const SFTRSTF: u32 = 1 << 28;
+const IWDGRSTF: u32 = 1 << 29;
+
+pub(in crate::chip) static LAYOUT: Layout = Layout {
+    kept: &[(CR, 0x83), (CFGR, 0)],
+    switches: &[
+        (HSION, HSION << 1),
+        (HSEON, HSEON << 1),
+        (PLLON, PLLON << 1),
+    ],
+    hse: HSEON,
+    selection: (CFGR, 3, 2),
+    security: Some(Security {
+        switch: CSSON,
+        flag: (CIR, 1 << 7),
+        clear: (CIR, 1 << 23),
+    }),
+    resets: &[(Bus::Apb2, 0x0C), (Bus::Apb1, 0x10)],
+    gates: &[(Bus::Ahb, 0x14, 0x14), (Bus::Apb2, 0x18, 0), (Bus::Apb1, 0x1C, 0)],
+    csr: (0x24, RMVF),
+    causes: [PINRSTF | PORRSTF, PINRSTF | IWDGRSTF, PINRSTF | SFTRSTF],
+    clocks,
+};
+
+fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
+    let cfgr = rcc.kept(CFGR);
+    let running = |switch: u32| (rcc.running() & switch != 0).then_some(());
+    let core_hz = match cfgr & 3 {
+        0 => running(HSION).map(|()| HSI_HZ),
+        1 => running(HSEON).map(|()| HSE_HZ),
+        2 => running(PLLON).and_then(|()| pll_hz(rcc)),
+        _ => None,
+    };
+    let core_hz = core_hz.ok_or(STOPPED)?;
+    if cfgr & 0xF0 != 0 {
+        return Err(AHB_DIVIDED);
+    }
+    if core_hz > 72_000_000 {
+        return Err(Fault::Clock("the core runs above 72 MHz"));
+    }
+    let (apb1, apb2) = (divider(cfgr >> 8), divider(cfgr >> 11));
+    if core_hz / apb1 > 36_000_000 {
+        return Err(BUS_TOO_FAST);
+    }
+    Ok(Clocks::new(core_hz, apb1, apb2))
+}
+
+fn pll_hz(rcc: &Rcc) -> Option<u64> {
+    let cfgr = rcc.kept(CFGR);
+    let hse = cfgr & PLLSRC != 0;
+    let runs = rcc.running() & if hse { HSEON } else { HSION } != 0;
+    let input = match (hse, cfgr & PLLXTPRE != 0) {
+        (true, false) => HSE_HZ,
+        (true, true) => HSE_HZ / 2,
+        (false, _) => HSI_HZ / 2,
+    };
+    // 2 to 16; the last code means 16, too.
+    let times = u64::from((cfgr >> 18) & 15) + 2;
+    runs.then(|| input * times.min(16))
+}

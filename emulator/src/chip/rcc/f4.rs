@@ -1,0 +1,86 @@
+//! RCC of the STM32F446 (RM0390, chapter 6).
+
+use super::{
+    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider,
+};
+use crate::chip::fault::Fault;
+
+/// The internal oscillator, Hz.
+const HSI_HZ: u64 = 16_000_000;
+
+const PLLCFGR: u32 = 0x04;
+const CFGR: u32 = 0x08;
+const CIR: u32 = 0x0C;
+
+const HSION: u32 = 1 << 0;
+const HSEON: u32 = 1 << 16;
+const CSSON: u32 = 1 << 19;
+const PLLON: u32 = 1 << 24;
+
+/// Flags of CSR: what caused the reset.
+const RMVF: u32 = 1 << 24;
+const BORRSTF: u32 = 1 << 25;
+const PINRSTF: u32 = 1 << 26;
+const PORRSTF: u32 = 1 << 27;
+const SFTRSTF: u32 = 1 << 28;
+const IWDGRSTF: u32 = 1 << 29;
+
+pub(in crate::chip) static LAYOUT: Layout = Layout {
+    kept: &[(CR, 0x83), (PLLCFGR, 0x2400_3010), (CFGR, 0)],
+    switches: &[
+        (HSION, HSION << 1),
+        (HSEON, HSEON << 1),
+        (PLLON, PLLON << 1),
+    ],
+    hse: HSEON,
+    selection: (CFGR, 3, 2),
+    security: Some(Security {
+        switch: CSSON,
+        flag: (CIR, 1 << 7),
+        clear: (CIR, 1 << 23),
+    }),
+    resets: &[(Bus::Ahb, 0x10), (Bus::Apb1, 0x20), (Bus::Apb2, 0x24)],
+    gates: &[(Bus::Ahb, 0x30, 0), (Bus::Apb1, 0x40, 0), (Bus::Apb2, 0x44, 0)],
+    csr: (0x74, RMVF),
+    causes: [
+        BORRSTF | PINRSTF | PORRSTF,
+        PINRSTF | IWDGRSTF,
+        PINRSTF | SFTRSTF,
+    ],
+    clocks,
+};
+
+fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
+    let cfgr = rcc.kept(CFGR);
+    let running = |switch: u32| (rcc.running() & switch != 0).then_some(());
+    let core_hz = match cfgr & 3 {
+        0 => running(HSION).map(|()| HSI_HZ),
+        1 => running(HSEON).map(|()| HSE_HZ),
+        2 => running(PLLON).and_then(|()| pll_hz(rcc)),
+        _ => None,
+    };
+    let core_hz = core_hz.ok_or(STOPPED)?;
+    if cfgr & 0xF0 != 0 {
+        return Err(AHB_DIVIDED);
+    }
+    if core_hz > 180_000_000 {
+        return Err(Fault::Clock("the core runs above 180 MHz"));
+    }
+    let (apb1, apb2) = (divider(cfgr >> 10), divider(cfgr >> 13));
+    if core_hz / apb1 > 45_000_000 || core_hz / apb2 > 90_000_000 {
+        return Err(BUS_TOO_FAST);
+    }
+    Ok(Clocks::new(core_hz, apb1, apb2))
+}
+
+fn pll_hz(rcc: &Rcc) -> Option<u64> {
+    let field = |shift: u32, mask: u32| u64::from((rcc.kept(PLLCFGR) >> shift) & mask);
+    let (m, n, p) = (field(0, 0x3F), field(6, 0x1FF), 2 * field(16, 3) + 2);
+    let hse = field(22, 1) == 1;
+    let runs = rcc.running() & if hse { HSEON } else { HSION } != 0;
+    let input = if hse { HSE_HZ } else { HSI_HZ }.checked_div(m)?;
+    let oscillator = input * n;
+    let in_range = (950_000..=2_100_000).contains(&input)
+        && (100_000_000..=432_000_000).contains(&oscillator);
+    (runs && in_range).then(|| oscillator / p)
+}

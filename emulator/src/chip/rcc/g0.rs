@@ -1,0 +1,103 @@
+//! RCC of the STM32G071 (RM0444, chapter 5).
+
+use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider};
+use crate::chip::fault::Fault;
+
+/// The internal oscillator, Hz.
+const HSI_HZ: u64 = 16_000_000;
+
+const CFGR: u32 = 0x08;
+const PLLCFGR: u32 = 0x0C;
+
+const HSION: u32 = 1 << 8;
+const HSIRDY: u32 = 1 << 10;
+/// A divider of the internal oscillator.
+const HSIDIV: u32 = 7 << 11;
+const HSEON: u32 = 1 << 16;
+const CSSON: u32 = 1 << 19;
+const PLLON: u32 = 1 << 24;
+
+/// In PLLCFGR: the output towards the core is on.
+const PLLREN: u32 = 1 << 28;
+
+/// Flags of CSR: what caused the reset.
+const RMVF: u32 = 1 << 23;
+const PINRSTF: u32 = 1 << 26;
+const PWRRSTF: u32 = 1 << 27;
+const SFTRSTF: u32 = 1 << 28;
+const IWDGRSTF: u32 = 1 << 29;
+
+pub(in crate::chip) static LAYOUT: Layout = Layout {
+    kept: &[(CR, 0x500), (CFGR, 0), (PLLCFGR, 0x1000)],
+    switches: &[
+        (HSION, HSIRDY),
+        (HSEON, HSEON << 1),
+        (PLLON, PLLON << 1),
+    ],
+    hse: HSEON,
+    selection: (CFGR, 7, 3),
+    security: Some(Security {
+        switch: CSSON,
+        flag: (0x1C, 1 << 8),
+        clear: (0x20, 1 << 8),
+    }),
+    resets: &[
+        (Bus::Ports, 0x24),
+        (Bus::Ahb, 0x28),
+        (Bus::Apb1, 0x2C),
+        (Bus::Apb2, 0x30),
+    ],
+    gates: &[
+        (Bus::Ports, 0x34, 0),
+        (Bus::Ahb, 0x38, 0x100),
+        (Bus::Apb1, 0x3C, 0),
+        (Bus::Apb2, 0x40, 0),
+    ],
+    csr: (0x60, RMVF),
+    causes: [PINRSTF | PWRRSTF, PINRSTF | IWDGRSTF, PINRSTF | SFTRSTF],
+    clocks,
+};
+
+fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
+    let cfgr = rcc.kept(CFGR);
+    if rcc.kept(CR) & HSIDIV != 0 {
+        return Err(Fault::Clock("a divider of HSI is not modelled"));
+    }
+    let running = |switch: u32| (rcc.running() & switch != 0).then_some(());
+    let core_hz = match cfgr & 7 {
+        0 => running(HSION).map(|()| HSI_HZ),
+        1 => running(HSEON).map(|()| HSE_HZ),
+        2 => running(PLLON).and_then(|()| pll_hz(rcc)),
+        _ => None,
+    };
+    let core_hz = core_hz.ok_or(STOPPED)?;
+    if cfgr & 0xF00 != 0 {
+        return Err(AHB_DIVIDED);
+    }
+    if core_hz > 64_000_000 {
+        return Err(Fault::Clock("the core runs above 64 MHz"));
+    }
+    // One peripheral bus, with two registers of gates.
+    let apb = divider(cfgr >> 12);
+    Ok(Clocks::new(core_hz, apb, apb))
+}
+
+fn pll_hz(rcc: &Rcc) -> Option<u64> {
+    let pllcfgr = rcc.kept(PLLCFGR);
+    let field = |shift: u32, mask: u32| u64::from((pllcfgr >> shift) & mask);
+    let (m, n, r) = (field(4, 7) + 1, field(8, 0x7F), field(29, 7) + 1);
+    let (switch, source) = match field(0, 3) {
+        2 => (HSION, HSI_HZ),
+        3 => (HSEON, HSE_HZ),
+        _ => return None,
+    };
+    let input = source / m;
+    let oscillator = input * n;
+    // At the supply's range 1, in which the chip is after a reset.
+    let in_range = (2_660_000..=16_000_000).contains(&input)
+        && (96_000_000..=344_000_000).contains(&oscillator)
+        && (8..=86).contains(&n)
+        && r >= 2;
+    let runs = rcc.running() & switch != 0 && pllcfgr & PLLREN != 0;
+    (runs && in_range).then(|| oscillator / r)
+}

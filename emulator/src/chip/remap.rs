@@ -1,0 +1,40 @@
+//! AFIO: which pins the debugger keeps (STM32F1; RM0008, chapter 9). Another place for a
+//! peripheral's pins is not modelled.
+
+const MAPR: u32 = 0x04;
+/// What of the debugger's pins is given up.
+const SWJ_CFG: u32 = 7 << 24;
+/// JTAG, but not the two other wires; or everything.
+const JTAG_GIVEN_UP: [u32; 2] = [2 << 24, 4 << 24];
+
+/// JTAG's pins but for the two other wires: PA15, PB3 and PB4, by port and number.
+const JTAG: [(usize, u32); 3] = [(0, 15), (1, 3), (1, 4)];
+
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Remap {
+    mapr: u32,
+}
+
+impl Remap {
+    /// Whether a pin is JTAG's.
+    pub(super) fn keeps(self, port: usize, pin: u32) -> bool {
+        JTAG.contains(&(port, pin)) && !JTAG_GIVEN_UP.contains(&self.mapr)
+    }
+
+    /// What JTAG gives up cannot be read back.
+    pub(super) const fn read(self, offset: u32) -> Option<u32> {
+        match offset {
+            MAPR => Some(0),
+            _ => None,
+        }
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) const fn write(&mut self, offset: u32, value: u32) -> bool {
+        if offset != MAPR || value & !SWJ_CFG != 0 {
+            return false;
+        }
+        self.mapr = value;
+        true
+    }
+}
