@@ -31,7 +31,7 @@ mod name {
     pub(super) const THETA: [&str; 2] = ["muscle", "theta"];
     /// What contact adds to its nominal gain, and that.
     pub(super) const LIFT: &str = "lift";
-    pub(super) const NOMINAL: &str = "nominal";
+    pub(super) const NOMINAL: [&str; 2] = ["nominal", "first"];
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
     /// Where perception lies: a list of one.
@@ -166,10 +166,12 @@ impl Watch {
                     let theta = along(whisker, &name::THETA)?.ok_or_else(|| missing("θ"))?;
                     watch.theta.push(Variable::at(theta)?);
                     if w == 0 {
-                        let parts = [name::NOMINAL, name::LIFT];
-                        let [nominal, lift] =
-                            parts.map(|part| whisker.member(part).and_then(Variable::at));
-                        watch.gain.push([nominal?, lift?]);
+                        let nominal =
+                            along(whisker, &name::NOMINAL)?.ok_or_else(|| missing("gain"))?;
+                        let lift = whisker.member(name::LIFT)?;
+                        watch
+                            .gain
+                            .push([Variable::at(nominal)?, Variable::at(lift)?]);
                     }
                 }
             }

@@ -36,9 +36,9 @@ pub struct Config<R: Real> {
 /// The filter's state; the default is rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
-    first: R,
+    pub(crate) first: R,
     /// p and s₂.
-    second: [R; 2],
+    pub(crate) second: [R; 2],
 }
 
 impl<R: Real> Config<R> {
@@ -62,9 +62,9 @@ impl<R: Real> Config<R> {
         })
     }
 
-    /// Filters one sample. The gain at zero frequency is 1; for inputs within ±1
-    /// the output stays within ±1.2, the overshoot of a third-order Butterworth
-    /// filter for the worst bounded input.
+    /// Filters one sample. The gain at zero frequency is 1; for inputs within ±1.6
+    /// the output stays within ±2: a third-order Butterworth filter overshoots by at most
+    /// 1.2 for the worst bounded input. Beyond that the filter begins anew at rest.
     #[inline]
     pub fn process(&self, state: &mut State<R>, x: R) -> R {
         let half = (x - state.first).times(self.first);
@@ -79,6 +79,14 @@ impl<R: Real> Config<R> {
         let rise = p + next;
         let v2 = s2 + rise;
         state.second = [next, v2 + rise];
+        if !v2.is_within(R::TWO) {
+            // Its bits were flipped, or its input was no number.
+            *state = State {
+                first: R::ZERO,
+                second: [R::ZERO; 2],
+            };
+            return R::ZERO;
+        }
         v2
     }
 }

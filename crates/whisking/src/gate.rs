@@ -12,7 +12,7 @@ pub struct Gate<R: Real> {
     /// The mean over the tick, in which the value decays or is held by contact.
     pub mean: R,
     /// Rounding error of a slow decay.
-    carry: R::Carry,
+    pub(crate) carry: R::Carry,
 }
 
 /// One tick of an exponential decay.
@@ -98,6 +98,11 @@ impl<R: Real> Gate<R> {
             self.value.decay(&mut self.carry, decay.tick);
         } else {
             self.value = self.value - self.value.times_fine(decay.tick);
+        }
+        // Otherwise, and if it is no number, its bits were flipped.
+        let is_sound = self.value <= top;
+        if !is_sound {
+            *self = Self::default();
         }
         self.mean = self.value - self.value.times(decay.half);
         if floor > self.value {

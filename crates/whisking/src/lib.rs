@@ -50,6 +50,7 @@ mod settings;
 mod start;
 mod state;
 mod step;
+mod voted;
 
 #[cfg(feature = "bake")]
 pub use bake::Source;
@@ -61,6 +62,7 @@ pub use real::{Constant, Factor, Factors, FineFactor, Fix, Real};
 pub use settings::{GateSettings, Settings};
 pub use state::{Start, State, Whisker};
 pub use step::{Config, PatternGenerator};
+pub use voted::Voted;
 
 /// Degrees of the motor per unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
 pub const DEGREES_PER_UNIT: f64 = 100.0;

@@ -53,9 +53,9 @@ pub struct State<R: Real> {
     /// Protraction θ; θ' = 100 θ + 50 degrees.
     pub theta: R,
     /// v and 0 with [`Euler`], the slow and the fast lag with [`Exact`].
-    kept: [R; 2],
-    carry: R::Carry,
-    history: History<R>,
+    pub(crate) kept: [R; 2],
+    pub(crate) carry: R::Carry,
+    pub(crate) history: History<R>,
 }
 
 /// Drive W = (tanh 2ψ_1 + 1)/2 (eq. 6), 0 to 1, for |ψ_1| ≤ 1.5; error 2e-7 in

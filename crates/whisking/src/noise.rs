@@ -91,8 +91,8 @@ pub struct Config<R: Real> {
 /// The random generator, and a filter for each state of the oscillators.
 #[derive(Debug, Clone)]
 pub struct State<R, const S: usize> {
-    random: Xoshiro128PlusPlus,
-    filters: [[filter::State<R>; 2]; S],
+    pub(crate) random: Xoshiro128PlusPlus,
+    pub(crate) filters: [[filter::State<R>; 2]; S],
 }
 
 impl<R: Real> Config<R> {
@@ -113,9 +113,16 @@ impl<R: Real> Config<R> {
     pub fn step<const S: usize>(&self, state: &mut State<R, S>) -> [Psi<R>; S] {
         let State { random, filters } = state;
         let mut out = [[R::ZERO; 2]; S];
+        let mut drawn = 0;
         for (o, f) in out.iter_mut().flatten().zip(filters.iter_mut().flatten()) {
-            let white = R::from_q24(normal_q24(random.next_u32()) >> 2);
+            let word = random.next_u32();
+            drawn |= word;
+            let white = R::from_q24(normal_q24(word) >> 2);
             *o = self.filter.process(f, white).times_fine(self.amplitude);
+        }
+        if drawn == 0 {
+            // Its only state that it never leaves; otherwise once in 2^64 draws of two words.
+            *random = Xoshiro128PlusPlus::seed_from_u64(0);
         }
         out
     }
@@ -168,6 +175,19 @@ mod tests {
         }
         assert_eq!(normal_q24(0), *QUANTILES.last().unwrap());
         assert_eq!(normal_q24(7), -normal_q24(6));
+    }
+
+    /// All zeros is the only state that the generator never leaves.
+    #[test]
+    fn a_generator_that_stands_still_begins_anew() {
+        let config = Config::<f32>::new(0.05, 2_000.0).unwrap();
+        let mut state = State::<f32, 1>::new(1);
+        state.random = serde_json::from_str(r#"{"s":[0,0,0,0]}"#).unwrap();
+        config.step(&mut state);
+        let words: Vec<u32> = (0..1_000).map(|_| state.random.next_u32()).collect();
+        let ones = words.iter().map(|word| word.count_ones()).sum::<u32>();
+        // 32,000 bits, whose number of ones has a standard deviation of 89.
+        assert!(ones.abs_diff(16_000) < 450, "{ones}");
     }
 
     #[test]

@@ -35,9 +35,9 @@ const TAU_PERIODS: f64 = 2.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State<R: Real, const S: usize> {
     /// ψ in the form that the integrator keeps.
-    kept: [Psi<R>; S],
+    pub(crate) kept: [Psi<R>; S],
     /// Rounding errors of its sums.
-    carry: [[R::Carry; 2]; S],
+    pub(crate) carry: [[R::Carry; 2]; S],
 }
 
 impl<R: Real, const S: usize> State<R, S> {
@@ -54,7 +54,8 @@ impl<R: Real, const S: usize> State<R, S> {
 /// Steps the oscillators.
 pub trait OscillatorIntegrator<R: Real> {
     /// One tick. `noise` is T P_i (eq. 5); each state is limited to ±1.5
-    /// afterwards, NaN included.
+    /// afterwards. From a state that no tick leads to, NaN included, all sides begin
+    /// anew together.
     fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>);
 
     /// ψ_1 of every side, which drives its muscles; within ±1.5 to rounding.
@@ -68,6 +69,20 @@ pub trait OscillatorIntegrator<R: Real> {
 #[inline]
 fn psi_limit<R: Real>() -> R {
     R::ONE + R::ONE.halved()
+}
+
+/// Where all sides begin anew together, on the circle.
+#[inline]
+fn anew<R: Real, const S: usize>() -> [Psi<R>; S] {
+    [[R::ONE, R::ZERO]; S]
+}
+
+/// Whether a tick can have led there, within ±4: noise may lead beyond the limit, though not
+/// so far. Otherwise bits were flipped.
+#[inline]
+fn is_sound<R: Real>(kept: &[Psi<R>]) -> bool {
+    let mut all = kept.iter().flatten();
+    all.all(|x| x.is_within(R::TWO + R::TWO))
 }
 
 /// The nearest ψ within ±1.5.

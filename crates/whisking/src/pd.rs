@@ -122,16 +122,22 @@ impl<R: Real> Config<R> {
     pub fn step(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
         let measured = R::from_counts(counts, self.theta_per_count);
         let moved = R::from_counts(moved, self.theta_per_count);
-        state.velocity = state.velocity + (moved - state.velocity).times(self.smooth);
+        let velocity = state.velocity + (moved - state.velocity).times(self.smooth);
+        state.velocity = if velocity.is_within(R::TWO) {
+            velocity
+        } else {
+            R::ZERO
+        };
         state.error = self.clamp(setpoint) - measured;
         state.p = state.error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
         // Not `clamp`, which panics where a limit is negative.
         let wanted = (state.p + state.d).to_q24();
-        let wanted = wanted.min(self.limit).max(-self.limit);
-        // Both are within ±2^24.
-        let change = wanted - state.command;
-        state.command += change.min(self.slew).max(-self.slew);
+        let limited = |duty: i32| duty.min(self.limit).max(-self.limit);
+        let change = limited(wanted).wrapping_sub(state.command);
+        let change = change.min(self.slew).max(-self.slew);
+        // Last of all, so that it holds whatever bits the last command has.
+        state.command = limited(state.command.wrapping_add(change));
         Duty::from_q24(state.command)
     }
 }
@@ -237,6 +243,44 @@ mod tests {
             duty = fraction(&pd, &mut state, 1.0, 0, 0);
         }
         assert!((duty - 0.5).abs() < 1e-3, "{duty}");
+    }
+
+    /// Whatever bits its last command has, the next is within the limit, and in as many ticks
+    /// as the slew takes all is as it was; so with the velocity, of which half is left after
+    /// 2.2 ticks.
+    #[test]
+    fn the_limit_holds_whatever_bits_the_state_has() {
+        fn check<R: Real>(spoilt: impl Fn(u32) -> R) {
+            let pd = SETTINGS.build::<R>(2_000.0).unwrap();
+            let half = R::ONE.halved();
+            let settled = || {
+                let mut state = State::default();
+                for _ in 0..100 {
+                    pd.step(&mut state, half, 4_500, 0);
+                }
+                state
+            };
+            let undisturbed = settled();
+            for bit in 0..32 {
+                let (mut command, mut velocity) = (settled(), settled());
+                command.command ^= 1 << bit;
+                velocity.velocity = spoilt(1 << bit);
+                for state in [&mut command, &mut velocity] {
+                    for _ in 0..120 {
+                        let duty = pd.step(state, half, 4_500, 0);
+                        let most = SETTINGS.limit * 32_767.0 + 1.0;
+                        assert!(f64::from(duty.magnitude()) <= most, "{bit}: {duty:?}");
+                    }
+                    // To 1e-4 of full drive: in fixed point a velocity rests within some steps.
+                    let away = state.command.abs_diff(undisturbed.command);
+                    assert!(away < 1_678, "{bit}: {state:?}");
+                }
+            }
+        }
+        for all in [0, u32::MAX, 0x7F80_0000, 0xFF80_0000, 0x7F7F_FFFF] {
+            check::<f32>(|bit| f32::from_bits(bit ^ all));
+            check::<Fix>(|bit| Fix((bit ^ all).cast_signed()));
+        }
     }
 
     #[test]

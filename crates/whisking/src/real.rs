@@ -119,6 +119,13 @@ pub trait Real:
     /// error.
     fn decay(&mut self, carry: &mut Self::Carry, share: Self::Fine);
 
+    /// Whether |x| ≤ `limit`, which a NaN is not.
+    fn is_within(self, limit: Self) -> bool;
+
+    /// Whether no product of these wraps around: of numbers within ±2 none does, and in
+    /// floats none at all.
+    fn multiplies<const K: usize>(numbers: &[[Self; 2]; K]) -> bool;
+
     /// |x|.
     #[inline]
     fn abs(self) -> Self {

@@ -1,9 +1,12 @@
 //! The state of a module between ticks, and its start.
 
+#[cfg(test)]
+mod tests;
+
 use crate::gate::Gate;
 use crate::muscle::{self, History};
 use crate::oscillator::{self, Psi};
-use crate::{Real, noise};
+use crate::{Real, Voted, noise};
 
 /// Constants of the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,8 +29,7 @@ pub struct Whisker<R: Real> {
     pub muscle: muscle::State<R>,
     /// How far contact lifts g above its nominal value (eqs. 12 and 13).
     pub lift: Gate<R>,
-    /// Nominal value of g.
-    pub nominal: R,
+    pub(crate) nominal: Voted<R>,
 }
 
 /// State of a module of `S` sides (1 or 2) with `N` whiskers each.
@@ -44,16 +46,23 @@ pub struct State<R: Real, const S: usize, const N: usize> {
 }
 
 impl<R: Real> Whisker<R> {
+    /// Nominal value of g, 0 to 2; 1 should all that is kept of it be lost.
+    #[inline]
+    pub fn nominal(&self) -> R {
+        self.nominal.get().unwrap_or(R::ONE)
+    }
+
     /// g of eqs. 12 and 13, 0 to 2.
     pub fn gain(&self) -> f64 {
-        self.nominal.to_f64() + self.lift.value.to_f64()
+        self.nominal().to_f64() + self.lift.value.to_f64()
     }
 
     /// Sets the nominal value of g, limited to 0..=2; what contact adds is
     /// limited so that g stays there too.
     pub fn set_nominal(&mut self, nominal: R) {
-        self.nominal = nominal.clamp(R::ZERO, R::TWO);
-        let room = R::TWO - self.nominal;
+        let nominal = nominal.clamp(R::ZERO, R::TWO);
+        self.nominal = Voted::new(nominal);
+        let room = R::TWO - nominal;
         self.lift.value = self.lift.value.clamp(R::ZERO, room);
         self.lift.mean = self.lift.mean.clamp(R::ZERO, room);
     }
@@ -69,7 +78,7 @@ impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
                 core::array::from_fn(|w| Whisker {
                     muscle: muscle::State::new(start.history[side][w]),
                     lift: Gate::default(),
-                    nominal: start.gain[side][w],
+                    nominal: Voted::new(start.gain[side][w]),
                 })
             }),
             drive: start.drive,

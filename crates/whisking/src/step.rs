@@ -41,7 +41,9 @@ pub trait PatternGenerator<R: Real> {
     /// this tick; the muscles move with the z and g that follow from it.
     ///
     /// For any contact, NaN included, the state stays finite and within its
-    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5.
+    /// bounds: |ψ| ≤ 1.5, 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5. Whatever bits a state has, a
+    /// tick leads within them; seven whisks after a word was spoilt all is as before. Only
+    /// sides that are left quite opposed stay so until noise parts them, as the equations say.
     fn step<const S: usize, const N: usize>(&self, state: &mut State<R, S, N>, contact: [R; S]);
 }
 
@@ -72,12 +74,20 @@ where
         for (side, whiskers) in state.whiskers.iter_mut().enumerate() {
             let before = state.drive[side];
             let after = muscle::drive(drives[side]);
-            let open = self.peak_gain * (R::ONE - state.z[side].mean);
+            // Gates that no part of the module moves are not looked at.
+            let z = match self.rcp.part() {
+                Some(_) => state.z[side].mean,
+                None => R::ZERO,
+            };
+            let open = self.peak_gain * (R::ONE - z);
             for whisker in whiskers {
+                let nominal = whisker.nominal();
+                let mut gain = nominal;
                 if let Some(cia) = self.cia.part() {
-                    cia.step(&mut whisker.lift, whisker.nominal, zeta);
+                    cia.step(&mut whisker.lift, nominal, zeta);
+                    gain = nominal + whisker.lift.mean;
                 }
-                let gain = open * (whisker.nominal + whisker.lift.mean);
+                let gain = open * gain;
                 self.muscle.step(&mut whisker.muscle, gain, before, after);
             }
             state.drive[side] = after;

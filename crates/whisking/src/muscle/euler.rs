@@ -38,7 +38,11 @@ impl<R: Real> MuscleIntegrator<R> for Euler<R> {
         state
             .theta
             .accumulate(&mut state.carry, velocity.times(self.spring));
-        state.theta = limited(state.theta);
+        let within = limited(state.theta);
+        if within != state.theta {
+            state.theta = within;
+            state.carry = R::Carry::default();
+        }
         state.kept = [limited(next), R::ZERO];
     }
 }

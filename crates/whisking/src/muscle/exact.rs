@@ -41,6 +41,12 @@ pub struct Lag<R: Real> {
     pub correct: R::Coefficient,
 }
 
+/// More than |θ| ever is.
+#[inline]
+fn most<R: Real>() -> R {
+    R::TWO + R::ONE.halved()
+}
+
 impl<R: Real> Lag<R> {
     /// For λ T = `rate`.
     pub(super) fn new(rate: f64) -> Self {
@@ -106,6 +112,10 @@ impl<R: Real> MuscleIntegrator<R> for Exact<R> {
         slow_lag.accumulate(&mut state.carry, slow);
         *fast_lag = *fast_lag + fast;
         state.theta = self.theta(state.kept);
+        if !state.theta.is_within(most::<R>()) {
+            // Its bits were flipped. The history is bounded, and forgets by itself.
+            *state = State::default();
+        }
         state.history.force = [force, n1, n2, n3];
     }
 }

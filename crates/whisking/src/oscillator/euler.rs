@@ -1,7 +1,7 @@
 //! The papers' integrator: forward Euler, with every right-hand side taken at
 //! the state before the step. It keeps ψ itself.
 
-use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
+use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, anew, is_sound, limited, pull};
 use crate::Real;
 
 /// Constants of forward Euler.
@@ -55,7 +55,15 @@ impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
                 }
                 state.kept[side][k].accumulate(&mut state.carry[side][k], change[side][k]);
             }
-            state.kept[side] = limited(state.kept[side]);
+        }
+        if !is_sound(&state.kept) {
+            *state = State::new(anew());
+        }
+        for (psi, carry) in state.kept.iter_mut().zip(&mut state.carry) {
+            let within = limited(*psi);
+            if within != *psi {
+                (*psi, *carry) = (within, [R::Carry::default(); 2]);
+            }
         }
     }
     #[inline]

@@ -11,7 +11,7 @@
 //! takes it to R L χ, and ψ = L½ χ is computed on demand. Without noise the limit
 //! cycle has radius one, to rounding, at any f_W T.
 
-use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, limited, pull};
+use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, anew, is_sound, limited, pull};
 use crate::Real;
 use crate::linalg::{Matrix, exponential, identity, scaled};
 
@@ -189,7 +189,8 @@ impl<R: Real> Exact<R> {
         }
     }
 
-    /// The change by R at `modes` plus `linear`, if every side is near the circle.
+    /// The change by R at `modes` plus `linear`, if every side is near the circle; a state
+    /// that is no number, or so large that its square wraps around, is not.
     ///
     /// The sides are m ± d, and their r² − 1 is e ± 2 m d with e = m² + d² − 1.
     /// Removing a share h_l of the left and h_r of the right side removes
@@ -206,7 +207,8 @@ impl<R: Real> Exact<R> {
             let same = dot(*m, *m) + dot(*d, *d) - R::ONE;
             let cross = dot(*m, *d);
             let cross = cross + cross;
-            if same.abs() + cross.abs() > near_circle() {
+            let near = (same.abs() + cross.abs()).is_within(near_circle());
+            if !(near && R::multiplies(modes)) {
                 return None;
             }
             let (left, right) = (excess(same + cross), excess(same - cross));
@@ -218,7 +220,7 @@ impl<R: Real> Exact<R> {
         } else {
             for (psi, change) in modes.iter().zip(&mut change) {
                 let e = dot(*psi, *psi) - R::ONE;
-                if e.abs() > near_circle() {
+                if !(e.is_within(near_circle()) && R::multiplies(modes)) {
                     return None;
                 }
                 let along = excess(e);
@@ -244,7 +246,9 @@ impl<R: Real> Exact<R> {
         let pulls = crossed(&turned).map(|side| pull(side, self.relax));
         state.change(&sums(&linear, &modes(&pulls)), noise);
         let psi = self.unlimited(&state.kept);
-        let within = psi.map(limited);
+        let sound = is_sound(&state.kept) && is_sound(&psi);
+        let within = if sound { psi.map(limited) } else { anew() };
+        // A NaN differs from all.
         if within != psi {
             let modes = modes(&within);
             *state = State::new(sums(&modes, &increments(&self.back, &modes)));

@@ -29,7 +29,8 @@ const fn product(x: i32, y: i32) -> i32 {
 /// A number from −8 to 8 in steps of 2^-28 (3.7e-9).
 ///
 /// Products with factors and readings saturate at ±4; a sum of two of them
-/// cannot wrap around, and no state of the tick comes near that.
+/// cannot wrap around, and no state of the tick comes near that. A state whose bits
+/// were flipped may; it wraps around, and is then limited as any other.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
 pub struct Fix(
@@ -41,7 +42,7 @@ impl Add for Fix {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
+        Self(self.0.wrapping_add(other.0))
     }
 }
 
@@ -49,7 +50,7 @@ impl Sub for Fix {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self(self.0 - other.0)
+        Self(self.0.wrapping_sub(other.0))
     }
 }
 
@@ -57,7 +58,7 @@ impl Neg for Fix {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self(-self.0)
+        Self(self.0.wrapping_neg())
     }
 }
 
@@ -126,6 +127,24 @@ impl Real for Fix {
         Self(self.0.clamp(-half, half - 1))
     }
 
+    #[inline]
+    fn is_within(self, limit: Self) -> bool {
+        self.0.unsigned_abs() <= limit.0.cast_unsigned()
+    }
+
+    #[inline]
+    fn multiplies<const K: usize>(numbers: &[[Self; 2]; K]) -> bool {
+        const TWO: u32 = Fix::TWO.0.cast_unsigned();
+        // From −2 to 2 becomes 0 to 4, in two bits fewer than there are.
+        let above = |x: &Self| x.0.cast_unsigned().wrapping_add(TWO);
+        let all = numbers
+            .iter()
+            .flatten()
+            .map(above)
+            .fold(0, |all, x| all | x);
+        all < 2 * TWO
+    }
+
     /// Error at most 1.3e-4 of `self` and 3.8e-9.
     #[inline]
     fn rough(self, other: Self) -> Self {
@@ -164,7 +183,7 @@ impl Real for Fix {
     fn decay(&mut self, carry: &mut i64, share: FineFactor) {
         let (step, left) = share.of(self.0, *carry);
         *carry = left;
-        self.0 -= step;
+        self.0 = self.0.wrapping_sub(step);
     }
 }
 

@@ -86,6 +86,16 @@ macro_rules! float {
         }
 
         #[inline]
+        fn is_within(self, limit: Self) -> bool {
+            $float::abs(self) <= limit
+        }
+
+        #[inline]
+        fn multiplies<const K: usize>(_numbers: &[[Self; 2]; K]) -> bool {
+            true
+        }
+
+        #[inline]
         fn from_code(code: i16) -> Self {
             Self::from(code) * (1.0 / 8191.0)
         }

@@ -73,8 +73,9 @@ fn gates_and_drives_reach_the_muscles() {
                 config.rcp.unwrap().step(&mut truth.z[side], contact[side]);
                 for whisker in &mut truth.whiskers[side] {
                     let cia = config.cia.unwrap();
-                    cia.step(&mut whisker.lift, whisker.nominal, contact[0]);
-                    let g = whisker.nominal + whisker.lift.mean;
+                    let nominal = whisker.nominal();
+                    cia.step(&mut whisker.lift, nominal, contact[0]);
+                    let g = nominal + whisker.lift.mean;
                     let gain = PEAK_GAIN * (1.0 - truth.z[side].mean) * g;
                     let muscle = &mut whisker.muscle;
                     config.muscle.step(muscle, gain, drives[side], after);

@@ -62,7 +62,7 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
         .state
         .whiskers
         .each_ref()
-        .map(|side| side.each_ref().map(|whisker| whisker.nominal.to_f64()));
+        .map(|side| side.each_ref().map(|whisker| whisker.nominal().to_f64()));
     let kept_z = kept(&settings, settings.rcp.unwrap().tau_s);
     let kept_g = kept(&settings, settings.cia.unwrap().tau_s);
     for _ in 0..REST {

@@ -56,8 +56,8 @@ fn scale(value: f64, limit: f64, least: i32) -> i32 {
 /// x / 2^shift, rounded to the nearest; halves upwards.
 #[inline]
 const fn rounded(x: i32, shift: u32) -> i32 {
-    // No overflow: what is added is at most 2^29, and |x| at most 2^30.
-    (x + ((1 << shift) >> 1)) >> shift
+    // What is added is at most 2^29, and |x| at most 2^30 unless its bits were flipped.
+    x.wrapping_add((1 << shift) >> 1) >> shift
 }
 
 /// x / 2^shift, rounded to the nearest, for a shift of −1 or more.
@@ -141,7 +141,7 @@ impl FineFactor {
     #[inline]
     pub(super) fn of(self, x: i32, carry: i64) -> (i32, i64) {
         let bits = (32 + self.shift).unsigned_abs();
-        let product = i64::from(x) * i64::from(self.mantissa) + carry;
+        let product = (i64::from(x) * i64::from(self.mantissa)).wrapping_add(carry);
         let step = product >> bits;
         (step as i32, product - (step << bits))
     }
@@ -167,7 +167,7 @@ impl<const K: usize> Factors<K> {
             .iter()
             .zip(self.mantissas)
             .map(|(x, m)| by_half(*x, m))
-            .sum();
+            .fold(0, i32::wrapping_add);
         lowered(sum, self.shift)
     }
 }
