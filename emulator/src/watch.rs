@@ -40,9 +40,10 @@ mod name {
     pub(super) const TOUCHES: &str = "touches";
     /// In that: the number of the touch.
     pub(super) const TOUCHING: [&str; 2] = ["touching", "number"];
-    /// In the queue.
-    pub(super) const TAIL: &str = "tail";
-    /// In it and in a list.
+    /// In the queue: its ring, and how many events were put in since the start.
+    pub(super) const EVENTS: &str = "events";
+    pub(super) const PUT: &str = "put";
+    /// In a list.
     pub(super) const BUFFER: &str = "buffer";
     /// The event, and what stands in it.
     pub(super) const DECISION: &str = "Decision";
@@ -81,9 +82,9 @@ impl Variable {
 /// The events that the tick has queued.
 #[derive(Debug)]
 struct Queue {
-    tail: u32,
+    put: u32,
     length: u32,
-    buffer: u32,
+    events: u32,
     stride: u32,
     /// In an event: where its tag stands and what it is for a decision, and
     /// where the decision's words stand.
@@ -222,17 +223,17 @@ impl Watch {
 impl Queue {
     fn new(info: &DebugInfo) -> Result<Self, Fault> {
         let queue = info.variable(name::QUEUE)?;
-        let buffer = queue.member(name::BUFFER)?;
-        let first = buffer.element(0)?;
+        let events = queue.member(name::EVENTS)?;
+        let first = events.element(0)?;
         let (tag, value, event) = first.variant(name::DECISION)?;
         let [whisker, decision] = name::PLACED.map(|part| event.member(part));
         let (whisker, decision) = (whisker?, decision?);
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
-            tail: queue.member(name::TAIL)?.address,
-            length: buffer.length()?,
-            buffer: first.address,
+            put: queue.member(name::PUT)?.address,
+            length: events.length()?,
+            events: first.address,
             stride: first.size()?,
             tag: (tag - first.address, value),
             words: [
@@ -249,10 +250,12 @@ impl Queue {
     }
 
     fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Decision)>, Fault> {
-        let tail = ram.word(self.tail)?;
+        let put = ram.word(self.put)?;
         let mut decisions = Vec::new();
-        while self.seen != tail && self.seen < self.length {
-            let event = self.buffer + self.seen * self.stride;
+        // What has been overwritten since is lost; idle has seen it.
+        self.seen = put.wrapping_sub(put.wrapping_sub(self.seen).min(self.length));
+        while self.seen != put {
+            let event = self.events + self.seen % self.length * self.stride;
             let mut tag = [0];
             ram.read(event + self.tag.0, &mut tag)?;
             if tag == [self.tag.1] {
@@ -270,9 +273,8 @@ impl Queue {
                 let place = Whisker::new(side, whisker);
                 decisions.extend(decision.map(|decision| (place, decision)));
             }
-            self.seen = (self.seen + 1) % self.length;
+            self.seen = self.seen.wrapping_add(1);
         }
-        self.seen = tail;
         Ok(decisions)
     }
 }

@@ -31,6 +31,7 @@ mod io;
 mod module;
 mod motion;
 mod perception;
+mod queue;
 mod sensing;
 mod servo;
 mod timing;
@@ -44,6 +45,7 @@ pub use perception::{
     Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, Sample, SampleClassifier,
     shifts,
 };
+pub use queue::Queue;
 pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use timing::Timing;

@@ -8,12 +8,12 @@
 //! | `idle` | 0 | writes the log, feeds the watchdog, sleeps |
 //!
 //! All but the last have one priority, as they work on the same registers: none can
-//! interrupt another, and they share the module without a lock. They are bound to
-//! a board's interrupts by [`program!`](crate::program).
+//! interrupt another, and they share the module without a lock. The queue they share
+//! with idle, which holds them off while it takes an event out. They are bound to a
+//! board's interrupts by [`program!`](crate::program).
 
 use firmware::Event;
 use firmware::faults::number;
-use heapless::spsc::{Consumer, Producer};
 
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
@@ -82,11 +82,11 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
     }
 }
 
-/// One tick of the module; its events go to `queue`.
+/// One tick of the module; `put` puts its events into the queue, or gives them back.
 #[inline]
-pub(crate) fn tick(module: &mut Module, queue: &mut Producer<'static, Event>) {
+pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(), Event>) {
     module.inner.tick(&module.settings, &mut |event| {
-        if queue.enqueue(event).is_err() {
+        if put(event).is_err() {
             DROPPED.increment();
         }
     });
@@ -142,7 +142,6 @@ fn write(event: Event) {
 
 /// The state of the idle task.
 pub(crate) struct Idle {
-    events: Consumer<'static, Event>,
     watchdog: Watchdog,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
@@ -152,9 +151,8 @@ pub(crate) struct Idle {
 
 impl Idle {
     /// Starts the watchdog.
-    pub(crate) fn new(events: Consumer<'static, Event>) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            events,
             watchdog: Watchdog::start(),
             fed: 0,
             logged: 0,
@@ -162,17 +160,15 @@ impl Idle {
         }
     }
 
-    /// What is to be done between two sleeps.
-    pub(crate) fn run(&mut self) {
+    /// What is to be done between two sleeps; `take` takes an event out of the queue.
+    pub(crate) fn run(&mut self, take: impl FnMut() -> Option<Event>) {
         let now = TICKS.get();
         if now == self.fed {
             return;
         }
         self.fed = now;
         // A tick queues its events before it counts itself.
-        while let Some(event) = self.events.dequeue() {
-            write(event);
-        }
+        core::iter::from_fn(take).for_each(write);
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
         if now.wrapping_sub(self.logged) >= TICK_HZ {
@@ -200,8 +196,7 @@ macro_rules! program {
         )]
         mod app {
             use defmt_rtt as _;
-            use firmware::Event;
-            use heapless::spsc::{Producer, Queue};
+            use firmware::Queue;
 
             use $crate::board::program::{self, Idle, Module, Place};
             use $crate::board::scene::TICK_HZ;
@@ -213,32 +208,34 @@ macro_rules! program {
                 // Its tasks cannot interrupt each other.
                 #[lock_free]
                 module: Module,
+                // Sixteen events: idle drains them after every tick, which has four a side
+                // at most.
+                queue: &'static mut Queue<16>,
             }
 
             #[local]
             struct Local {
                 tick_timer: TickTimer,
-                events: Producer<'static, Event>,
                 idle: Idle,
             }
 
-            // Sixteen events: idle drains them after every tick, which has four a side at most.
-            #[init(local = [queue: Queue<Event, 17> = Queue::new(), place: Place = Place::new()])]
+            #[init(local = [queue: Queue<16> = Queue::new(), place: Place = Place::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
                 let module = program::start(cx.core, cx.local.place);
-                let (events, logged) = cx.local.queue.split();
                 let local = Local {
                     tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
-                    events,
-                    idle: Idle::new(logged),
+                    idle: Idle::new(),
                 };
-                (Shared { module }, local)
+                let queue = cx.local.queue;
+                (Shared { module, queue }, local)
             }
 
-            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, events])]
-            fn tick(cx: tick::Context) {
+            #[task(binds = $tick, priority = 2, shared = [module, queue], local = [tick_timer])]
+            fn tick(mut cx: tick::Context) {
                 cx.local.tick_timer.acknowledge();
-                program::tick(cx.shared.module, cx.local.events);
+                program::tick(cx.shared.module, |event| {
+                    cx.shared.queue.lock(|queue| queue.put(event))
+                });
             }
 
             #[task(binds = $left, priority = 2, shared = [module])]
@@ -251,10 +248,10 @@ macro_rules! program {
                 program::end_of_frame(cx.shared.module, 1);
             })?
 
-            #[idle(local = [idle])]
-            fn idle(cx: idle::Context) -> ! {
+            #[idle(shared = [queue], local = [idle])]
+            fn idle(mut cx: idle::Context) -> ! {
                 loop {
-                    cx.local.idle.run();
+                    cx.local.idle.run(|| cx.shared.queue.lock(|queue| queue.take()));
                     cortex_m::asm::wfi();
                 }
             }
