@@ -7,7 +7,7 @@ use crate::emulate::Task;
 use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
-use crate::{arrows, cost, count, docs, emulate, readme, size};
+use crate::{arrows, cost, count, docs, emulate, panics, readme, size};
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -29,6 +29,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("README's commands", readme::all)?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, three scenes", size::short)?;
+    steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated board, one side and two", board)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;

@@ -88,7 +88,17 @@ pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     Ok(elf(board))
 }
 
-/// The same, quietly, and told apart: the ELF file, or why the board does not
+/// The same, with checks of overflow, which panic.
+///
+/// # Errors
+/// As [`build`].
+pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
+    let checks = ["--config", "profile.firmware.overflow-checks=true"];
+    run(compiler(board, &find(scene)?).args(checks))?;
+    Ok(elf(board))
+}
+
+/// As [`build`], quietly, and told apart: the ELF file, or why the board does not
 /// take the scene.
 ///
 /// # Errors

@@ -5,10 +5,12 @@ mod ci;
 mod cost;
 mod count;
 mod docs;
+mod elf;
 mod emulate;
 mod figures;
 mod firmware;
 mod nightly;
+mod panics;
 mod readme;
 mod run;
 mod size;
@@ -93,6 +95,15 @@ enum Command {
         /// scene leaves out
         #[arg(long)]
         check: bool,
+    },
+    /// Shows from the binaries that no panic can be reached: from the interrupts of the
+    /// tick none at all, from the start and idle none but the logger's own check
+    Panics {
+        /// The scenes; without any, every scene
+        scenes: Vec<PathBuf>,
+        /// The board; without one, every board
+        #[arg(long, value_parser = firmware::Board::named)]
+        board: Option<firmware::Board>,
     },
     /// Measures the time that host-sim takes for a tick of an elastic whisker, free
     /// and in lasting contact, beside another host-sim if there is one
@@ -199,6 +210,7 @@ fn main() -> ExitCode {
         Command::Cost { csv, check, .. } => cost::all(csv.as_deref(), check),
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
+        Command::Panics { scenes, board } => panics::all(board, &scenes),
         Command::Speed(choice) => speed::speed(&choice),
         Command::Docs { check, quick: true } => docs::quick(check),
         Command::Docs { check, .. } => docs::all(check),

@@ -9,7 +9,7 @@ use crate::emulate::Task;
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, output, run, target};
 use crate::steps::Steps;
-use crate::{cost, emulate, size};
+use crate::{cost, emulate, panics, size};
 
 /// In how many nights every mutation is tried once.
 const NIGHTS: u64 = 7;
@@ -23,6 +23,9 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("lints of every board", lints);
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)
+    });
+    steps.try_run("a panic would be found on every board", || {
+        Board::ALL.into_iter().try_for_each(panics::control)
     });
     steps.try_run("every scene on the emulated board", boards);
     steps.try_run("counts and cost of every stage", || cost::all(None, true));

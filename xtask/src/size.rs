@@ -1,19 +1,19 @@
 //! What the firmware of each scene takes on each board: flash, static RAM and
-//! stack; and that it holds what the scene names and nothing else. The table is
-//! committed, so that a program cannot grow unseen.
+//! stack; that it holds what the scene names and nothing else; and that no panic can be
+//! reached in it. The table is committed, so that a program cannot grow unseen.
 
-mod contents;
 mod host;
 mod parts;
 mod stack;
 mod table;
-mod thumb;
 
 use std::path::Path;
 
 use scene::{Deciding, Scene};
 
+use crate::elf::contents;
 use crate::firmware::{self, Board, Size};
+use crate::panics;
 use crate::run::{Fault, listing, read_bytes, top};
 use parts::{Named, Seen};
 use table::Row;
@@ -124,6 +124,10 @@ impl Measured {
         };
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
         self.wrong.extend(misfits);
+        if let Err(fault) = panics::check(&elf) {
+            let place = format!("{} on {}", path.display(), board.name);
+            self.wrong.push(format!("{place}: {fault}"));
+        }
         self.rows.push(measured(board, &scene, &elf, host)?);
         Ok(None)
     }

@@ -17,6 +17,9 @@ type Bytes<'a> = EndianSlice<'a, LittleEndian>;
 type Unit<'a> = gimli::Unit<Bytes<'a>>;
 type Entry<'u, 'a> = gimli::DebuggingInformationEntry<'u, 'u, Bytes<'a>>;
 
+/// Begin and end of a piece of code.
+pub(crate) type Piece = [u64; 2];
+
 /// Flash of every board, and room for more of it. What the linker dropped has
 /// addresses outside.
 const FLASH: Range<u64> = 0x0800_0000..0x0900_0000;
@@ -32,10 +35,10 @@ const REFERENCES: usize = 8;
 ///
 /// # Errors
 /// If the file cannot be read or has no debug information.
-pub(super) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
-    let names = names(elf, |dwarf, units, unit, entry| {
+pub(crate) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
+    let names = entries(elf, |dwarf, units, unit, entry| {
         let is_code = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
-        if is_code.contains(&entry.tag()) && is_in_flash(dwarf, unit, entry)? {
+        if is_code.contains(&entry.tag()) && !in_flash(dwarf, unit, entry)?.is_empty() {
             name(dwarf, units, unit, entry)
         } else {
             Ok(None)
@@ -51,8 +54,8 @@ pub(super) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
 ///
 /// # Errors
 /// If the file cannot be read.
-pub(super) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
-    let types = names(elf, |dwarf, _, unit, entry| {
+pub(crate) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
+    let types = entries(elf, |dwarf, _, unit, entry| {
         match (entry.tag(), entry.attr_value(gimli::DW_AT_name)?) {
             (gimli::DW_TAG_structure_type, Some(name)) => {
                 let name = dwarf.attr_string(unit, name)?;
@@ -70,11 +73,29 @@ pub(super) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
     Ok(sides.into_iter().collect())
 }
 
+/// Where the code of functions stands that are inside others, of those whose names
+/// `are_meant`: begin and end of each piece.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn inlined(elf: &Path, are_meant: impl Fn(&str) -> bool) -> Result<Vec<Piece>, Fault> {
+    let pieces = entries(elf, |dwarf, units, unit, entry| {
+        if entry.tag() != gimli::DW_TAG_inlined_subroutine {
+            return Ok(None);
+        }
+        match name(dwarf, units, unit, entry)? {
+            Some(name) if are_meant(&name) => in_flash(dwarf, unit, entry).map(Some),
+            _ => Ok(None),
+        }
+    })?;
+    Ok(pieces.into_iter().flatten().collect())
+}
+
 /// How often `bytes` stand in flash.
 ///
 /// # Errors
 /// If the file cannot be read.
-pub(super) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
+pub(crate) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
     with_elf(elf, |file| {
         let mut found = 0;
         for name in SECTIONS {
@@ -88,15 +109,15 @@ pub(super) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
 }
 
 /// What `pick` finds in the entries of the debug information of `elf`.
-fn names(
+fn entries<T: Ord>(
     elf: &Path,
     pick: impl for<'a> Fn(
         &Dwarf<Bytes<'a>>,
         &[Unit<'a>],
         &Unit<'a>,
         &Entry<'_, 'a>,
-    ) -> Result<Option<String>, gimli::Error>,
-) -> Result<BTreeSet<String>, Fault> {
+    ) -> Result<Option<T>, gimli::Error>,
+) -> Result<BTreeSet<T>, Fault> {
     with_elf(elf, |file| {
         let section = |id: gimli::SectionId| -> Result<Bytes<'_>, gimli::Error> {
             let data = file.section_by_name(id.name()).map(|s| s.data());
@@ -109,29 +130,31 @@ fn names(
         while let Some(header) = headers.next()? {
             units.push(dwarf.unit(header)?);
         }
-        let mut names = BTreeSet::new();
+        let mut found = BTreeSet::new();
         for unit in &units {
             let mut entries = unit.entries();
             while let Some((_, entry)) = entries.next_dfs()? {
-                names.extend(pick(&dwarf, &units, unit, entry)?);
+                found.extend(pick(&dwarf, &units, unit, entry)?);
             }
         }
-        Ok::<_, gimli::Error>(names)
+        Ok::<_, gimli::Error>(found)
     })
 }
 
-fn is_in_flash<'a>(
+/// Where the code of an entry stands in flash.
+fn in_flash<'a>(
     dwarf: &Dwarf<Bytes<'a>>,
     unit: &Unit<'a>,
     entry: &Entry<'_, 'a>,
-) -> Result<bool, gimli::Error> {
+) -> Result<Vec<Piece>, gimli::Error> {
     let mut ranges = dwarf.die_ranges(unit, entry)?;
+    let mut pieces = Vec::new();
     while let Some(range) = ranges.next()? {
         if FLASH.contains(&range.begin) && range.end > range.begin {
-            return Ok(true);
+            pieces.push([range.begin, range.end]);
         }
     }
-    Ok(false)
+    Ok(pieces)
 }
 
 /// The demangled name of a function, which may stand with what the entry is an

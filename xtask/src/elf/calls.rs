@@ -1,0 +1,180 @@
+//! Which function of a program calls which, from its instructions, and where its
+//! interrupts begin.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::path::Path;
+
+use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
+
+use super::thumb::{self, Step};
+use crate::firmware::with_elf;
+use crate::run::Fault;
+
+/// Words of the vector table before the chip's interrupts.
+const CORE_VECTORS: usize = 16;
+/// The word of the reset.
+const RESET: usize = 1;
+
+/// A function of the program.
+pub(crate) struct Function {
+    pub(crate) name: String,
+    /// Its addresses.
+    pub(crate) range: Range<u64>,
+    /// Bytes of stack that it takes itself.
+    pub(crate) own: u64,
+    /// Where those begin that it calls.
+    pub(crate) calls: BTreeSet<u64>,
+    /// It calls through a pointer.
+    pub(crate) is_open: bool,
+    /// It holds an instruction that stops the program: an abort.
+    pub(crate) traps: bool,
+}
+
+/// The functions of a program, and where the hardware enters it.
+pub(crate) struct Calls {
+    functions: BTreeMap<u64, Function>,
+    /// The addresses in the vector table, without the bit that says Thumb.
+    vectors: Vec<u64>,
+}
+
+impl Calls {
+    /// Of an ELF file.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
+        with_elf(elf, |file| {
+            Ok::<_, object::Error>(Self {
+                functions: functions(file)?,
+                vectors: vectors(file)?,
+            })
+        })
+    }
+
+    /// Of functions that name one another by address, entered at the first.
+    #[cfg(test)]
+    pub(crate) fn among(functions: impl IntoIterator<Item = Function>) -> Self {
+        let functions = functions.into_iter().map(|f| (f.range.start, f));
+        Self {
+            functions: functions.collect(),
+            vectors: Vec::new(),
+        }
+    }
+
+    /// The function that begins there.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(crate) fn at(&self, begin: u64) -> Result<&Function, Fault> {
+        let unknown = || format!("{begin:#x} is called, and no function begins there");
+        self.functions.get(&begin).ok_or_else(unknown)
+    }
+
+    /// Where the program begins.
+    ///
+    /// # Errors
+    /// If it has no vectors.
+    pub(crate) fn reset(&self) -> Result<u64, Fault> {
+        let reset = self.vectors.get(RESET).copied();
+        reset.ok_or_else(|| "no vectors".to_owned())
+    }
+
+    /// Where the interrupts of tasks begin.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub(crate) fn tasks(&self) -> Result<Vec<u64>, Fault> {
+        // Interrupts without a task share one handler, which is a fault.
+        let vectors = self.vectors.get(CORE_VECTORS..).unwrap_or_default();
+        let is_alone = |task: &u64| vectors.iter().filter(|other| *other == task).count() == 1;
+        let tasks = vectors.iter().copied();
+        let tasks: Vec<u64> = tasks.filter(|t| *t != 0 && is_alone(t)).collect();
+        if tasks.is_empty() {
+            return Err("no task is bound to an interrupt".to_owned());
+        }
+        Ok(tasks)
+    }
+
+    /// Where the functions begin whose names contain `part`.
+    pub(crate) fn named(&self, part: &str) -> Vec<u64> {
+        let functions = self.functions.iter();
+        let named = functions.filter(|(_, function)| function.name.contains(part));
+        named.map(|(begin, _)| *begin).collect()
+    }
+}
+
+fn vectors(file: &object::File<'_>) -> Result<Vec<u64>, object::Error> {
+    let Some(section) = file.section_by_name(".vector_table") else {
+        return Ok(Vec::new());
+    };
+    let words = section.data()?.as_chunks::<4>().0;
+    let address = |word: &[u8; 4]| u64::from(u32::from_le_bytes(*word) & !1);
+    Ok(words.iter().map(address).collect())
+}
+
+/// The functions, by where they begin.
+fn functions(file: &object::File<'_>) -> Result<BTreeMap<u64, Function>, object::Error> {
+    let mut functions = BTreeMap::new();
+    let Some(text) = file.section_by_name(".text") else {
+        return Ok(functions);
+    };
+    let (data, origin) = (text.data()?, text.address());
+    // `$t` and `$d` say where instructions and where constants begin.
+    let mut is_code = BTreeMap::new();
+    for symbol in file.symbols() {
+        match symbol.name()?.get(..2) {
+            Some("$t") => is_code.insert(symbol.address(), true),
+            Some("$d") => is_code.insert(symbol.address(), false),
+            _ => None,
+        };
+    }
+    let is_instruction = |address: u64| {
+        let mark = is_code.range(..=address).next_back();
+        mark.is_none_or(|(_, is_code)| *is_code)
+    };
+    for symbol in file.symbols() {
+        let begin = symbol.address() & !1;
+        let range = begin..begin + symbol.size();
+        if symbol.kind() != SymbolKind::Text || range.is_empty() {
+            continue;
+        }
+        let place = range.start.checked_sub(origin);
+        let place = place.zip(range.end.checked_sub(origin));
+        let Some(body) = place.and_then(|(from, to)| data.get(from as usize..to as usize)) else {
+            continue;
+        };
+        let name = format!("{:#}", rustc_demangle::demangle(symbol.name()?));
+        functions.insert(begin, function(name, range, body, is_instruction));
+    }
+    Ok(functions)
+}
+
+fn function(
+    name: String,
+    range: Range<u64>,
+    body: &[u8],
+    is_instruction: impl Fn(u64) -> bool,
+) -> Function {
+    let steps = thumb::steps(body, range.start, is_instruction);
+    let mut function = Function {
+        name,
+        range,
+        own: 0,
+        calls: BTreeSet::new(),
+        is_open: false,
+        traps: false,
+    };
+    for step in steps {
+        match step {
+            Step::Push(bytes) => function.own += bytes,
+            Step::Go(to) if function.range.contains(&to) => {}
+            Step::Go(to) => {
+                function.calls.insert(to);
+            }
+            Step::Open => function.is_open = true,
+            Step::Trap => function.traps = true,
+        }
+    }
+    function
+}

@@ -1,0 +1,266 @@
+//! That no panic can be reached, shown from the binary: from the interrupts of the tick
+//! and of the sensors' frames there is no way to one, through calls or through code that
+//! stands inside other functions, and none through a pointer; from the reset, and so from
+//! idle, there is none but the logger's own check.
+//!
+//! Two controls: the same walk finds the logger's panic from the handlers of faults,
+//! which write a last line; and it finds panics in the tick of a program that is built
+//! with checks of overflow.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::elf::calls::Calls;
+use crate::elf::contents::{self, Piece};
+use crate::firmware::{self, Board};
+use crate::run::{Fault, listing, top};
+
+/// Where every panic goes.
+const PANICS: [&str; 2] = ["core::panicking::", "rust_begin_unwind"];
+
+/// Ends that are meant: motor off, a last line, reset. An interrupt has none.
+const MEANT: &str = "board::faults::";
+
+/// The logger panics if a line is begun within a line, or ended without being begun. The
+/// macros of defmt do neither; only idle and the start write lines.
+const LOGGER: [&str; 2] = ["_defmt_acquire", "_defmt_release"];
+
+/// What stops the program if `main` returns, which it cannot.
+const START: &str = "Reset";
+
+/// The scene of the second control: all parts.
+const CONTROL: &str = "scenes/full.toml";
+
+/// What the walk over a program has seen.
+pub(crate) struct Proven {
+    /// Functions of its interrupts, and how many of these there are.
+    tick: usize,
+    interrupts: usize,
+    /// Functions of the start and of idle.
+    idle: usize,
+}
+
+/// Checks the scenes, or every one, on `board`, or on every one, and sees that a panic
+/// would be found.
+///
+/// # Errors
+/// Every way to a panic; or if something cannot be built or read.
+pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault> {
+    let every = listing(&top().join("scenes"), "toml")?;
+    let scenes = if scenes.is_empty() { &every } else { scenes };
+    for board in board.map_or(Board::ALL.to_vec(), |board| vec![board]) {
+        for scene in scenes {
+            let name = scene.file_stem().unwrap_or_default().display();
+            match firmware::try_build(board, scene)? {
+                Ok(elf) => {
+                    let Proven {
+                        tick,
+                        interrupts,
+                        idle,
+                    } = check(&elf).map_err(|fault| format!("{name}, {}: {fault}", board.name))?;
+                    println!(
+                        "{name}, {}: no way to a panic in {tick} functions of {interrupts} \
+                         interrupts; in {idle} of start and idle only the logger's",
+                        board.name
+                    );
+                }
+                Err(reason) => println!("{name}, {}: {reason}", board.name),
+            }
+        }
+        control(board)?;
+    }
+    Ok(())
+}
+
+/// Checks a program, and that the logger's panic is seen from its handlers of faults.
+///
+/// # Errors
+/// Every way to a panic, or if the file cannot be read.
+pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
+    let program = Program::of(elf)?;
+    let tasks = program.calls.tasks()?;
+    let tick = program.walk(&tasks, &[])?;
+    let mut wrong = tick.ends.clone();
+    wrong.extend(tick.meant.iter().cloned());
+    let start = [program.calls.reset()?];
+    let idle = program.walk(&start, &LOGGER)?;
+    wrong.extend(idle.ends);
+    let handlers = program.calls.named(MEANT);
+    if program.walk(&handlers, &[])?.ends.is_empty() {
+        wrong.push("the logger's panic is not seen from the handlers of faults".to_owned());
+    }
+    if wrong.is_empty() {
+        Ok(Proven {
+            tick: tick.functions,
+            interrupts: tasks.len(),
+            idle: idle.functions,
+        })
+    } else {
+        Err(wrong.join("\n"))
+    }
+}
+
+/// Builds [`CONTROL`] with checks of overflow and sees panics found in its interrupts.
+///
+/// # Errors
+/// If none is found, or it cannot be built.
+pub(crate) fn control(board: Board) -> Result<(), Fault> {
+    let elf = firmware::build_checked(board, Path::new(CONTROL))?;
+    let program = Program::of(&elf)?;
+    let ways = program.walk(&program.calls.tasks()?, &[])?.ends;
+    let [first, more @ ..] = ways.as_slice() else {
+        return Err(format!("control, {}: no panic is found", board.name));
+    };
+    let more = more.len();
+    println!("control, {}: {first} is found, and {more} more", board.name);
+    Ok(())
+}
+
+/// A program and the panics that stand inside its functions.
+struct Program {
+    calls: Calls,
+    inlined: Vec<Piece>,
+}
+
+/// What a walk comes to.
+#[derive(Default)]
+struct Walk {
+    functions: usize,
+    /// Each panic, abort and call through a pointer, with the way to it.
+    ends: Vec<String>,
+    /// The same for [`MEANT`].
+    meant: Vec<String>,
+}
+
+fn is_panic(name: &str) -> bool {
+    PANICS.iter().any(|panic| name.contains(panic))
+}
+
+impl Program {
+    fn of(elf: &Path) -> Result<Self, Fault> {
+        Ok(Self {
+            calls: Calls::of(elf)?,
+            inlined: contents::inlined(elf, is_panic)?,
+        })
+    }
+
+    /// Follows every call from the functions that begin at `from`; panics of the functions
+    /// named `but` do not count.
+    fn walk(&self, from: &[u64], but: &[&str]) -> Result<Walk, Fault> {
+        let mut walk = Walk::default();
+        // Each function that was reached, and from where.
+        let mut reached: BTreeMap<u64, Option<u64>> = BTreeMap::new();
+        let mut open: Vec<(u64, Option<u64>)> = from.iter().map(|begin| (*begin, None)).collect();
+        while let Some((begin, caller)) = open.pop() {
+            if reached.contains_key(&begin) {
+                continue;
+            }
+            reached.insert(begin, caller);
+            let function = self.calls.at(begin)?;
+            let way = || self.way(&reached, begin);
+            if is_panic(&function.name) {
+                let caller = caller.and_then(|caller| self.calls.at(caller).ok());
+                if !caller.is_some_and(|caller| but.contains(&caller.name.as_str())) {
+                    walk.ends.push(way());
+                }
+                // Another caller's way to it must be seen, too.
+                reached.remove(&begin);
+                continue;
+            }
+            if function.name.contains(MEANT) && caller.is_some() {
+                walk.meant.push(way());
+                continue;
+            }
+            walk.functions += 1;
+            let range = &function.range;
+            let is_inside = |[from, to]: &Piece| *from < range.end && range.start < *to;
+            let is_excused = but.contains(&function.name.as_str());
+            if self.inlined.iter().any(is_inside) && !is_excused {
+                walk.ends.push(way() + " → a panic inside");
+            }
+            if function.is_open {
+                walk.ends.push(way() + " → a pointer");
+            }
+            if function.traps && function.name != START {
+                walk.ends.push(way() + " → an abort");
+            }
+            open.extend(function.calls.iter().map(|call| (*call, Some(begin))));
+        }
+        Ok(walk)
+    }
+
+    /// The names of the functions on the way to the one at `begin`.
+    fn way(&self, reached: &BTreeMap<u64, Option<u64>>, begin: u64) -> String {
+        let back = std::iter::successors(Some(begin), |at| reached.get(at).copied().flatten());
+        let name = |at: u64| self.calls.at(at).map_or("?", |function| &function.name);
+        let mut names: Vec<&str> = back.map(name).collect();
+        names.reverse();
+        names.join(" → ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LOGGER, Program, Walk};
+    use crate::elf::calls::{Calls, Function};
+
+    fn function(name: &str, begin: u64, calls: &[u64]) -> Function {
+        Function {
+            name: name.to_owned(),
+            range: begin..begin + 16,
+            own: 0,
+            calls: calls.iter().copied().collect(),
+            is_open: false,
+            traps: false,
+        }
+    }
+
+    fn walk(functions: impl IntoIterator<Item = Function>, inlined: [u64; 2]) -> Walk {
+        let calls = Calls::among(functions);
+        let inlined = vec![inlined];
+        Program { calls, inlined }.walk(&[0], &LOGGER).unwrap()
+    }
+
+    const NOWHERE: [u64; 2] = [800, 804];
+
+    #[test]
+    fn every_way_to_a_panic_is_told() {
+        let panic = || function("core::panicking::panic_fmt", 64, &[]);
+        let (a, b) = (function("a", 16, &[64]), function("b", 32, &[16, 64]));
+        let found = walk([function("tick", 0, &[16, 32]), a, b, panic()], NOWHERE);
+        let mut ends = found.ends;
+        ends.sort();
+        let [of_a, of_b] = ends.as_slice() else {
+            panic!("{ends:?}");
+        };
+        assert!(of_a.ends_with("a → core::panicking::panic_fmt"), "{of_a}");
+        assert_eq!(of_b, "tick → b → core::panicking::panic_fmt");
+        assert_eq!(found.functions, 3);
+        // A circle ends, and what nobody calls does not count.
+        let (a, b) = (function("a", 16, &[32]), function("b", 32, &[16]));
+        let found = walk([function("tick", 0, &[16]), a, b, panic()], NOWHERE);
+        assert_eq!((found.ends.len(), found.functions), (0, 3));
+    }
+
+    #[test]
+    fn pointers_aborts_and_inlined_panics_are_told() {
+        let mut tick = function("tick", 0, &[]);
+        (tick.is_open, tick.traps) = (true, true);
+        let found = walk([tick], [12, 20]);
+        let all = ["a panic inside", "a pointer", "an abort"];
+        assert_eq!(found.ends, all.map(|end| format!("tick → {end}")));
+    }
+
+    #[test]
+    fn meant_ends_and_the_logger_are_told_apart() {
+        let panic = function("core::panicking::panic_fmt", 64, &[]);
+        let logger = function(LOGGER[0], 16, &[64]);
+        let die = function("board::faults::die", 32, &[64]);
+        let found = walk(
+            [function("idle", 0, &[16, 32]), logger, die, panic],
+            [16, 20],
+        );
+        assert_eq!(found.ends, [""; 0]);
+        assert_eq!(found.meant, ["idle → board::faults::die"]);
+    }
+}
