@@ -136,14 +136,14 @@ fn gains_stay_within_0_and_2_whatever_is_commanded() {
         let commanded = [0.5, 2.0, 0.0, 3.0, -1.0].map(R::from_f64);
         for gain_wanted in commanded.iter().chain(wild) {
             module.command(SECOND, Command::Gain(*gain_wanted)).unwrap();
-            let nominal = module.motion().state().whiskers[0][1].nominal;
+            let nominal = module.motion().state().whiskers[0][1].nominal();
             let expected = gain_wanted.clamp(R::ZERO, R::TWO);
             assert_eq!(nominal, expected);
             for _ in 0..20 {
                 assert!((0.0..=2.0).contains(&gain(&module)), "{}", gain(&module));
                 tick(&mut module, &config);
             }
-            assert_eq!(module.motion().state().whiskers[0][0].nominal, R::ONE);
+            assert_eq!(module.motion().state().whiskers[0][0].nominal(), R::ONE);
         }
     }
     check::<f32>(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
