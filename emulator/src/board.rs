@@ -60,8 +60,9 @@ pub(crate) struct Board {
     pub(crate) reset: Option<ResetCause>,
 }
 
-/// Longer than the slowest tick with anything that may delay it.
-const PATIENCE: Ps = 1_000_000_000_000;
+/// Longer than the slowest tick with anything that may delay it: a fault handler waits for
+/// the probe before the watchdog resets the chip.
+const PATIENCE: Ps = 3_000_000_000_000;
 
 fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
     let scaled = u64::from(on) * u64::from(PWM_MAX) / u64::from(period.max(1));
@@ -107,6 +108,24 @@ impl Board {
         }
         self.outputs();
         self.drain()
+    }
+
+    /// Resets the chip now.
+    pub(crate) fn reset_now(&mut self, cause: ResetCause) -> Result<(), Fault> {
+        self.reset = Some(cause);
+        self.watch.restart();
+        self.machine.reset(cause)
+    }
+
+    /// Lets `time` pass on the chip alone; whether the tick ends within it.
+    pub(crate) fn run_for(&mut self, time: Ps) -> Result<bool, Fault> {
+        let until = self.machine.now + time;
+        match self.machine.run(until, &mut self.sensors, &mut ())? {
+            Stop::Time => Ok(false),
+            Stop::Tick => Ok(true),
+            Stop::Reset(cause) => Err(Fault::Reset(cause)),
+            Stop::Ready => Err(Fault::Asleep),
+        }
     }
 
     /// Ticks that the module has counted as missed since it started.

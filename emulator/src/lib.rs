@@ -28,5 +28,6 @@ pub mod picture;
 mod program;
 mod rtt;
 pub mod sensor_loss;
+pub mod starting;
 mod trouble;
 mod watch;

@@ -20,6 +20,9 @@ const FRAMES: [u32; 2] = [FRAME_IRQS[0] as u32 + 16, FRAME_IRQS[1] as u32 + 16];
 /// The exception number in xPSR.
 const EXCEPTION: u32 = 0x1FF;
 
+/// Between flash and RAM.
+const NOWHERE: u32 = 0x1800_0000;
+
 /// Instructions of the tick's handler before it is held.
 const HOLD_AFTER: u64 = 200;
 
@@ -80,6 +83,8 @@ pub(crate) struct Machine {
     /// For how long the core is to be held, and before which instruction of the tick.
     hold: Ps,
     hold_at: u64,
+    /// Whether it is to crash there.
+    crash: bool,
     spent: Spent,
 }
 
@@ -103,6 +108,7 @@ impl Machine {
             ready: false,
             hold: 0,
             hold_at: u64::MAX,
+            crash: false,
             spent: Spent::default(),
         })
     }
@@ -123,6 +129,12 @@ impl Machine {
     /// peripherals go on: a tick that is too long.
     pub(crate) const fn hold_next_tick(&mut self, time: Ps) {
         self.hold = time;
+    }
+
+    /// Lets the core run into nothing in the middle of the next tick: there is no memory
+    /// where it goes on.
+    pub(crate) const fn crash_next_tick(&mut self) {
+        self.crash = true;
     }
 
     /// Runs, with `sensors` on the wires, the left one first, until the tick's handler
@@ -172,7 +184,7 @@ impl Machine {
             if self.exception == TICK {
                 let latency = self.now - self.shared.chip().tick_began();
                 observer.tick_begins(self.now, latency, &self.spent);
-                if self.hold > 0 {
+                if self.hold > 0 || self.crash {
                     self.hold_at = self.spent.tick + HOLD_AFTER;
                 }
             }
@@ -188,6 +200,9 @@ impl Machine {
         if self.spent.tick == self.hold_at {
             self.hold_at = u64::MAX;
             self.now += std::mem::take(&mut self.hold);
+            if std::mem::take(&mut self.crash) {
+                self.core.set_pc(NOWHERE);
+            }
         }
         if before == TICK && self.exception == 0 {
             observer.tick_ends(self.now, &self.spent);
@@ -223,7 +238,8 @@ impl Machine {
         Ok(reset)
     }
 
-    fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
+    /// Resets the chip; RAM keeps its contents.
+    pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.core = core(&self.memories, &self.shared)?;
         let mut chip = self.shared.chip();
         chip.reset(cause)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss};
+use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss, starting};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -66,6 +66,9 @@ enum Command {
     /// Measures how long contact on one side takes to excite the other; fails if it does so
     /// in another tick than the one that reads it
     Latency(Flashed),
+    /// Resets the chip in every way that nobody asked for; fails if a motor is driven after it
+    /// before the user button is pressed
+    Starting(Flashed),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -125,6 +128,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Command::Overload(Flashed { scene, program }) => {
             report::say(overload::overload(&scene, &program)?.join("\n"));
+        }
+        Command::Starting(Flashed { scene, program }) => {
+            report::say(starting::start_again(&scene, &program)?.join("\n"));
         }
         Command::Latency(Flashed { scene, program }) => {
             let measured = latency::measure(&scene, &program)?;

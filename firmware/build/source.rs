@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use scene::{Deciding, Driver, Rule, Scene, Sides};
+use scene::{Arm, Deciding, Driver, Rule, Scene, Sides};
 use tactile::{Model, ModelBuf};
 use whisking::{Real, Source, Start};
 
@@ -86,6 +86,7 @@ where
     let (Some(motor), Some(plan)) = (&scene.motor, plan::motion::<R, S, 1>(scene)?) else {
         let items = vec![
             quote! { pub(crate) const HAS_MOTOR: bool = false; },
+            quote! { pub(crate) const ARMS_AT_START: bool = false; },
             quote! { pub(crate) type Motion = firmware::Passive; },
             quote! {
                 pub(crate) fn start_motion() -> Motion {
@@ -96,6 +97,7 @@ where
         let config = nothing();
         return Ok(Part { items, config });
     };
+    let arms_at_start = motor.arm == Arm::AtStart;
     let (motor, start_motor) = match motor.driver {
         Driver::HBridge => (quote! { Brushed }, quote! { super::motors::start_brushed }),
         Driver::SixStep => (
@@ -119,6 +121,7 @@ where
     };
     let items = vec![
         quote! { pub(crate) const HAS_MOTOR: bool = true; },
+        quote! { pub(crate) const ARMS_AT_START: bool = #arms_at_start; },
         quote! {
             pub(crate) type Motion = firmware::Active<
                 Number, super::motors::#motor, super::encoder::Encoder, #S, 1

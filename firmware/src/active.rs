@@ -30,12 +30,22 @@ pub struct ActiveConfig<R: Real, W = whisking::Config<R>, A = Absent> {
 pub struct Active<R: Real, M, A, const S: usize, const N: usize> {
     state: whisking::State<R, S, N>,
     servos: [[Servo<R, M, A>; N]; S],
+    is_armed: bool,
 }
 
 impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
-    /// A module at its start.
+    /// A module at its start, its motors not armed.
     pub const fn new(state: whisking::State<R, S, N>, servos: [[Servo<R, M, A>; N]; S]) -> Self {
-        Self { state, servos }
+        Self {
+            state,
+            servos,
+            is_armed: false,
+        }
+    }
+
+    /// Whether its motors are armed: otherwise they are off, and all else goes on.
+    pub const fn is_armed(&self) -> bool {
+        self.is_armed
     }
 
     /// Oscillators, gates and whiskers.
@@ -78,7 +88,7 @@ where
         for (side, (servos, whiskers)) in sides.enumerate() {
             for (w, (servo, whisker)) in servos.iter_mut().zip(whiskers).enumerate() {
                 let place = Place::new(side as u8, w as u8);
-                let may_run = readings[side][w].valid && !all_stop;
+                let may_run = self.is_armed && readings[side][w].valid && !all_stop;
                 servo.step(&config.servo, whisker.muscle.theta, may_run, place, events);
             }
         }
@@ -109,5 +119,12 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
             Command::Clear => at(&mut self.servos, place)?.clear(),
         }
         Ok(())
+    }
+
+    fn arm(&mut self, is_armed: bool) {
+        self.is_armed = is_armed;
+        if is_armed {
+            self.servos.iter_mut().flatten().for_each(Servo::clear);
+        }
     }
 }

@@ -3,7 +3,7 @@
 //! Durations are given in seconds or microseconds and become ticks at the
 //! scene's tick rate.
 
-use crate::{HoldLimits, Retry};
+use crate::{ButtonLimits, HoldLimits, Retry};
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
@@ -26,6 +26,20 @@ pub const RETRY_S: f64 = 1.0;
 
 /// Within how long too many faults give a motor up, s.
 pub const WINDOW_S: u32 = 60;
+
+/// How long a button's level must last, s: contacts bounce for a few milliseconds.
+pub const BUTTON_SETTLE_S: f64 = 0.02;
+
+/// How long a button may be held, s: whoever leans on it holds it for longer.
+pub const BUTTON_LONGEST_S: f64 = 1.0;
+
+/// What is a press of a button that is asked `tick_hz` times a second.
+pub const fn button(tick_hz: u32) -> ButtonLimits {
+    ButtonLimits {
+        settle: ticks(BUTTON_SETTLE_S, tick_hz),
+        longest: ticks(BUTTON_LONGEST_S, tick_hz),
+    }
+}
 
 /// For how long readings are held at `tick_hz` ticks a second.
 pub const fn hold_limits(tick_hz: u32) -> HoldLimits {

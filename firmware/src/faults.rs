@@ -11,6 +11,8 @@ pub enum Reaction {
     WhiskerOff,
     /// A fault of the board: every motor output low, then a line in the log, then a reset.
     AllOff,
+    /// A fault of the start: motors stay off, all else goes on.
+    NotArmed,
     /// A limit: the module goes on.
     GoesOn,
 }
@@ -24,8 +26,11 @@ pub enum Recovery {
     GoodFrames,
     /// Nothing to end: it was counted.
     Counted,
-    /// With the start after the reset; if its cause is still there, it comes again.
+    /// With the start after the reset, motors off until they are armed; if its cause is still
+    /// there, it comes again.
     Restart,
+    /// Once motors are armed.
+    Armed,
 }
 
 /// A fault or limit.
@@ -89,6 +94,7 @@ mod tests {
             let reaction = match row.number {
                 1..=31 => Reaction::WhiskerOff,
                 32..=47 => Reaction::GoesOn,
+                number::TOO_MANY_RESETS => Reaction::NotArmed,
                 _ => Reaction::AllOff,
             };
             assert_eq!(row.reaction, reaction, "{row:?}");

@@ -11,6 +11,7 @@
 //!   feels nothing. Whether the others go on is the scene's choice ([`StopAll`]).
 //! - *limit*: something out of the ordinary while the module still runs. Both are listed in
 //!   [`faults`].
+//! - *armed*: motors may be driven; a module that is not armed computes on.
 //! - *event*: what a tick reports; queued, and logged elsewhere.
 //! - *servo*: a whisker's motor, angle input and position control.
 //!
@@ -24,6 +25,7 @@
 #![cfg_attr(not(test), no_std)]
 
 mod active;
+mod button;
 pub mod design_parameters;
 mod event;
 pub mod faults;
@@ -32,11 +34,13 @@ mod module;
 mod motion;
 mod perception;
 mod queue;
+mod record;
 mod sensing;
 mod servo;
 mod timing;
 
 pub use active::{Active, ActiveConfig, StopAll};
+pub use button::{Button, ButtonLimits};
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
 pub use module::{Config, Module};
@@ -46,6 +50,7 @@ pub use perception::{
     shifts,
 };
 pub use queue::Queue;
+pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, ResetCause, Start};
 pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use timing::Timing;

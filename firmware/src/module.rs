@@ -173,6 +173,16 @@ where
     {
         self.motion.command(place, command)
     }
+
+    /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
+    /// off from the next tick on; all else goes on. A module starts with motors that are not
+    /// armed.
+    pub fn arm(&mut self, is_armed: bool)
+    where
+        M: MotorControl<R>,
+    {
+        self.motion.arm(is_armed);
+    }
 }
 
 /// The normalised reading, (code − 8192)/8191 limited to −1: what

@@ -43,6 +43,10 @@ pub trait MotorControl<R> {
     /// # Errors
     /// [`NoActiveWhisker`] if there is none at `place`.
     fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>;
+
+    /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
+    /// off from the next tick on. A module starts with motors that are not armed.
+    fn arm(&mut self, is_armed: bool);
 }
 
 /// Whiskers that hang still: no oscillator, muscle, motor or position control.
@@ -70,6 +74,8 @@ impl<R> MotorControl<R> for Passive {
     fn command(&mut self, _: Place, _: Command<R>) -> Result<(), NoActiveWhisker> {
         Err(NoActiveWhisker)
     }
+
+    fn arm(&mut self, _: bool) {}
 }
 
 /// Motion that is there or not at run time, for simulations of any scene. A
@@ -102,6 +108,12 @@ impl<R, M: MotorControl<R>> MotorControl<R> for Option<M> {
         match self {
             Some(motion) => motion.command(place, command),
             None => Err(NoActiveWhisker),
+        }
+    }
+
+    fn arm(&mut self, is_armed: bool) {
+        if let Some(motion) = self {
+            motion.arm(is_armed);
         }
     }
 }

@@ -33,8 +33,8 @@ pub const FAULTS: usize = 3;
 /// What a servo is doing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ServoState<R> {
-    /// The motor is off: before the first tick, while the whisker's sensor has a
-    /// fault, and where any fault [stops all](crate::StopAll).
+    /// The motor is off: before the first tick, while it is not armed or the whisker's
+    /// sensor has a fault, and where any fault [stops all](crate::StopAll).
     Off,
     /// It follows the setpoint.
     Running {

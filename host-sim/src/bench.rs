@@ -8,7 +8,7 @@ use firmware::{
 };
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
-use scene::{Deciding, PlantKind, Scene};
+use scene::{Arm, Deciding, PlantKind, Scene};
 use whisking::motor::{GuardSettings, StallConfig};
 use whisking::{Fix, Real, Start, filter};
 
@@ -71,6 +71,9 @@ pub trait HostModule: Bench + Send {
     /// [`NoActiveWhisker`].
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker>;
 
+    /// Arms the motors or keeps them off, from the next tick on.
+    fn arm(&mut self, is_armed: bool);
+
     /// What the classifier gets.
     fn tap(&mut self) -> Option<&mut Tap>;
 
@@ -92,6 +95,7 @@ struct Shaped<R: Real, const S: usize, const N: usize> {
     module: Module<R, Polled<Slave>, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
     config: HostConfig<R>,
     start: Option<Start<R, S, N>>,
+    arms_at_start: bool,
 }
 
 impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
@@ -155,6 +159,7 @@ where
         let perception = self.module.perception_mut().take();
         let perception = perception.map(Classifying::restarted);
         self.module = Module::new(sensors()?, motors, perception, NoClock);
+        self.module.arm(self.arms_at_start);
         Ok(())
     }
 
@@ -169,6 +174,10 @@ where
             Command::Clear => Command::Clear,
         };
         self.module.command(place, command)
+    }
+
+    fn arm(&mut self, is_armed: bool) {
+        self.module.arm(is_armed);
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {
@@ -310,11 +319,15 @@ where
         _ => None,
     };
     let perception = Some(Classifying::new(tap));
-    let module = Module::new(sensors()?, motors, perception, NoClock);
+    let motor = scene.motor.as_ref();
+    let arms_at_start = motor.is_some_and(|motor| motor.arm == Arm::AtStart);
+    let mut module = Module::new(sensors()?, motors, perception, NoClock);
+    module.arm(arms_at_start);
     Ok(Box::new(Shaped {
         module,
         config,
         start,
+        arms_at_start,
     }))
 }
 

@@ -157,6 +157,12 @@ impl Run {
         self.command(n, Command::Setpoint(theta))
     }
 
+    /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
+    /// off, from the next tick on.
+    pub fn arm(&mut self, is_armed: bool) {
+        self.bench.arm(is_armed);
+    }
+
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), Error> {
         let done = self.bench.command(n, command);
         done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))

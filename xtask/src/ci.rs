@@ -67,7 +67,7 @@ fn experiments() -> Result<(), Fault> {
 /// The board's own program on the emulated chip: PC and board agree, in single precision
 /// and in fixed point, with one side and with two; contact on one side excites the other
 /// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
-/// either side, are noticed.
+/// either side, are noticed, and no start that nobody asked for drives a motor.
 fn board() -> Result<(), Fault> {
     let board = firmware::Board::ALL[0];
     let do_all = |scene: &Path, tasks: &[Task]| -> Result<(), Fault> {
@@ -80,6 +80,7 @@ fn board() -> Result<(), Fault> {
         Task::Compare,
         Task::Deadlines(0.05),
         Task::Overload,
+        Task::Starting,
         Task::SensorLoss,
     ];
     do_all(Path::new(emulate::FULL), &one_side)?;

@@ -18,6 +18,8 @@ pub(crate) enum Task {
     Deadlines(f64),
     /// Makes ticks too long on purpose.
     Overload,
+    /// Resets the chip in every way that nobody asked for.
+    Starting,
     /// Breaks the sensors' wires on purpose.
     SensorLoss,
     /// Measures how long contact on one side takes to excite the other.
@@ -39,6 +41,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Compare => "compare",
         Task::Deadlines(_) => "deadlines",
         Task::Overload => "overload",
+        Task::Starting => "starting",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
     };
@@ -46,7 +49,9 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     match task {
         Task::Run(out) => command.arg("--out").arg(absolute(out)?),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
-        Task::Compare | Task::Overload | Task::SensorLoss | Task::Latency => &mut command,
+        Task::Compare | Task::Overload | Task::Starting | Task::SensorLoss | Task::Latency => {
+            &mut command
+        }
     };
     run(command.arg("--program").arg(program))
 }

@@ -148,7 +148,7 @@ struct Emulate {
     #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
     board: firmware::Board,
     /// Where to write
-    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency"])]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency", "starting"])]
     out: Option<PathBuf>,
     /// Write nothing; compare every tick with host-sim
     #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
@@ -173,6 +173,10 @@ struct Emulate {
     /// Write nothing; measure how long contact on one side takes to excite the other
     #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss"])]
     latency: bool,
+    /// Write nothing; reset the chip in every way that nobody asked for, and see its motors
+    /// off until the user button is pressed
+    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency"])]
+    starting: bool,
 }
 
 impl Emulate {
@@ -182,6 +186,7 @@ impl Emulate {
             _ if self.overload => emulate::Task::Overload,
             _ if self.sensor_loss => emulate::Task::SensorLoss,
             _ if self.latency => emulate::Task::Latency,
+            _ if self.starting => emulate::Task::Starting,
             Some(out) => emulate::Task::Run(out),
             None => emulate::Task::Deadlines(self.minutes),
         };

@@ -51,7 +51,12 @@ fn boards() -> Result<(), Fault> {
         let both = emulate::noisiest()?;
         emulate::emulate(board, &both, &Task::Compare)?;
         for scene in [Path::new(emulate::FULL), &both] {
-            for task in [Task::Deadlines(10.0), Task::Overload, Task::SensorLoss] {
+            for task in [
+                Task::Deadlines(10.0),
+                Task::Overload,
+                Task::Starting,
+                Task::SensorLoss,
+            ] {
                 emulate::emulate(board, scene, &task)?;
             }
         }

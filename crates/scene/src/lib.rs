@@ -54,8 +54,8 @@ mod values;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
-    ClassifierSection, Deciding, Driver, Exchanged, HeadSection, MotorSection, Numbers, Obstacles,
-    OnFault, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
+    Arm, ClassifierSection, Deciding, Driver, Exchanged, HeadSection, MotorSection, Numbers,
+    Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene, ShaftChoice, ShaftName,
     ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 pub use whisking::{GateSettings, Integrator};

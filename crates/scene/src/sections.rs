@@ -16,7 +16,7 @@ mod whisking;
 pub(crate) use classifier::RuleName;
 pub use classifier::{ClassifierSection, Deciding, Rule};
 pub use head::{HeadSection, Sides};
-pub use motor::{Driver, MotorSection, OnFault};
+pub use motor::{Arm, Driver, MotorSection, OnFault};
 pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
@@ -62,9 +62,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Fourteen of the motor, two of the plant, one of the head, of whisking and of the
+        // Fifteen of the motor, two of the plant, one of the head, of whisking and of the
         // classifier.
-        assert_eq!(defaults, 19);
+        assert_eq!(defaults, 20);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 use super::Chip;
 use super::gpio::Role;
 use super::timers::TIM1;
-use super::wiring::{ENABLES, HALLS, PWM, PWM_FUNCTION, Pin, SIDES, SPI_FUNCTION};
+use super::wiring::{BUTTON, ENABLES, HALLS, PWM, PWM_FUNCTION, Pin, SIDES, SPI_FUNCTION};
 
 impl Chip {
     fn role(&self, Pin { port, number }: Pin) -> Role {
@@ -28,6 +28,11 @@ impl Chip {
         for (Pin { port, number }, high) in HALLS.into_iter().zip(levels) {
             self.gpio[port].drive(number, high);
         }
+    }
+
+    /// Presses the user button or lets it go.
+    pub(crate) fn set_button(&mut self, is_down: bool) {
+        self.gpio[BUTTON.port].drive(BUTTON.number, !is_down);
     }
 
     /// Duty on the motors' PWM pins, counts of a period of counts; zero where the pin

@@ -42,6 +42,7 @@ impl ResetCause {
     const fn flags(self) -> u32 {
         match self {
             Self::Power => BORRSTF | PINRSTF | PORRSTF,
+            Self::Pin => PINRSTF,
             Self::Watchdog => PINRSTF | IWDGRSTF,
             Self::Software => PINRSTF | SFTRSTF,
         }

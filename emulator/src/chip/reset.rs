@@ -7,6 +7,8 @@ pub enum ResetCause {
     Power,
     /// The independent watchdog.
     Watchdog,
+    /// The reset button.
+    Pin,
     /// The core asked for it (SYSRESETREQ).
     Software,
 }

@@ -109,5 +109,7 @@ pub(super) const PWM: [Pin; 3] = [Pin::new('A', 8), Pin::new('A', 9), Pin::new('
 pub(super) const PWM_FUNCTION: u32 = 1;
 /// Enable inputs of three half-bridges.
 pub(super) const ENABLES: [Pin; 3] = [Pin::new('C', 10), Pin::new('C', 11), Pin::new('C', 12)];
+/// The user button, low while it is pressed.
+pub(super) const BUTTON: Pin = Pin::new('C', 13);
 /// Hall sensors of a brushless motor.
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];

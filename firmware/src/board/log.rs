@@ -1,7 +1,7 @@
 //! Lines of the log, by defmt over RTT. Texts stay on the PC; the board sends
 //! a number for each.
 //!
-//! Only idle writes here, and fault handlers. A line that finds no room in the
+//! Only the start writes here, idle, and fault handlers. A line that finds no room in the
 //! ring is dropped whole; nothing waits for the probe.
 #![allow(
     clippy::match_same_arms,
@@ -9,12 +9,12 @@
 )]
 
 use firmware::faults::number;
-use firmware::{Place, SensorFault};
+use firmware::{NotArmed, Place, ResetCause, SensorFault, Start};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
 use super::counters::TICKS;
-use super::reset::{Cause, ClockError};
+use super::reset::ClockError;
 use super::scene::{HEARS_SEVERAL, NAME, TICK_HZ};
 use crate::here::CLOCKS;
 
@@ -32,7 +32,7 @@ defmt::timestamp!("{=u32:ms}", {
 const US: u32 = CLOCKS.counter_hz / 1_000_000;
 
 /// The first lines after a reset.
-pub(crate) fn start(cause: Cause) {
+pub(crate) fn start(cause: ResetCause, start: &Start) {
     defmt::info!(
         "whisker {=str}: scene {=str}, {=u32} ticks a second",
         env!("CARGO_PKG_VERSION"),
@@ -40,12 +40,40 @@ pub(crate) fn start(cause: Cause) {
         TICK_HZ
     );
     match cause {
-        Cause::Watchdog => fatal(number::WATCHDOG),
-        Cause::Software => defmt::info!("reset by software"),
-        Cause::Power => defmt::info!("reset by power-up"),
-        Cause::Pin => defmt::info!("reset by the reset pin"),
-        Cause::Other => defmt::info!("reset, cause unknown"),
+        ResetCause::Watchdog => fatal(number::WATCHDOG),
+        ResetCause::Software => defmt::info!("reset by software"),
+        ResetCause::Power => defmt::info!("reset by power-up"),
+        ResetCause::BrownOut => fatal(number::SUPPLY),
+        ResetCause::Pin => defmt::info!("reset by the reset pin"),
+        ResetCause::Other => defmt::warn!("reset, cause unknown"),
     }
+    let (starts, fault) = (start.number, start.fault);
+    if fault == 0 {
+        defmt::info!("start {=u32} since power-up, no fault", starts);
+    } else {
+        defmt::warn!(
+            "start {=u32} since power-up, last fault {=u8}",
+            starts,
+            fault
+        );
+    }
+}
+
+/// The motors are off until the user button is pressed.
+pub(crate) fn not_armed(reason: NotArmed) {
+    match reason {
+        NotArmed::After(number) => {
+            let [name, _] = texts(number);
+            defmt::warn!("not armed: fault {=u8}, {=istr}", number, name);
+        }
+        NotArmed::Unknown => defmt::warn!("not armed: cause of the reset unknown"),
+        NotArmed::OnCommand => defmt::info!("not armed: the scene waits for the user button"),
+    }
+}
+
+/// The user button was pressed.
+pub(crate) fn armed() {
+    defmt::info!("armed by the user button");
 }
 
 macro_rules! texts {
@@ -70,7 +98,6 @@ pub(crate) fn fatal(number: u8) {
 
 /// The last lines where a clock did not start.
 pub(crate) fn clock(error: ClockError) {
-    fatal(number::NO_CLOCK);
     match error {
         ClockError::NoHse => defmt::error!("- no 8 MHz clock from the ST-LINK (PH0)"),
         ClockError::NoPll => defmt::error!("- the PLL does not run"),
@@ -186,10 +213,10 @@ pub(crate) fn motor_retry(place: Place) {
     );
 }
 
-/// A motor stays off until the board is reset.
+/// A motor stays off until it is armed again.
 pub(crate) fn motor_given_up(place: Place) {
     defmt::error!(
-        "{=str} {=u8}: three faults in a minute: motor off until reset",
+        "{=str} {=u8}: three faults in a minute: motor off until armed",
         place.side_name(),
         place.whisker
     );

@@ -61,6 +61,7 @@ pub(crate) use chip::*;
 #[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
+    use firmware::ResetCause;
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
@@ -72,7 +73,7 @@ mod chip {
     use super::dma::Route;
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{Cause, ClockError, wait};
+    use crate::board::reset::{ClockError, wait};
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
     use crate::board::wiring::{
@@ -116,14 +117,14 @@ mod chip {
     };
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> Cause {
+    pub(crate) fn reset_cause() -> ResetCause {
         let flags = RCC.csr().read();
         RCC.csr().modify(|w| w.set_rmvf(true));
-        Cause::first([
-            (flags.iwdgrstf(), Cause::Watchdog),
-            (flags.sftrstf(), Cause::Software),
-            (flags.porrstf(), Cause::Power),
-            (flags.pinrstf(), Cause::Pin),
+        ResetCause::first([
+            (flags.iwdgrstf(), ResetCause::Watchdog),
+            (flags.sftrstf(), ResetCause::Software),
+            (flags.porrstf(), ResetCause::Power),
+            (flags.pinrstf(), ResetCause::Pin),
         ])
     }
 

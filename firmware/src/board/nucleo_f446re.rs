@@ -71,7 +71,7 @@ pub(crate) use chip::*;
 #[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
-    use firmware::Clock;
+    use firmware::{Clock, ResetCause};
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
     use stm32_metapac::spi::Spi;
@@ -84,7 +84,7 @@ mod chip {
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
     use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{Cause, ClockError, settle, wait};
+    use crate::board::reset::{ClockError, settle, wait};
     use crate::board::wiring::{
         BridgePort, EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Output, PWMS, Received,
         SensorPins, SensorPort, Side,
@@ -187,14 +187,17 @@ mod chip {
     }
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> Cause {
+    pub(crate) fn reset_cause() -> ResetCause {
         let flags = RCC.csr().read();
         RCC.csr().modify(|w| w.set_rmvf(true));
-        Cause::first([
-            (flags.wdgrstf(), Cause::Watchdog),
-            (flags.sftrstf(), Cause::Software),
-            (flags.porrstf() || flags.borrstf(), Cause::Power),
-            (flags.padrstf(), Cause::Pin),
+        ResetCause::first([
+            (flags.wdgrstf(), ResetCause::Watchdog),
+            (flags.sftrstf(), ResetCause::Software),
+            // A dip that the brown-out reset ends sets its flag alone, a power-up both
+            // (RM0390, chapter 6.3.21).
+            (flags.porrstf(), ResetCause::Power),
+            (flags.borrstf(), ResetCause::BrownOut),
+            (flags.padrstf(), ResetCause::Pin),
         ])
     }
 

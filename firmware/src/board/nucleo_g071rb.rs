@@ -62,6 +62,7 @@ pub(crate) use chip::*;
 
 #[cfg(target_os = "none")]
 mod chip {
+    use firmware::ResetCause;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
     use stm32_metapac::spi::Spi;
@@ -72,7 +73,7 @@ mod chip {
     use super::dma::Route;
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{Cause, ClockError, settle, wait};
+    use crate::board::reset::{ClockError, settle, wait};
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
     use crate::board::wiring::{
@@ -124,14 +125,14 @@ mod chip {
     };
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> Cause {
+    pub(crate) fn reset_cause() -> ResetCause {
         let flags = RCC.csr().read();
         RCC.csr().modify(|w| w.set_rmvf(true));
-        Cause::first([
-            (flags.iwdgrstf(), Cause::Watchdog),
-            (flags.sftrstf(), Cause::Software),
-            (flags.pwrrstf(), Cause::Power),
-            (flags.pinrstf(), Cause::Pin),
+        ResetCause::first([
+            (flags.iwdgrstf(), ResetCause::Watchdog),
+            (flags.sftrstf(), ResetCause::Software),
+            (flags.pwrrstf(), ResetCause::Power),
+            (flags.pinrstf(), ResetCause::Pin),
         ])
     }
 

@@ -18,8 +18,9 @@ use firmware::faults::number;
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
+use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
-use super::{faults, log, outputs};
+use super::{faults, log, outputs, retained};
 use crate::here::{self, CLOCKS, Counter};
 
 type Inner =
@@ -59,19 +60,27 @@ static DROPPED: WrappingCounter = WrappingCounter::new();
 pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> Module {
     outputs::off();
     here::prepare_for_debuggers();
-    log::start(here::reset_cause());
+    let cause = here::reset_cause();
+    let start = retained::start(cause);
+    log::start(cause, &start);
     if let Err(error) = here::start_clocks() {
-        faults::die(|| log::clock(error));
+        faults::die(number::NO_CLOCK, || log::clock(error));
     }
     here::clock_sensors();
     let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
     let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
     let motion = scene::start_motion();
     let Some(perception) = place.fill() else {
-        faults::die(|| log::fatal(number::MODEL))
+        faults::die(number::MODEL, || {})
     };
     let counter = Counter::start(core);
-    let inner = firmware::Module::new(sources, motion, perception, counter);
+    let mut inner = firmware::Module::new(sources, motion, perception, counter);
+    if scene::HAS_MOTOR {
+        match start.may_arm(scene::ARMS_AT_START) {
+            Ok(()) => inner.arm(true),
+            Err(reason) => log::not_armed(reason),
+        }
+    }
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
@@ -85,6 +94,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
 /// One tick of the module; `put` puts its events into the queue, or gives them back.
 #[inline]
 pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(), Event>) {
+    if scene::HAS_MOTOR && REQUEST.take() {
+        module.inner.arm(true);
+    }
     module.inner.tick(&module.settings, &mut |event| {
         if put(event).is_err() {
             DROPPED.increment();
@@ -95,9 +107,10 @@ pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(),
     }
 }
 
-/// Once a second: for [`Idle`], which has no access to the module.
+/// Once a second: for [`Idle`], which has no access to the module, and for the next start.
 #[cold]
 fn tell_timing(module: &mut Module) {
+    retained::second();
     module.second = module.second.wrapping_add(TICK_HZ);
     let timing = module.inner.timing_mut();
     WORST.set(timing.take_worst());
@@ -143,6 +156,7 @@ fn write(event: Event) {
 /// The state of the idle task.
 pub(crate) struct Idle {
     watchdog: Watchdog,
+    button: UserButton,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
     logged: u32,
@@ -154,6 +168,7 @@ impl Idle {
     pub(crate) fn new() -> Self {
         Self {
             watchdog: Watchdog::start(),
+            button: UserButton::start(),
             fed: 0,
             logged: 0,
             before: log::Health::default(),
@@ -171,6 +186,10 @@ impl Idle {
         core::iter::from_fn(take).for_each(write);
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
+        if scene::HAS_MOTOR && self.button.is_pressed() {
+            REQUEST.make();
+            log::armed();
+        }
         if now.wrapping_sub(self.logged) >= TICK_HZ {
             self.logged = now;
             let health = log::Health {

@@ -1,29 +1,4 @@
-//! Why a chip started, and what may keep it from starting.
-
-/// Why the chip started.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Cause {
-    /// The independent watchdog: tick or idle stood still, or a fault handler waited for it.
-    Watchdog,
-    /// By software: a debugger or the programmer.
-    Software,
-    /// Supply came, or dipped.
-    Power,
-    /// The reset button, or the probe.
-    Pin,
-    /// None of these.
-    Other,
-}
-
-impl Cause {
-    /// The first whose flag is set in the reset status register. The most
-    /// specific must come first: a power-up sets the pin's flag too, and so does
-    /// every internal reset.
-    pub(crate) fn first(flags: [(bool, Self); 4]) -> Self {
-        let set = flags.into_iter().find(|(set, _)| *set);
-        set.map_or(Self::Other, |(_, cause)| cause)
-    }
-}
+//! What may keep a chip from starting.
 
 /// A clock that did not come.
 #[derive(Clone, Copy, PartialEq, Eq)]

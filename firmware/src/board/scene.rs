@@ -6,7 +6,7 @@
 //! - `Number`: the number format of the tick.
 //! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
 //!   is left out by type.
-//! - `Motion`, `start_motion`, `HAS_MOTOR`: how it moves.
+//! - `Motion`, `start_motion`, `HAS_MOTOR`, `ARMS_AT_START`: how it moves.
 //! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(

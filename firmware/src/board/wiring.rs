@@ -118,5 +118,7 @@ pub(crate) const LEFT_BRIDGE: BridgePort = BridgePort {
 pub(crate) const PWMS: [PinName; 3] = [pin('A', 8), pin('A', 9), pin('A', 10)];
 /// Enable inputs of the three half-bridges.
 pub(crate) const ENABLES: [PinName; 3] = [pin('C', 10), pin('C', 11), pin('C', 12)];
+/// The user button B1, low while it is pressed, with a pull-up on the board (UM1724, UM2324).
+pub(crate) const USER_BUTTON: PinName = pin('C', 13);
 /// Hall sensors of the brushless motor.
 pub(crate) const HALLS: [PinName; 3] = [pin('A', 15), pin('B', 3), pin('B', 10)];

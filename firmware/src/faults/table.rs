@@ -121,6 +121,10 @@ macro_rules! fault_table {
                 "a fault logged before the reset; otherwise tick or idle stood still",
                 "the line before it; if there is none, stop it with a debugger where it stands still",
                 AllOff, Restart;
+            53 SUPPLY: "the supply dipped",
+                "USB port or cable too weak; motors on the board's supply; a short",
+                "the board's 3.3 V with an oscilloscope while the motors start",
+                AllOff, Restart;
             56 MODEL: "the model in flash is damaged",
                 "flashing was interrupted",
                 "flash again",
@@ -129,6 +133,10 @@ macro_rules! fault_table {
                 "solder bridges; ST-LINK cut off",
                 "the bridges in [wiring.md](wiring.md#when-the-program-itself-fails)",
                 AllOff, Restart;
+            59 TOO_MANY_RESETS: "three resets in a minute",
+                "a supply or a reset line with a loose contact; somebody at the button",
+                "the lines before it",
+                NotArmed, Armed;
         }
     };
 }

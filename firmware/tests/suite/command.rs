@@ -85,7 +85,8 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     let start = SETTINGS.start([[1.0, 0.0]], [[1.0; 2]]).unwrap();
     let servo = || Servo::new(Kept::default(), Still);
     let active = Active::new(State::new(&start, 1), [[servo(), servo()]]);
-    let module = Module::new([[Bent(0xC000), Bent(0xC000)]], active, (), NoClock);
+    let mut module = Module::new([[Bent(0xC000), Bent(0xC000)]], active, (), NoClock);
+    module.arm(true);
     (module, config)
 }
 

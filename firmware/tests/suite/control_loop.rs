@@ -175,6 +175,7 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     let active = Active::new(whisking::State::new(&start, 1), [[servo]]);
     let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
     let mut module = Module::new([[sensor]], active, (), Microseconds(40));
+    module.arm(true);
 
     let mut events = Vec::new();
     for n in 0..ticks.len() {

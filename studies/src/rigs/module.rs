@@ -145,8 +145,10 @@ impl HeadModule {
         };
         let sources = [0; SIDES].map(|_| [Frames::REST; EACH]);
         let motion = Active::new(State::new(&start, seed), [left, right]);
+        let mut module = Module::new(sources, motion, (), NoClock);
+        module.arm(true);
         Ok(Self {
-            module: Module::new(sources, motion, (), NoClock),
+            module,
             config,
             actuators,
         })

@@ -164,8 +164,10 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
             })
         });
         let motion = Active::new(State::new(start, 1), servos);
+        let mut module = Module::new(sources, motion, Classifying::new(stream), Counter(0));
+        module.arm(true);
         Self {
-            module: Module::new(sources, motion, Classifying::new(stream), Counter(0)),
+            module,
             settings: Self::SETTINGS,
             told: None,
         }

@@ -31,7 +31,12 @@ pub(super) fn page() -> String {
         );
     }
     page.push_str("\n## At once\n\n");
-    for reaction in [Reaction::WhiskerOff, Reaction::AllOff, Reaction::GoesOn] {
+    for reaction in [
+        Reaction::WhiskerOff,
+        Reaction::AllOff,
+        Reaction::NotArmed,
+        Reaction::GoesOn,
+    ] {
         let (short, full) = at_once(reaction);
         let _ = writeln!(page, "- *{short}*: {full}");
     }
@@ -40,6 +45,7 @@ pub(super) fn page() -> String {
         Recovery::Retry,
         Recovery::GoodFrames,
         Recovery::Restart,
+        Recovery::Armed,
         Recovery::Counted,
     ] {
         let (short, full) = ends(recovery);
@@ -61,6 +67,10 @@ const fn at_once(reaction: Reaction) -> (&'static str, &'static str) {
             "all off",
             "every motor output goes low, the log gets its lines, and the watchdog resets the chip.",
         ),
+        Reaction::NotArmed => (
+            "not armed",
+            "motors stay off at the start; sensing, deciding and the log go on.",
+        ),
         Reaction::GoesOn => ("goes on", "it is counted and logged, no more."),
     }
 }
@@ -72,8 +82,8 @@ fn ends(recovery: Recovery) -> (&'static str, String) {
             "retry",
             format!(
                 "the motor is tried again after {RETRY_S} s. After {FAULTS} faults within \
-                 {WINDOW_S} s it stays off until\n  it is told to run (`Command::Clear`) or the \
-                 board is reset."
+                 {WINDOW_S} s it stays off until\n  it is told to run: by `Command::Clear`, or by \
+                 the user button, which arms all motors."
             ),
         ),
         Recovery::GoodFrames => (
@@ -85,7 +95,13 @@ fn ends(recovery: Recovery) -> (&'static str, String) {
         ),
         Recovery::Restart => (
             "restart",
-            "with the start after the reset; if its cause is still there, it comes again."
+            "with the start after the reset. It does not arm the motors, which stay off until\n  \
+             they are armed; all else goes on. If its cause is still there, it comes again."
+                .to_owned(),
+        ),
+        Recovery::Armed => (
+            "armed",
+            "once the motors are armed: by the user button, the reset button or the programmer."
                 .to_owned(),
         ),
         Recovery::Counted => (

@@ -26,6 +26,16 @@ choice! {
     }
 }
 
+choice! {
+    /// When motors are armed.
+    pub enum Arm {
+        /// When the program starts, unless a fault made it start.
+        AtStart = "at-start",
+        /// By command only.
+        OnCommand = "on-command",
+    }
+}
+
 keys! {
     /// Motor, gear, encoder and the proportional-derivative position control.
     pub struct MotorSection {
@@ -74,5 +84,10 @@ keys! {
         /// What a fault of a sensor or a motor switches off: the motor of its whisker, or
         /// every motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),
+
+        /// When the motors may be driven: when the program starts, or once it is told, on a
+        /// board by the user button. After a fault that made it start, a dip of the supply, or
+        /// three resets in a minute, it must be told in either case.
+        arm: Arm = word().default("\"at-start\""),
     }
 }

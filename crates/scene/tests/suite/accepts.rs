@@ -2,7 +2,7 @@
 
 use crate::common::{FULL, with};
 use scene::{
-    ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
+    Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene,
     ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
@@ -64,6 +64,7 @@ fn every_key_reaches_its_field() {
             top_speed_deg_s: 15_000.0,
             continuous_duty: 0.4,
             on_fault: OnFault::StopWhisker,
+            arm: Arm::AtStart,
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
@@ -92,7 +93,7 @@ fn the_motor_is_read_key_by_key() {
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
                  counts_per_rev = 1024\nfollowing_limit_deg = 12.5\n\
                  travel_margin_deg = 3\ntop_speed_deg_s = 900\ncontinuous_duty = 0.3\n\
-                 on_fault = 'stop-all'\n\n[plant]\n";
+                 on_fault = 'stop-all'\narm = 'on-command'\n\n[plant]\n";
     let expected = MotorSection {
         driver: Driver::SixStep,
         kp: 1.0,
@@ -108,6 +109,7 @@ fn the_motor_is_read_key_by_key() {
         top_speed_deg_s: 900.0,
         continuous_duty: 0.3,
         on_fault: OnFault::StopAll,
+        arm: Arm::OnCommand,
     };
     assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));
     // Without the table the defaults hold, as with an empty one.

@@ -1,0 +1,117 @@
+//! Starts that nobody asked for, and the button: is the motor off after them, and does the
+//! module say why?
+
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::commands::run::Loaded;
+
+use crate::chip::{Ps, ResetCause};
+use crate::trouble::Trouble;
+
+/// Longer than the watchdog bears.
+const HANG: Ps = 60_000_000_000;
+/// Within which after the start of its tick a crash must have taken the pins low.
+const PINS_LOW: Ps = 20_000_000;
+/// Hard faults in succession, and how often they come, in hundredths of a second.
+const FAULTS: u32 = 3;
+const FAULT_HUNDREDTHS: u32 = 75;
+/// How far a whisker may run on without its motor, degrees.
+const RUN_ON_DEG: f64 = 60.0;
+
+/// Has the watchdog reset the chip while the whiskers of the scene in `path` whisk; presses
+/// the user button, for long and as it should be; crashes the core every 0.75 s; and resets
+/// the chip three times in a minute. The motors must be off after each but the press, and
+/// the log must say why. Returns the lines of the log.
+///
+/// # Errors
+/// [`Error::Work`] says what did not happen.
+pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
+    let loaded = Loaded::new(path)?;
+    let mut trouble = Trouble::new(&loaded.scene, program)?;
+    trouble.run.module_mut().bears_resets = true;
+    let period = 1_000_000_000_000 / Ps::from(loaded.scene.tick_hz);
+    let hundredth = loaded.scene.tick_hz / 100;
+    let mut heard = Vec::new();
+
+    whisks(&mut trouble, 100 * hundredth, "after power-up")?;
+    heard.push(trouble.hear("start 1 since power-up, no fault")?);
+
+    trouble.hold(HANG);
+    rests(&mut trouble, 100 * hundredth, "after the watchdog")?;
+    heard.push(trouble.hear("last fault 52")?);
+    heard.push(trouble.hear("not armed: fault 52")?);
+    press(&mut trouble, 150 * hundredth)?;
+    rests(&mut trouble, 10 * hundredth, "after a press of 1.5 s")?;
+    press(&mut trouble, 10 * hundredth)?;
+    whisks(&mut trouble, 100 * hundredth, "after a press")?;
+    heard.push(trouble.hear("armed by the user button")?);
+
+    for _ in 0..FAULTS {
+        trouble.log.clear();
+        let board = trouble.board_mut();
+        board.machine.crash_next_tick();
+        if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
+            return Err(Error::Work("driven in a hard fault".to_owned()));
+        }
+        rests(
+            &mut trouble,
+            FAULT_HUNDREDTHS * hundredth,
+            "after a hard fault",
+        )?;
+        trouble.hear("fault 49, hard fault")?;
+        trouble.hear("not armed: fault 49")?;
+    }
+    heard.push(trouble.hear("last fault 49")?);
+    heard.push(trouble.hear("not armed: fault 49")?);
+
+    trouble.log.clear();
+    trouble.board_mut().reset_now(ResetCause::Pin)?;
+    rests(&mut trouble, 10 * hundredth, "after many resets")?;
+    heard.push(trouble.hear("not armed: fault 59")?);
+    Ok(heard)
+}
+
+/// Holds the button down for so many ticks, and lets it go before and after.
+fn press(trouble: &mut Trouble, ticks: u32) -> Result<(), Error> {
+    for is_down in [false, true, false] {
+        let ticks = if is_down { ticks } else { 100 };
+        let machine = &mut trouble.board_mut().machine;
+        machine.with_chip(|chip| chip.set_button(is_down));
+        trouble.pass(ticks)?;
+    }
+    Ok(())
+}
+
+/// Lets so many ticks pass, in half of which every motor must be driven.
+fn whisks(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
+    let mut driven = 0;
+    for _ in 0..ticks {
+        trouble.pass(1)?;
+        driven += u32::from(trouble.driven().iter().all(|driven| *driven));
+    }
+    if 2 * driven < ticks {
+        return Err(Error::Work(format!(
+            "driven in {driven} of {ticks} ticks {when}"
+        )));
+    }
+    Ok(())
+}
+
+/// Lets so many ticks pass, in none of which a motor may be driven.
+fn rests(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
+    let [before, _] = trouble.run.row().angle_deg;
+    for tick in 0..ticks {
+        trouble.pass(1)?;
+        if trouble.driven().contains(&true) {
+            return Err(Error::Work(format!("driven in tick {tick} {when}")));
+        }
+    }
+    let [after, _] = trouble.run.row().angle_deg;
+    if (after - before).abs() > RUN_ON_DEG {
+        return Err(Error::Work(format!(
+            "moved from {before} to {after} {when}"
+        )));
+    }
+    Ok(())
+}

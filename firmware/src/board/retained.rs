@@ -1,0 +1,60 @@
+//! The record of resets, in RAM that no start clears.
+
+use core::cell::UnsafeCell;
+use core::mem::MaybeUninit;
+
+use firmware::{RECORD_WORDS, Record, ResetCause, Start};
+
+/// Words that a reset leaves as they are.
+struct Retained(UnsafeCell<MaybeUninit<[u32; RECORD_WORDS]>>);
+
+#[allow(unsafe_code, reason = "start, tick and fault handlers share it")]
+// SAFETY: one core. The start is over before the tick begins, and a fault handler does not
+// return to a tick that it has interrupted. What that had half written has a wrong sum.
+unsafe impl Sync for Retained {}
+
+#[allow(unsafe_code, reason = "the section has a meaning")]
+// SAFETY: cortex-m-rt neither clears nor fills this section, and nothing else is in need of
+// its contents.
+#[unsafe(link_section = ".uninit.RECORD")]
+static RETAINED: Retained = Retained(UnsafeCell::new(MaybeUninit::uninit()));
+
+impl Retained {
+    fn load(&self) -> Option<Record> {
+        #[allow(unsafe_code, reason = "RAM as the last run has left it")]
+        // SAFETY: the words are in RAM, and any bits are words. Volatile, because the compiler
+        // does not see who wrote them; the record's sum tells whether it was the last run.
+        let words = unsafe { self.0.get().cast::<[u32; RECORD_WORDS]>().read_volatile() };
+        Record::load(words)
+    }
+
+    fn store(&self, record: &Record) {
+        #[allow(unsafe_code, reason = "RAM for the next run")]
+        // SAFETY: see `load`; nobody holds a reference to the words.
+        unsafe {
+            let words = self.0.get().cast::<[u32; RECORD_WORDS]>();
+            words.write_volatile(record.words());
+        }
+    }
+}
+
+/// Counts this start.
+pub(crate) fn start(cause: ResetCause) -> Start {
+    let (record, start) = Record::start(RETAINED.load(), cause);
+    RETAINED.store(&record);
+    start
+}
+
+/// Notes the fault with this number, which is about to end in a reset.
+pub(crate) fn note(fault: u8) {
+    let mut record = RETAINED.load().unwrap_or_default();
+    record.note(fault);
+    RETAINED.store(&record);
+}
+
+/// Notes that a second has passed. For the tick.
+pub(crate) fn second() {
+    let mut record = RETAINED.load().unwrap_or_default();
+    record.second();
+    RETAINED.store(&record);
+}

@@ -1,0 +1,62 @@
+//! The user button, which arms the motors, and what idle asks of the tick.
+//!
+//! Idle watches the button, the tick has the module: what is pressed goes through
+//! [`REQUEST`], and so can a command from elsewhere.
+
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use embedded_hal::digital::InputPin;
+use firmware::{Button, ButtonLimits, design_parameters};
+
+use super::gpio::Pin;
+use super::pin_config::PinConfig;
+use super::scene::TICK_HZ;
+use super::wiring::USER_BUTTON;
+
+const LIMITS: ButtonLimits = design_parameters::button(TICK_HZ);
+
+/// From idle to the tick: motors are to be armed.
+pub(crate) static REQUEST: Request = Request(AtomicBool::new(false));
+
+/// Something that is to be done once.
+pub(crate) struct Request(AtomicBool);
+
+impl Request {
+    /// Asks for it.
+    pub(crate) fn make(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it is to be done now. A load and a store, because a Cortex-M0+ has no swap;
+    /// who asks cannot interrupt who does it.
+    #[inline]
+    pub(crate) fn take(&self) -> bool {
+        let is_made = self.0.load(Ordering::Relaxed);
+        if is_made {
+            self.0.store(false, Ordering::Relaxed);
+        }
+        is_made
+    }
+}
+
+/// The button, low while it is pressed.
+pub(crate) struct UserButton {
+    pin: Pin,
+    button: Button,
+}
+
+impl UserButton {
+    /// Watches it from now on.
+    pub(crate) fn start() -> Self {
+        Self {
+            pin: Pin::new(USER_BUTTON, PinConfig::INPUT.pulled_up()),
+            button: Button::new(),
+        }
+    }
+
+    /// Looks at it, once a tick; whether a press has ended.
+    pub(crate) fn is_pressed(&mut self) -> bool {
+        let Ok(is_down) = self.pin.is_low();
+        self.button.sample(LIMITS, is_down)
+    }
+}

@@ -1,0 +1,268 @@
+//! What outlives a reset, and whether motors may be armed after it.
+//!
+//! A board keeps a [`Record`] in RAM that no start clears. It holds only while its sum is
+//! right: after power-up RAM holds anything.
+
+use crate::faults::number;
+
+/// Words of a [`Record`] in memory, the last of which is the sum of the others.
+pub const RECORD_WORDS: usize = 4;
+
+/// So many resets within [`RESET_WINDOW_S`] are too many.
+pub const RESETS: usize = 3;
+
+/// For how long a reset counts, s.
+pub const RESET_WINDOW_S: u8 = 60;
+
+/// Why the chip started.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResetCause {
+    /// The independent watchdog: tick or idle stood still, or a fault handler waited for it.
+    Watchdog,
+    /// By software: a debugger or the programmer.
+    Software,
+    /// Supply came.
+    Power,
+    /// Supply dipped below what the chip needs.
+    BrownOut,
+    /// The reset button, or the probe.
+    Pin,
+    /// None of these.
+    Other,
+}
+
+impl ResetCause {
+    /// The first whose flag is set in the reset status register. The most specific must come
+    /// first: a power-up sets the pin's flag too, and so does every internal reset.
+    pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {
+        let set = flags.into_iter().find(|(set, _)| *set);
+        set.map_or(Self::Other, |(_, cause)| cause)
+    }
+}
+
+/// Why motors are not armed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotArmed {
+    /// The chip started after the fault with this number.
+    After(u8),
+    /// Nobody knows why the chip started.
+    Unknown,
+    /// The scene waits for a command.
+    OnCommand,
+}
+
+/// How often the chip has started and what befell it last. The default is that of a chip
+/// whose supply has just come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Record {
+    /// Starts since power-up.
+    starts: u32,
+    /// The number of the last fault; 0: none.
+    fault: u8,
+    /// Whether the chip has not started since.
+    is_fresh: bool,
+    /// Seconds for which each of the last resets still counts.
+    windows: [u8; RESETS - 1],
+}
+
+/// A start of the chip, as the record has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Start {
+    /// Its number since power-up, from 1.
+    pub number: u32,
+    /// The number of the last fault since power-up; 0: none.
+    pub fault: u8,
+    /// Why motors may be armed by command only.
+    refusal: Option<NotArmed>,
+}
+
+impl Start {
+    /// Whether motors may be armed now, where the scene arms them `at_start`.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn may_arm(&self, at_start: bool) -> Result<(), NotArmed> {
+        let on_command = (!at_start).then_some(NotArmed::OnCommand);
+        self.refusal.or(on_command).map_or(Ok(()), Err)
+    }
+}
+
+impl Record {
+    /// The record in these words; none if their sum is not right.
+    pub fn load(words: [u32; RECORD_WORDS]) -> Option<Self> {
+        let [starts, state, windows, found] = words;
+        let [fault, is_fresh, ..] = state.to_le_bytes();
+        let [first, second, ..] = windows.to_le_bytes();
+        (sum([starts, state, windows]) == found).then_some(Self {
+            starts,
+            fault,
+            is_fresh: is_fresh != 0,
+            windows: [first, second],
+        })
+    }
+
+    /// What [`load`](Self::load) takes.
+    pub fn words(&self) -> [u32; RECORD_WORDS] {
+        let [first, second] = self.windows;
+        let state = u32::from_le_bytes([self.fault, self.is_fresh.into(), 0, 0]);
+        let windows = u32::from_le_bytes([first, second, 0, 0]);
+        let sum = sum([self.starts, state, windows]);
+        [self.starts, state, windows, sum]
+    }
+
+    /// The fault with this number, which ends in a reset.
+    pub const fn note(&mut self, fault: u8) {
+        self.fault = fault;
+        self.is_fresh = true;
+    }
+
+    /// A second has passed.
+    pub fn second(&mut self) {
+        for window in &mut self.windows {
+            *window = window.saturating_sub(1);
+        }
+    }
+
+    /// Counts a start for `cause`. `found` is the record of the time before; without one RAM
+    /// has lost its contents, and nothing is known of it.
+    ///
+    /// No motor may be armed by itself after a fault that ended in a reset, after the
+    /// watchdog, after a dip of the supply (one so short that RAM has kept its contents, too),
+    /// after [`RESETS`] resets in a minute, and after a reset for no known reason.
+    pub fn start(found: Option<Self>, cause: ResetCause) -> (Self, Start) {
+        let mut record = found.unwrap_or_default();
+        record.starts = record.starts.saturating_add(1);
+        let is_dip = match cause {
+            ResetCause::BrownOut => true,
+            ResetCause::Power => found.is_some(),
+            _ => false,
+        };
+        let is_often = found.is_some() && record.count_reset();
+        let fault = if record.is_fresh {
+            Some(record.fault)
+        } else if cause == ResetCause::Watchdog {
+            Some(number::WATCHDOG)
+        } else if is_dip {
+            Some(number::SUPPLY)
+        } else {
+            is_often.then_some(number::TOO_MANY_RESETS)
+        };
+        record.fault = fault.unwrap_or(record.fault);
+        record.is_fresh = false;
+        let unknown = (cause == ResetCause::Other).then_some(NotArmed::Unknown);
+        let start = Start {
+            number: record.starts,
+            fault: record.fault,
+            refusal: fault.map(NotArmed::After).or(unknown),
+        };
+        (record, start)
+    }
+
+    /// Counts a reset; whether it is one too many.
+    fn count_reset(&mut self) -> bool {
+        let is_often = self.windows.iter().all(|window| *window > 0);
+        // The place of the reset that is longest ago.
+        if let Some(oldest) = self.windows.iter_mut().min() {
+            *oldest = RESET_WINDOW_S;
+        }
+        is_often
+    }
+}
+
+/// FNV-1a by words, which any change of a single word changes; memory of zeros or ones is not
+/// its own sum.
+fn sum(words: [u32; RECORD_WORDS - 1]) -> u32 {
+    words.into_iter().fold(0x811C_9DC5, |sum, word| {
+        (sum ^ word).wrapping_mul(0x0100_0193)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NotArmed, Record, ResetCause, Start};
+    use crate::faults::number;
+
+    /// A start after `found` seconds of running.
+    fn after(record: Record, seconds: u8, cause: ResetCause) -> (Record, Start) {
+        let mut record = Record::load(record.words()).expect("its sum is right");
+        for _ in 0..seconds {
+            record.second();
+        }
+        Record::start(Some(record), cause)
+    }
+
+    fn powered() -> Record {
+        let (record, start) = Record::start(None, ResetCause::Power);
+        assert_eq!((start.number, start.fault), (1, 0));
+        assert_eq!(start.may_arm(true), Ok(()));
+        record
+    }
+
+    #[test]
+    fn people_arm_and_faults_do_not() {
+        for (cause, arms) in [
+            (ResetCause::Pin, Ok(())),
+            (ResetCause::Software, Ok(())),
+            (ResetCause::Watchdog, Err(NotArmed::After(number::WATCHDOG))),
+            (ResetCause::BrownOut, Err(NotArmed::After(number::SUPPLY))),
+            // RAM has kept its contents: the supply was away for a moment.
+            (ResetCause::Power, Err(NotArmed::After(number::SUPPLY))),
+            (ResetCause::Other, Err(NotArmed::Unknown)),
+        ] {
+            let (_, start) = after(powered(), 100, cause);
+            assert_eq!(start.may_arm(true), arms, "{cause:?}");
+            assert_eq!(start.number, 2);
+            let on_command = start.may_arm(false);
+            assert_eq!(on_command, arms.and(Err(NotArmed::OnCommand)), "{cause:?}");
+        }
+    }
+
+    #[test]
+    fn a_fault_is_told_at_the_next_start_and_stays_known() {
+        for fault in [number::PANIC, number::HARD_FAULT, number::SUPPLY] {
+            let mut record = powered();
+            record.note(fault);
+            // Whoever is quicker than the watchdog does not arm it either.
+            for cause in [ResetCause::Watchdog, ResetCause::Pin] {
+                let (record, start) = after(record, 100, cause);
+                assert_eq!(start.may_arm(true), Err(NotArmed::After(fault)));
+                let (_, start) = after(record, 100, ResetCause::Pin);
+                assert_eq!((start.may_arm(true), start.fault), (Ok(()), fault));
+            }
+        }
+    }
+
+    #[test]
+    fn three_resets_in_a_minute_are_too_many() {
+        let arms = |pauses: [u8; 3]| {
+            let mut record = powered();
+            let mut last = None;
+            for pause in pauses {
+                let (next, start) = after(record, pause, ResetCause::Pin);
+                record = next;
+                last = Some(start.may_arm(true));
+            }
+            last.expect("three starts")
+        };
+        let refused = Err(NotArmed::After(number::TOO_MANY_RESETS));
+        assert_eq!(arms([0, 0, 0]), refused);
+        assert_eq!(arms([90, 29, 30]), refused);
+        assert_eq!(arms([0, 30, 30]), Ok(()));
+        assert_eq!(arms([0, 60, 0]), Ok(()));
+    }
+
+    #[test]
+    fn what_is_not_a_record_is_not_taken_for_one() {
+        assert_eq!(Record::load([0; 4]), None);
+        assert_eq!(Record::load([u32::MAX; 4]), None);
+        let mut record = powered();
+        record.note(number::HARD_FAULT);
+        let words = record.words();
+        assert_eq!(Record::load(words), Some(record));
+        for bit in 0..128 {
+            let mut flipped = words;
+            flipped[bit / 32] ^= 1 << (bit % 32);
+            assert_eq!(Record::load(flipped), None, "bit {bit}");
+        }
+    }
+}
