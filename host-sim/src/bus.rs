@@ -42,6 +42,12 @@ pub enum WireFault {
     /// One bit of the frame arrives inverted: 0 is the first on the wire, the
     /// top bit of B0, and 63 the last. Others change nothing.
     Flip(u8),
+    /// A byte, counted from 0, is lost: the next ones come a byte early, and the last
+    /// reads as released. Others change nothing.
+    ByteLost(u8),
+    /// A byte, counted from 0, comes twice: the next ones come a byte late, and the last
+    /// is lost. Others change nothing.
+    ByteDoubled(u8),
 }
 
 /// What has gone over a bus since its slave was made.
@@ -186,6 +192,18 @@ impl Slave {
             Some(WireFault::BadSum) => {
                 let [.., sum] = &mut frame;
                 *sum = sum.wrapping_add(1);
+            }
+            Some(WireFault::ByteLost(byte)) => {
+                if let Some(late @ [_, ..]) = frame.get_mut(usize::from(byte)..) {
+                    late[0] = RELEASED;
+                    late.rotate_left(1);
+                }
+            }
+            Some(WireFault::ByteDoubled(byte)) => {
+                if let Some(late @ [_, _, ..]) = frame.get_mut(usize::from(byte)..) {
+                    late.rotate_right(1);
+                    late[0] = late[1];
+                }
             }
             _ => {}
         }

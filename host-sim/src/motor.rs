@@ -20,6 +20,8 @@
 //! (free-wheeling diodes are left out). The gear is ideal: its losses are in
 //! τ_c and b.
 //!
+//! At an end stop the rotor comes to rest within the step (no rebound).
+//!
 //! Between pin changes this is linear but for the sign of ω, and is solved
 //! exactly ([`rotor`]), so any tick is stable. In the brushless stage the
 //! torque also depends on the rotor angle, which is held over substeps.
@@ -181,6 +183,9 @@ impl SimMotor {
         let inertia = s.inertia_kg_m2();
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
+        let stops = s
+            .stops_deg
+            .map(|stop| (stop - s.rest_deg).to_radians() * s.gear);
         for _ in 0..steps {
             let winding = self.stage.winding(s, &self.wires, self.rotor.angle);
             let law = rotor::Law {
@@ -189,6 +194,7 @@ impl SimMotor {
                 friction: s.coulomb_nm / inertia,
             };
             self.rotor.advance(&law, step_s);
+            self.rotor.stop_at(stops);
         }
         self.wires.set_angle(self.rotor.angle);
     }
@@ -230,6 +236,16 @@ impl SimMotor {
     pub fn currents_a(&self) -> [f64; 3] {
         self.stage
             .currents(&self.settings, &self.wires, &self.rotor)
+    }
+
+    /// By how much the whisker is displaced from where the encoder says it is, degrees.
+    pub fn displaced_deg(&self) -> f64 {
+        (self.wires.missed() / self.settings.gear).to_degrees()
+    }
+
+    /// What its driver's pins ask for, 0 to 1: 0 is off, whatever the wires behind them do.
+    pub fn effort(&self) -> f64 {
+        self.stage.effort(&self.wires)
     }
 
     /// The settings it was made with.

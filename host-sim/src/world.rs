@@ -167,6 +167,18 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     (Motors::Ideal(motors), pins)
 }
 
+/// How far beyond the travel that is no fault the end stops are, degrees.
+const STOP_MARGIN_DEG: f64 = 5.0;
+
+/// Where the end stops are: a little beyond the travel in which the whisker may be.
+fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
+    let margin = motor.travel_margin_deg + STOP_MARGIN_DEG;
+    [
+        motor.min_deg.min(whisking::REST_DEG) - margin,
+        motor.max_deg.max(whisking::REST_DEG) + margin,
+    ]
+}
+
 fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {
     let Some(motor) = &scene.motor else {
         return Ok((Motors::None, Vec::new()));
@@ -174,6 +186,7 @@ fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {
     let settings = MotorSettings {
         gear: motor.gear,
         counts_per_rev: motor.counts_per_rev,
+        stops_deg: stops_deg(motor),
         ..MotorSettings::default()
     };
     let refused = |error| Error::Work(format!("motor: {error}"));

@@ -137,6 +137,26 @@ fn each_fault_is_seen_as_what_it_is() {
 }
 
 #[test]
+fn bytes_are_lost_and_doubled_where_they_are_said_to_be() {
+    let mut source = Polled::new(driver());
+    source.sensor_mut().spi_mut().set([0.25, -0.5]);
+    let whole = source.take().unwrap().unwrap();
+    let [a, b, c, d, e, f, g, h] = whole;
+    for (fault, expected) in [
+        (WireFault::ByteLost(0), [b, c, d, e, f, g, h, 0xFF]),
+        (WireFault::ByteLost(3), [a, b, c, e, f, g, h, 0xFF]),
+        (WireFault::ByteLost(7), [a, b, c, d, e, f, g, 0xFF]),
+        (WireFault::ByteLost(8), whole),
+        (WireFault::ByteDoubled(0), [a, a, b, c, d, e, f, g]),
+        (WireFault::ByteDoubled(2), [a, b, c, c, d, e, f, g]),
+        (WireFault::ByteDoubled(8), whole),
+    ] {
+        source.sensor_mut().spi_mut().inject(fault, 1);
+        assert_eq!(source.take(), Ok(Some(expected)), "{fault:?}");
+    }
+}
+
+#[test]
 fn the_module_s_polled_source_sees_frames_and_bus_errors() {
     let mut source = Polled::new(driver());
     assert_eq!(source.take(), Ok(Some(REST)));

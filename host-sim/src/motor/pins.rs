@@ -23,6 +23,8 @@ pub enum Wire {
     /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one;
     /// others are not there.
     Winding(usize),
+    /// Both winding terminals of a brushed motor, exchanged: it turns the wrong way round.
+    Windings,
     /// The cable of the Hall sensors: their pull-ups read high, code 7.
     Halls,
     /// The cable of the encoder: its count stands still. Once mended it goes on
@@ -52,6 +54,7 @@ pub(super) struct Wires {
     duty: [AtomicU16; 3],
     high: [AtomicBool; 3],
     cut: [AtomicBool; 3],
+    windings_turned: AtomicBool,
     halls_cut: AtomicBool,
     encoder_cut: AtomicBool,
     encoder_turned: AtomicBool,
@@ -68,6 +71,7 @@ impl Wires {
             duty: Default::default(),
             high: Default::default(),
             cut: Default::default(),
+            windings_turned: AtomicBool::new(false),
             halls_cut: AtomicBool::new(false),
             encoder_cut: AtomicBool::new(false),
             encoder_turned: AtomicBool::new(false),
@@ -97,10 +101,16 @@ impl Wires {
                     place.store(cut, Relaxed);
                 }
             }
+            Wire::Windings => self.windings_turned.store(cut, Relaxed),
             Wire::Halls => self.halls_cut.store(cut, Relaxed),
             Wire::Encoder => self.encoder_cut.store(cut, Relaxed),
             Wire::EncoderChannels => self.encoder_turned.store(cut, Relaxed),
         }
+    }
+
+    /// Angle that the encoder has not seen, rad.
+    pub(super) fn missed(&self) -> f64 {
+        self.missed.get()
     }
 
     /// Duty of a PWM, 0 to 1.
@@ -111,6 +121,11 @@ impl Wires {
 
     pub(super) fn is_high(&self, i: usize) -> bool {
         self.high.get(i).is_some_and(|high| high.load(Relaxed))
+    }
+
+    /// Whether the terminals of a brushed winding are exchanged.
+    pub(super) fn are_windings_turned(&self) -> bool {
+        self.windings_turned.load(Relaxed)
     }
 
     pub(super) fn is_cut(&self, i: usize) -> bool {

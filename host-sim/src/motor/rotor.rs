@@ -46,6 +46,21 @@ impl Rotor {
         }
     }
 
+    /// Holds it between two angles, rad; it comes to rest at either.
+    pub(super) fn stop_at(&mut self, [lowest, highest]: [f64; 2]) {
+        if self.angle < lowest {
+            *self = Self {
+                angle: lowest,
+                speed: self.speed.max(0.0),
+            };
+        } else if self.angle > highest {
+            *self = Self {
+                angle: highest,
+                speed: self.speed.min(0.0),
+            };
+        }
+    }
+
     /// Moves on with the present direction until the time is up, or to rest;
     /// returns the time left.
     fn run_down(&mut self, law: &Law, dt: f64) -> f64 {

@@ -38,6 +38,9 @@ pub struct MotorSettings {
     /// Whisker angle θ′ at which the motor starts and the encoder reads 0,
     /// ±360 degrees.
     pub rest_deg: f64,
+    /// Whisker angles θ′ of the end stops, degrees; infinite where there are none. Rest lies
+    /// between them.
+    pub stops_deg: [f64; 2],
 }
 
 impl MotorSettings {
@@ -57,6 +60,7 @@ impl MotorSettings {
         gear: 11.0,
         counts_per_rev: 512,
         rest_deg: whisking::REST_DEG,
+        stops_deg: [f64::NEG_INFINITY, f64::INFINITY],
     };
 
     /// Inertia seen by the rotor: J = J_rotor + J_whisker/G².
@@ -87,7 +91,9 @@ impl MotorSettings {
         within("gear", self.gear, 1.0..=1000.0)?;
         let counts = f64::from(self.counts_per_rev);
         within("counts_per_rev", counts, 4.0..=65_536.0)?;
-        within("rest_deg", self.rest_deg, -360.0..=360.0)
+        within("rest_deg", self.rest_deg, -360.0..=360.0)?;
+        let [lowest, highest] = self.stops_deg;
+        within("stops_deg", self.rest_deg, lowest..=highest)
     }
 }
 

@@ -73,8 +73,14 @@ impl Stage {
             }
         };
         let volts = |i| match self {
-            Self::Brushed if (i == 0) == wires.is_high(0) => s.supply_v * wires.duty(0),
-            Self::Brushed => 0.0,
+            Self::Brushed => {
+                let forward = wires.is_high(0) != wires.are_windings_turned();
+                if (i == 0) == forward {
+                    s.supply_v * wires.duty(0)
+                } else {
+                    0.0
+                }
+            }
             Self::Brushless => s.supply_v * wires.duty(i),
         };
         let live = |i| match self {
@@ -103,6 +109,17 @@ impl Stage {
             winding.damping_nm_s += factor * factor / (s.resistance_ohm / 2.0);
         }
         winding
+    }
+
+    /// What its pins ask for: the largest duty of a half-bridge that is enabled, 0 to 1.
+    pub(super) fn effort(self, wires: &Wires) -> f64 {
+        match self {
+            Self::Brushed => wires.duty(0),
+            Self::Brushless => {
+                let enabled = (0..3).filter(|&i| wires.is_high(i));
+                enabled.map(|i| wires.duty(i)).fold(0.0, f64::max)
+            }
+        }
     }
 
     /// Current into each terminal, A.

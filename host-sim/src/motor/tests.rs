@@ -57,6 +57,51 @@ fn no_load_speed_and_time_constant_are_the_closed_forms() {
 }
 
 #[test]
+fn exchanged_windings_turn_it_the_other_way_and_the_effort_is_what_is_asked_for() {
+    let speeds = [false, true].map(|turned| {
+        let (mut motor, mut driver, _) = motor(IDEAL);
+        assert_eq!(motor.effort(), 0.0);
+        if turned {
+            motor.cut(Wire::Windings);
+        }
+        driver.drive(Duty::from_f32(-0.5)).unwrap();
+        assert!(close(motor.effort(), 0.5, 1e-3));
+        motor.advance(0.1);
+        motor.speed_deg_s()
+    });
+    assert!(speeds[0] < 0.0 && speeds[1] == -speeds[0], "{speeds:?}");
+}
+
+#[test]
+fn it_comes_to_rest_at_its_end_stops_and_leaves_them() {
+    let settings = MotorSettings {
+        stops_deg: [30.0, 60.0],
+        ..MotorSettings::DEFAULT
+    };
+    for (duty, stop) in [(1.0, 60.0), (-1.0, 30.0)] {
+        let (mut motor, mut driver, _) = motor(settings);
+        let mut drive = |motor: &mut SimMotor, duty: f32| {
+            for _ in 0..200 {
+                driver.drive(Duty::from_f32(duty)).unwrap();
+                motor.advance(5e-4);
+            }
+        };
+        drive(&mut motor, duty);
+        assert!((motor.angle_deg() - stop).abs() < 1e-9 && motor.speed_deg_s() == 0.0);
+        drive(&mut motor, -duty);
+        assert!((motor.angle_deg() - (90.0 - stop)).abs() < 1e-9);
+    }
+    let outside = MotorSettings {
+        stops_deg: [60.0, 90.0],
+        ..MotorSettings::DEFAULT
+    };
+    assert_eq!(
+        SimMotor::brushed(outside).err(),
+        Some(BadMotorSetting("stops_deg"))
+    );
+}
+
+#[test]
 fn the_default_motor_is_fast_enough_and_loses_speed_to_friction() {
     let full = run(MotorSettings::DEFAULT, 1.0, 1.0, 2000.0).speed_deg_s();
     // (k U/R − τ_c)/(k²/R + b) at the rotor.
@@ -244,6 +289,7 @@ prop_compose! {
             gear,
             counts_per_rev: 65_536,
             rest_deg: 50.0,
+            ..MotorSettings::DEFAULT
         }
     }
 }
