@@ -136,12 +136,18 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
     }))
 }
 
+/// Counts that a motor may move before it is seen to have moved.
+const UNMOVED_COUNTS: f64 = 3.0;
+
 /// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
 /// is within its travel. Whatever the plant: a board does not know what is simulated.
 fn guards(motor: &scene::MotorSection) -> GuardSettings {
+    let degrees_per_count = 360.0 / (f64::from(motor.counts_per_rev) * motor.gear);
     GuardSettings {
-        degrees_per_count: 360.0 / (f64::from(motor.counts_per_rev) * motor.gear),
+        degrees_per_count,
         hard_duty: motor.duty_limit / 2.0,
+        // A coarse encoder has its counts as far apart as the gain makes of them.
+        unmoved_duty: motor.unmoved_duty + motor.kp * UNMOVED_COUNTS * degrees_per_count,
         following_deg: motor.following_limit_deg,
         top_speed_deg_s: motor.top_speed_deg_s,
         travel_deg: [
@@ -246,6 +252,8 @@ kind = "ideal"
         // 0.4 squared, and 8.2 s.
         assert!((f64::from(guards.heat) / f64::from(1 << 30) - 0.16).abs() < 1e-4);
         assert_eq!(guards.heat_shift, 14);
+        // 0.12, and three counts of 0.0639 degrees at 0.05 a degree.
+        assert_eq!((guards.unmoved, guards.unmoved_ticks), (4246, 40));
     }
 
     #[test]

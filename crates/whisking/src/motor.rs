@@ -40,7 +40,7 @@ use core::fmt;
 
 pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
-pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S};
+pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
@@ -93,7 +93,7 @@ pub enum Fault {
     Following,
     /// 8: moves against the drive, or faster than the motor can.
     Runaway,
-    /// 9: driven hard both ways, and not a count.
+    /// 9: the drive changed, or was hard both ways, and not a count.
     Encoder,
     /// 10: beyond the ends of its travel.
     Travel,

@@ -50,9 +50,9 @@ macro_rules! fault_table {
                 "motor or encoder wired the wrong way round; noise on the encoder's lines",
                 "exchange the motor's two wires, or A and B; `top_speed_deg_s`",
                 WhiskerOff, Retry;
-            9 ENCODER: "driven both ways without a count",
-                "encoder without supply or not connected; whisker clamped",
-                "the encoder's supply; A and B with an oscilloscope",
+            9 ENCODER: "driven and not a count",
+                "encoder without supply or not connected; whisker clamped; friction",
+                "the encoder's supply; A and B with an oscilloscope; `unmoved_duty`",
                 WhiskerOff, Retry;
             10 TRAVEL: "beyond its travel",
                 "not at rest at the start; turned by something",

@@ -78,6 +78,10 @@ keys! {
         /// simulated motor's speed without load.
         top_speed_deg_s: f64 = positive(1e6).unit("degrees/s").default("15000.0"),
 
+        /// By how much the duty may change for 20 ms while the encoder stands still: above
+        /// the friction of motor and gear, both ways together.
+        unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
+
         /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s.
         continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),
 

@@ -62,6 +62,7 @@ fn every_key_reaches_its_field() {
             following_limit_deg: 40.0,
             travel_margin_deg: 20.0,
             top_speed_deg_s: 15_000.0,
+            unmoved_duty: 0.12,
             continuous_duty: 0.4,
             on_fault: OnFault::StopWhisker,
             arm: Arm::AtStart,
@@ -92,7 +93,7 @@ fn the_motor_is_read_key_by_key() {
     let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
                  counts_per_rev = 1024\nfollowing_limit_deg = 12.5\n\
-                 travel_margin_deg = 3\ntop_speed_deg_s = 900\ncontinuous_duty = 0.3\n\
+                 travel_margin_deg = 3\ntop_speed_deg_s = 900\nunmoved_duty = 0.4\ncontinuous_duty = 0.3\n\
                  on_fault = 'stop-all'\narm = 'on-command'\n\n[plant]\n";
     let expected = MotorSection {
         driver: Driver::SixStep,
@@ -107,6 +108,7 @@ fn the_motor_is_read_key_by_key() {
         following_limit_deg: 12.5,
         travel_margin_deg: 3.0,
         top_speed_deg_s: 900.0,
+        unmoved_duty: 0.4,
         continuous_duty: 0.3,
         on_fault: OnFault::StopAll,
         arm: Arm::OnCommand,

@@ -13,6 +13,9 @@ pub const FOLLOWING_S: f64 = 0.04;
 /// How long a motor may be driven hard in all without moving, s: longer than the pause
 /// at a whisk's turning point, shorter than a small winding takes to overheat.
 pub const STALL_S: f64 = 0.2;
+/// How long a motor may stand still although its drive has changed, s: longer than one from
+/// rest takes for a few counts.
+pub const UNMOVED_S: f64 = 0.02;
 /// Time constant of a small winding, s. Rounded to the nearest power of two in ticks.
 const WINDING_S: f64 = 8.0;
 /// How far a motor may move against a hard drive, degrees: a whisker that is braked from
@@ -26,6 +29,8 @@ pub struct GuardSettings {
     pub degrees_per_count: f64,
     /// Duty above which it is driven hard, 0 to 1.
     pub hard_duty: f64,
+    /// By how much the duty may change without a count of the encoder, 0 to 2.
+    pub unmoved_duty: f64,
     /// Largest following error, degrees.
     pub following_deg: f64,
     /// Fastest that the motor can be, degrees a second.
@@ -41,6 +46,7 @@ impl GuardSettings {
     pub const NONE: Self = Self {
         degrees_per_count: 1.0,
         hard_duty: 1.0,
+        unmoved_duty: 2.0,
         following_deg: 1e4,
         top_speed_deg_s: f64::MAX,
         travel_deg: [f64::MIN, f64::MAX],
@@ -59,6 +65,9 @@ impl GuardSettings {
                 ticks: ticks(STALL_S),
                 threshold: Duty::from_f32(self.hard_duty as f32),
             },
+            // In Q15, where a duty spans 65,534.
+            unmoved: libm::round(self.unmoved_duty * 32_767.0).clamp(0.0, 65_535.0) as u16,
+            unmoved_ticks: ticks(UNMOVED_S),
             error: R::from_f64(self.following_deg / DEGREES_PER_UNIT),
             error_ticks: ticks(FOLLOWING_S),
             against: counts(AGAINST_DEG) as u32,
@@ -76,6 +85,11 @@ impl GuardSettings {
 pub struct GuardConfig<R> {
     /// How long it may be driven hard in all without moving, and what is hard.
     pub stall: StallConfig,
+    /// By how much the duty may change while it stands still, Q15, and for how many ticks by
+    /// more.
+    pub unmoved: u16,
+    /// See [`GuardConfig::unmoved`].
+    pub unmoved_ticks: u16,
     /// Largest following error, protraction.
     pub error: R,
     /// Ticks in succession for which the following error may be larger.
@@ -100,6 +114,10 @@ pub struct Guards {
     still: [u16; 2],
     /// How far it has moved since, counts.
     flicker: i32,
+    /// The duty with which it last moved, Q15, and ticks since it differs from that by more
+    /// than it may.
+    moved_by: i16,
+    unmoved: u16,
     /// Ticks in succession with too large a following error.
     error_ticks: u16,
     /// Counts that it has moved against a hard drive.
@@ -150,13 +168,13 @@ impl Guards {
         if size > config.speed || self.against > config.against {
             return Err(Fault::Runaway);
         }
-        self.check_still(config.stall, duty, is_hard, moved)
+        self.check_still(config, duty, is_hard, moved)
     }
 
     #[inline]
-    fn check_still(
+    fn check_still<R>(
         &mut self,
-        config: StallConfig,
+        config: &GuardConfig<R>,
         duty: Duty,
         is_hard: bool,
         moved: i32,
@@ -165,7 +183,20 @@ impl Guards {
         if self.flicker.unsigned_abs() > FLICKER {
             self.flicker = 0;
             self.still = [0; 2];
-        } else if is_hard {
+            self.moved_by = duty.q15();
+            self.unmoved = 0;
+            return Ok(());
+        }
+        // What pushes against something soft moves a little when it is driven otherwise.
+        if duty.q15().abs_diff(self.moved_by) > config.unmoved {
+            self.unmoved = self.unmoved.saturating_add(1);
+        } else {
+            self.unmoved = 0;
+        }
+        if self.unmoved > config.unmoved_ticks {
+            return Err(Fault::Encoder);
+        }
+        if is_hard {
             let [forwards, backwards] = &mut self.still;
             let still = if duty.is_forward() {
                 forwards
@@ -175,8 +206,8 @@ impl Guards {
             *still = still.saturating_add(1);
         }
         match self.still {
-            [0, still] | [still, 0] if still >= config.ticks => Err(Fault::Stall),
-            [forwards, backwards] if forwards.saturating_add(backwards) >= config.ticks => {
+            [0, still] | [still, 0] if still >= config.stall.ticks => Err(Fault::Stall),
+            [forwards, backwards] if forwards.saturating_add(backwards) >= config.stall.ticks => {
                 Err(Fault::Encoder)
             }
             _ => Ok(()),

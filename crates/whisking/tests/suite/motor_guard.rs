@@ -2,13 +2,14 @@
 
 use proptest::prelude::*;
 use whisking::motor::{
-    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, STALL_S,
+    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S,
 };
 
 /// A tenth of a degree a count, 2000 ticks a second.
 const SETTINGS: GuardSettings = GuardSettings {
     degrees_per_count: 0.1,
     hard_duty: 0.5,
+    unmoved_duty: 2.0,
     following_deg: 30.0,
     top_speed_deg_s: 10_000.0,
     travel_deg: [30.0, 160.0],
@@ -116,6 +117,42 @@ fn standing_still_is_a_stall_one_way_and_a_silent_encoder_both_ways() {
     // Pushing slowly: three counts in a hundred ticks.
     let slow = |tick: usize| (HARD, 0.0, 0, i32::from(tick.is_multiple_of(33)));
     assert_eq!(trips(20_000, slow), None);
+}
+
+/// An encoder that is silent is found by the drive that should have moved it, before the
+/// drive is hard; what holds a constant drive is not.
+#[test]
+fn the_drive_may_not_change_for_long_without_a_count() {
+    let settings = GuardSettings {
+        unmoved_duty: 0.25,
+        ..SETTINGS
+    };
+    let trips = |ticks: usize, motion: &dyn Fn(usize) -> (i16, i32)| {
+        let mut guards = Guards::default();
+        let config = settings.build::<f64>(TICK_HZ);
+        (0..ticks).find_map(|tick| {
+            let (duty, moved) = motion(tick);
+            let found = guards.check(&config, Duty::from_q15(duty), 0.0, 0, moved);
+            found.err().map(|fault| (tick, fault))
+        })
+    };
+    let ticks = (UNMOVED_S * TICK_HZ) as usize;
+    // A quarter is 8192 of 32,767.
+    for sign in [1, -1] {
+        assert_eq!(trips(20_000, &|_| (sign * 8192, 0)), None);
+        assert_eq!(
+            trips(1000, &|_| (sign * 8193, 0)),
+            Some((ticks, Fault::Encoder))
+        );
+    }
+    // From a duty with which it moved, both ways together.
+    let held = |tick: usize| if tick == 0 { (-5000, 3) } else { (3192, 0) };
+    assert_eq!(trips(20_000, &held), None);
+    let stuck = |tick: usize| if tick == 0 { (-5000, 3) } else { (3193, 0) };
+    assert_eq!(trips(1000, &stuck), Some((ticks + 1, Fault::Encoder)));
+    // Pressing slowly: a little motion for every bit of drive.
+    let soft = |tick: usize| ((tick * 4) as i16, i32::from(tick.is_multiple_of(500)) * 3);
+    assert_eq!(trips(4000, &soft), None);
 }
 
 #[test]
