@@ -13,7 +13,7 @@
 
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
-use firmware::{AngleInput, Event};
+use firmware::{AngleInput, Event, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{PWM_MAX, Pins, SimPwm};
@@ -21,8 +21,9 @@ use host_sim::motor::{PWM_MAX, Pins, SimPwm};
 use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
 use crate::meter::Meter;
+use crate::notice::Notice;
 use crate::program::Program;
-use crate::watch::Watch;
+use crate::watch::{Said, Watch};
 
 /// A sensor on its wires: host-sim's slave.
 #[derive(Debug, Default)]
@@ -56,6 +57,8 @@ pub(crate) struct Board {
     /// Left side first; none where the whiskers are passive.
     pins: Vec<Pins>,
     log: Vec<u8>,
+    /// The faults that the module has told of, and their ends, until they are taken.
+    pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
 }
@@ -79,6 +82,7 @@ impl Board {
             sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
             pins,
             log: Vec::new(),
+            notices: Vec::new(),
             reset: None,
         };
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
@@ -246,9 +250,12 @@ impl Emulated {
         }
         self.meter
             .logged(board.machine.ring.writer(&board.machine.memories)?);
-        let decisions = board.watch.decisions(&board.machine.memories)?;
-        let decisions = decisions.into_iter();
-        events.extend(decisions.map(|(place, decision)| Event::Decision(place, decision)));
+        for (place, said) in board.watch.said(&board.machine.memories)? {
+            match said {
+                Said::Decision(decision) => events.push(Event::Decision(place, decision)),
+                Said::Notice(notice) => board.notices.push((place, notice)),
+            }
+        }
         Ok(())
     }
 }

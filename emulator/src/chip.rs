@@ -21,6 +21,7 @@ mod spi;
 mod time;
 mod timer;
 mod timers;
+mod upset;
 mod watchdog;
 mod wiring;
 

@@ -1,6 +1,7 @@
 //! Where variables and their members stand in memory, from the program's DWARF
 //! as a debugger reads it.
 
+mod leaves;
 mod place;
 
 use gimli::{

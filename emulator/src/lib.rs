@@ -13,6 +13,7 @@
 //! modelled and what is not.
 
 mod board;
+pub mod campaign;
 mod chip;
 pub mod compare;
 pub mod deadlines;
@@ -22,6 +23,7 @@ pub mod latency;
 mod machine;
 mod memory;
 mod meter;
+mod notice;
 pub mod overload;
 mod paint;
 pub mod picture;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+use emulator::campaign::{self, Shard, Table};
 use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss, starting};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -69,8 +70,36 @@ enum Command {
     /// Resets the chip in every way that nobody asked for; fails if a motor is driven after it
     /// before the user button is pressed
     Starting(Flashed),
+    /// Injects faults at random into running scenes and writes a row a run
+    Campaign(Campaign),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
+}
+
+/// Which runs are made, and where their rows are kept.
+#[derive(Args)]
+struct Campaign {
+    /// The scene files
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// The programs that were built for them, in the same order; none: on the PC
+    #[arg(long, value_name = "ELF")]
+    program: Vec<PathBuf>,
+    /// The number of the first run
+    #[arg(long, default_value_t = 0)]
+    first: u64,
+    /// How many runs
+    #[arg(long)]
+    runs: u64,
+    /// Which shard
+    #[arg(long, default_value_t = 0)]
+    shard: u64,
+    /// Of how many
+    #[arg(long, default_value_t = 1)]
+    shards: u64,
+    /// The table of the shard: rows that it has are not run again
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
 }
 
 /// A scene and what is flashed for it.
@@ -81,6 +110,22 @@ struct Flashed {
     /// The program that was built for it
     #[arg(long, value_name = "ELF")]
     program: PathBuf,
+}
+
+/// Makes the runs of a shard that its table does not have yet.
+fn inject(campaign: Campaign) -> Result<(), Error> {
+    let programs = campaign.program.into_iter().map(Some);
+    let programs = programs.chain(std::iter::repeat(None));
+    let scenes = campaign.scenes.into_iter().zip(programs).collect();
+    let shard = Shard {
+        first: campaign.first,
+        end: campaign.first.saturating_add(campaign.runs),
+        remainder: campaign.shard,
+        shards: campaign.shards.max(1),
+    };
+    let mut table = Table::open(&campaign.out)?;
+    let done = table.done().to_vec();
+    campaign::run(&scenes, shard, &done, |row| table.add(&row))
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
@@ -126,6 +171,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 return Err(Error::Work(format!("{} ticks missed", measured.missed)));
             }
         }
+        Command::Campaign(campaign) => inject(campaign)?,
         Command::Overload(Flashed { scene, program }) => {
             report::say(overload::overload(&scene, &program)?.join("\n"));
         }

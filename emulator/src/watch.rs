@@ -11,10 +11,13 @@ use whisking::{Fix, Real};
 use crate::chip::Fault;
 use crate::debug_info::{DebugInfo, Number, Place};
 use crate::memory::Memories;
+use crate::notice::Notice;
 use crate::program::Program;
 
 /// Every name that is looked up, in one place.
 mod name {
+    use crate::notice::Notice;
+
     /// The module, a shared resource of RTIC.
     pub(super) const MODULE: &str = "__rtic_internal_shared_resource_module";
     /// The queue from the tick to idle.
@@ -50,7 +53,15 @@ mod name {
     pub(super) const SAMPLES: &str = "samples";
     pub(super) const PACKED: &str = "packed";
     pub(super) const TOUCH: &str = "touch";
-    /// In the event of a decision: the whisker, and the decision.
+    /// Events that are faults, or their ends.
+    pub(super) const NOTICES: [(&str, Notice); 5] = [
+        ("SensorLost", Notice::SensorLost),
+        ("SensorBack", Notice::SensorBack),
+        ("MotorFault", Notice::MotorFault),
+        ("MotorRetry", Notice::MotorRetry),
+        ("MotorGivenUp", Notice::MotorGivenUp),
+    ];
+    /// In an event: the whisker, and the decision if it is one.
     pub(super) const PLACED: [&str; 2] = ["__0", "__1"];
     /// In the whisker.
     pub(super) const SIDE: &str = "side";
@@ -92,7 +103,16 @@ struct Queue {
     words: [u32; 3],
     /// Where side and number of the whisker stand.
     whisker: [u32; 2],
+    /// The tags of faults and their ends.
+    notices: Vec<(u8, Notice)>,
     seen: u32,
+}
+
+/// What the tick has queued.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Said {
+    Decision(Decision),
+    Notice(Notice),
 }
 
 /// Where everything is.
@@ -214,8 +234,8 @@ impl Watch {
         self.queue.seen = 0;
     }
 
-    /// The decisions that have been queued since the last call.
-    pub(crate) fn decisions(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Decision)>, Fault> {
+    /// The decisions, faults and ends of faults that have been queued since the last call.
+    pub(crate) fn said(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Said)>, Fault> {
         self.queue.take(ram)
     }
 }
@@ -228,6 +248,8 @@ impl Queue {
         let (tag, value, event) = first.variant(name::DECISION)?;
         let [whisker, decision] = name::PLACED.map(|part| event.member(part));
         let (whisker, decision) = (whisker?, decision?);
+        let notices = name::NOTICES.into_iter();
+        let notices = notices.map(|(name, notice)| Ok((first.variant(name)?.1, notice)));
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
@@ -245,36 +267,42 @@ impl Queue {
                 whisker.member(name::SIDE)?.address - first.address,
                 whisker.member(name::WHISKER)?.address - first.address,
             ],
+            notices: notices.collect::<Result<_, Fault>>()?,
             seen: 0,
         })
     }
 
-    fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Decision)>, Fault> {
+    fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Said)>, Fault> {
         let put = ram.word(self.put)?;
-        let mut decisions = Vec::new();
+        let mut said = Vec::new();
         // What has been overwritten since is lost; idle has seen it.
         self.seen = put.wrapping_sub(put.wrapping_sub(self.seen).min(self.length));
         while self.seen != put {
             let event = self.events + self.seen % self.length * self.stride;
             let mut tag = [0];
             ram.read(event + self.tag.0, &mut tag)?;
-            if tag == [self.tag.1] {
-                let [samples, packed, touch] = self.words;
-                let decision = Decision::from_memory(
-                    ram.word(event + samples)?,
-                    ram.word(event + packed)?,
-                    ram.word(event + touch)?,
-                );
-                let mut place = [[0]; 2];
-                for (byte, offset) in place.iter_mut().zip(self.whisker) {
-                    ram.read(event + offset, byte)?;
-                }
-                let [[side], [whisker]] = place;
-                let place = Whisker::new(side, whisker);
-                decisions.extend(decision.map(|decision| (place, decision)));
+            let mut place = [[0]; 2];
+            for (byte, offset) in place.iter_mut().zip(self.whisker) {
+                ram.read(event + offset, byte)?;
             }
+            let [[side], [whisker]] = place;
+            let notice = self.notices.iter().find(|(value, _)| tag == [*value]);
+            let found = match notice {
+                Some((_, notice)) => Some(Said::Notice(*notice)),
+                None if tag == [self.tag.1] => {
+                    let [samples, packed, touch] = self.words;
+                    let decision = Decision::from_memory(
+                        ram.word(event + samples)?,
+                        ram.word(event + packed)?,
+                        ram.word(event + touch)?,
+                    );
+                    decision.map(Said::Decision)
+                }
+                None => None,
+            };
+            said.extend(found.map(|found| (Whisker::new(side, whisker), found)));
             self.seen = self.seen.wrapping_add(1);
         }
-        Ok(decisions)
+        Ok(said)
     }
 }

@@ -62,9 +62,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Fifteen of the motor, two of the plant, one of the head, of whisking and of the
+        // Sixteen of the motor, two of the plant, one of the head, of whisking and of the
         // classifier.
-        assert_eq!(defaults, 20);
+        assert_eq!(defaults, 21);
     }
 
     #[test]

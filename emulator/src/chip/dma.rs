@@ -46,6 +46,13 @@ pub(super) struct Dma {
 }
 
 impl Dma {
+    /// Disables a stream.
+    pub(super) fn stop(&mut self, stream: usize) {
+        if let Some(stream) = self.streams.get_mut(stream) {
+            stream.cr &= !EN;
+        }
+    }
+
     /// Serves a request of `channel` on a stream: the byte to move, if the
     /// stream listens.
     pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {

@@ -55,7 +55,7 @@ impl DebugInfo {
 }
 
 impl Place<'_> {
-    fn part(self, offset: u32, of: Type) -> Self {
+    pub(super) fn part(self, offset: u32, of: Type) -> Self {
         Self {
             info: self.info,
             address: self.address + offset,
@@ -91,7 +91,7 @@ impl Place<'_> {
         Ok(None)
     }
 
-    fn tag(self) -> Result<gimli::DwTag, Fault> {
+    pub(super) fn tag(self) -> Result<gimli::DwTag, Fault> {
         let unit = &self.info.units[self.of.unit];
         Ok(unit.entry(self.of.at).map_err(bad)?.tag())
     }

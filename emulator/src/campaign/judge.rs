@@ -1,0 +1,217 @@
+//! What must hold in every tick of every run.
+
+use firmware::FAULTS;
+use scene::Scene;
+
+use super::injection::{Injection, Kind};
+use super::subject::Seen;
+use crate::notice::Notice;
+
+/// Within how many ticks of a fault being told its motor is off.
+const OFF_TICKS: u32 = 2;
+/// For how long a whisker may be further from its setpoint than the scene allows, and be
+/// driven, s.
+const AWAY_S: f64 = 0.05;
+/// Steps of a PWM by which a duty may be rounded.
+const ROUNDING: f64 = 1e-3;
+
+/// What must not be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub(super) enum Harm {
+    #[error("driven with more than the duty limit")]
+    Effort,
+    #[error("driven after a fault was told")]
+    Driven,
+    #[error("driven far from its setpoint")]
+    Away,
+    #[error("decided by what is known to be bad")]
+    Decided,
+    #[error("driven after a reset that must not arm it")]
+    Armed,
+    #[error("did not recover")]
+    Unrecovered,
+    #[error("panicked")]
+    Panicked,
+    #[error("locked up")]
+    LockedUp,
+}
+
+/// What is known of a whisker.
+#[derive(Debug, Clone, Copy, Default)]
+struct Whisker {
+    sensor_is_lost: bool,
+    motor_rests: bool,
+    given_up: bool,
+    /// Ticks since a fault was told.
+    off_for: u32,
+    /// Ticks for which it has been driven too far from its setpoint.
+    away_for: u32,
+    /// By how much it is displaced from what its encoder has counted since the cable came
+    /// loose last, degrees: nothing but an index could tell.
+    displaced_deg: f64,
+    last_displaced_deg: f64,
+    /// Ticks left in which the setpoint that is followed approaches that of the pattern
+    /// generator.
+    approaches: u32,
+}
+
+impl Whisker {
+    const fn must_rest(&self) -> bool {
+        self.sensor_is_lost || self.motor_rests
+    }
+}
+
+/// Looks at every tick of a run.
+#[derive(Debug)]
+pub(super) struct Judge {
+    whiskers: Vec<Whisker>,
+    has_motors: bool,
+    per_side: usize,
+    tick_hz: f64,
+    limit: f64,
+    following_deg: f64,
+    reset: bool,
+}
+
+impl Judge {
+    /// Of a scene; `moves` says whether its motors can be seen to move.
+    pub(super) fn new(scene: &Scene, moves: bool) -> Self {
+        let motor = scene.motor.as_ref();
+        Self {
+            whiskers: vec![Whisker::default(); scene.whiskers()],
+            has_motors: moves,
+            per_side: scene.head.whiskers_per_side,
+            tick_hz: f64::from(scene.tick_hz),
+            limit: motor.map_or(0.0, |motor| motor.duty_limit) + ROUNDING,
+            following_deg: motor.map_or(f64::MAX, |motor| motor.following_limit_deg),
+            reset: false,
+        }
+    }
+
+    /// One tick; what must not be, if it is.
+    pub(super) fn look(&mut self, tick: u64, seen: &Seen, injection: &Injection) -> Option<Harm> {
+        if seen.reset.is_some() {
+            self.reset = true;
+            self.whiskers.fill(Whisker::default());
+        }
+        let cut = injection.kind == Kind::EncoderStuck && injection.lasts(tick);
+        for (whisker, &displaced) in self.whiskers.iter_mut().zip(&seen.displaced_deg) {
+            // While the count stands still, the whisker is away from where it was lost.
+            if displaced == whisker.last_displaced_deg && !cut {
+                whisker.displaced_deg = displaced;
+            }
+            whisker.last_displaced_deg = displaced;
+        }
+        let decided = seen.decisions.iter().any(|(n, _)| {
+            let known = self.whiskers.get(*n).is_some_and(Whisker::must_rest);
+            // A frame is used a tick after it was sent, and the last good one is held.
+            let held = (0.006 * self.tick_hz) as u64;
+            let spoilt = injection.kind.spoils_every_frame()
+                && injection.whisker == *n
+                && injection.lasts(tick)
+                && tick > injection.start + held;
+            known || spoilt
+        });
+        if decided {
+            return Some(Harm::Decided);
+        }
+        // A decision that falls in the tick of a motor's fault came of what was sound.
+        for &(n, notice) in &seen.notices {
+            self.note(n, notice);
+        }
+        for n in 0..self.whiskers.len() {
+            if let Some(harm) = self.look_at(n, seen) {
+                return Some(harm);
+            }
+        }
+        None
+    }
+
+    fn note(&mut self, n: usize, notice: Notice) {
+        let approach = (firmware::design_parameters::RETRY_S * self.tick_hz) as u32;
+        let Some(whisker) = self.whiskers.get_mut(n) else {
+            return;
+        };
+        match notice {
+            Notice::SensorLost => whisker.sensor_is_lost = true,
+            Notice::SensorBack => {
+                whisker.sensor_is_lost = false;
+                whisker.approaches = approach;
+            }
+            Notice::MotorFault => whisker.motor_rests = true,
+            Notice::MotorRetry => {
+                whisker.motor_rests = false;
+                whisker.approaches = approach;
+            }
+            Notice::MotorGivenUp => {
+                whisker.motor_rests = true;
+                whisker.given_up = true;
+            }
+        }
+    }
+
+    fn look_at(&mut self, n: usize, seen: &Seen) -> Option<Harm> {
+        let away_ticks = (AWAY_S * self.tick_hz) as u32;
+        let effort = *seen.effort.get(n)?;
+        let whisker = self.whiskers.get_mut(n)?;
+        if effort > self.limit {
+            return Some(Harm::Effort);
+        }
+        if self.reset && effort > 0.0 {
+            return Some(Harm::Armed);
+        }
+        whisker.off_for = if whisker.must_rest() {
+            whisker.off_for + 1
+        } else {
+            0
+        };
+        if whisker.off_for > OFF_TICKS && effort > 0.0 {
+            return Some(Harm::Driven);
+        }
+        // The trace shows the first whisker of each side.
+        if !self.has_motors || !n.is_multiple_of(self.per_side) {
+            return None;
+        }
+        let side = n / self.per_side;
+        let (angle, setpoint) = (seen.row.angle_deg[side], seen.row.theta_deg[side]);
+        whisker.approaches = whisker.approaches.saturating_sub(1);
+        let angle = angle - whisker.displaced_deg;
+        let away = (angle - setpoint).abs() > self.following_deg && whisker.approaches == 0;
+        whisker.away_for = if away && effort > 0.0 {
+            whisker.away_for + 1
+        } else {
+            0
+        };
+        if whisker.away_for > away_ticks {
+            return Some(Harm::Away);
+        }
+        None
+    }
+
+    /// At the end of a run whose fault was taken away long enough ago: every motor must
+    /// follow its setpoint again, unless it was given up or the chip was reset.
+    pub(super) fn end(&self, seen: &Seen) -> Option<Harm> {
+        if self.reset {
+            return None;
+        }
+        let rest_ticks = (firmware::design_parameters::RETRY_S * self.tick_hz) as u32 + OFF_TICKS;
+        for (n, whisker) in self.whiskers.iter().enumerate() {
+            // A motor that has had another fault rests again, or is given up.
+            let rests = whisker.given_up || (whisker.motor_rests && whisker.off_for <= rest_ticks);
+            if whisker.sensor_is_lost || (whisker.motor_rests && !rests) {
+                return Some(Harm::Unrecovered);
+            }
+            if !self.has_motors || rests || !n.is_multiple_of(self.per_side) {
+                continue;
+            }
+            let side = n / self.per_side;
+            let (angle, setpoint) = (seen.row.angle_deg[side], seen.row.theta_deg[side]);
+            if (angle - whisker.displaced_deg - setpoint).abs() > self.following_deg {
+                return Some(Harm::Unrecovered);
+            }
+        }
+        None
+    }
+}
+
+const _: () = assert!(FAULTS == 3, "the text of the page says so");

@@ -1,0 +1,76 @@
+//! What a run has come to.
+
+use serde::{Deserialize, Serialize};
+
+use super::injection::Kind;
+use super::judge::Harm;
+
+/// How a run is called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// In the end the whiskers move and decide as in the undisturbed run.
+    Masked,
+    /// The module has told of it: a fault, a line of the log, or a reset.
+    Noticed,
+    /// It moves or decides otherwise, and has not told of it.
+    Silent,
+    /// What must hold in every tick did not.
+    Harmful,
+    /// The emulated chip is not modelled beyond this point.
+    Unfollowed,
+}
+
+/// A run, as it stands in the table of its shard.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Its number, from which it can be repeated.
+    pub run: u64,
+    /// The scene's name.
+    pub scene: String,
+    /// What was injected.
+    pub kind: Kind,
+    /// Before which tick, counted from 1.
+    pub start: u64,
+    /// For how many ticks; nothing: to the end.
+    pub ticks: Option<u64>,
+    /// How it is called.
+    pub outcome: Outcome,
+    /// Why, or what was told first.
+    pub reason: String,
+    /// The word of RAM or the register that was changed.
+    pub changed: Option<String>,
+    /// From the injection to what was told first, ms.
+    pub noticed_ms: Option<f64>,
+}
+
+/// What is known of a run at its end.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    pub(super) harm: Option<(u64, Harm)>,
+    /// The tick of what was told first after the injection, and what it was.
+    pub(super) told: Option<(u64, String)>,
+    /// Where the emulated chip could not follow.
+    pub(super) unfollowed: Option<String>,
+    /// How it differs from the undisturbed run.
+    pub(super) difference: Option<&'static str>,
+}
+
+impl Findings {
+    /// Outcome and reason.
+    pub(super) fn verdict(&self) -> (Outcome, String) {
+        if let Some((tick, harm)) = &self.harm {
+            return (Outcome::Harmful, format!("{harm}, tick {tick}"));
+        }
+        if let Some(what) = &self.unfollowed {
+            return (Outcome::Unfollowed, what.clone());
+        }
+        if let Some((_, what)) = &self.told {
+            return (Outcome::Noticed, what.clone());
+        }
+        match self.difference {
+            Some(what) => (Outcome::Silent, what.to_owned()),
+            None => (Outcome::Masked, String::new()),
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! Where a scene runs: on this PC, or as a board's program on its emulated chip.
+
+use firmware::Place;
+use host_sim::Error;
+use host_sim::bus::Slave;
+use host_sim::commands::run::Loaded;
+use host_sim::motor::SimMotor;
+use host_sim::run::Run;
+use host_sim::trace::Row;
+
+use super::words::Words;
+use crate::board::Emulated;
+use crate::chip::{Fault, ResetCause};
+use crate::emulate::start;
+use crate::notice::Notice;
+use crate::program::Program;
+use crate::rtt::LogDecoder;
+
+/// What can be seen of a tick from outside.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Seen {
+    /// Setpoints and angles.
+    pub(super) row: Row,
+    /// What the pins ask of each motor, 0 to 1, left side first.
+    pub(super) effort: Vec<f64>,
+    /// By how much each whisker is displaced from its encoder's count, degrees.
+    pub(super) displaced_deg: Vec<f64>,
+    /// What the module has told, and of which whisker.
+    pub(super) notices: Vec<(usize, Notice)>,
+    /// The whiskers that have decided, and for what.
+    pub(super) decisions: Vec<(usize, String)>,
+    /// What has reset the chip.
+    pub(super) reset: Option<ResetCause>,
+}
+
+/// A scene that runs.
+pub(super) trait Subject {
+    /// One tick.
+    ///
+    /// # Errors
+    /// What the emulated chip cannot go along with.
+    fn tick(&mut self) -> Result<Seen, Fault>;
+
+    /// A whisker's motor; none where motors are ideal.
+    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor>;
+
+    /// A whisker's sensor.
+    fn slave(&mut self, whisker: usize) -> Option<&mut Slave>;
+
+    /// Inverts a bit of RAM.
+    ///
+    /// # Errors
+    /// [`Fault`] where there is none.
+    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault>;
+
+    /// Inverts a bit of a register.
+    ///
+    /// # Errors
+    /// [`Fault`] where there is none.
+    fn flip_register(&mut self, detail: u64) -> Result<(), Fault>;
+
+    /// Stops the DMA of a sensor.
+    ///
+    /// # Errors
+    /// [`Fault`] where there is none.
+    fn stop_dma(&mut self) -> Result<(), Fault>;
+
+    /// Holds the core within the next tick.
+    fn hold(&mut self, detail: u64);
+
+    /// The word or register that was changed.
+    fn changed(&self) -> Option<String>;
+
+    /// Errors and warnings of the log since the last call.
+    fn complaints(&mut self) -> Vec<String>;
+}
+
+/// A scene on this PC.
+pub(super) struct OnPc {
+    run: Run,
+    whiskers: usize,
+    per_side: usize,
+}
+
+impl OnPc {
+    /// # Errors
+    /// As [`Run::new`].
+    pub(super) fn new(loaded: &Loaded) -> Result<Self, Error> {
+        Ok(Self {
+            run: Run::new(&loaded.scene, loaded.classifier()?)?,
+            whiskers: loaded.scene.whiskers(),
+            per_side: loaded.scene.head.whiskers_per_side,
+        })
+    }
+}
+
+/// The number of a whisker, left side first.
+fn number(place: Place, per_side: usize) -> usize {
+    usize::from(place.side) * per_side + usize::from(place.whisker)
+}
+
+/// What `run` has told in its last tick.
+fn told<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
+    let notices = run.events().iter().filter_map(Notice::of);
+    let decisions = run.decisions().filter_map(|decided| {
+        let place = decided.place?;
+        Some((number(place, per_side), decided.decision))
+    });
+    Seen {
+        row: *run.row(),
+        notices: notices
+            .map(|(place, notice)| (number(place, per_side), notice))
+            .collect(),
+        decisions: decisions.collect(),
+        ..Seen::default()
+    }
+}
+
+impl Subject for OnPc {
+    fn tick(&mut self) -> Result<Seen, Fault> {
+        self.run.tick();
+        let mut seen = told(&self.run, self.per_side);
+        for n in 0..self.whiskers {
+            if let Some(motor) = self.run.motor_mut(n) {
+                seen.effort.push(motor.effort());
+                seen.displaced_deg.push(motor.displaced_deg());
+            }
+        }
+        Ok(seen)
+    }
+
+    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
+        self.run.motor_mut(whisker)
+    }
+
+    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
+        self.run.slave_mut(whisker)
+    }
+
+    fn flip_ram(&mut self, _: u64) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn flip_register(&mut self, _: u64) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn stop_dma(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn hold(&mut self, _: u64) {}
+
+    fn changed(&self) -> Option<String> {
+        None
+    }
+
+    fn complaints(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// A scene on an emulated board.
+pub(super) struct OnBoard<'p> {
+    run: Run<Emulated>,
+    words: &'p Words,
+    decoder: LogDecoder,
+    sides: usize,
+    tick_hz: u32,
+    changed: Option<String>,
+}
+
+impl<'p> OnBoard<'p> {
+    /// # Errors
+    /// As [`start`].
+    pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
+        let mut run = start(&loaded.scene, loaded.classes()?, program)?;
+        run.module_mut().bears_resets = true;
+        Ok(Self {
+            run,
+            words,
+            decoder: LogDecoder::new(program)?,
+            sides: loaded.scene.head.sides.count(),
+            tick_hz: loaded.scene.tick_hz,
+            changed: None,
+        })
+    }
+}
+
+impl Subject for OnBoard<'_> {
+    fn tick(&mut self) -> Result<Seen, Fault> {
+        self.run.tick();
+        let mut seen = told(&self.run, 1);
+        let emulated = self.run.module_mut();
+        emulated.check()?;
+        let board = &mut emulated.board;
+        let notices = std::mem::take(&mut board.notices).into_iter();
+        seen.notices = notices
+            .map(|(place, notice)| (number(place, 1), notice))
+            .collect();
+        seen.reset = board.reset.take();
+        let duties = board.machine.with_chip(|chip| chip.motor_duties());
+        let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
+        for n in 0..self.sides {
+            let motor = self.run.motor_mut(n);
+            seen.displaced_deg
+                .extend(motor.map(|motor| motor.displaced_deg()));
+        }
+        seen.effort = if self.sides == 1 {
+            // It may have all three outputs.
+            vec![duties.into_iter().map(share).fold(0.0, f64::max)]
+        } else {
+            duties.into_iter().take(self.sides).map(share).collect()
+        };
+        Ok(seen)
+    }
+
+    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
+        self.run.motor_mut(whisker)
+    }
+
+    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
+        self.run.slave_mut(whisker)
+    }
+
+    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
+        let board = &mut self.run.module_mut().board;
+        let memories = &board.machine.memories;
+        let (address, name) = self.words.pick(detail);
+        let bit = (detail >> 32) % 32;
+        let word = memories.word(address)? ^ (1 << bit);
+        memories.write(address, &word.to_le_bytes())?;
+        self.changed = Some(format!("{name} bit {bit}"));
+        Ok(())
+    }
+
+    fn flip_register(&mut self, detail: u64) -> Result<(), Fault> {
+        let board = &mut self.run.module_mut().board;
+        self.changed = board.machine.with_chip(|chip| chip.flip(detail));
+        Ok(())
+    }
+
+    fn stop_dma(&mut self) -> Result<(), Fault> {
+        let board = &mut self.run.module_mut().board;
+        board.machine.with_chip(crate::chip::Chip::stop_dma);
+        Ok(())
+    }
+
+    fn hold(&mut self, detail: u64) {
+        // From a tenth of a tick to ten ticks, which the watchdog bears.
+        let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
+        let time = share * 1e12 / f64::from(self.tick_hz);
+        self.run
+            .module_mut()
+            .board
+            .machine
+            .hold_next_tick(time as u64);
+    }
+
+    fn changed(&self) -> Option<String> {
+        self.changed.clone()
+    }
+
+    fn complaints(&mut self) -> Vec<String> {
+        let bytes = self.run.module_mut().take_log();
+        let lines = self.decoder.lines(&bytes).into_iter();
+        lines
+            .filter(|line| line.contains("ERROR") || line.contains("WARN"))
+            .collect()
+    }
+}

@@ -1,0 +1,71 @@
+//! The table of a shard: a row a run, written as soon as the run is over.
+
+use std::fs::{File, OpenOptions};
+use std::path::{Path, PathBuf};
+
+use host_sim::Error;
+
+use super::outcome::Row;
+
+/// A table that grows.
+#[derive(Debug)]
+pub struct Table {
+    path: PathBuf,
+    writer: csv::Writer<File>,
+    done: Vec<u64>,
+}
+
+impl Table {
+    /// Opens the table in `path`, or begins one.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if what it has is not such a table, [`Error::Write`].
+    pub fn open(path: &Path) -> Result<Self, Error> {
+        let done = if path.exists() {
+            rows(path)?.into_iter().map(|row| row.run).collect()
+        } else {
+            Vec::new()
+        };
+        let refused = |error| Error::write(path, error);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(refused)?;
+        }
+        let file = OpenOptions::new().create(true).append(true).open(path);
+        let file = file.map_err(refused)?;
+        // A table with rows has its header.
+        let is_new = file.metadata().map_err(refused)?.len() == 0;
+        let writer = csv::WriterBuilder::new()
+            .has_headers(is_new)
+            .from_writer(file);
+        Ok(Self {
+            path: path.to_owned(),
+            writer,
+            done,
+        })
+    }
+
+    /// The runs that it had when it was opened.
+    pub fn done(&self) -> &[u64] {
+        &self.done
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn add(&mut self, row: &Row) -> Result<(), Error> {
+        let written = self.writer.serialize(row);
+        let written = written.and_then(|()| self.writer.flush().map_err(Into::into));
+        written.map_err(|error| Error::write(&self.path, error.into()))
+    }
+}
+
+/// The rows of the table in `path`.
+///
+/// # Errors
+/// [`Error::Input`] if it is no such table.
+fn rows(path: &Path) -> Result<Vec<Row>, Error> {
+    let read = csv::Reader::from_path(path);
+    let rows: Result<Vec<Row>, _> = read.and_then(|mut reader| reader.deserialize().collect());
+    rows.map_err(|error| Error::file(path, error))
+}

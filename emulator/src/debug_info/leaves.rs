@@ -1,0 +1,100 @@
+//! All numbers in RAM, by the names of the variables and members that lead to them.
+
+use gimli::{
+    DW_AT_data_member_location, DW_TAG_array_type, DW_TAG_member, DW_TAG_structure_type,
+    DW_TAG_union_type, DW_TAG_variable, DW_TAG_variant, DW_TAG_variant_part,
+};
+
+use super::{DebugInfo, Place, Type, bad, number};
+use crate::chip::Fault;
+
+/// Where RAM begins.
+const RAM: u32 = 0x2000_0000;
+
+/// A number in RAM.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Leaf {
+    pub(crate) address: u32,
+    pub(crate) size: u32,
+    /// Its variable, members and indices.
+    pub(crate) path: String,
+}
+
+impl DebugInfo {
+    /// The numbers in all variables that lie in RAM.
+    pub(crate) fn leaves(&self) -> Result<Vec<Leaf>, Fault> {
+        let mut leaves = Vec::new();
+        for unit in 0..self.units.len() {
+            let mut entries = self.units[unit].entries();
+            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
+                if entry.tag() == DW_TAG_variable
+                    && let Some(name) = self.name(unit, entry)?
+                    && let Some(address) = self.address(unit, entry)?
+                    && address >= RAM
+                    && let Some(of) = self.type_of(unit, entry)?
+                {
+                    let info = self;
+                    Place { info, address, of }.leaves(&name, &mut leaves)?;
+                }
+            }
+        }
+        Ok(leaves)
+    }
+}
+
+impl Place<'_> {
+    /// The numbers in it.
+    fn leaves(self, path: &str, into: &mut Vec<Leaf>) -> Result<(), Fault> {
+        let tag = self.tag()?;
+        if tag == DW_TAG_array_type {
+            for n in 0..self.length()? {
+                self.element(n)?.leaves(&format!("{path}[{n}]"), into)?;
+            }
+            return Ok(());
+        }
+        if tag == DW_TAG_structure_type || tag == DW_TAG_union_type {
+            return self.members(self.of, path, into);
+        }
+        let size = self.size().unwrap_or(4);
+        into.push(Leaf {
+            address: self.address,
+            size,
+            path: path.to_owned(),
+        });
+        Ok(())
+    }
+
+    /// The numbers in the members directly below `of`, and in those of every variant.
+    fn members(self, of: Type, path: &str, into: &mut Vec<Leaf>) -> Result<(), Fault> {
+        let mut parts = Vec::new();
+        let mut members = Vec::new();
+        let unit = of.unit;
+        self.info.children::<()>(of, |entry| {
+            let below = Type {
+                unit,
+                at: entry.offset(),
+            };
+            match entry.tag() {
+                tag if tag == DW_TAG_variant_part || tag == DW_TAG_variant => parts.push(below),
+                tag if tag == DW_TAG_member => {
+                    let offset = number(entry, DW_AT_data_member_location)?.unwrap_or(0);
+                    if let Some(of) = self.info.type_of(unit, entry)? {
+                        // The tag of a variant has no name.
+                        let name = self.info.name(unit, entry)?;
+                        members.push((offset as u32, of, name.unwrap_or_else(|| "tag".to_owned())));
+                    }
+                }
+                _ => {}
+            }
+            Ok(None)
+        })?;
+        for part in parts {
+            self.members(part, path, into)?;
+        }
+        for (offset, of, name) in members {
+            self.part(offset, of)
+                .leaves(&format!("{path}.{name}"), into)?;
+        }
+        Ok(())
+    }
+}

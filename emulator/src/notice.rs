@@ -1,0 +1,32 @@
+//! Faults that a module tells of, and their ends.
+
+use firmware::{Event, Place};
+
+/// What a module has told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Notice {
+    /// The sensor of a whisker has a fault: its motor is off.
+    SensorLost,
+    /// It is good again.
+    SensorBack,
+    /// A motor has a fault: it is off.
+    MotorFault,
+    /// It is tried again.
+    MotorRetry,
+    /// It stays off.
+    MotorGivenUp,
+}
+
+impl Notice {
+    /// Of an event of the module; nothing for what is no fault.
+    pub(crate) fn of(event: &Event) -> Option<(Place, Self)> {
+        match *event {
+            Event::SensorLost(place, _) => Some((place, Self::SensorLost)),
+            Event::SensorBack(place) => Some((place, Self::SensorBack)),
+            Event::MotorFault(place, _) => Some((place, Self::MotorFault)),
+            Event::MotorRetry(place) => Some((place, Self::MotorRetry)),
+            Event::MotorGivenUp(place) => Some((place, Self::MotorGivenUp)),
+            Event::Decision(..) | Event::Touch { .. } | Event::TouchEnd { .. } => None,
+        }
+    }
+}
