@@ -16,6 +16,7 @@ mod draw;
 mod injection;
 mod judge;
 mod outcome;
+mod page;
 mod shard;
 mod subject;
 mod table;
@@ -23,5 +24,6 @@ mod words;
 
 pub use injection::Kind;
 pub use outcome::{Outcome, Row};
+pub use page::{described, page};
 pub use shard::{Scenes, Shard, run};
-pub use table::Table;
+pub use table::{Table, rows};

@@ -1,11 +1,11 @@
 //! The emulated board's command line; `cargo xtask emulate` builds the program
 //! and calls it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use emulator::campaign::{self, Shard, Table};
+use emulator::campaign::{self, Outcome, Shard, Table};
 use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss, starting};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -72,6 +72,15 @@ enum Command {
     Starting(Flashed),
     /// Injects faults at random into running scenes and writes a row a run
     Campaign(Campaign),
+    /// Makes the page of the campaign from its tables; fails if a run was harmful
+    Reliability {
+        /// The tables of all shards
+        #[arg(required = true)]
+        tables: Vec<PathBuf>,
+        /// The page to write; none: only harmful runs are told
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -85,6 +94,9 @@ struct Campaign {
     /// The programs that were built for them, in the same order; none: on the PC
     #[arg(long, value_name = "ELF")]
     program: Vec<PathBuf>,
+    /// What the rows call it
+    #[arg(long, default_value = "host-sim")]
+    subject: String,
     /// The number of the first run
     #[arg(long, default_value_t = 0)]
     first: u64,
@@ -125,7 +137,30 @@ fn inject(campaign: Campaign) -> Result<(), Error> {
     };
     let mut table = Table::open(&campaign.out)?;
     let done = table.done().to_vec();
-    campaign::run(&scenes, shard, &done, |row| table.add(&row))
+    campaign::run(&campaign.subject, &scenes, shard, &done, |row| {
+        table.add(&row)
+    })
+}
+
+/// The page of the campaign.
+fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
+    let mut rows = Vec::new();
+    for table in tables {
+        rows.extend(campaign::rows(table)?);
+    }
+    rows.sort_by(|a, b| (&a.subject, a.run).cmp(&(&b.subject, b.run)));
+    if let Some(out) = out {
+        let page = campaign::page(&rows).map_err(Error::Work)?;
+        write_whole(out, page.as_bytes())?;
+    }
+    let harmful = rows.iter().filter(|row| row.outcome == Outcome::Harmful);
+    let harmful: Vec<String> = harmful.map(campaign::described).collect();
+    if harmful.is_empty() {
+        report::say(format_args!("{} runs, none harmful", rows.len()));
+        Ok(())
+    } else {
+        Err(Error::Work(harmful.join("\n")))
+    }
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
@@ -172,6 +207,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             }
         }
         Command::Campaign(campaign) => inject(campaign)?,
+        Command::Reliability { tables, out } => reliability(&tables, out.as_deref())?,
         Command::Overload(Flashed { scene, program }) => {
             report::say(overload::overload(&scene, &program)?.join("\n"));
         }

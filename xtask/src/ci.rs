@@ -7,7 +7,7 @@ use crate::emulate::Task;
 use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
-use crate::{arrows, cost, count, docs, emulate, panics, readme, size};
+use crate::{arrows, cost, count, docs, emulate, faults, panics, readme, size};
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -31,6 +31,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated board, one side and two", board)?;
+    steps.run("injected faults, a thousand", faults::short)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
     steps.end()

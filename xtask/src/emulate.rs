@@ -1,6 +1,6 @@
 //! A scene on the emulated board: builds the board's program and runs it there.
 
-mod variants;
+pub(crate) mod variants;
 
 use std::path::{Path, PathBuf};
 

@@ -7,6 +7,7 @@ mod count;
 mod docs;
 mod elf;
 mod emulate;
+mod faults;
 mod figures;
 mod firmware;
 mod nightly;
@@ -51,6 +52,9 @@ enum Command {
     /// Builds the firmware of a scene and runs it on an emulated board: writes
     /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
     Emulate(Emulate),
+    /// Injects faults at random into every scene, on the PC and on the emulated boards, and
+    /// writes docs/measured/reliability.md; fails if one was harmful
+    Faults(faults::Choice),
     /// Draws what both sides do in scenes with obstacles, on an emulated NUCLEO-F446RE
     Picture {
         /// The scenes, from above
@@ -207,6 +211,7 @@ fn main() -> ExitCode {
         Command::Flash(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),
+        Command::Faults(choice) => faults::all(&choice),
         Command::Picture { scenes, out } => firmware::Board::named("nucleo-f446re")
             .and_then(|board| emulate::picture(board, &scenes, &out)),
         Command::Cost {

@@ -6,10 +6,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::injection::{Injection, Kind};
 
 /// How long a run lasts, s: the injection, a rest after a fault, and whisks after that.
-pub(super) const RUN_S: f64 = 2.6;
+pub(super) const RUN_S: f64 = 2.2;
 /// The injection falls between these, s.
 const FROM_S: f64 = 0.25;
-const TO_S: f64 = 0.75;
+const TO_S: f64 = 0.5;
 /// The longest that is taken away again, s.
 const LONGEST_S: f64 = 0.4;
 

@@ -24,6 +24,8 @@ pub enum Outcome {
 /// A run, as it stands in the table of its shard.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
+    /// Where it ran: `host-sim`, or the board's name.
+    pub subject: String,
     /// Its number, from which it can be repeated.
     pub run: u64,
     /// The scene's name.

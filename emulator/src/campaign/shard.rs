@@ -92,7 +92,7 @@ impl Prepared {
         })
     }
 
-    fn run(&self, number: u64) -> Result<Row, Error> {
+    fn run(&self, subject_name: &str, number: u64) -> Result<Row, Error> {
         let mut random = draw::random(number);
         let injection = draw::injection(self.has, &mut random);
         let mut subject = self.subject()?;
@@ -151,6 +151,7 @@ impl Prepared {
             .map(|(tick, _)| (tick - injection.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
         let (outcome, reason) = findings.verdict();
         Ok(Row {
+            subject: subject_name.to_owned(),
             run: number,
             scene: self.loaded.scene.name.clone(),
             kind: injection.kind,
@@ -219,12 +220,13 @@ fn stripped(line: &str) -> String {
     said.map_or(line, |(_, said)| said).trim().to_owned()
 }
 
-/// Runs what is left of a shard; `done` are the numbers of those that were run before, and
+/// Runs what is left of a shard on `subject`; `done` are the numbers of those that were run before, and
 /// every other row goes to `take` as soon as it is there.
 ///
 /// # Errors
 /// [`Error`] for a scene or a program that is wrong, and what `take` brings.
 pub fn run(
+    subject: &str,
     scenes: &Scenes,
     shard: Shard,
     done: &[u64],
@@ -235,12 +237,13 @@ pub fn run(
         if number % shard.shards != shard.remainder || done.contains(&number) {
             continue;
         }
-        take(run_one(scenes, number, &mut prepared)?)?;
+        take(run_one(subject, scenes, number, &mut prepared)?)?;
     }
     Ok(())
 }
 
 fn run_one(
+    subject: &str,
     scenes: &Scenes,
     number: u64,
     prepared: &mut BTreeMap<usize, Prepared>,
@@ -254,5 +257,5 @@ fn run_one(
         Entry::Occupied(prepared) => prepared.into_mut(),
         Entry::Vacant(place) => place.insert(Prepared::new(scene, program.as_deref())?),
     };
-    prepared.run(number)
+    prepared.run(subject, number)
 }

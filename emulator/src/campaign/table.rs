@@ -64,7 +64,7 @@ impl Table {
 ///
 /// # Errors
 /// [`Error::Input`] if it is no such table.
-fn rows(path: &Path) -> Result<Vec<Row>, Error> {
+pub fn rows(path: &Path) -> Result<Vec<Row>, Error> {
     let read = csv::Reader::from_path(path);
     let rows: Result<Vec<Row>, _> = read.and_then(|mut reader| reader.deserialize().collect());
     rows.map_err(|error| Error::file(path, error))

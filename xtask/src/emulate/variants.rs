@@ -13,7 +13,7 @@ use crate::run::{self, Fault, absolute};
 ///
 /// # Errors
 /// If the scene is wrong or the other cannot be written.
-pub(super) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
+pub(crate) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
     let (scene, mut table) = read(path)?;
     let whiskers = scene.head.whiskers_per_side;
     if whiskers == 1 {

@@ -1,0 +1,185 @@
+//! `docs/measured/reliability.md`: what became of all runs.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::injection::Kind;
+use super::outcome::{Outcome, Row};
+
+/// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.
+const REASONS: &str = include_str!("reasons.toml");
+
+/// Outcomes in the order of the columns.
+const OUTCOMES: [Outcome; 5] = [
+    Outcome::Masked,
+    Outcome::Noticed,
+    Outcome::Silent,
+    Outcome::Harmful,
+    Outcome::Unfollowed,
+];
+
+/// The name of a value as it stands in the tables.
+fn name(value: impl serde::Serialize) -> String {
+    let value = toml::Value::try_from(value).ok();
+    value
+        .and_then(|value| value.as_str().map(str::to_owned))
+        .unwrap_or_default()
+}
+
+/// The runs with an outcome.
+fn with(rows: &[Row], outcome: Outcome) -> impl Iterator<Item = &Row> {
+    rows.iter().filter(move |row| row.outcome == outcome)
+}
+
+/// How many of `rows` have each outcome, as cells of a table.
+fn cells(rows: &[&Row]) -> String {
+    let counts = OUTCOMES.map(|outcome| {
+        let count = rows.iter().filter(|row| row.outcome == outcome).count();
+        format!("{count} |")
+    });
+    counts.join(" ")
+}
+
+/// Middle and largest time until something was told, ms.
+fn noticed(rows: &[&Row]) -> String {
+    let mut times: Vec<f64> = rows.iter().filter_map(|row| row.noticed_ms).collect();
+    times.sort_by(f64::total_cmp);
+    match (times.get(times.len() / 2), times.last()) {
+        (Some(middle), Some(most)) => format!("{middle:.1} | {most:.1} |"),
+        _ => "| |".to_owned(),
+    }
+}
+
+/// A variable without its indices.
+fn without_indices(name: &str) -> String {
+    let mut kept = String::new();
+    let mut inside = false;
+    for letter in name.chars() {
+        match letter {
+            '[' => inside = true,
+            ']' => inside = false,
+            letter if !inside => kept.push(letter),
+            _ => {}
+        }
+    }
+    kept
+}
+
+/// Where a silent run was hit: a variable, a register, or the kind of fault.
+fn place(row: &Row) -> String {
+    match &row.changed {
+        Some(changed) => {
+            let word = changed.split(" bit ").next().unwrap_or(changed);
+            without_indices(word)
+        }
+        None => name(row.kind),
+    }
+}
+
+/// Why what was hit there is silent.
+fn reason(place: &str, reasons: &BTreeMap<String, String>) -> Option<String> {
+    let fitting = reasons
+        .iter()
+        .filter(|(of, _)| place.starts_with(of.as_str()));
+    let longest = fitting.max_by_key(|(of, _)| of.len());
+    longest.map(|(_, reason)| reason.clone())
+}
+
+/// The page, of the rows of all shards of all subjects.
+///
+/// # Errors
+/// What is wrong with the table of reasons.
+pub fn page(rows: &[Row]) -> Result<String, String> {
+    let reasons: BTreeMap<String, String> =
+        toml::from_str(REASONS).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = writeln!(text, "{}", include_str!("page.md").trim_end());
+    let _ = writeln!(
+        text,
+        "\n## By where it ran\n\n| | runs | masked | noticed | silent | harmful | not followed |\n\
+         |---|---|---|---|---|---|---|"
+    );
+    let mut subjects: Vec<&str> = rows.iter().map(|row| row.subject.as_str()).collect();
+    subjects.sort_unstable();
+    subjects.dedup();
+    for subject in subjects {
+        let of: Vec<&Row> = rows.iter().filter(|row| row.subject == subject).collect();
+        let _ = writeln!(text, "| {subject} | {} | {}", of.len(), cells(&of));
+    }
+    let all: Vec<&Row> = rows.iter().collect();
+    let _ = writeln!(text, "| all | {} | {}", all.len(), cells(&all));
+
+    let _ = writeln!(
+        text,
+        "\n## By what was injected\n\n| | runs | masked | noticed | silent | harmful | not followed \
+         | told after, ms: middle | most |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    let kinds: BTreeMap<Kind, Vec<&Row>> = rows.iter().fold(BTreeMap::new(), |mut kinds, row| {
+        kinds.entry(row.kind).or_default().push(row);
+        kinds
+    });
+    for (kind, of) in &kinds {
+        let (cells, noticed) = (cells(of), noticed(of));
+        let _ = writeln!(text, "| {} | {} | {cells} {noticed}", name(kind), of.len());
+    }
+
+    let _ = writeln!(text, "\n## Harmful\n");
+    let mut harmful = with(rows, Outcome::Harmful).peekable();
+    if harmful.peek().is_none() {
+        let _ = writeln!(text, "None.");
+    }
+    for row in harmful {
+        let _ = writeln!(text, "- {}", described(row));
+    }
+
+    let _ = writeln!(
+        text,
+        "\n## Silent, by what was hit\n\n| | runs | how it ends | why nothing is told |\n\
+         |---|---|---|---|"
+    );
+    let mut silent: BTreeMap<String, Vec<&Row>> = BTreeMap::new();
+    for row in with(rows, Outcome::Silent) {
+        silent.entry(place(row)).or_default().push(row);
+    }
+    for (place, of) in &silent {
+        let mut ends: Vec<&str> = of.iter().map(|row| row.reason.as_str()).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        let reason = reason(place, &reasons).unwrap_or_else(|| {
+            let runs: Vec<String> = of.iter().map(|row| row.run.to_string()).collect();
+            format!("**not known**: runs {}", runs.join(", "))
+        });
+        let _ = writeln!(
+            text,
+            "| `{place}` | {} | {} | {reason} |",
+            of.len(),
+            ends.join(", ")
+        );
+    }
+
+    let _ = writeln!(text, "\n## Not followed\n");
+    let mut unfollowed = with(rows, Outcome::Unfollowed).peekable();
+    if unfollowed.peek().is_none() {
+        let _ = writeln!(text, "None.");
+    }
+    for row in unfollowed {
+        let _ = writeln!(text, "- {}", described(row));
+    }
+    Ok(text)
+}
+
+/// A run in a line.
+pub fn described(row: &Row) -> String {
+    let changed = row.changed.as_ref().map(|word| format!(" of `{word}`"));
+    format!(
+        "{}, run {}, scene {}: {}{} before tick {}: {}",
+        row.subject,
+        row.run,
+        row.scene,
+        name(row.kind),
+        changed.unwrap_or_default(),
+        row.start,
+        row.reason
+    )
+}

@@ -1,0 +1,198 @@
+//! The campaign of injected faults: on the PC, and as every board's own programs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command};
+
+use clap::Args;
+
+use crate::emulate::variants;
+use crate::firmware::{self, Board};
+use crate::run::{Fault, cargo, listing, read, read_bytes, run, target, top, write};
+
+/// What the rows call a run on this PC.
+const PC: &str = "host-sim";
+/// Of so many runs, one is on each board; the others are on the PC, where they take a
+/// hundredth of the time.
+const A_BOARD_S: u64 = 33;
+
+/// Which runs are made.
+#[derive(Args)]
+pub(crate) struct Choice {
+    /// How many runs in all
+    #[arg(long, default_value_t = 10_000)]
+    runs: u64,
+    /// Where they run: host-sim or the name of a board; none: everywhere
+    #[arg(long)]
+    subject: Option<String>,
+    /// One run again, by its number, printed as a row; needs --subject
+    #[arg(long, value_name = "RUN", requires = "subject")]
+    again: Option<u64>,
+    /// How many shards run at once
+    #[arg(long, default_value_t = 2)]
+    shards: u64,
+    /// Go on with the tables that are there
+    #[arg(long)]
+    resume: bool,
+}
+
+/// Scenes, and the programs that were built for them; none: on the PC.
+struct Subject {
+    name: &'static str,
+    scenes: Vec<PathBuf>,
+    programs: Vec<PathBuf>,
+}
+
+impl Subject {
+    fn of(name: &str) -> Result<Self, Fault> {
+        let scenes = listing(&top().join("scenes"), "toml")?;
+        if name == PC {
+            return Ok(Self {
+                name: PC,
+                scenes,
+                programs: Vec::new(),
+            });
+        }
+        Self::on(Board::named(name)?, &scenes)
+    }
+
+    /// On a board, those of `scenes` that it takes; of several whiskers a side the first.
+    fn on(board: Board, scenes: &[PathBuf]) -> Result<Self, Fault> {
+        let folder = folder().join(board.name);
+        let mut subject = Self {
+            name: board.name,
+            scenes: Vec::new(),
+            programs: Vec::new(),
+        };
+        for scene in scenes {
+            let single = variants::single(scene, &folder)?;
+            let scene = single.unwrap_or_else(|| scene.clone());
+            if let Ok(built) = firmware::try_build(board, &scene)? {
+                let name = scene.file_stem().unwrap_or_default();
+                let kept = folder.join(name).with_extension("elf");
+                // The next build takes the place of the last.
+                write(&kept, read_bytes(&built)?)?;
+                subject.scenes.push(scene);
+                subject.programs.push(kept);
+            }
+        }
+        Ok(subject)
+    }
+
+    /// The command that makes `runs` runs from `first` on, of which a shard.
+    fn command(&self, [first, runs]: [u64; 2], [shard, shards]: [u64; 2], out: &Path) -> Command {
+        let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "campaign"]);
+        command.args(&self.scenes);
+        for program in &self.programs {
+            command.arg("--program").arg(program);
+        }
+        for (option, value) in [
+            ("--first", first),
+            ("--runs", runs),
+            ("--shard", shard),
+            ("--shards", shards),
+        ] {
+            command.args([option, &value.to_string()]);
+        }
+        command.args(["--subject", self.name]).arg("--out").arg(out);
+        command
+    }
+
+    /// Makes the runs in so many shards at once; their tables.
+    fn run(&self, runs: u64, shards: u64) -> Result<Vec<PathBuf>, Fault> {
+        println!("{}: {runs} runs in {} scenes", self.name, self.scenes.len());
+        let table = |shard| folder().join(format!("{}-{shard}.csv", self.name));
+        let tables: Vec<PathBuf> = (0..shards).map(table).collect();
+        let started: Result<Vec<Child>, Fault> = (0..shards)
+            .zip(&tables)
+            .map(|(shard, out)| {
+                let mut command = self.command([0, runs], [shard, shards], out);
+                command.spawn().map_err(|error| error.to_string())
+            })
+            .collect();
+        for mut shard in started? {
+            let status = shard.wait().map_err(|error| error.to_string())?;
+            if !status.success() {
+                return Err(format!("{}: a shard ended with {status}", self.name));
+            }
+        }
+        Ok(tables)
+    }
+}
+
+fn folder() -> PathBuf {
+    target().join("faults")
+}
+
+/// Every subject: the PC, and the boards that are emulated.
+fn subjects() -> Vec<&'static str> {
+    let boards = Board::ALL.into_iter().filter(|board| board.is_emulated());
+    std::iter::once(PC)
+        .chain(boards.map(|board| board.name))
+        .collect()
+}
+
+/// The campaign, or what `choice` leaves of it; writes docs/measured/reliability.md where
+/// nothing is left out.
+///
+/// # Errors
+/// Harmful runs, and what cannot be built.
+pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
+    if let (Some(name), Some(number)) = (&choice.subject, choice.again) {
+        return again(name, number);
+    }
+    if !choice.resume && folder().exists() {
+        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
+    }
+    let shards = choice.shards.max(1);
+    let mut tables = Vec::new();
+    for name in subjects() {
+        if choice.subject.as_deref().is_some_and(|only| only != name) {
+            continue;
+        }
+        let boards = subjects().len() as u64 - 1;
+        let runs = match (name, &choice.subject) {
+            (_, Some(_)) => choice.runs,
+            (PC, None) => choice.runs - boards * (choice.runs / A_BOARD_S),
+            _ => choice.runs / A_BOARD_S,
+        };
+        tables.extend(Subject::of(name)?.run(runs, shards)?);
+    }
+    let page = top().join("docs/measured/reliability.md");
+    told(&tables, choice.subject.is_none().then_some(page.as_path()))
+}
+
+/// One run again.
+fn again(name: &str, number: u64) -> Result<(), Fault> {
+    let out = folder().join("again.csv");
+    if out.exists() {
+        fs::remove_file(&out).map_err(|error| error.to_string())?;
+    }
+    run(&mut Subject::of(name)?.command([number, 1], [0, 1], &out))?;
+    print!("{}", read(&out)?);
+    Ok(())
+}
+
+/// Writes the page, if one is wanted, and fails if a run was harmful.
+fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
+    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "reliability"]);
+    command.args(tables);
+    if let Some(page) = page {
+        command.arg("--out").arg(page);
+    }
+    run(&mut command)
+}
+
+/// The short form of CI: some runs on the PC, and a few as the program of a board.
+///
+/// # Errors
+/// Harmful runs, and what cannot be built.
+pub(crate) fn short() -> Result<(), Fault> {
+    if folder().exists() {
+        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
+    }
+    let mut tables = Subject::of(PC)?.run(1000, 2)?;
+    let one = [top().join(crate::emulate::FULL)];
+    tables.extend(Subject::on(Board::ALL[0], &one)?.run(24, 2)?);
+    told(&tables, None)
+}
