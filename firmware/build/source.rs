@@ -119,6 +119,13 @@ where
     } else {
         (quote! { whisking::Absent }, quote! { whisking::Absent })
     };
+    let approach = plan.approach.bake(&env);
+    let homing = Source::optional(
+        plan.homing.as_ref(),
+        &quote! { whisking::motor::HomingConfig },
+        &env,
+    );
+    let (homing_type, homing) = (homing.of_type, homing.value);
     let items = vec![
         quote! { pub(crate) const HAS_MOTOR: bool = true; },
         quote! { pub(crate) const ARMS_AT_START: bool = #arms_at_start; },
@@ -135,7 +142,7 @@ where
         },
     ];
     let config = Source {
-        of_type: quote! { firmware::ActiveConfig<Number, #generator, #stop_all_type> },
+        of_type: quote! { firmware::ActiveConfig<Number, #generator, #stop_all_type, #homing_type> },
         value: quote! {
             firmware::ActiveConfig {
                 whisking: #whisking,
@@ -143,6 +150,8 @@ where
                     pd: #pd,
                     retry: firmware::design_parameters::retry(TICK_HZ),
                     guards: #guards,
+                    approach: #approach,
+                    homing: #homing,
                 },
                 stop_all: #stop_all,
             }

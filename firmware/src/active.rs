@@ -1,6 +1,6 @@
 //! Active whiskers: the pattern generator of the module, and a servo for each.
 
-use whisking::motor::MotorDriver;
+use whisking::motor::{HomingConfig, MotorDriver};
 use whisking::{Absent, Optional, PatternGenerator, Real};
 
 use crate::io::AngleInput;
@@ -14,13 +14,13 @@ use crate::{Event, Place};
 pub struct StopAll;
 
 /// Constants of an active module; `W` is its pattern generator, `A` says whether it has
-/// [`StopAll`].
+/// [`StopAll`], `H` whether its motors are homed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ActiveConfig<R: Real, W = whisking::Config<R>, A = Absent> {
+pub struct ActiveConfig<R: Real, W = whisking::Config<R>, A = Absent, H = Absent> {
     /// Oscillators, muscles and gates.
     pub whisking: W,
     /// Position control, and what is done about faults of a motor.
-    pub servo: ServoConfig<R>,
+    pub servo: ServoConfig<R, H>,
     /// [`StopAll`]; absent: a fault switches off the motor of its whisker alone.
     pub stop_all: A,
 }
@@ -64,26 +64,28 @@ impl<R: Real, M, A, const S: usize, const N: usize> Active<R, M, A, S, N> {
     }
 }
 
-impl<R, W, O, M, A, const S: usize, const N: usize> Motion<R, ActiveConfig<R, W, O>, S, N>
+impl<R, W, O, H, M, A, const S: usize, const N: usize> Motion<R, ActiveConfig<R, W, O, H>, S, N>
     for Active<R, M, A, S, N>
 where
     R: Real,
     W: PatternGenerator<R>,
     O: Optional<StopAll>,
+    H: Optional<HomingConfig>,
     M: MotorDriver,
     A: AngleInput,
 {
     #[inline]
     fn step(
         &mut self,
-        config: &ActiveConfig<R, W, O>,
+        config: &ActiveConfig<R, W, O, H>,
         contact: [R; S],
         readings: &[[Reading; N]; S],
         events: &mut impl FnMut(Event),
     ) {
         config.whisking.step(&mut self.state, contact);
         let all_stop = config.stop_all.part().is_some()
-            && readings.iter().flatten().any(|reading| !reading.valid);
+            && (readings.iter().flatten().any(|reading| !reading.valid)
+                || self.servos.iter().flatten().any(Servo::rests));
         let sides = self.servos.iter_mut().zip(&self.state.whiskers);
         for (side, (servos, whiskers)) in sides.enumerate() {
             for (w, (servo, whisker)) in servos.iter_mut().zip(whiskers).enumerate() {
@@ -95,9 +97,9 @@ where
     }
 
     #[inline]
-    fn rests(&self, side: usize, whisker: usize) -> bool {
+    fn is_deaf(&self, side: usize, whisker: usize) -> bool {
         let servo = self.servos.get(side).and_then(|side| side.get(whisker));
-        servo.is_some_and(Servo::rests)
+        servo.is_some_and(Servo::is_deaf)
     }
 }
 
@@ -124,7 +126,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
     fn arm(&mut self, is_armed: bool) {
         self.is_armed = is_armed;
         if is_armed {
-            self.servos.iter_mut().flatten().for_each(Servo::clear);
+            self.servos.iter_mut().flatten().for_each(Servo::arm);
         }
     }
 }

@@ -72,10 +72,11 @@ where
     {
         self.timing.begin(self.clock.now(), config.period);
 
-        let mut readings = self.sense(config.decoder, config.hold_limits, events);
+        let sensed = self.sense(config.decoder, config.hold_limits, events);
+        let mut readings = sensed;
         for (side, readings) in readings.iter_mut().enumerate() {
             for (w, reading) in readings.iter_mut().enumerate() {
-                if self.motion.rests(side, w) {
+                if self.motion.is_deaf(side, w) {
                     *reading = Reading::FAULT;
                 }
             }
@@ -84,7 +85,7 @@ where
             self.feel(h50, &readings);
         }
         self.motion
-            .step(&config.motion, self.contact, &readings, events);
+            .step(&config.motion, self.contact, &sensed, events);
         self.perception
             .step(&config.perception, &self.felt, &readings, events);
 
@@ -176,7 +177,8 @@ where
 
     /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
     /// off from the next tick on; all else goes on. A module starts with motors that are not
-    /// armed.
+    /// armed. Whoever arms a motor that is off says that its whisker is at rest, unless it is
+    /// homed.
     pub fn arm(&mut self, is_armed: bool)
     where
         M: MotorControl<R>,

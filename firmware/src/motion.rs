@@ -5,7 +5,7 @@ use crate::{Event, Place};
 
 /// Moves the whiskers of a module by the constants `C`.
 pub trait Motion<R, C, const S: usize, const N: usize> {
-    /// One tick: contact π of each side and the readings it came from.
+    /// One tick: contact π of each side, and what every sensor reads.
     fn step(
         &mut self,
         config: &C,
@@ -14,8 +14,9 @@ pub trait Motion<R, C, const S: usize, const N: usize> {
         events: &mut impl FnMut(Event),
     );
 
-    /// Whether the motor of a whisker (its side and number) rests after a fault.
-    fn rests(&self, side: usize, whisker: usize) -> bool;
+    /// Whether nothing that a whisker (its side and number) feels is of use: its motor rests
+    /// after a fault, or is being homed.
+    fn is_deaf(&self, side: usize, whisker: usize) -> bool;
 }
 
 /// An intervention between two ticks, for one whisker.
@@ -45,7 +46,8 @@ pub trait MotorControl<R> {
     fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>;
 
     /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
-    /// off from the next tick on. A module starts with motors that are not armed.
+    /// off from the next tick on. A module starts with motors that are not armed. Whoever
+    /// arms a motor that is off says that its whisker is at rest, unless it is homed.
     fn arm(&mut self, is_armed: bool);
 }
 
@@ -65,7 +67,7 @@ impl<R, const S: usize, const N: usize> Motion<R, (), S, N> for Passive {
     }
 
     #[inline]
-    fn rests(&self, _side: usize, _whisker: usize) -> bool {
+    fn is_deaf(&self, _side: usize, _whisker: usize) -> bool {
         false
     }
 }
@@ -97,9 +99,9 @@ impl<R, C, M: Motion<R, C, S, N>, const S: usize, const N: usize> Motion<R, Opti
     }
 
     #[inline]
-    fn rests(&self, side: usize, whisker: usize) -> bool {
+    fn is_deaf(&self, side: usize, whisker: usize) -> bool {
         let motion = self.as_ref();
-        motion.is_some_and(|motion| motion.rests(side, whisker))
+        motion.is_some_and(|motion| motion.is_deaf(side, whisker))
     }
 }
 

@@ -1,21 +1,28 @@
 //! The servo of one whisker: a motor with an angle input that follows a
 //! setpoint, and what it does about faults.
 
-use whisking::motor::{self, Duty, GuardConfig, Guards, Heat, MotorDriver};
-use whisking::{Real, pd};
+use whisking::motor::{
+    self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver,
+};
+use whisking::{Absent, Optional, Real, pd};
 
 use crate::io::AngleInput;
 use crate::{Event, Place};
 
-/// Constants of a servo.
+/// Constants of a servo; `H` says whether it has [`HomingConfig`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ServoConfig<R: Real> {
+pub struct ServoConfig<R: Real, H = Absent> {
     /// Position control.
     pub pd: pd::Config<R>,
     /// What is done after a fault.
     pub retry: Retry,
     /// What is a fault of its motion.
     pub guards: GuardConfig<R>,
+    /// Soft start: by how much a tick brings the setpoint from where the whisker is nearer to
+    /// where it should be, protraction, above 0.
+    pub approach: R,
+    /// How it finds where it is; absent: it is at rest, θ = 0, when it is armed.
+    pub homing: H,
 }
 
 /// What is done after a fault of a motor.
@@ -36,12 +43,16 @@ pub enum ServoState<R> {
     /// The motor is off: before the first tick, while it is not armed or the whisker's
     /// sensor has a fault, and where any fault [stops all](crate::StopAll).
     Off,
+    /// It is driven gently to its retracted stop, to find out where it is.
+    Homing(Homing),
     /// It follows the setpoint.
     Running {
         /// The position control with its terms.
         pd: pd::State<R>,
         /// Whether it moves as it is driven.
         guards: Guards,
+        /// By how much the setpoint is still behind, protraction.
+        behind: R,
     },
     /// The motor is off after a fault.
     Resting {
@@ -60,6 +71,8 @@ pub struct Servo<R, M, A> {
     /// Counts at rest, θ = 0, and at the last tick.
     home: i32,
     counts: i32,
+    /// Whether home was found, where it is to be.
+    is_homed: bool,
     /// Takes the place of the pattern generator's θ.
     setpoint: Option<R>,
     state: ServoState<R>,
@@ -78,6 +91,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             angle,
             home,
             counts: home,
+            is_homed: false,
             setpoint: None,
             state: ServoState::Off,
             heat: Heat::default(),
@@ -99,6 +113,23 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     #[inline]
     pub const fn rests(&self) -> bool {
         matches!(self.state, ServoState::Resting { .. } | ServoState::GivenUp)
+    }
+
+    /// Whether nothing that its whisker feels is of use: the motor rests, was given up, or
+    /// is being homed.
+    #[inline]
+    pub const fn is_deaf(&self) -> bool {
+        self.rests() || matches!(self.state, ServoState::Homing(_))
+    }
+
+    /// Where the motor is off, whoever arms it says that the whisker is at rest, θ = 0, now,
+    /// unless it is homed; a fault is forgotten.
+    pub fn arm(&mut self) {
+        self.clear();
+        if let ServoState::Off = self.state {
+            self.home = self.counts;
+            self.is_homed = false;
+        }
     }
 
     /// Runs a motor that rests or was given up again; its faults are forgotten.
@@ -124,7 +155,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// Switches the motor off until the next tick; a rest goes on.
     fn off(&mut self) {
         self.motor.off();
-        if let ServoState::Running { .. } = self.state {
+        if let ServoState::Running { .. } | ServoState::Homing(_) = self.state {
             self.state = ServoState::Off;
         }
     }
@@ -133,9 +164,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// off unless it `may_run`.
     // Apart: a tick in one piece runs out of registers.
     #[inline(never)]
-    pub fn step(
+    pub fn step<H: Optional<HomingConfig>>(
         &mut self,
-        config: &ServoConfig<R>,
+        config: &ServoConfig<R, H>,
         setpoint: R,
         may_run: bool,
         place: Place,
@@ -148,19 +179,25 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             *window = window.saturating_sub(1);
         }
 
+        let setpoint = config.pd.clamp(self.setpoint.unwrap_or(setpoint));
         match self.state {
-            ServoState::Running { .. } | ServoState::Off if !may_run => {
+            ServoState::Running { .. } | ServoState::Off | ServoState::Homing(_) if !may_run => {
                 self.off();
                 self.cool(&config.guards);
                 return;
             }
+            ServoState::Off if config.homing.part().is_some() && !self.is_homed => {
+                self.state = ServoState::Homing(Homing::new(counts));
+            }
             ServoState::Off => {
+                let at = config.pd.measured(counts.wrapping_sub(self.home));
                 self.state = ServoState::Running {
                     pd: pd::State::default(),
                     guards: Guards::default(),
+                    behind: setpoint - at,
                 };
             }
-            ServoState::Running { .. } => {}
+            ServoState::Running { .. } | ServoState::Homing(_) => {}
             ServoState::Resting { left } => {
                 self.rest(left, place, events);
                 self.cool(&config.guards);
@@ -171,17 +208,49 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 return;
             }
         }
-        let ServoState::Running { pd, guards } = &mut self.state else {
+        let ServoState::Running { pd, guards, behind } = &mut self.state else {
+            self.find_home(config, moved, place, events);
             return;
         };
-        let setpoint = self.setpoint.unwrap_or(setpoint);
+        *behind = toward_zero(*behind, config.approach);
         let at = counts.wrapping_sub(self.home);
-        let duty = config.pd.step(pd, setpoint, at, moved);
+        let duty = config.pd.follow(pd, setpoint - *behind, at, moved);
         let checked = guards
             .check(&config.guards, duty, pd.error, at, moved)
             .and_then(|()| self.heat.check(&config.guards, duty))
             .and_then(|()| self.motor.drive(duty));
         if let Err(fault) = checked {
+            self.fail(fault, config.retry, place, events);
+        }
+    }
+
+    /// One tick of homing.
+    #[cold]
+    fn find_home<H: Optional<HomingConfig>>(
+        &mut self,
+        config: &ServoConfig<R, H>,
+        moved: i32,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        let (ServoState::Homing(homing), Some(how)) = (&mut self.state, config.homing.part())
+        else {
+            return;
+        };
+        let driven = match homing.step(how, &config.guards, self.counts, moved) {
+            Ok(Homed::Not(duty)) => {
+                let checked = self.heat.check(&config.guards, duty);
+                checked.and_then(|()| self.motor.drive(duty))
+            }
+            Ok(Homed::At(home)) => {
+                self.home = home;
+                self.is_homed = true;
+                self.off();
+                Ok(())
+            }
+            Err(fault) => Err(fault),
+        };
+        if let Err(fault) = driven {
             self.fail(fault, config.retry, place, events);
         }
     }
@@ -212,6 +281,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         events: &mut impl FnMut(Event),
     ) {
         self.motor.off();
+        // Whatever it was, the encoder may have lost counts.
+        self.is_homed = false;
         events(Event::MotorFault(place, fault));
         if self.windows.iter().all(|window| *window > 0) {
             self.state = ServoState::GivenUp;
@@ -224,5 +295,17 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
         let left = retry.rest.max(1);
         self.state = ServoState::Resting { left };
+    }
+}
+
+/// `value` nearer to zero by `step`, and zero where it is not farther away.
+#[inline]
+fn toward_zero<R: Real>(value: R, step: R) -> R {
+    if value > step {
+        value - step
+    } else if value < -step {
+        value + step
+    } else {
+        R::ZERO
     }
 }

@@ -9,7 +9,7 @@ use firmware::{
 use mlx90333::{Decoder, Mlx90333};
 use plan::NumberFormat;
 use scene::{Arm, Deciding, PlantKind, Scene};
-use whisking::motor::{GuardSettings, StallConfig};
+use whisking::motor::{GuardSettings, HomingConfig, StallConfig};
 use whisking::{Fix, Real, Start, filter};
 
 use crate::Error;
@@ -86,7 +86,7 @@ type Ears<const S: usize, const N: usize> = Option<Classifying<Tap, S, N>>;
 type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
 
 type HostConfig<R> = Config<
-    Option<ActiveConfig<R, whisking::Config<R>, Option<StopAll>>>,
+    Option<ActiveConfig<R, whisking::Config<R>, Option<StopAll>, Option<HomingConfig>>>,
     Option<ClassifyingConfig<Option<R>, ()>>,
     Option<filter::Config<R>>,
 >;
@@ -303,6 +303,9 @@ where
                     PlantKind::Ideal => GuardSettings::NONE.build(tick_hz),
                     PlantKind::Textured | PlantKind::Whisker => plan.guards,
                 },
+                approach: plan.approach,
+                // Nor has it a stop.
+                homing: plan.homing.filter(|_| scene.plant.kind != PlantKind::Ideal),
             },
             stop_all: plan.stop_all.then_some(StopAll),
         }),

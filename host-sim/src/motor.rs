@@ -183,9 +183,7 @@ impl SimMotor {
         let inertia = s.inertia_kg_m2();
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
-        let stops = s
-            .stops_deg
-            .map(|stop| (stop - s.rest_deg).to_radians() * s.gear);
+        let stops = self.stops();
         for _ in 0..steps {
             let winding = self.stage.winding(s, &self.wires, self.rotor.angle);
             let law = rotor::Law {
@@ -197,6 +195,27 @@ impl SimMotor {
             self.rotor.stop_at(stops);
         }
         self.wires.set_angle(self.rotor.angle);
+    }
+
+    /// The rotor's angles at the end stops, rad.
+    fn stops(&self) -> [f64; 2] {
+        self.settings.stops_deg.map(|stop| self.rotor_angle(stop))
+    }
+
+    /// The rotor's angle where the whisker's θ′ is `angle_deg`, rad.
+    fn rotor_angle(&self, angle_deg: f64) -> f64 {
+        (angle_deg - self.settings.rest_deg).to_radians() * self.settings.gear
+    }
+
+    /// Turns the whisker by hand to θ′ = `angle_deg`, or to the stop before it, and holds it
+    /// there for a moment; what is not finite does nothing.
+    pub fn turn_to_deg(&mut self, angle_deg: f64) {
+        if angle_deg.is_finite() {
+            self.rotor.angle = self.rotor_angle(angle_deg);
+            self.rotor.speed = 0.0;
+            self.rotor.stop_at(self.stops());
+            self.wires.set_angle(self.rotor.angle);
+        }
     }
 
     /// Holds the whisker where it is, or lets it go.

@@ -1,6 +1,6 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
-use scene::{Driver, PlantKind, Scene, ShaftName, Texture};
+use scene::{Driver, PlantKind, Rest, Scene, ShaftName, Texture};
 
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
@@ -170,13 +170,15 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
 /// How far beyond the travel that is no fault the end stops are, degrees.
 const STOP_MARGIN_DEG: f64 = 5.0;
 
-/// Where the end stops are: a little beyond the travel in which the whisker may be.
+/// Where the end stops are: the retracted one where the scene says, if it is to be found;
+/// otherwise a little beyond the travel in which the whisker may be.
 fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
     let margin = motor.travel_margin_deg + STOP_MARGIN_DEG;
-    [
-        motor.min_deg.min(whisking::REST_DEG) - margin,
-        motor.max_deg.max(whisking::REST_DEG) + margin,
-    ]
+    let retracted = match motor.rest {
+        Rest::AtStart => motor.min_deg.min(whisking::REST_DEG) - margin,
+        Rest::Find => motor.retracted_deg(),
+    };
+    [retracted, motor.max_deg.max(whisking::REST_DEG) + margin]
 }
 
 fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {

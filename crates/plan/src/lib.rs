@@ -10,8 +10,8 @@ mod stability;
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
-use scene::{OnFault, Scene};
-use whisking::motor::{GuardConfig, GuardSettings};
+use scene::{OnFault, Rest, Scene};
+use whisking::motor::{GuardConfig, GuardSettings, HomingConfig, HomingSettings};
 use whisking::{Error, Real, filter, pd};
 
 /// Constants of an active module of `S` sides with `N` whiskers each.
@@ -25,6 +25,10 @@ pub struct MotionPlan<R: Real, const S: usize, const N: usize> {
     pub pd: pd::Config<R>,
     /// What is a fault of a motor's motion.
     pub guards: GuardConfig<R>,
+    /// By how much a tick brings the setpoint nearer to where it should be.
+    pub approach: R,
+    /// How its motors are homed; none: they are at rest when they are armed.
+    pub homing: Option<HomingConfig>,
     /// Whether a fault of any whisker switches every motor off.
     pub stop_all: bool,
 }
@@ -132,6 +136,8 @@ pub fn motion<R: Real, const S: usize, const N: usize>(
         }
         .build(tick_hz)?,
         guards: guards(motor).build(tick_hz),
+        approach: R::from_f64(motor.approach_deg_s / tick_hz / whisking::DEGREES_PER_UNIT),
+        homing: (motor.rest == Rest::Find).then(|| homing(motor).build(tick_hz)),
         stop_all: motor.on_fault == OnFault::StopAll,
     }))
 }
@@ -155,6 +161,15 @@ fn guards(motor: &scene::MotorSection) -> GuardSettings {
             motor.max_deg.max(whisking::REST_DEG) + motor.travel_margin_deg,
         ],
         continuous_duty: motor.continuous_duty,
+    }
+}
+
+/// How a whisker finds where it is.
+fn homing(motor: &scene::MotorSection) -> HomingSettings {
+    HomingSettings {
+        degrees_per_count: 360.0 / (f64::from(motor.counts_per_rev) * motor.gear),
+        duty: motor.homing_duty,
+        stop_deg: motor.retracted_deg(),
     }
 }
 

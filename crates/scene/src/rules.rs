@@ -3,7 +3,7 @@
 //! A rule that turns on a value that was itself refused is left alone: that
 //! value's own message comes first.
 
-use crate::sections::{Deciding, PlantKind, RuleName, Sides};
+use crate::sections::{Deciding, PlantKind, Rest, RuleName, Sides};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -12,6 +12,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     at_least_one_tick("", "duration_s", values, text);
     at_least_one_tick("plant", "present_s", values, text);
     limits_in_order(values, text);
+    homing_is_gentle(values, text);
     textured_is_active(values, text);
     shaft_is_slender(values, text);
     several_can_decide(values, text);
@@ -57,6 +58,28 @@ fn limits_in_order(values: &Values, text: &mut Text<'_>) {
     let offset = values.offset("motor", key).unwrap_or(0);
     let (found, allowed) = (format!("found {found}"), format!("allowed: {allowed}"));
     text.report(offset, format!("motor.{key}"), found, allowed);
+}
+
+/// Harder it would be a stall to stand against the stop.
+fn homing_is_gentle(values: &Values, text: &mut Text<'_>) {
+    let duty = |key| values.get::<f64>("motor", key);
+    let (Some(homing), Some(limit)) = (duty("homing_duty"), duty("duty_limit")) else {
+        return;
+    };
+    let finds = values.get::<Rest>("motor", "rest") == Some(Rest::Find);
+    if !finds || homing > 0.0 && homing <= limit / 2.0 {
+        return;
+    }
+    let offset = values.offset("motor", "homing_duty");
+    let offset = offset.or_else(|| values.offset("motor", "duty_limit"));
+    let allowed = format!("allowed: above 0, at most half of duty_limit, which is {limit}");
+    let path = "motor.homing_duty".to_owned();
+    text.report(
+        offset.unwrap_or(0),
+        path,
+        format!("found {homing}"),
+        allowed,
+    );
 }
 
 fn textured_is_active(values: &Values, text: &mut Text<'_>) {

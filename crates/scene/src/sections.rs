@@ -16,7 +16,7 @@ mod whisking;
 pub(crate) use classifier::RuleName;
 pub use classifier::{ClassifierSection, Deciding, Rule};
 pub use head::{HeadSection, Sides};
-pub use motor::{Arm, Driver, MotorSection, OnFault};
+pub use motor::{Arm, Driver, MotorSection, OnFault, Rest};
 pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
@@ -62,9 +62,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Sixteen of the motor, two of the plant, one of the head, of whisking and of the
+        // Nineteen of the motor, two of the plant, one of the head, of whisking and of the
         // classifier.
-        assert_eq!(defaults, 21);
+        assert_eq!(defaults, 24);
     }
 
     #[test]

@@ -32,6 +32,7 @@ mod duty;
 mod guard;
 mod hall;
 mod hbridge;
+mod homing;
 mod phases;
 mod six_step;
 mod stall;
@@ -43,6 +44,7 @@ pub use duty::Duty;
 pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
+pub use homing::{Homed, Homing, HomingConfig, HomingSettings};
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
 pub use six_step::{SixStep, SixStepConfig, SixStepState};
 pub use stall::{StallConfig, StallGuard};
@@ -99,10 +101,13 @@ pub enum Fault {
     Travel,
     /// 11: driven with more than its winding bears (I²t of the duty).
     Heat,
+    /// 12: its retracted stop was not found in time. Likely cause: the whisker turns freely,
+    /// or too slowly.
+    Homing,
 }
 
 impl Fault {
-    /// The stable number of the fault, 1 to 11, for telemetry.
+    /// The stable number of the fault, 1 to 12, for telemetry.
     pub const fn code(self) -> u8 {
         match self {
             Self::Pin => 1,
@@ -116,6 +121,7 @@ impl Fault {
             Self::Encoder => 9,
             Self::Travel => 10,
             Self::Heat => 11,
+            Self::Homing => 12,
         }
     }
 
@@ -135,6 +141,7 @@ impl Fault {
             9 => Some(Self::Encoder),
             10 => Some(Self::Travel),
             11 => Some(Self::Heat),
+            12 => Some(Self::Homing),
             _ => None,
         }
     }

@@ -120,7 +120,20 @@ impl<R: Real> Config<R> {
     /// most `slew`.
     #[inline]
     pub fn step(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
-        let measured = R::from_counts(counts, self.theta_per_count);
+        self.follow(state, self.clamp(setpoint), counts, moved)
+    }
+
+    /// The protraction at `counts` from θ = 0.
+    #[inline]
+    pub fn measured(&self, counts: i32) -> R {
+        R::from_counts(counts, self.theta_per_count)
+    }
+
+    /// The same as [`step`](Self::step) with a setpoint that may be outside the range: a
+    /// whisker that was turned out of it comes back slowly.
+    #[inline]
+    pub fn follow(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
+        let measured = self.measured(counts);
         let moved = R::from_counts(moved, self.theta_per_count);
         let velocity = state.velocity + (moved - state.velocity).times(self.smooth);
         state.velocity = if velocity.is_within(R::TWO) {
@@ -128,7 +141,7 @@ impl<R: Real> Config<R> {
         } else {
             R::ZERO
         };
-        state.error = self.clamp(setpoint) - measured;
+        state.error = setpoint - measured;
         state.p = state.error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
         // Not `clamp`, which panics where a limit is negative.

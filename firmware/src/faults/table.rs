@@ -62,6 +62,10 @@ macro_rules! fault_table {
                 "pressing against something for long; friction",
                 "what it presses against; `continuous_duty`",
                 WhiskerOff, Retry;
+            12 HOMING: "retracted stop not found",
+                "the whisker turns freely, or too slowly",
+                "the stop; `homing_duty`",
+                WhiskerOff, Retry;
 
             16 NO_FRAME: "no frame in time",
                 "none was started: follows another fault",

@@ -76,6 +76,8 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
                 pd: PD.build(2000.0).unwrap(),
                 retry: design_parameters::retry(2000),
                 guards: GuardSettings::NONE.build(2000.0),
+                approach: R::ONE,
+                homing: Absent,
             },
             stop_all: Absent,
         },

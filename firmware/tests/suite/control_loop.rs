@@ -116,6 +116,8 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
                     window: 0,
                 },
                 guards: GuardSettings::NONE.build(2000.0),
+                approach: 1.0,
+                homing: Absent,
             },
             stop_all: Absent,
         },

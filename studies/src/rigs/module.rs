@@ -111,6 +111,8 @@ impl HeadModule {
                     pd: pd.build(tick_hz).map_err(refused)?,
                     retry: retry(ticks_per_s),
                     guards: GuardSettings::NONE.build(tick_hz),
+                    approach: 1.0,
+                    homing: Absent,
                 },
                 stop_all: Absent,
             },

@@ -14,5 +14,6 @@ mod precision;
 mod reference_claims;
 mod several;
 mod stability;
+mod starting;
 mod terrain;
 mod unstable_scenes;

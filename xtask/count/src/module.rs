@@ -134,6 +134,8 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
                 pd: *R::PD,
                 retry: retry(TICK_HZ),
                 guards: *R::GUARDS,
+                approach: R::ONE,
+                homing: Absent,
             },
             stop_all: Absent,
         },

@@ -36,6 +36,16 @@ choice! {
     }
 }
 
+choice! {
+    /// How it is known where a whisker is.
+    pub enum Rest {
+        /// It is at rest when it is armed.
+        AtStart = "at-start",
+        /// Its retracted stop is found.
+        Find = "find",
+    }
+}
+
 keys! {
     /// Motor, gear, encoder and the proportional-derivative position control.
     pub struct MotorSection {
@@ -93,5 +103,30 @@ keys! {
         /// board by the user button. After a fault that made it start, a dip of the supply, or
         /// three resets in a minute, it must be told in either case.
         arm: Arm = word().default("\"at-start\""),
+
+        /// Where a whisker is: at rest, 50 degrees, when its motor is armed; or found by driving
+        /// it gently against its retracted stop, before it whisks and after every fault of
+        /// the motor. Plant `ideal` has no stop to find.
+        rest: Rest = word().default("\"at-start\""),
+
+        /// Duty with which the stop is looked for, at most half of `duty_limit`: more than
+        /// friction takes.
+        homing_duty: f64 = number(ranges::pd::LIMIT).default("0.1"),
+
+        /// Angle of the retracted stop.
+        stop_deg: Option<f64> = number(-360.0..=whisking::REST_DEG).unit("degrees")
+            .optional("`min_deg`, at most 50"),
+
+        /// Soft start: how fast the setpoint comes from where the whisker is to where it should
+        /// be, whenever the motor has been off.
+        approach_deg_s: f64 = positive(1e5).unit("degrees/s").default("400.0"),
+    }
+}
+
+impl MotorSection {
+    /// Angle of the retracted stop, degrees: `stop_deg`, or as far as the whisker retracts.
+    pub fn retracted_deg(&self) -> f64 {
+        let lowest = self.min_deg.min(whisking::REST_DEG);
+        self.stop_deg.unwrap_or(lowest)
     }
 }

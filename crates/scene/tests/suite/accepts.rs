@@ -3,8 +3,8 @@
 use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
-    MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rule, Scene,
-    ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
+    MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
+    Scene, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -66,6 +66,10 @@ fn every_key_reaches_its_field() {
             continuous_duty: 0.4,
             on_fault: OnFault::StopWhisker,
             arm: Arm::AtStart,
+            rest: Rest::AtStart,
+            homing_duty: 0.1,
+            stop_deg: None,
+            approach_deg_s: 400.0,
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
@@ -93,8 +97,21 @@ fn the_motor_is_read_key_by_key() {
     let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
                  slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
                  counts_per_rev = 1024\nfollowing_limit_deg = 12.5\n\
-                 travel_margin_deg = 3\ntop_speed_deg_s = 900\nunmoved_duty = 0.4\ncontinuous_duty = 0.3\n\
-                 on_fault = 'stop-all'\narm = 'on-command'\n\n[plant]\n";
+                 travel_margin_deg = 3
+top_speed_deg_s = 900
+unmoved_duty = 0.4
+continuous_duty = 0.3
+\
+                 on_fault = 'stop-all'
+arm = 'on-command'
+rest = 'find'
+\
+                 homing_duty = 0.125
+stop_deg = -30
+approach_deg_s = 90
+
+[plant]
+";
     let expected = MotorSection {
         driver: Driver::SixStep,
         kp: 1.0,
@@ -112,6 +129,10 @@ fn the_motor_is_read_key_by_key() {
         continuous_duty: 0.3,
         on_fault: OnFault::StopAll,
         arm: Arm::OnCommand,
+        rest: Rest::Find,
+        homing_duty: 0.125,
+        stop_deg: Some(-30.0),
+        approach_deg_s: 90.0,
     };
     assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));
     // Without the table the defaults hold, as with an empty one.

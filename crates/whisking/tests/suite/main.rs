@@ -7,6 +7,7 @@ mod motor_duty;
 mod motor_guard;
 mod motor_hall;
 mod motor_hbridge;
+mod motor_homing;
 mod motor_order;
 mod motor_rotor;
 mod motor_six_step;

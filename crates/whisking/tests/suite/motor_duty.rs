@@ -54,6 +54,7 @@ fn fault_numbers_are_stable() {
         (Fault::Encoder, 9),
         (Fault::Travel, 10),
         (Fault::Heat, 11),
+        (Fault::Homing, 12),
     ];
     for (fault, code) in all {
         assert_eq!(fault.code(), code);
@@ -65,7 +66,7 @@ fn fault_numbers_are_stable() {
         );
     }
     assert_eq!(Fault::from_code(0), None);
-    assert_eq!(Fault::from_code(12), None);
+    assert_eq!(Fault::from_code(13), None);
 }
 
 proptest! {
