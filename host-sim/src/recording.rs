@@ -224,6 +224,14 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
                 )),
             }
         };
+        // As wide as it is written.
+        let contact_at = |place: usize| match number("contact", place)? {
+            contact if (contact as f32).is_finite() => Ok(contact),
+            _ => Err(format!(
+                "line {line}: contact is {:?}, beyond single precision",
+                cell(place)
+            )),
+        };
         // What matters is whether it is 0.
         let whole = |place: usize| match cell(place).parse::<u16>() {
             Ok(touch) => Ok(touch),
@@ -234,7 +242,7 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
         };
         let sample = Cells {
             channels: [number(x_name, x)?, number(y_name, y)?],
-            contact: contact.map(|place| number("contact", place)).transpose()?,
+            contact: contact.map(contact_at).transpose()?,
             touch: touch.map(whole).transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
@@ -314,6 +322,11 @@ mod tests {
         assert_eq!(
             fault("label,trial,x,y\na,1,2\n"),
             "line 2: 3 cells; the header has 4"
+        );
+        let fault_of_contact = fault("label,trial,x,y,contact\na,1,2,3,1e39\n");
+        assert_eq!(
+            fault_of_contact,
+            "line 2: contact is \"1e39\", beyond single precision"
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");

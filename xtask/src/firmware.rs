@@ -141,7 +141,12 @@ fn compiler(board: Board, scene: &Path) -> Command {
 
 /// Where the program of a board is.
 fn elf(board: Board) -> PathBuf {
-    target()
+    elf_in(board, &target())
+}
+
+/// The same, where cargo builds in another folder.
+pub(crate) fn elf_in(board: Board, built: &Path) -> PathBuf {
+    built
         .join(board.target)
         .join("firmware")
         .join(board.program)

@@ -10,9 +10,11 @@ mod emulate;
 mod faults;
 mod figures;
 mod firmware;
+mod fuzz;
 mod nightly;
 mod panics;
 mod readme;
+mod reproducible;
 mod run;
 mod size;
 mod speed;
@@ -109,6 +111,20 @@ enum Command {
         #[arg(long, value_parser = firmware::Board::named)]
         board: Option<firmware::Board>,
     },
+    /// Feeds the readers of untrusted data with what libFuzzer finds (needs a C++ compiler)
+    Fuzz {
+        /// The targets; without any, every one
+        targets: Vec<String>,
+        /// For how long, each
+        #[arg(long, default_value_t = 1.0)]
+        minutes: f64,
+        /// Write docs/measured/fuzz.md
+        #[arg(long, conflicts_with = "targets")]
+        page: bool,
+    },
+    /// Builds the firmware of a scene twice, from nothing and in folders of other names, and
+    /// compares every byte
+    Reproducible(Build),
     /// Measures the time that host-sim takes for a tick of an elastic whisker, free
     /// and in lasting contact, beside another host-sim if there is one
     Speed(speed::Choice),
@@ -221,6 +237,12 @@ fn main() -> ExitCode {
         Command::Count { csv, check } => count::all(csv.as_deref(), check),
         Command::Size { csv, check } => size::all(csv.as_deref(), check),
         Command::Panics { scenes, board } => panics::all(board, &scenes),
+        Command::Fuzz {
+            targets,
+            minutes,
+            page,
+        } => fuzz::all(&targets, minutes, page),
+        Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
         Command::Speed(choice) => speed::speed(&choice),
         Command::Docs { check, quick: true } => docs::quick(check),
         Command::Docs { check, .. } => docs::all(check),

@@ -7,9 +7,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::emulate::Task;
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, output, run, target};
+use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
-use crate::{cost, emulate, panics, size};
+use crate::{cost, emulate, fuzz, panics, reproducible, size};
 
 /// In how many nights every mutation is tried once.
 const NIGHTS: u64 = 7;
@@ -30,6 +30,12 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("every scene on the emulated board", boards);
     steps.try_run("counts and cost of every stage", || cost::all(None, true));
     steps.try_run("experiments", experiments);
+    steps.try_run("untrusted input", || fuzz::all(&[], 60.0, false));
+    steps.try_run("two builds, the same bytes", || {
+        let scene = Path::new(emulate::FULL);
+        let mut boards = Board::ALL.into_iter();
+        boards.try_for_each(|board| reproducible::twice(board, scene))
+    });
     steps.try_run("mutations", mutations);
     steps.end()
 }
@@ -73,9 +79,7 @@ fn experiments() -> Result<(), Fault> {
 /// Changes the product's crates (.cargo/mutants.toml) in one place at a time and asks
 /// their tests; another seventh of the places every night.
 fn mutations() -> Result<(), Fault> {
-    if output(&mut cargo(&["mutants", "--version"])).is_err() {
-        run(&mut cargo(&["install", "--locked", "cargo-mutants"]))?;
-    }
+    installed("mutants")?;
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let day = now.map_err(|error| error.to_string())?.as_secs() / (24 * 60 * 60);
     let mut command: Command = cargo(&["mutants", "--shard"]);

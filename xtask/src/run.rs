@@ -105,6 +105,18 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     }
 }
 
+/// Installs a subcommand of cargo, unless it is there.
+///
+/// # Errors
+/// If it cannot be built.
+pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
+    if output(&mut cargo(&[subcommand, "--version"])).is_ok() {
+        return Ok(());
+    }
+    let package = format!("cargo-{subcommand}");
+    run(&mut cargo(&["install", "--locked", &package]))
+}
+
 /// What `command` prints.
 ///
 /// # Errors

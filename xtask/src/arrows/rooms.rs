@@ -9,7 +9,7 @@ use crate::run::{Fault, cargo, output};
 /// The packages of the workspace: each may depend only on rows below its own.
 /// `physics` depends on none and serves what simulates.
 pub(super) const ROWS: [&[&str]; 9] = [
-    &["acceptance", "count", "xtask"],
+    &["acceptance", "count", "fuzz", "xtask"],
     &["studies"],
     &["classifiers"],
     &["emulator"],

@@ -1,0 +1,4 @@
+//! The reader of recordings.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| fuzz::recording(data));

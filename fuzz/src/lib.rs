@@ -1,0 +1,109 @@
+//! What reads data that nobody vouches for: frames of a sensor, models, scenes and
+//! recordings. Whatever the bytes, each target ends soon, in little memory, without a
+//! panic; and what it takes holds what the rest relies on.
+//!
+//! `cargo xtask fuzz` feeds them; the tests here run them over the corpus.
+
+mod model;
+mod scene;
+
+pub use model::model;
+pub use scene::{scene, simulation};
+
+use host_sim::recording;
+use mlx90333::{Decoder, Frame, Mode, SumRule, encode};
+
+/// The decoder of the sensor's frames, with every mode and rule of the sum.
+///
+/// # Panics
+/// If a frame that is taken is not the one its words are sent as.
+pub fn frame(data: &[u8]) {
+    for bytes in data.as_chunks().0 {
+        for mode in [Mode::AlphaBeta, Mode::Xyz] {
+            for sum_rule in SumRule::ALL {
+                let frame = Decoder::with(mode, sum_rule).decode(bytes);
+                let sent = match frame {
+                    Ok(Frame::AlphaBeta { alpha, beta }) => {
+                        encode::alpha_beta(alpha, beta, mlx90333::Faults::NONE, sum_rule)
+                    }
+                    Ok(Frame::Xyz { x, y, z }) => encode::xyz(x, y, z, sum_rule),
+                    Err(error) => {
+                        assert!(!error.to_string().is_empty());
+                        continue;
+                    }
+                };
+                assert_eq!(sent[..7], bytes[..7]);
+                assert!(sent[7] == bytes[7] || sum_rule == SumRule::Ignore);
+            }
+        }
+    }
+}
+
+/// The reader of recordings.
+///
+/// # Panics
+/// If streams that are taken are not what is read back after they are written.
+pub fn recording(data: &[u8]) {
+    let Ok(streams) = recording::read(data, recording::CHANNELS) else {
+        return;
+    };
+    for stream in &streams {
+        let numbers = stream.touches(recording::GATE, 10).count();
+        assert_eq!(numbers, stream.samples.len());
+        assert!(stream.samples.iter().flatten().all(|x| x.is_finite()));
+    }
+    let mut text = Vec::new();
+    assert!(recording::write(&mut text, &streams).is_ok());
+    let again = recording::read(text.as_slice(), recording::CHANNELS);
+    let samples = |streams: &[recording::Stream]| -> Vec<[f64; 2]> {
+        streams.iter().flat_map(|s| s.samples.clone()).collect()
+    };
+    assert_eq!(again.as_deref().map(samples).ok(), Some(samples(&streams)));
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    /// Runs `target` over the files of a folder, seen from the top of the workspace.
+    fn over(target: fn(&[u8]), folder: &str) {
+        let folder = Path::new("..").join(folder);
+        let mut files = 0;
+        for entry in folder.read_dir().unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                target(&std::fs::read(path).unwrap());
+                files += 1;
+            }
+        }
+        assert!(files > 0, "{}", folder.display());
+    }
+
+    #[test]
+    fn frames() {
+        over(super::frame, "fuzz/corpus/frame");
+    }
+
+    #[test]
+    fn models() {
+        over(super::model, "scenes/models");
+        over(super::model, "fuzz/corpus/model");
+    }
+
+    #[test]
+    fn recordings() {
+        over(super::recording, "fuzz/corpus/recording");
+    }
+
+    #[test]
+    fn scenes() {
+        over(super::scene, "scenes");
+        over(super::scene, "fuzz/corpus/scene");
+    }
+
+    #[test]
+    fn simulations() {
+        over(super::simulation, "scenes");
+        over(super::simulation, "fuzz/corpus/scene");
+    }
+}
