@@ -253,6 +253,24 @@ mod tests {
         assert_eq!(c.stream.sums.classes, [0; MAX_CLASSES]);
     }
 
+    /// Whatever bits the counter of a block has, the block ends within its length, and the
+    /// next has it.
+    #[test]
+    fn a_spoilt_counter_costs_a_block() {
+        let buf = model(2, 1, 60, 1, &[3, 5]);
+        for bit in 0..32 {
+            let mut c = NaiveBayes::<WindowRule, _>::new(buf.clone(), 60).unwrap();
+            for _ in 0..25 {
+                c.push(&[1]).unwrap();
+            }
+            c.stream.sums.left ^= 1 << bit;
+            let mut ends = (0..240).filter(|_| c.push(&[1]).unwrap().is_some());
+            let (first, second) = (ends.next().unwrap(), ends.next().unwrap());
+            assert!(first <= 60, "{bit}: {first}");
+            assert_eq!(second - first, 60, "{bit}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 

@@ -50,7 +50,7 @@ impl Roughness {
             [x] => [x, 0],
             [] => return,
         };
-        let middle = self.line[(self.oldest + DELAY) % KEPT];
+        let middle = self.line[self.oldest.wrapping_add(DELAY) % KEPT];
         let oldest = core::mem::replace(&mut self.line[self.oldest % KEPT], new);
         if counts && self.oldest >= KEPT {
             for channel in 0..ROUGH_CHANNELS {
@@ -60,10 +60,12 @@ impl Roughness {
                 *sum = sum.saturating_add(difference.unsigned_abs());
             }
         }
-        self.oldest += 1;
-        if self.oldest == 2 * KEPT {
-            self.oldest = KEPT;
-        }
+        // Beyond that only with flipped bits.
+        self.oldest = if self.oldest < 2 * KEPT - 1 {
+            self.oldest + 1
+        } else {
+            KEPT
+        };
     }
 
     /// The code of a channel over the open block; 0 to 2047.
@@ -162,6 +164,24 @@ mod tests {
         assert_eq!(roughness.code(0), 0);
         roughness.push(&[1050], true);
         assert_eq!(roughness.code(0), octaves(51), "the line is full again");
+    }
+
+    #[test]
+    fn a_spoilt_place_is_forgotten_with_the_line() {
+        for bit in 0..usize::BITS {
+            let mut roughness = Roughness::new();
+            for n in 0..40 {
+                if n == 19 {
+                    roughness.oldest ^= 1 << bit;
+                }
+                if n == 19 + 2 * KEPT as i32 {
+                    roughness.clear();
+                }
+                roughness.push(&[7 * n], true);
+            }
+            assert_eq!(roughness.code(0), 0, "{bit}: a ramp is smooth");
+            assert!((KEPT..2 * KEPT).contains(&roughness.oldest));
+        }
     }
 
     #[test]

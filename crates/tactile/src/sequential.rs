@@ -94,16 +94,20 @@ impl SequentialRule {
     ///
     /// No overflow, however many blocks pass without a decision: sums are
     /// below 65535 · 20480 and deficits below 2²⁹, so that every difference
-    /// here fits an i32.
+    /// here fits an i32. Those of flipped bits wrap around, and deficits stay below 2²⁹.
     #[inline]
     fn gather_near(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) -> usize {
-        let level = |sum: u32, deficit: u32| sum as i32 - deficit as i32;
+        let level = |sum: u32, deficit: u32| {
+            let deficit = deficit.min(MAX_DEFICIT);
+            sum.cast_signed().wrapping_sub(deficit.cast_signed())
+        };
         let levels = sums.iter().zip(&evidence.deficits);
         let lead = levels.map(|(&sum, &deficit)| level(sum, deficit)).max();
         let lead = lead.unwrap_or(0);
         let mut near = 0;
         for (deficit, sum) in evidence.deficits.iter_mut().zip(sums) {
-            let behind = (lead - level(core::mem::take(sum), *deficit)) as u32;
+            let behind = lead.wrapping_sub(level(core::mem::take(sum), *deficit));
+            let behind = behind.cast_unsigned();
             near += usize::from(behind < self.far);
             *deficit = behind.min(MAX_DEFICIT);
         }
@@ -246,6 +250,38 @@ mod tests {
                 gain: 0
             })
         );
+    }
+
+    /// Whatever bits a deficit has, deficits are within their bound after a block, and all
+    /// is as before once a decision has fallen.
+    #[test]
+    fn spoilt_evidence_lasts_until_the_next_decision() {
+        let (scale, threshold) = (
+            EvidenceScale::per_samples(20),
+            Threshold::new(0.99).unwrap(),
+        );
+        let rule = SequentialRule {
+            block: 20,
+            scale,
+            threshold,
+            far: scale.first_below(threshold.gain, threshold.bound),
+        };
+        // Two bit a block for the second of three.
+        let block = [200_000, 200_000 + 2 * 1_024 * 20, 150_000];
+        for class in 0..3 {
+            for bit in 0..32 {
+                let mut evidence = rule.start();
+                assert_eq!(rule.end_of_block(&mut block.clone(), &mut evidence), None);
+                evidence.deficits[class] ^= 1 << bit;
+                let falls = (0..1_000_000).find(|_| {
+                    let decision = rule.end_of_block(&mut block.clone(), &mut evidence);
+                    assert!(evidence.deficits.iter().all(|d| *d <= MAX_DEFICIT));
+                    decision.is_some()
+                });
+                assert!(falls.is_some(), "{class} {bit}");
+                assert_eq!(evidence, rule.start());
+            }
+        }
     }
 
     #[test]

@@ -53,6 +53,10 @@ impl Sums {
         }
         if self.left > 1 {
             self.left -= 1;
+            if self.left >= model.block() {
+                // Its bits were flipped: nothing is known of the block.
+                self.clear(model.block());
+            }
             return false;
         }
         true

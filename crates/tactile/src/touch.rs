@@ -65,10 +65,14 @@
 
 mod level;
 mod quick;
+#[cfg(test)]
+mod tests;
 
-use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES};
+use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES, bounded};
 use quick::Quick;
 
+/// The largest code of 14 bits.
+const CODE_MOST: u16 = 0x3fff;
 /// Samples that are kept.
 const KEPT: usize = 6;
 /// How often its level a sign is that begins a touch, sixteenths: curvature, surprise.
@@ -125,7 +129,7 @@ enum Course {
 #[derive(Debug, Clone)]
 pub struct TouchDetector {
     /// The last samples, the newest first.
-    kept: [[i32; 2]; KEPT],
+    kept: [[u16; 2]; KEPT],
     mean: [i32; 2],
     rest: [i32; 2],
     /// a and b.
@@ -160,14 +164,13 @@ impl Default for TouchDetector {
 impl TouchDetector {
     /// Before its first sample.
     pub const fn new() -> Self {
-        let [curvature, surprise] = FACTORS;
         Self {
             kept: [[0; 2]; KEPT],
             mean: [0; 2],
             rest: [0; 2],
             // About what a resonance of 50 Hz has at 2 kHz.
             weights: [1 << WEIGHT_FRACTION, -(1 << (WEIGHT_FRACTION - 2))],
-            quick: [Quick::new(curvature), Quick::new(surprise)],
+            quick: [Quick::new(), Quick::new()],
             deflection: 64 << FRACTION,
             far: FAR,
             peak: 0,
@@ -200,15 +203,16 @@ impl TouchDetector {
 
     /// Takes the sensor's codes of 14 bits.
     pub fn step(&mut self, codes: [u16; 2]) -> Touching {
-        let sample = codes.map(|code| i32::from(code.min(0x3fff)));
+        let codes = codes.map(|code| code.min(CODE_MOST));
+        let sample = codes.map(i32::from);
         if self.course == Course::Begins {
-            self.splice(sample);
+            self.splice(codes);
         }
         let now = self.signs(sample);
         self.compare(now.quick, now.deflection);
         self.learn(sample, &now);
         let [one, two, three, four, five, _] = self.kept;
-        self.kept = [sample, one, two, three, four, five];
+        self.kept = [codes, one, two, three, four, five];
         self.count();
         self.touching
     }
@@ -226,9 +230,10 @@ impl TouchDetector {
 
     /// Nothing has moved before this sample.
     #[cold]
-    fn splice(&mut self, sample: [i32; 2]) {
+    fn splice(&mut self, codes: [u16; 2]) {
         self.course = Course::GoesOn;
-        self.kept = [sample; KEPT];
+        self.kept = [codes; KEPT];
+        let sample = codes.map(i32::from);
         self.mean = sample.map(|code| code << MEAN_FRACTION);
         if self.seen == 0 {
             self.rest = sample.map(|code| code << FRACTION);
@@ -236,7 +241,7 @@ impl TouchDetector {
     }
 
     fn signs(&mut self, sample: [i32; 2]) -> Signs {
-        let [one, two, three, .., six] = self.kept;
+        let [one, two, three, _, _, six] = self.kept.map(|codes| codes.map(i32::from));
         let mut now = Signs {
             quick: [0; 2],
             deflection: 0,
@@ -246,13 +251,17 @@ impl TouchDetector {
         for axis in 0..2 {
             let (code, last) = (sample[axis], three[axis]);
             let mean = &mut self.mean[axis];
-            *mean += ((last << MEAN_FRACTION) - *mean) >> MEAN;
+            let ahead = (last << MEAN_FRACTION).wrapping_sub(*mean);
+            *mean = mean.wrapping_add(ahead >> MEAN);
             let from = [last - six[axis], last - (*mean >> MEAN_FRACTION)];
             // Weights have 13 bits before the sum, codes 14.
             let [a, b] = self
                 .weights
                 .map(|weight| weight >> (WEIGHT_FRACTION - FRACTION));
-            let left = code - last - ((a * from[0] + b * from[1]) >> FRACTION);
+            let led = a
+                .wrapping_mul(from[0])
+                .wrapping_add(b.wrapping_mul(from[1]));
+            let left = code - last - (led >> FRACTION);
             now.quick[0] += (code + two[axis]).abs_diff(2 * one[axis]);
             now.quick[1] += left.unsigned_abs();
             now.deflection += code.abs_diff(self.rest[axis] >> FRACTION);
@@ -271,7 +280,11 @@ impl TouchDetector {
                 of.peak = of.peak.max(sign);
                 holds |= sign > (of.threshold / 2).max(of.peak / 8);
             }
-            self.quiet = if holds { 0 } else { self.quiet + 1 };
+            self.quiet = if holds {
+                0
+            } else {
+                self.quiet.saturating_add(1)
+            };
             if self.quiet >= QUIET {
                 self.in_contact = false;
                 self.quiet = 0;
@@ -280,7 +293,7 @@ impl TouchDetector {
             self.quiet = if deflection < self.far {
                 0
             } else {
-                self.quiet + 1
+                self.quiet.saturating_add(1)
             };
             let is_missed = self.quiet >= MISSED;
             if is_missed && !self.in_touch {
@@ -303,8 +316,11 @@ impl TouchDetector {
             }
         }
         if self.in_touch {
-            self.is_sure |=
-                deflection >= self.far || self.quick.iter().any(|of| of.peak >= SURE * of.at_onset);
+            self.is_sure |= deflection >= self.far
+                || self
+                    .quick
+                    .iter()
+                    .any(|of| of.peak >= SURE.saturating_mul(of.at_onset));
             if !self.in_contact && deflection < level + FAR {
                 self.in_touch = false;
                 if self.is_sure {
@@ -329,11 +345,13 @@ impl TouchDetector {
             for (left, from) in now.left.iter().zip(now.from) {
                 let way = left.signum() * step;
                 for (weight, from) in self.weights.iter_mut().zip(from) {
-                    *weight = (*weight + way * from).clamp(-WEIGHT_MOST, WEIGHT_MOST);
+                    let learnt = weight.wrapping_add(way.wrapping_mul(from));
+                    *weight = learnt.clamp(-WEIGHT_MOST, WEIGHT_MOST);
                 }
             }
             for (rest, code) in self.rest.iter_mut().zip(sample) {
-                *rest += ((code << FRACTION) - *rest) >> rest_rate;
+                let ahead = (code << FRACTION).wrapping_sub(*rest);
+                *rest = rest.wrapping_add(ahead >> rest_rate);
             }
         }
         for (of, sign) in self.quick.iter_mut().zip(now.quick) {
@@ -342,15 +360,32 @@ impl TouchDetector {
         }
         let is_bent = self.in_contact && self.is_sure;
         DEFLECTION_RATES.follow(&mut self.deflection, now.deflection, is_bent, is_start);
-        self.of_block += 1;
-        if self.of_block == BLOCK {
+        self.of_block = self.of_block.wrapping_add(1);
+        if self.of_block >= BLOCK {
             self.of_block = 0;
-            self.quick.iter_mut().for_each(Quick::end_block);
+            self.bound();
+            for (quick, factor) in self.quick.iter_mut().zip(FACTORS) {
+                quick.end_block(factor);
+            }
             self.far = (FAR_LEVELS * (self.deflection >> FRACTION) + FAR).min(FAR_MOST);
             if !self.in_touch {
                 self.apart = self.apart.saturating_add(1);
             }
         }
+    }
+
+    /// What a touch that does not end would keep as it is, within what it can be: bits may
+    /// have been flipped.
+    fn bound(&mut self) {
+        let most = i32::from(CODE_MOST);
+        for (mean, rest) in self.mean.iter_mut().zip(&mut self.rest) {
+            *mean = (*mean).clamp(0, most << MEAN_FRACTION);
+            *rest = (*rest).clamp(0, most << FRACTION);
+        }
+        for weight in &mut self.weights {
+            *weight = (*weight).clamp(-WEIGHT_MOST, WEIGHT_MOST);
+        }
+        self.deflection = bounded(self.deflection);
     }
 
     fn count(&mut self) {

@@ -33,9 +33,15 @@ impl Rates {
         };
         if sign > *level >> FRACTION {
             // Below 2^31: signs are below 2^18.
-            *level += *level >> up;
+            *level = level.wrapping_add(*level >> up);
         } else {
             *level = (*level - (*level >> down)).max(1 << FRACTION);
         }
     }
+}
+
+/// A level within what it can be: from one code, where a quantile can still rise, to all that
+/// a sign can be.
+pub(super) fn bounded(level: u32) -> u32 {
+    level.clamp(1 << FRACTION, 1 << 30)
 }

@@ -1,9 +1,11 @@
 //! Curvature and surprise: the signs that begin a touch.
 
-use super::level::FRACTION;
+use super::level::{FRACTION, bounded};
 
 /// Least thresholds at the start, codes.
 const LEAST: u32 = 64;
+/// The largest that it becomes.
+const LEAST_MOST: u32 = 4095;
 /// Bits of a least threshold below one code, and by 2^−n of itself it falls a block.
 const LEAST_FRACTION: u32 = 20;
 const FALL: u32 = 18;
@@ -15,16 +17,14 @@ const RECENT: u32 = 3;
 /// What is known of curvature or surprise.
 #[derive(Debug, Clone)]
 pub(super) struct Quick {
-    /// How often its level begins a touch, sixteenths.
-    factor: u32,
     pub(super) level: u32,
-    least: u32,
+    pub(super) least: u32,
     /// From where it begins a contact, codes.
     pub(super) threshold: u32,
     /// The largest of the block, of the last block, and, in 1/256, of what was before.
     pub(super) block: u32,
-    last: u32,
-    recent: u32,
+    pub(super) last: u32,
+    pub(super) recent: u32,
     /// Of the touch: whether this began it, its threshold then, its peak.
     pub(super) began: bool,
     pub(super) at_onset: u32,
@@ -32,9 +32,8 @@ pub(super) struct Quick {
 }
 
 impl Quick {
-    pub(super) const fn new(factor: u32) -> Self {
+    pub(super) const fn new() -> Self {
         Self {
-            factor,
             level: 8 << FRACTION,
             least: LEAST << LEAST_FRACTION,
             threshold: LEAST,
@@ -48,7 +47,7 @@ impl Quick {
     }
 
     pub(super) const fn begins(&self, sign: u32) -> bool {
-        sign > self.threshold && (sign << 12) > self.recent * ABOVE_RECENT
+        sign > self.threshold && (sign << 12) > self.recent.wrapping_mul(ABOVE_RECENT)
     }
 
     /// A touch was missed.
@@ -59,19 +58,22 @@ impl Quick {
     /// The touch was none.
     pub(super) fn raise(&mut self) {
         if self.began {
-            let least = (self.at_onset + self.at_onset / 4).min(4095);
+            let least = self.at_onset.saturating_add(self.at_onset / 4);
+            let least = least.min(LEAST_MOST);
             self.least = least << LEAST_FRACTION;
             self.threshold = self.threshold.max(least);
         }
     }
 
-    pub(super) fn end_block(&mut self) {
+    /// The end of a block; `factor`: how often its level begins a touch, sixteenths.
+    pub(super) fn end_block(&mut self, factor: u32) {
+        self.level = bounded(self.level);
         let fallen = self.recent - (self.recent >> RECENT);
         self.recent = fallen.max(self.last << 8);
         self.last = core::mem::take(&mut self.block);
         self.least -= self.least >> FALL;
         // A level has 30 bits, a factor 8.
-        let of_level = ((self.level >> 8) * self.factor) >> 8;
+        let of_level = ((self.level >> 8) * factor) >> 8;
         self.threshold = of_level.max(self.least >> LEAST_FRACTION);
     }
 }
