@@ -1,10 +1,13 @@
 //! The servo of one whisker: a motor with an angle input that follows a
 //! setpoint, and what it does about faults.
 
+#[cfg(test)]
+mod tests;
+
 use whisking::motor::{
     self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver,
 };
-use whisking::{Absent, Optional, Real, pd};
+use whisking::{Absent, Optional, Real, Voted, pd};
 
 use crate::io::AngleInput;
 use crate::{Event, Place};
@@ -68,13 +71,14 @@ pub enum ServoState<R> {
 pub struct Servo<R, M, A> {
     motor: M,
     angle: A,
-    /// Counts at rest, θ = 0, and at the last tick.
-    home: i32,
+    /// Counts at rest, θ = 0. Like the setpoint it is told once and never worked out again.
+    home: Voted<i32>,
+    /// Counts at the last tick.
     counts: i32,
     /// Whether home was found, where it is to be.
     is_homed: bool,
     /// Takes the place of the pattern generator's θ.
-    setpoint: Option<R>,
+    setpoint: Voted<Option<R>>,
     state: ServoState<R>,
     heat: Heat,
     /// Ticks for which each of the last faults still counts.
@@ -89,10 +93,10 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         Self {
             motor,
             angle,
-            home,
+            home: Voted::new(home),
             counts: home,
             is_homed: false,
-            setpoint: None,
+            setpoint: Voted::new(None),
             state: ServoState::Off,
             heat: Heat::default(),
             windows: [0; FAULTS - 1],
@@ -127,7 +131,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     pub fn arm(&mut self) {
         self.clear();
         if let ServoState::Off = self.state {
-            self.home = self.counts;
+            self.home = Voted::new(self.counts);
             self.is_homed = false;
         }
     }
@@ -142,14 +146,14 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// The setpoint that was commanded, if any.
-    pub const fn setpoint(&self) -> Option<R> {
-        self.setpoint
+    pub fn setpoint(&self) -> Option<R> {
+        self.setpoint.get().flatten()
     }
 
     /// A setpoint that takes the place of the pattern generator's; `None`: the
     /// pattern generator's again.
     pub const fn set_setpoint(&mut self, setpoint: Option<R>) {
-        self.setpoint = setpoint;
+        self.setpoint = Voted::new(setpoint);
     }
 
     /// Switches the motor off until the next tick; a rest goes on.
@@ -175,11 +179,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         let counts = self.angle.counts();
         let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
-        for window in &mut self.windows {
-            *window = window.saturating_sub(1);
-        }
+        self.age(config.retry);
 
-        let setpoint = config.pd.clamp(self.setpoint.unwrap_or(setpoint));
+        let setpoint = config.pd.clamp(self.setpoint().unwrap_or(setpoint));
+        let home = self.home.get();
+        let at = counts.wrapping_sub(home.unwrap_or(counts));
         match self.state {
             ServoState::Running { .. } | ServoState::Off | ServoState::Homing(_) if !may_run => {
                 self.off();
@@ -190,16 +194,16 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 self.state = ServoState::Homing(Homing::new(counts));
             }
             ServoState::Off => {
-                let at = config.pd.measured(counts.wrapping_sub(self.home));
+                let measured = config.pd.measured(at);
                 self.state = ServoState::Running {
                     pd: pd::State::default(),
                     guards: Guards::default(),
-                    behind: setpoint - at,
+                    behind: setpoint - measured,
                 };
             }
             ServoState::Running { .. } | ServoState::Homing(_) => {}
             ServoState::Resting { left } => {
-                self.rest(left, place, events);
+                self.rest(left.min(config.retry.rest), place, events);
                 self.cool(&config.guards);
                 return;
             }
@@ -212,11 +216,17 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             self.find_home(config, moved, place, events);
             return;
         };
-        *behind = toward_zero(*behind, config.approach);
-        let at = counts.wrapping_sub(self.home);
+        *behind = if behind.is_within(R::TWO + R::TWO) {
+            toward_zero(*behind, config.approach)
+        } else {
+            // So far from where it should be no whisker is: its bits were flipped.
+            R::ZERO
+        };
         let duty = config.pd.follow(pd, setpoint - *behind, at, moved);
-        let checked = guards
-            .check(&config.guards, duty, pd.error, at, moved)
+        // Where rest is not known, no angle is within the travel.
+        let checked = home
+            .ok_or(motor::Fault::Travel)
+            .and_then(|_| guards.check(&config.guards, duty, pd.error, at, moved))
             .and_then(|()| self.heat.check(&config.guards, duty))
             .and_then(|()| self.motor.drive(duty));
         if let Err(fault) = checked {
@@ -243,7 +253,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 checked.and_then(|()| self.motor.drive(duty))
             }
             Ok(Homed::At(home)) => {
-                self.home = home;
+                self.home = Voted::new(home);
                 self.is_homed = true;
                 self.off();
                 Ok(())
@@ -252,6 +262,21 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         };
         if let Err(fault) = driven {
             self.fail(fault, config.retry, place, events);
+        }
+    }
+
+    /// The last faults are a tick longer ago. For a motor that was given up they stand still:
+    /// where one has passed, it was not its faults that led there but flipped bits.
+    #[inline]
+    fn age(&mut self, retry: Retry) {
+        if matches!(self.state, ServoState::GivenUp) {
+            if self.windows.contains(&0) {
+                self.state = ServoState::Off;
+            }
+            return;
+        }
+        for window in &mut self.windows {
+            *window = window.saturating_sub(1).min(retry.window);
         }
     }
 

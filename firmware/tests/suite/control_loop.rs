@@ -140,7 +140,7 @@ fn script() -> [Tick; 11] {
         off(EMPTY, 20),
         off(TORN, 20),
         off(REST, 20),
-        tick(REST, 20, 100),
+        turn(REST, 20, State::Low, 100),
     ]
 }
 

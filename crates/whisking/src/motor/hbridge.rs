@@ -26,8 +26,7 @@ use super::{Duty, Fault, MotorDriver};
 pub struct HBridge<PWM, DIR> {
     pwm: PWM,
     dir: DIR,
-    /// Last state of the direction pin; unknown before the first drive and after
-    /// a fault.
+    /// Last state of the direction pin; unknown while the motor is off.
     forward: Option<bool>,
     /// Whether the PWM output may still be at a duty other than zero.
     live: bool,
@@ -124,9 +123,8 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> MotorDriver for HBridge<PWM, DIR> {
         if let Err(fault) = self.zero_pwm() {
             self.fault.get_or_insert(fault);
         }
-        if self.fault.is_some() {
-            self.forward = None;
-        }
+        // The next drive sets the pin, whatever came of it or of this note of it.
+        self.forward = None;
     }
 
     fn clear(&mut self) {
