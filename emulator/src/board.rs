@@ -132,6 +132,13 @@ impl Board {
         }
     }
 
+    /// Lets time pass on the chip while nothing moves outside of it.
+    pub(crate) fn wait(&mut self, time: Ps) -> Result<(), Fault> {
+        let limit = self.machine.now + time;
+        while self.machine.run(limit, &mut self.sensors, &mut ())? != Stop::Time {}
+        self.drain()
+    }
+
     /// Ticks that the module has counted as missed since it started.
     pub(crate) fn missed(&self) -> Result<u32, Fault> {
         self.watch.missed(&self.machine.memories)

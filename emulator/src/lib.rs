@@ -16,6 +16,7 @@ mod board;
 pub mod campaign;
 mod chip;
 pub mod compare;
+pub mod damage;
 pub mod deadlines;
 mod debug_info;
 pub mod emulate;

@@ -6,7 +6,9 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use emulator::campaign::{self, Outcome, Shard, Table};
-use emulator::{compare, deadlines, emulate, latency, overload, picture, sensor_loss, starting};
+use emulator::{
+    compare, damage, deadlines, emulate, latency, overload, picture, sensor_loss, starting,
+};
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -81,6 +83,9 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Flips bits in the settings and in the model of a scene; fails if the motors are not
+    /// switched off, or the log does not say why
+    Damage(Flashed),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -208,6 +213,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Command::Campaign(campaign) => inject(campaign)?,
         Command::Reliability { tables, out } => reliability(&tables, out.as_deref())?,
+        Command::Damage(Flashed { scene, program }) => {
+            report::say(damage::damage(&scene, &program)?.join("\n"));
+        }
         Command::Overload(Flashed { scene, program }) => {
             report::say(overload::overload(&scene, &program)?.join("\n"));
         }

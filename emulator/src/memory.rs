@@ -164,6 +164,19 @@ impl Memories {
         Ok(u32::from_le_bytes(bytes))
     }
 
+    /// Flips bits of a byte of RAM or flash.
+    pub(crate) fn flip(&self, address: u32, bits: u8) -> Result<(), Fault> {
+        let outside = || Fault::Memory(format!("{address:#010x} is not in memory"));
+        let byte = [self.get(address).ok_or_else(outside)? ^ bits];
+        let (store, base) = if address < RAM {
+            (&self.flash, FLASH)
+        } else {
+            (&self.ram, RAM)
+        };
+        let done = store.write_at((address - base).into(), &byte);
+        done.map_err(refused).map(drop)
+    }
+
     /// Writes RAM as a probe does.
     pub(crate) fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
         let offset = ram_offset(address)?;

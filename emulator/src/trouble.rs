@@ -38,10 +38,15 @@ impl Trouble {
             self.run.tick();
             let board = self.run.module_mut();
             board.check()?;
-            let bytes = board.take_log();
-            self.log.extend(self.decoder.lines(&bytes));
+            self.listen();
         }
         Ok(())
+    }
+
+    /// Takes what the board has logged.
+    pub(crate) fn listen(&mut self) {
+        let bytes = self.run.module_mut().take_log();
+        self.log.extend(self.decoder.lines(&bytes));
     }
 
     /// Holds the core for `time` in the middle of the next tick.

@@ -37,8 +37,9 @@ mod name {
     pub(super) const NOMINAL: [&str; 2] = ["nominal", "first"];
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
-    /// Where perception lies: a list of one.
-    pub(super) const PERCEPTION: &str = "__rtic_internal_local_init_place";
+    /// What is made at the start; in it where perception lies, a list of one.
+    pub(super) const PLACE: &str = "__rtic_internal_local_init_place";
+    pub(super) const PERCEPTION: &str = "perception";
     /// In it: what tells the touches of the whiskers of each side.
     pub(super) const TOUCHES: &str = "touches";
     /// In that: the number of the touch.
@@ -147,7 +148,8 @@ fn elements(array: Place<'_>) -> Result<Vec<Place<'_>>, Fault> {
 /// Where the numbers of touches stand, of the first whisker of each side; nowhere, if
 /// nothing is felt.
 fn touches(info: &DebugInfo) -> Result<Vec<u32>, Fault> {
-    let list = info.variable(name::PERCEPTION)?;
+    let place = info.variable(name::PLACE)?;
+    let list = place.member(name::PERCEPTION)?;
     // The list's storage, and the array in it.
     let storage = list.member(name::BUFFER)?.member(name::BUFFER)?;
     let perception = storage.element(0)?;

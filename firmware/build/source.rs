@@ -168,6 +168,11 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
             quote! { pub(crate) const HEARS_SEVERAL: bool = false; },
             quote! { pub(crate) type Perception = (); },
             quote! {
+                pub(crate) fn model() -> &'static [u8] {
+                    &[]
+                }
+            },
+            quote! {
                 pub(crate) fn start_perception() -> Option<Perception> {
                     Some(())
                 }
@@ -224,9 +229,13 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
                 firmware::Classifying<firmware::CodeClassifier<Bayes>, #sides, #each>;
         },
         quote! {
+            pub(crate) fn model() -> &'static [u8] {
+                tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"))
+            }
+        },
+        quote! {
             pub(crate) fn start_perception() -> Option<Perception> {
-                let bytes = tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"));
-                let model = tactile::Model::linked(bytes).ok()? #into_words;
+                let model = tactile::Model::linked(model()).ok()? #into_words;
                 let bayes = Bayes::new(model, SETTINGS.perception.rule).ok()?;
                 let classifier = firmware::CodeClassifier::new(bayes).ok()?;
                 Some(firmware::Classifying::new(classifier))

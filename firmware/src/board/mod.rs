@@ -24,6 +24,7 @@ pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;
 pub(crate) mod gpio;
+pub(crate) mod integrity;
 pub(crate) mod log;
 pub(crate) mod motion;
 pub(crate) mod motors;

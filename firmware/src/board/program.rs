@@ -5,7 +5,7 @@
 //! | `tick` | 2 | one [`firmware::Module::tick`]; puts its events into a queue |
 //! | `end_of_frame` | 2 | raises /SS after the left sensor's last byte |
 //! | `end_of_right_frame` | 2 | the same on the right, where the scene has that side |
-//! | `idle` | 0 | writes the log, feeds the watchdog, sleeps |
+//! | `idle` | 0 | writes the log, checks settings and model, feeds the watchdog, sleeps |
 //!
 //! All but the last have one priority, as they work on the same registers: none can
 //! interrupt another, and they share the module without a lock. The queue they share
@@ -16,6 +16,7 @@ use firmware::Event;
 use firmware::faults::number;
 
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
+use super::integrity::Integrity;
 use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::user_button::{REQUEST, UserButton};
@@ -31,25 +32,40 @@ type Inner =
 pub struct Module {
     inner: Inner,
     /// In RAM, where they can be changed.
-    settings: Settings,
+    settings: &'static Settings,
     /// The next full second, in [`TICKS`].
     second: u32,
 }
 
-/// Where perception lies, and need not be moved to from the stack once more. A list, as
-/// an empty one is of zeros, which take no flash.
-pub struct Place(heapless::Vec<Perception, 1>);
+/// Where something lies that is made at the start, and need not be moved to from the stack
+/// once more. A list, as an empty one is of zeros, which take no flash.
+pub struct Slot<T>(heapless::Vec<T, 1>);
+
+impl<T> Slot<T> {
+    const fn new() -> Self {
+        Self(heapless::Vec::new())
+    }
+
+    fn fill(&mut self, with: T) -> Option<&mut T> {
+        // There is room for one.
+        let _ = self.0.push(with);
+        self.0.first_mut()
+    }
+}
+
+/// Where settings and perception lie.
+pub struct Place {
+    settings: Slot<Settings>,
+    perception: Slot<Perception>,
+}
 
 impl Place {
     /// Empty.
     pub(crate) const fn new() -> Self {
-        Self(heapless::Vec::new())
-    }
-
-    fn fill(&mut self) -> Option<&mut Perception> {
-        // There is room for one.
-        let _ = self.0.push(scene::start_perception()?);
-        self.0.first_mut()
+        Self {
+            settings: Slot::new(),
+            perception: Slot::new(),
+        }
     }
 }
 
@@ -57,7 +73,7 @@ impl Place {
 static DROPPED: WrappingCounter = WrappingCounter::new();
 
 /// From the reset to a module that is ready for its first tick.
-pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> Module {
+pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (Module, Integrity) {
     outputs::off();
     here::prepare_for_debuggers();
     let cause = here::reset_cause();
@@ -70,7 +86,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
     let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
     let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
     let motion = scene::start_motion();
-    let Some(perception) = place.fill() else {
+    let perception = scene::start_perception();
+    let perception = perception.and_then(|made| place.perception.fill(made));
+    let (Some(perception), Some(settings)) = (perception, place.settings.fill(SETTINGS)) else {
         faults::die(number::MODEL, || {})
     };
     let counter = Counter::start(core);
@@ -84,11 +102,13 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> M
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
-    Module {
+    let settings: &'static Settings = settings;
+    let module = Module {
         inner,
-        settings: SETTINGS,
+        settings,
         second: TICK_HZ,
-    }
+    };
+    (module, Integrity::new(settings, scene::model()))
 }
 
 /// One tick of the module; `put` puts its events into the queue, or gives them back.
@@ -97,12 +117,15 @@ pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(),
     if scene::HAS_MOTOR && REQUEST.take() {
         module.inner.arm(true);
     }
-    module.inner.tick(&module.settings, &mut |event| {
+    module.inner.tick(module.settings, &mut |event| {
         if put(event).is_err() {
             DROPPED.increment();
         }
     });
-    if TICKS.increment() == module.second {
+    let now = TICKS.increment();
+    // Full, or further ahead than a second can be: a flipped bit.
+    if module.second.wrapping_sub(now).wrapping_sub(1) >= TICK_HZ {
+        module.second = now.wrapping_add(TICK_HZ);
         tell_timing(module);
     }
 }
@@ -111,7 +134,6 @@ pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(),
 #[cold]
 fn tell_timing(module: &mut Module) {
     retained::second();
-    module.second = module.second.wrapping_add(TICK_HZ);
     let timing = module.inner.timing_mut();
     WORST.set(timing.take_worst());
     MISSED.set(timing.missed());
@@ -155,6 +177,7 @@ fn write(event: Event) {
 
 /// The state of the idle task.
 pub(crate) struct Idle {
+    integrity: Integrity,
     watchdog: Watchdog,
     button: UserButton,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
@@ -165,8 +188,9 @@ pub(crate) struct Idle {
 
 impl Idle {
     /// Starts the watchdog.
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(integrity: Integrity) -> Self {
         Self {
+            integrity,
             watchdog: Watchdog::start(),
             button: UserButton::start(),
             fed: 0,
@@ -184,6 +208,7 @@ impl Idle {
         self.fed = now;
         // A tick queues its events before it counts itself.
         core::iter::from_fn(take).for_each(write);
+        self.integrity.step();
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
         if scene::HAS_MOTOR && self.button.is_pressed() {
@@ -240,10 +265,10 @@ macro_rules! program {
 
             #[init(local = [queue: Queue<16> = Queue::new(), place: Place = Place::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
-                let module = program::start(cx.core, cx.local.place);
+                let (module, integrity) = program::start(cx.core, cx.local.place);
                 let local = Local {
                     tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
-                    idle: Idle::new(),
+                    idle: Idle::new(integrity),
                 };
                 let queue = cx.local.queue;
                 (Shared { module, queue }, local)

@@ -7,7 +7,8 @@
 //! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
 //!   is left out by type.
 //! - `Motion`, `start_motion`, `HAS_MOTOR`, `ARMS_AT_START`: how it moves.
-//! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides.
+//! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides; `model`: the bytes of
+//!   its model, or none.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
     clippy::unnecessary_wraps,

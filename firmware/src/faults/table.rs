@@ -129,8 +129,12 @@ macro_rules! fault_table {
                 "USB port or cable too weak; motors on the board's supply; a short",
                 "the board's 3.3 V with an oscilloscope while the motors start",
                 AllOff, Restart;
+            55 SETTINGS: "the settings in RAM are damaged",
+                "a flipped bit; a fault of this program",
+                "if it comes again, report it",
+                AllOff, Restart;
             56 MODEL: "the model in flash is damaged",
-                "flashing was interrupted",
+                "flashing was interrupted; flash worn out",
                 "flash again",
                 AllOff, Restart;
             57 NO_CLOCK: "a clock did not start",

@@ -1,0 +1,106 @@
+//! Settings and model, which nothing writes after the start: checked by a sum while the core
+//! is idle. A mismatch is a fault of the board, and a reset copies the settings anew.
+//!
+//! Some words of both are looked at in every tick: settings of 150 words once in ten ticks, a
+//! model of 12 KiB once in 200.
+
+use firmware::faults::number;
+
+use super::faults;
+use super::scene::Settings;
+
+/// Words of each that are looked at between two sleeps.
+const WORDS: usize = 16;
+
+/// Words that stay as they are, and a walk over them.
+struct Region {
+    address: usize,
+    words: usize,
+    sum: u32,
+    /// The fault that another sum is.
+    fault: u8,
+    /// The word that is next, and the sum of those before it.
+    next: usize,
+    so_far: u32,
+}
+
+impl Region {
+    /// That of something which nobody writes from now on. A part of a word at its end is
+    /// left out; there is none.
+    fn of<T: ?Sized>(constant: &'static T, fault: u8) -> Self {
+        let mut region = Self {
+            address: core::ptr::from_ref(constant).addr(),
+            words: size_of_val(constant) / size_of::<u32>(),
+            sum: 0,
+            fault,
+            next: 0,
+            so_far: 0,
+        };
+        region.sum = region.add(0, 0..region.words);
+        region
+    }
+
+    /// Any change of one word changes the sum, and so does a change of their order.
+    fn add(&self, sum: u32, words: core::ops::Range<usize>) -> u32 {
+        words.fold(sum, |sum, n| {
+            sum.rotate_left(1)
+                .wrapping_add(word(self.address + n * size_of::<u32>()))
+        })
+    }
+
+    /// Looks at some words more. Does not come back from a fault.
+    fn step(&mut self) {
+        let end = self.words.min(self.next.saturating_add(WORDS));
+        self.so_far = self.add(self.so_far, self.next..end);
+        self.next = end;
+        if end < self.words {
+            return;
+        }
+        if self.so_far != self.sum {
+            faults::die(self.fault, || {});
+        }
+        self.next = 0;
+        self.so_far = 0;
+    }
+}
+
+/// The word that memory has at an address.
+#[allow(
+    unsafe_code,
+    reason = "what is padding to the compiler is looked at too"
+)]
+fn word(address: usize) -> u32 {
+    let word;
+    // SAFETY: reads a word of a region, which lives for ever and which nobody writes.
+    unsafe {
+        core::arch::asm!(
+            "ldr {word}, [{address}]",
+            word = out(reg) word,
+            address = in(reg) address,
+            options(nostack, readonly, preserves_flags)
+        );
+    }
+    word
+}
+
+/// The walk over both.
+pub(crate) struct Integrity {
+    settings: Region,
+    model: Region,
+}
+
+impl Integrity {
+    /// Their sums as they are now.
+    pub(crate) fn new(settings: &'static Settings, model: &'static [u8]) -> Self {
+        Self {
+            settings: Region::of(settings, number::SETTINGS),
+            model: Region::of(model, number::MODEL),
+        }
+    }
+
+    /// Looks at some words more of both. Does not come back from a fault.
+    pub(crate) fn step(&mut self) {
+        self.settings.step();
+        self.model.step();
+    }
+}
