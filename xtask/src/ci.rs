@@ -7,7 +7,7 @@ use crate::emulate::Task;
 use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
-use crate::{arrows, cost, count, docs, emulate, faults, fuzz, panics, readme, size};
+use crate::{arrows, cost, count, dependencies, docs, emulate, faults, fuzz, panics, readme, size};
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -25,6 +25,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     // What the README tells a newcomer to run: all tests, and the main job, whose
     // output and files are what the generated documents must hold.
     steps.run("tests", tests)?;
+    steps.run("dependencies", dependencies::check)?;
     steps.run("untrusted input", || fuzz::all(&[], 0.05, false))?;
     steps.run("main job and documents", || docs::all(true))?;
     steps.run("README's commands", readme::all)?;

@@ -4,6 +4,7 @@ mod arrows;
 mod ci;
 mod cost;
 mod count;
+mod dependencies;
 mod docs;
 mod elf;
 mod emulate;
