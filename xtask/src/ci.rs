@@ -84,6 +84,7 @@ fn board() -> Result<(), Fault> {
         Task::Deadlines(0.05),
         Task::Overload,
         Task::Starting,
+        Task::Damage,
         Task::SensorLoss,
     ];
     do_all(Path::new(emulate::FULL), &one_side)?;

@@ -20,6 +20,8 @@ pub(crate) enum Task {
     Overload,
     /// Resets the chip in every way that nobody asked for.
     Starting,
+    /// Flips bits in settings and model.
+    Damage,
     /// Breaks the sensors' wires on purpose.
     SensorLoss,
     /// Measures how long contact on one side takes to excite the other.
@@ -42,6 +44,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Deadlines(_) => "deadlines",
         Task::Overload => "overload",
         Task::Starting => "starting",
+        Task::Damage => "damage",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
     };
@@ -49,9 +52,12 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     match task {
         Task::Run(out) => command.arg("--out").arg(absolute(out)?),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
-        Task::Compare | Task::Overload | Task::Starting | Task::SensorLoss | Task::Latency => {
-            &mut command
-        }
+        Task::Compare
+        | Task::Overload
+        | Task::Starting
+        | Task::Damage
+        | Task::SensorLoss
+        | Task::Latency => &mut command,
     };
     run(command.arg("--program").arg(program))
 }

@@ -62,6 +62,7 @@ fn boards() -> Result<(), Fault> {
                 Task::Deadlines(10.0),
                 Task::Overload,
                 Task::Starting,
+                Task::Damage,
                 Task::SensorLoss,
             ] {
                 emulate::emulate(board, scene, &task)?;
