@@ -16,7 +16,7 @@ use embedded_hal::pwm::SetDutyCycle;
 use firmware::{AngleInput, Event, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
-use host_sim::motor::{PWM_MAX, Pins, SimPwm};
+use host_sim::motor::{Pins, SimPwm};
 
 use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
@@ -32,18 +32,36 @@ struct Wired {
     exchange: Option<Exchange>,
     /// When the last frame began.
     latched: Ps,
+    /// The world has moved on since, and the frame has not told of it yet.
+    stale: bool,
 }
+
+impl Wired {
+    /// The tick is over, and the world moves on.
+    fn tick_ends(&mut self) {
+        let begun = self.exchange.as_ref().map(Exchange::bytes);
+        self.stale = begun.is_some_and(|bytes| bytes <= CONSTANT);
+    }
+}
+
+/// Bytes of a frame that are always the same: its first.
+const CONSTANT: u64 = 1;
 
 impl SensorEnd for Wired {
     fn latch(&mut self, now: Ps) {
         self.latched = now;
+        self.stale = false;
         self.exchange = Some(self.slave.select());
     }
 
     fn exchange(&mut self, sent: u8) -> u8 {
-        self.exchange
-            .as_mut()
-            .map_or(0xFF, |exchange| exchange.byte(sent))
+        let Some(exchange) = &mut self.exchange else {
+            return 0xFF;
+        };
+        if std::mem::take(&mut self.stale) {
+            self.slave.latch_again(exchange);
+        }
+        exchange.byte(sent)
     }
 }
 
@@ -68,7 +86,7 @@ pub(crate) struct Board {
 const PATIENCE: Ps = 3_000_000_000_000;
 
 fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
-    let scaled = u64::from(on) * u64::from(PWM_MAX) / u64::from(period.max(1));
+    let scaled = u64::from(on) * u64::from(pwm.max_duty_cycle()) / u64::from(period.max(1));
     let Ok(()) = pwm.set_duty_cycle(scaled as u16);
 }
 
@@ -111,6 +129,7 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
+        self.sensors.iter_mut().for_each(Wired::tick_ends);
         self.drain()
     }
 

@@ -1,7 +1,8 @@
-//! The STM32F446 but for its core: peripherals and the time in which they run.
+//! A chip but for its core: peripherals and the time in which they run.
 //!
-//! Each peripheral is a file; `registers` has their addresses, clock gates and
-//! resets. Here are the lines between them: requests, interrupts, pins.
+//! Each peripheral is a file; `models` has a file a chip, with its peripherals' versions,
+//! addresses, clock gates and wires. Here are the lines between them: requests,
+//! interrupts, pins.
 //!
 //! A register that no peripheral knows, or a setting that it does not model,
 //! ends the run with a [`Fault`]; a peripheral without its clock reads zero and
@@ -10,10 +11,15 @@
 mod dma;
 mod fault;
 mod gpio;
+mod map;
+mod model;
+mod models;
+mod mux;
 mod pins;
 mod plain;
 mod rcc;
 mod registers;
+mod remap;
 mod requests;
 mod reset;
 mod sensor_lines;
@@ -26,6 +32,8 @@ mod watchdog;
 mod wiring;
 
 pub(crate) use fault::Fault;
+pub(crate) use model::{CoreKind, Model};
+pub(crate) use models::MODELS;
 pub(crate) use reset::ResetCause;
 pub(crate) use sensor_lines::SensorEnd;
 pub(crate) use time::Ps;
@@ -33,26 +41,20 @@ pub(crate) use wiring::SIDE_NAMES;
 
 use dma::Dma;
 use gpio::Gpio;
+use mux::Mux;
 use plain::Plain;
 use rcc::{Clocks, Rcc};
+use remap::Remap;
 use sensor_lines::SensorLines;
 use spi::Spi;
 use timer::Timer;
-use timers::{KINDS, TIM1, TIM7};
 use watchdog::Watchdog;
-use wiring::SIDES;
-
-/// The interrupt of the tick, TIM7, in the NVIC.
-pub(crate) const TICK_IRQ: u16 = 55;
-/// The interrupts of the sensors' frames, left and right, in the NVIC.
-pub(crate) const FRAME_IRQS: [u16; 2] = [SIDES[0].end_of_frame, SIDES[1].end_of_frame];
-
-/// The timer that makes the ticks.
-const TICK: usize = TIM7;
 
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
 pub(crate) struct Chip {
+    /// Which chip it is.
+    pub(crate) model: &'static Model,
     /// The time up to which everything has happened, and at which accesses happen.
     pub(crate) now: Ps,
     rcc: Rcc,
@@ -60,11 +62,13 @@ pub(crate) struct Chip {
     flash: Plain,
     debug: Plain,
     gpio: [Gpio; 3],
-    timers: [Timer; 7],
-    /// SPI1 and SPI2: that of the left side, and of the right.
-    spis: [Spi; 2],
-    /// DMA1 and DMA2.
-    dmas: [Dma; 2],
+    remap: Remap,
+    timers: Vec<Timer>,
+    /// SPI1, and SPI2 where it is used: that of the left side, and of the right.
+    spis: Vec<Spi>,
+    /// DMA1, and DMA2 where it is used.
+    dmas: Vec<Dma>,
+    mux: Mux,
     watchdog: Watchdog,
     /// The wires of each side's sensor.
     lines: [SensorLines; 2],
@@ -73,24 +77,25 @@ pub(crate) struct Chip {
 
 impl Chip {
     /// A chip as its supply comes.
-    pub(crate) fn new() -> Result<Self, Fault> {
-        let rcc = Rcc::new();
+    pub(crate) fn new(model: &'static Model) -> Result<Self, Fault> {
+        let rcc = Rcc::new(model.rcc);
         let clocks = rcc.clocks()?;
+        let timers = model.timers.iter();
+        let spis = model.spis.iter();
         Ok(Self {
+            model,
             now: 0,
             rcc,
             clocks,
-            flash: Plain::new(&[0x00]),
-            debug: Plain::new(&[0x04, 0x08, 0x0C]),
-            gpio: [
-                Gpio::new([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
-                Gpio::new([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
-                Gpio::new([0; 3]),
-            ],
-            timers: KINDS.map(Timer::new),
-            spis: Default::default(),
-            dmas: Default::default(),
-            watchdog: Watchdog::new(),
+            flash: Plain::new(model.flash_registers),
+            debug: Plain::new(model.debug_registers),
+            gpio: model.ports.map(Gpio::new),
+            remap: Remap::default(),
+            timers: timers.map(|(kind, _)| Timer::new(*kind)).collect(),
+            spis: spis.map(|_| Spi::new(model.spi_version)).collect(),
+            dmas: model.dmas.iter().copied().map(Dma::new).collect(),
+            mux: Mux::default(),
+            watchdog: Watchdog::new(model.lsi_hz, model.has_window),
             lines: SIDE_NAMES.map(SensorLines::new),
             fault: None,
         })
@@ -103,10 +108,12 @@ impl Chip {
         self.flash.reset();
         self.debug.reset();
         self.gpio.iter_mut().for_each(Gpio::reset);
+        self.remap = Remap::default();
         self.timers.iter_mut().for_each(Timer::reset);
-        self.spis = Default::default();
-        self.dmas = Default::default();
-        self.watchdog = Watchdog::new();
+        self.spis.iter_mut().for_each(Spi::reset);
+        self.dmas.iter_mut().for_each(Dma::reset);
+        self.mux = Mux::default();
+        self.watchdog.reset();
         // /SS floats, with the sensor's own pull-up.
         self.select_sensors();
         Ok(())
@@ -117,20 +124,21 @@ impl Chip {
         self.clocks.core
     }
 
-    /// Whether the interrupt lines of tick and frames are up.
-    pub(crate) fn interrupts(&self) -> [(u16, bool); 3] {
-        let frame = |side: usize| {
-            let wires = &SIDES[side];
-            let up = self.dmas[wires.dma].interrupts(wires.rx.stream);
-            (wires.end_of_frame, up)
-        };
-        let tick = (TICK_IRQ, self.timers[TICK].interrupts());
-        [tick, frame(0), frame(1)]
+    /// The interrupt lines of tick and frames, and whether they are up; the tick's first,
+    /// then that of the left side's frames.
+    pub(crate) fn interrupts(&self) -> impl Iterator<Item = (u16, bool)> {
+        let wiring = &self.model.wiring;
+        let tick = (wiring.tick_irq, self.timers[wiring.tick].interrupts());
+        let frames = wiring.sides.iter().map(|side| {
+            let up = self.dmas[side.dma].interrupts(side.rx.stream);
+            (side.end_of_frame, up)
+        });
+        std::iter::once(tick).chain(frames)
     }
 
     /// When the tick's timer had its last update.
-    pub(crate) const fn tick_began(&self) -> Ps {
-        self.timers[TICK].updated
+    pub(crate) fn tick_began(&self) -> Ps {
+        self.timers[self.model.wiring.tick].updated
     }
 
     /// The next time at which something happens by itself.
@@ -196,22 +204,20 @@ impl Chip {
                 let sensor = sensors.get_mut(side);
                 let sensor = sensor.filter(|_| self.sensor_is_connected(side));
                 let answer = self.lines[side].end(shift.sent, now, sensor);
-                self.spis[side].end(answer, now, self.spi_clock(side));
+                let clock = self.spi_clock(side);
+                self.spis[side].end(answer, now, clock);
             }
         }
     }
 
-    /// The clock of a side's SPI: that of APB2 for SPI1, of APB1 for SPI2.
+    /// The clock of a side's SPI.
     fn spi_clock(&self, side: usize) -> Ps {
-        [self.clocks.apb2, self.clocks.apb1][side]
+        self.clocks.bus(self.model.spis[side])
     }
 
     fn timer_clock(&self, n: usize) -> Ps {
-        if n < TIM1 {
-            self.clocks.apb1_timer
-        } else {
-            self.clocks.apb2_timer
-        }
+        let (_, bus) = self.model.timers[n];
+        self.clocks.timer(bus)
     }
 
     /// Keeps the first fault of an access for [`Chip::advance`] to tell.

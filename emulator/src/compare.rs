@@ -41,11 +41,15 @@ pub struct Agreement {
 /// [`Error::Work`] names the first tick and column that differ.
 pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     let mut loaded = Loaded::new(path)?;
+    let program = Program::load(program)?;
+    let model = program.model()?;
     let format = plan::in_simulation(&loaded.scene);
-    if let Some(whisking) = &mut loaded.scene.whisking
-        && format == NumberFormat::Double
-    {
-        whisking.numbers = Numbers::Single;
+    if let Some(whisking) = &mut loaded.scene.whisking {
+        if !model.has_fpu() {
+            whisking.numbers = Numbers::Fixed;
+        } else if format == NumberFormat::Double {
+            whisking.numbers = Numbers::Single;
+        }
     }
     let scene = &loaded.scene;
     let classifier = loaded.classifier()?;
@@ -53,8 +57,7 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
     let listens = matches!(least, Ok(Some(_)));
     let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
-    let mut host = Run::new(scene, classifier)?;
-    let program = Program::load(program)?;
+    let mut host = Run::with_pwm(scene, classifier, model.pwm_counts)?;
     let mut target = start(scene, host.classes().to_vec(), &program)?;
 
     let mut agreement = Agreement::default();

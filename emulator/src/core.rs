@@ -60,7 +60,7 @@ fn is_known_at(pc: u32, memories: &Memories) -> bool {
 /// A core with its instructions.
 #[derive(Debug)]
 pub(crate) struct Core {
-    core: ArmV7m,
+    inner: ArmV7m,
     known: Option<Known>,
     /// It has met an instruction that there is not where no fault can be taken.
     stuck: bool,
@@ -83,13 +83,13 @@ impl Core {
         let config = config
             .with_reset_vtor(FLASH)
             .with_priority_bits(model.priority_bits);
-        let core = ArmV7m::new(config);
-        core.attach_space(Arc::new(space));
+        let inner = ArmV7m::new(config);
+        inner.attach_space(Arc::new(space));
         if is_v6m {
-            core.with_sys(|sys| sys.ccr |= UNALIGN_TRP);
+            inner.with_sys(|sys| sys.ccr |= UNALIGN_TRP);
         }
         Self {
-            core,
+            inner,
             known: is_v6m.then(|| Known::new(memories)),
             stuck: false,
             rest: 0,
@@ -99,19 +99,19 @@ impl Core {
     /// Executes an instruction, or enters an exception; the cycles that it took.
     pub(crate) fn step(&mut self) -> u64 {
         if let Some(known) = &self.known
-            && !self.core.is_asleep()
-            && !known.has(self.core.pc())
+            && !self.inner.is_asleep()
+            && !known.has(self.inner.pc())
         {
-            self.stuck |= self.core.execution_priority() <= HARD_FAULT_PRIORITY;
-            self.core
+            self.stuck |= self.inner.execution_priority() <= HARD_FAULT_PRIORITY;
+            self.inner
                 .with_sys(|sys| sys.set_pending(Exception::HARD_FAULT, true));
         }
-        let pc = self.core.pc(); let before = self.core.xpsr() & 0x1ff; let n = self.core.step(); if (self.core.xpsr() & 0x1ff) == 3 && before != 3 { eprintln!("DBG hardfault at {pc:#x} {:?} sp {:#x}", self.core.bus_faults(), self.core.reg(13)); for a in 0..4 {self.core.with_sys(|s| eprintln!("cfsr {:#x} hfsr {:#x} ccr {:#x}", s.cfsr, s.hfsr, s.ccr));break;} } n
+        self.inner.step()
     }
 
     /// Whether it executes nothing more until it is reset.
     pub(crate) fn has_locked_up(&self) -> bool {
-        self.stuck || self.core.is_locked_up()
+        self.stuck || self.inner.is_locked_up()
     }
 
     /// Lets SysTick count while the core executes nothing for `time`.
@@ -119,14 +119,14 @@ impl Core {
         self.rest += time;
         let cycles = self.rest / cycle;
         self.rest %= cycle;
-        self.core.with_sys(|sys| sys.tick_systick(cycles));
+        self.inner.with_sys(|sys| sys.tick_systick(cycles));
     }
 
     /// Fails where the program relies on a part of the core that is not modelled.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         const ENABLE: u32 = 1 << 0;
         const CLKSOURCE: u32 = 1 << 2;
-        let control = self.core.with_sys(|sys| sys.syst_csr);
+        let control = self.inner.with_sys(|sys| sys.syst_csr);
         if control & (ENABLE | CLKSOURCE) == ENABLE {
             return Err(Fault::Misused {
                 peripheral: "SysTick",
@@ -141,6 +141,6 @@ impl Deref for Core {
     type Target = ArmV7m;
 
     fn deref(&self) -> &ArmV7m {
-        &self.core
+        &self.inner
     }
 }

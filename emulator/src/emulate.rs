@@ -30,7 +30,8 @@ pub(crate) fn start(
     classes: Vec<String>,
     program: &Program,
 ) -> Result<Run<Emulated>, Error> {
-    let (world, pins) = World::wired(scene)?;
+    let model = program.model()?;
+    let (world, pins) = World::wired(scene, model.pwm_counts)?;
     if scene.head.whiskers_per_side != 1 {
         return Err(Error::Work(
             "the board carries one whisker a side".to_owned(),
@@ -40,6 +41,10 @@ pub(crate) fn start(
         return Err(Error::Work(
             "the board carries one six-step motor".to_owned(),
         ));
+    }
+    let sides = model.sides();
+    if scene.head.sides.count() > sides {
+        return Err(Error::Work(format!("the board carries {sides} side")));
     }
     let board = Board::new(program, scene.head.sides.count(), pins)?;
     Ok(Run::of(

@@ -1,9 +1,10 @@
-//! The board's own program, unchanged, on an emulated STM32F446.
+//! The board's own program, unchanged, on an emulated chip.
 //!
 //! # Glossary
 //!
-//! - *core*: an emulated Cortex-M4F with NVIC and FPU (rsemu);
+//! - *core*: an emulated Cortex-M with its NVIC (rsemu);
 //! - *chip*: the peripherals around it, modelled here register by register;
+//! - *model*: what tells one chip from another;
 //! - *machine*: core, memories and chip in one time;
 //! - *board*: the machine with host-sim's sensors, motors and plant on its pins;
 //! - *watch*: the module's variables, read from RAM by their names in the
@@ -16,6 +17,7 @@ mod board;
 pub mod campaign;
 mod chip;
 pub mod compare;
+mod core;
 pub mod damage;
 pub mod deadlines;
 mod debug_info;

@@ -1,22 +1,20 @@
 //! Core, memories and chip in one time.
 //!
 //! One step of rsemu is one instruction; its cycles, by rsemu's model of the
-//! Cortex-M4 (flash without wait states), are the time. While the core sleeps
-//! time jumps to the next event of a peripheral.
+//! Cortex-M4 (flash without wait states), are the time on every core. While the core
+//! sleeps time jumps to the next event of a peripheral.
 
 use std::sync::Arc;
 
-use rsemu::cpu::arm::v7m::{ArmV7m, Config};
-
-use crate::chip::{Chip, FRAME_IRQS, Fault, Ps, ResetCause, SensorEnd, TICK_IRQ};
+use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
+use crate::core::Core;
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
 use crate::rtt::Ring;
 
-/// Exception numbers begin sixteen before those of the interrupts.
-const TICK: u32 = TICK_IRQ as u32 + 16;
-const FRAMES: [u32; 2] = [FRAME_IRQS[0] as u32 + 16, FRAME_IRQS[1] as u32 + 16];
+/// Interrupts are exceptions from this number on.
+const INTERRUPTS: u32 = 16;
 /// The exception number in xPSR.
 const EXCEPTION: u32 = 0x1FF;
 
@@ -67,7 +65,11 @@ impl Observer for () {}
 /// The emulated board, without what hangs on its pins.
 #[derive(Debug)]
 pub(crate) struct Machine {
-    core: ArmV7m,
+    model: &'static Model,
+    core: Core,
+    /// The exceptions of the tick and of the ends of frames.
+    tick: u32,
+    frames: Vec<u32>,
     shared: Arc<Shared>,
     pub(crate) memories: Memories,
     pub(crate) ring: Ring,
@@ -91,12 +93,17 @@ pub(crate) struct Machine {
 impl Machine {
     /// A board with `program` in its flash, as its supply comes.
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
-        let memories = Memories::new(program)?;
-        let shared = Shared::new(Chip::new()?);
-        let core = core(&memories, &shared)?;
+        let model = program.model()?;
+        let memories = Memories::new(program, model)?;
+        let shared = Shared::new(Chip::new(model)?);
+        let core = Core::new(model, &memories, memories.space(&shared)?);
         let cycle = shared.chip().cycle();
+        let exception = |irq: u16| u32::from(irq) + INTERRUPTS;
         Ok(Self {
+            model,
             core,
+            tick: exception(model.tick_irq()),
+            frames: model.frame_irqs().map(exception).collect(),
             memories,
             ring: Ring::new(program)?,
             stack: Stack::new(program)?,
@@ -163,7 +170,11 @@ impl Machine {
                 }
                 // Nothing was pending: on to the next event.
                 let due = self.due.ok_or(Fault::Asleep)?;
-                self.now = self.now.max(due.min(until));
+                let slept = due.min(until).saturating_sub(self.now);
+                self.now += slept;
+                // The step that found it asleep has counted its cycle.
+                let counted = cycles * self.cycle;
+                self.core.pass(slept.saturating_sub(counted), self.cycle);
                 self.shared.set_now(self.now);
                 continue;
             }
@@ -181,7 +192,7 @@ impl Machine {
         self.exception = self.core.xpsr() & EXCEPTION;
         if self.exception != 0 && before != self.exception && (before == 0 || self.exception < 16) {
             // An entry is no instruction.
-            if self.exception == TICK {
+            if self.exception == self.tick {
                 let latency = self.now - self.shared.chip().tick_began();
                 observer.tick_begins(self.now, latency, &self.spent);
                 if self.hold > 0 || self.crash {
@@ -191,24 +202,26 @@ impl Machine {
             return Ok(false);
         }
         let counter = match before {
-            TICK => &mut self.spent.tick,
-            exception if FRAMES.contains(&exception) => &mut self.spent.frame,
+            tick if tick == self.tick => &mut self.spent.tick,
+            exception if self.frames.contains(&exception) => &mut self.spent.frame,
             0 => &mut self.spent.thread,
             _ => &mut self.spent.other,
         };
         *counter += 1;
         if self.spent.tick == self.hold_at {
             self.hold_at = u64::MAX;
-            self.now += std::mem::take(&mut self.hold);
+            let held = std::mem::take(&mut self.hold);
+            self.now += held;
+            self.core.pass(held, self.cycle);
             if std::mem::take(&mut self.crash) {
                 self.core.set_pc(NOWHERE);
             }
         }
-        if before == TICK && self.exception == 0 {
+        if before == self.tick && self.exception == 0 {
             observer.tick_ends(self.now, &self.spent);
             return Ok(true);
         }
-        if before != 0 && before < 16 && self.core.is_locked_up() {
+        if before != 0 && before < 16 && self.core.has_locked_up() {
             return Err(Fault::LockUp { pc: self.core.pc() });
         }
         Ok(false)
@@ -230,6 +243,7 @@ impl Machine {
             Err(fault) => return Err(fault),
         };
         drop(chip);
+        self.core.check()?;
         self.follow_chip();
         if self.core.reset_requested() {
             self.core.clear_reset_request();
@@ -240,7 +254,8 @@ impl Machine {
 
     /// Resets the chip; RAM keeps its contents.
     pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
-        self.core = core(&self.memories, &self.shared)?;
+        let space = self.memories.space(&self.shared)?;
+        self.core = Core::new(self.model, &self.memories, space);
         let mut chip = self.shared.chip();
         chip.reset(cause)?;
         // A core that was held knows nothing of the time since.
@@ -262,14 +277,4 @@ impl Machine {
             self.core.set_irq(irq, up);
         }
     }
-}
-
-/// A core of the STM32F446 before its first instruction.
-fn core(memories: &Memories, shared: &Arc<Shared>) -> Result<ArmV7m, Fault> {
-    let config = Config::CORTEX_M4F
-        .with_reset_vtor(0x0800_0000)
-        .with_priority_bits(4);
-    let core = ArmV7m::new(config);
-    core.attach_space(Arc::new(memories.space(shared)?));
-    Ok(core)
 }

@@ -7,13 +7,19 @@ use rsemu::core::space::{
     AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy,
 };
 
-use crate::chip::{Chip, Fault, Memory, Ps};
+use crate::chip::{Chip, Fault, Memory, Model, Ps};
 use crate::program::Program;
 
-const FLASH: u32 = 0x0800_0000;
-const FLASH_LEN: u32 = 512 * 1024;
+/// Where the flash begins.
+pub(crate) const FLASH: u32 = 0x0800_0000;
 const RAM: u32 = 0x2000_0000;
-const RAM_LEN: u32 = 128 * 1024;
+
+/// Where peripherals can be: those on buses, ports with a bus of their own, the debug unit.
+const PERIPHERALS: [(&str, u32, u64); 3] = [
+    ("peripherals", 0x4000_0000, 0x8_0000),
+    ("ports", 0x5000_0000, 0x2000),
+    ("debug", 0xE004_2000, 0x400),
+];
 
 /// The chip as core and machine share it.
 #[derive(Debug)]
@@ -67,7 +73,8 @@ impl MemOps for Registers {
     fn read(&self, offset: u64, bytes: &mut [u8], _: MemAttrs) -> MemResult {
         let address = self.base + offset as u32;
         let mut chip = self.shared.access();
-        let word = chip.read(address & !3).unwrap_or_else(|fault| {
+        let mask = u32::MAX >> (32 - 8 * bytes.len().clamp(1, 4));
+        let word = chip.read(address & !3, mask).unwrap_or_else(|fault| {
             chip.keep(fault);
             0
         });
@@ -98,7 +105,9 @@ impl MemOps for Registers {
 #[derive(Debug, Clone)]
 pub(crate) struct Memories {
     flash: Arc<RamStore>,
+    flash_len: u32,
     ram: Arc<RamStore>,
+    ram_len: u32,
 }
 
 fn refused(error: impl std::fmt::Debug) -> Fault {
@@ -107,12 +116,23 @@ fn refused(error: impl std::fmt::Debug) -> Fault {
 
 impl Memories {
     /// Memories with the program flashed; RAM is zero.
-    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
+    pub(crate) fn new(program: &Program, model: &Model) -> Result<Self, Fault> {
+        Self::flashed(program.segments(), model.flash, model.ram)
+    }
+
+    /// Memories of so many bytes of flash and RAM, with `segments` flashed.
+    pub(crate) fn flashed<'s>(
+        segments: impl Iterator<Item = (u32, &'s [u8])>,
+        flash_len: u32,
+        ram_len: u32,
+    ) -> Result<Self, Fault> {
         let memories = Self {
-            flash: Arc::new(RamStore::new(FLASH_LEN.into())),
-            ram: Arc::new(RamStore::new(RAM_LEN.into())),
+            flash: Arc::new(RamStore::new(flash_len.into())),
+            flash_len,
+            ram: Arc::new(RamStore::new(ram_len.into())),
+            ram_len,
         };
-        for (address, contents) in program.segments() {
+        for (address, contents) in segments {
             let offset = address
                 .checked_sub(FLASH)
                 .ok_or_else(|| Fault::Program(format!("a segment at {address:#x}")))?;
@@ -140,15 +160,17 @@ impl Memories {
                 .map_err(refused)?;
             map.map(Region::ram("ram", ram), RAM.into())
                 .map_err(refused)?;
-            for (name, base, length) in [
-                ("peripherals", 0x4000_0000, 0x8_0000),
-                ("debug", 0xE004_2000, 0x400),
-            ] {
+            for (name, base, length) in PERIPHERALS {
                 map.map(Region::io(name, length, registers(base)), base.into())
                     .map_err(refused)?;
             }
         }
         Ok(space)
+    }
+
+    /// Bytes of flash.
+    pub(crate) const fn flash_len(&self) -> u32 {
+        self.flash_len
     }
 
     /// Reads RAM as a probe does.
@@ -192,17 +214,17 @@ fn ram_offset(address: u32) -> Result<u64, Fault> {
 impl Memory for Memories {
     fn get(&self, address: u32) -> Option<u8> {
         let mut byte = [0];
-        if let Some(offset) = address.checked_sub(RAM).filter(|&o| o < RAM_LEN) {
+        if let Some(offset) = address.checked_sub(RAM).filter(|&o| o < self.ram_len) {
             self.ram.read_at(offset.into(), &mut byte).ok()?;
         } else {
-            let offset = address.checked_sub(FLASH).filter(|&o| o < FLASH_LEN)?;
+            let offset = address.checked_sub(FLASH).filter(|&o| o < self.flash_len)?;
             self.flash.read_at(offset.into(), &mut byte).ok()?;
         }
         Some(byte[0])
     }
 
     fn put(&self, address: u32, byte: u8) -> Option<()> {
-        let offset = address.checked_sub(RAM).filter(|&o| o < RAM_LEN)?;
+        let offset = address.checked_sub(RAM).filter(|&o| o < self.ram_len)?;
         self.ram.write_at(offset.into(), &[byte]).ok()?;
         Some(())
     }

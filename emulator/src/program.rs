@@ -4,9 +4,9 @@ use std::path::Path;
 
 use object::elf::{FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader, ProgramHeader};
-use object::{Endianness, Object, ObjectSymbol};
+use object::{Endianness, Object, ObjectSection, ObjectSymbol};
 
-use crate::chip::Fault;
+use crate::chip::{Fault, MODELS, Model};
 
 /// An ELF file as it came from the linker.
 #[derive(Debug, Clone)]
@@ -42,6 +42,23 @@ impl Program {
             }
         }
         Ok(Self { bytes, segments })
+    }
+
+    /// The board that it was built for: its main source file is called after it, as the
+    /// debug information says.
+    pub(crate) fn model(&self) -> Result<&'static Model, Fault> {
+        let file = object::File::parse(self.bytes.as_slice()).map_err(bad)?;
+        let names = file.section_by_name(".debug_str");
+        let names = names.and_then(|names| names.uncompressed_data().ok());
+        let names = names.unwrap_or_default();
+        let is_named = |model: &&&Model| {
+            let main = format!("src/bin/{}.rs", model.program);
+            names
+                .windows(main.len())
+                .any(|found| found == main.as_bytes())
+        };
+        let model = MODELS.iter().find(is_named).copied();
+        model.ok_or_else(|| bad("it is of no board that is emulated"))
     }
 
     /// The file.

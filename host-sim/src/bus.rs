@@ -168,6 +168,19 @@ impl Slave {
         Exchange::new(frame, fault)
     }
 
+    /// Puts the deflections of this moment into a frame that was latched before, of which
+    /// no byte that carries any has been clocked yet; what happens to it stays.
+    pub fn latch_again(&self, exchange: &mut Exchange) {
+        let frame = match exchange.fault {
+            Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
+            fault => self.frame(fault),
+        };
+        let mut rest = frame.into_iter();
+        let done = usize::try_from(exchange.bytes).unwrap_or(FRAME_LEN);
+        rest.by_ref().take(done).for_each(drop);
+        exchange.frame = rest;
+    }
+
     /// What has gone over the bus so far.
     pub const fn traffic(&self) -> Traffic {
         self.traffic
@@ -176,17 +189,22 @@ impl Slave {
     /// The falling edge of /SS: the frame to answer with, and what happens to it.
     fn latch(&mut self) -> ([u8; FRAME_LEN], Option<WireFault>) {
         self.traffic.transactions = self.traffic.transactions.saturating_add(1);
-        let [x, y, z] = self.words;
-        let mut frame = match self.mode {
-            Mode::AlphaBeta => encode::alpha_beta(x, y, self.error_word, self.sum_rule),
-            Mode::Xyz => encode::xyz(x, y, z, self.sum_rule),
-        };
         let by_chance = self.disturbance.as_mut().and_then(Disturbance::draw);
         let passing = self.passing.map(|(fault, _)| fault);
         self.passing = self
             .passing
             .and_then(|(fault, left)| Some((fault, left.checked_sub(1).filter(|&n| n > 0)?)));
         let fault = self.standing.or(passing).or(by_chance);
+        (self.frame(fault), fault)
+    }
+
+    /// The frame that the deflections make, with what befalls it.
+    fn frame(&self, fault: Option<WireFault>) -> [u8; FRAME_LEN] {
+        let [x, y, z] = self.words;
+        let mut frame = match self.mode {
+            Mode::AlphaBeta => encode::alpha_beta(x, y, self.error_word, self.sum_rule),
+            Mode::Xyz => encode::xyz(x, y, z, self.sum_rule),
+        };
         match fault {
             Some(WireFault::Silent) => frame = [RELEASED; FRAME_LEN],
             Some(WireFault::BadSum) => {
@@ -207,7 +225,7 @@ impl Slave {
             }
             _ => {}
         }
-        (frame, fault)
+        frame
     }
 }
 
@@ -232,7 +250,8 @@ impl embedded_hal::spi::Error for SimSpiError {
 #[derive(Debug)]
 pub struct Exchange {
     frame: std::array::IntoIter<u8, FRAME_LEN>,
-    held_low: bool,
+    /// What happens to the frame.
+    fault: Option<WireFault>,
     /// What noise inverts, in the same positions.
     noise: std::array::IntoIter<u8, FRAME_LEN>,
     bytes: u64,
@@ -246,7 +265,7 @@ impl Exchange {
         };
         Self {
             frame: frame.into_iter(),
-            held_low: fault == Some(WireFault::LineLow),
+            fault,
             noise: flipped.to_be_bytes().into_iter(),
             bytes: 0,
         }
@@ -256,8 +275,14 @@ impl Exchange {
     pub fn byte(&mut self, sent: u8) -> u8 {
         self.bytes += 1;
         let answered = self.frame.next().unwrap_or(RELEASED);
-        let line = if self.held_low { 0 } else { sent & answered };
+        let held_low = self.fault == Some(WireFault::LineLow);
+        let line = if held_low { 0 } else { sent & answered };
         line ^ self.noise.next().unwrap_or(0)
+    }
+
+    /// Bytes clocked so far.
+    pub const fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     fn transfer(&mut self, read: &mut [u8], write: &[u8]) {

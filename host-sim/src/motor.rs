@@ -38,9 +38,9 @@ use std::sync::Arc;
 
 pub use ideal::IdealMotor;
 use pins::{End, Wires};
-pub use pins::{PWM_MAX, SimEncoder, SimHall, SimPin, SimPwm, Wire};
+pub use pins::{SimEncoder, SimHall, SimPin, SimPwm, Wire};
 use rotor::Rotor;
-pub use settings::{BadMotorSetting, MotorSettings};
+pub use settings::{BadMotorSetting, MotorSettings, PWM_COUNTS};
 use stage::Stage;
 
 /// What connects a brushed motor with its driver and its angle input.
@@ -118,7 +118,7 @@ impl SimMotor {
             settings,
             stage,
             rotor: Rotor::default(),
-            wires: Arc::new(Wires::new(counts_per_rad)),
+            wires: Arc::new(Wires::new(counts_per_rad, settings.pwm_counts)),
             blocked: false,
             load_nm: 0.0,
         })

@@ -10,7 +10,7 @@ use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
-use crate::motor::SimMotor;
+use crate::motor::{PWM_COUNTS, SimMotor};
 use crate::trace::Row;
 use crate::world::World;
 
@@ -111,7 +111,20 @@ impl Run {
     /// [`Error::Work`] if the module cannot be put together, [`Error::Input`] if
     /// the scene's position control is unstable.
     pub fn new(scene: &Scene, classifier: Option<Classifier>) -> Result<Self, Error> {
-        let (world, pins) = World::wired(scene)?;
+        Self::with_pwm(scene, classifier, PWM_COUNTS)
+    }
+
+    /// The same with so many steps of the motors' duty, as another board than the
+    /// NUCLEO-F446RE has.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn with_pwm(
+        scene: &Scene,
+        classifier: Option<Classifier>,
+        pwm_counts: u16,
+    ) -> Result<Self, Error> {
+        let (world, pins) = World::wired(scene, pwm_counts)?;
         let classes = classifier.as_ref().map(Classifier::classes);
         let classes = classes.unwrap_or_default().to_vec();
         let bench = bench::build(scene, pins, classifier)?;

@@ -26,11 +26,11 @@ enum Motors {
 
 impl World {
     /// The world of `scene`, and the wires of its motors, left side first; none
-    /// where the whiskers are passive.
+    /// where the whiskers are passive. `pwm_counts` are the steps of the duty.
     ///
     /// # Errors
     /// [`Error::Work`] if the simulation refuses a setting.
-    pub fn wired(scene: &Scene) -> Result<(Self, Vec<Pins>), Error> {
+    pub fn wired(scene: &Scene, pwm_counts: u16) -> Result<(Self, Vec<Pins>), Error> {
         let broken = |error: BadSetting| Error::Work(error.to_string());
         let sides = scene.head.sides.count();
         let mut head = plant::Head::free(sides, scene.head.whiskers_per_side);
@@ -51,7 +51,7 @@ impl World {
         };
         let (motors, pins) = match scene.plant.kind {
             PlantKind::Ideal => ideal_motors(scene),
-            PlantKind::Textured | PlantKind::Whisker => real_motors(scene)?,
+            PlantKind::Textured | PlantKind::Whisker => real_motors(scene, pwm_counts)?,
         };
         let world = Self {
             plant,
@@ -181,7 +181,7 @@ fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
     [retracted, motor.max_deg.max(whisking::REST_DEG) + margin]
 }
 
-fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {
+fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Error> {
     let Some(motor) = &scene.motor else {
         return Ok((Motors::None, Vec::new()));
     };
@@ -189,6 +189,7 @@ fn real_motors(scene: &Scene) -> Result<(Motors, Vec<Pins>), Error> {
         gear: motor.gear,
         counts_per_rev: motor.counts_per_rev,
         stops_deg: stops_deg(motor),
+        pwm_counts,
         ..MotorSettings::default()
     };
     let refused = |error| Error::Work(format!("motor: {error}"));

@@ -1,146 +1,81 @@
-//! A DMA controller whose streams move single bytes on request (RM0390,
-//! chapter 9): direct mode, no double buffer, no circular mode, no bursts.
+//! A DMA controller, which moves single bytes on request. There are two kinds, a file each.
 
-const LISR: u32 = 0x00;
-const HISR: u32 = 0x04;
-const LIFCR: u32 = 0x08;
-const HIFCR: u32 = 0x0C;
-const STREAMS: u32 = 0x10;
-const STREAM_SIZE: u32 = 0x18;
+mod channels;
+mod moved;
+mod streams;
 
-const EN: u32 = 1 << 0;
-const TCIE: u32 = 1 << 4;
-const DIR_FROM_MEMORY: u32 = 1 << 6;
-const MINC: u32 = 1 << 10;
-/// DMEIE, TEIE, TCIE, DIR to memory or from it, MINC, priority and channel: the rest is not
-/// modelled.
-const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | 3 << 16 | 7 << 25;
+pub(super) use moved::Move;
 
-/// The flags of a stream in LISR or HISR begin at these bits; TCIF is the sixth.
-const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
-const TCIF: u32 = 1 << 5;
+use channels::Channels;
+use streams::Streams;
 
-#[derive(Debug, Clone, Copy, Default)]
-struct Stream {
-    cr: u32,
-    ndtr: u32,
-    par: u32,
-    m0ar: u32,
-    /// Bytes asked for when it was enabled.
-    length: u32,
-}
-
-/// A byte to be moved.
+/// Which kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Move {
-    pub(super) peripheral: u32,
-    pub(super) memory: u32,
-    pub(super) to_memory: bool,
+pub(super) enum Version {
+    /// Streams, each of which selects a request.
+    Streams,
+    /// Channels, whose requests are wired, or selected by a DMAMUX.
+    Channels,
 }
 
-#[derive(Debug, Clone, Default)]
-pub(super) struct Dma {
-    streams: [Stream; 8],
-    /// Flags of each stream, as if it were the first.
-    flags: [u32; 8],
+#[derive(Debug, Clone)]
+pub(super) enum Dma {
+    Streams(Streams),
+    Channels(Channels),
 }
 
 impl Dma {
-    /// Disables a stream.
+    pub(super) fn new(version: Version) -> Self {
+        match version {
+            Version::Streams => Self::Streams(Streams::default()),
+            Version::Channels => Self::Channels(Channels::default()),
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        *self = match self {
+            Self::Streams(_) => Self::new(Version::Streams),
+            Self::Channels(_) => Self::new(Version::Channels),
+        };
+    }
+
+    /// Disables a stream or channel.
     pub(super) fn stop(&mut self, stream: usize) {
-        if let Some(stream) = self.streams.get_mut(stream) {
-            stream.cr &= !EN;
+        match self {
+            Self::Streams(streams) => streams.stop(stream),
+            Self::Channels(channels) => channels.stop(stream),
         }
     }
 
-    /// Serves a request of `channel` on a stream: the byte to move, if the
-    /// stream listens.
-    pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
-        let s = self.streams.get_mut(stream)?;
-        if s.cr & EN == 0 || (s.cr >> 25) & 7 != channel {
-            return None;
+    /// Serves a request on a stream or channel, counted from 0: the byte to move, if it
+    /// listens. A stream listens to the one `selected` alone.
+    pub(super) fn request(&mut self, stream: usize, selected: u32) -> Option<Move> {
+        match self {
+            Self::Streams(streams) => streams.request(stream, selected),
+            Self::Channels(channels) => channels.request(stream),
         }
-        let done = s.length - s.ndtr;
-        let memory = s.m0ar.wrapping_add(if s.cr & MINC != 0 { done } else { 0 });
-        s.ndtr -= 1;
-        if s.ndtr == 0 {
-            s.cr &= !EN;
-            self.flags[stream] |= TCIF;
-        }
-        Some(Move {
-            peripheral: s.par,
-            memory,
-            to_memory: s.cr & DIR_FROM_MEMORY == 0,
-        })
     }
 
+    /// Whether the interrupt of a stream or channel is up.
     pub(super) fn interrupts(&self, stream: usize) -> bool {
-        self.flags[stream] & TCIF != 0 && self.streams[stream].cr & TCIE != 0
+        match self {
+            Self::Streams(streams) => streams.interrupts(stream),
+            Self::Channels(channels) => channels.interrupts(stream),
+        }
     }
 
     pub(super) fn read(&self, offset: u32) -> Option<u32> {
-        Some(match offset {
-            LISR => self.gather(0),
-            HISR => self.gather(4),
-            LIFCR | HIFCR => 0,
-            _ => {
-                let s = self.streams.get(stream(offset)?)?;
-                match (offset - STREAMS) % STREAM_SIZE {
-                    0x00 => s.cr,
-                    0x04 => s.ndtr,
-                    0x08 => s.par,
-                    0x0C => s.m0ar,
-                    _ => return None,
-                }
-            }
-        })
+        match self {
+            Self::Streams(streams) => streams.read(offset),
+            Self::Channels(channels) => channels.read(offset),
+        }
     }
 
     /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
-        match offset {
-            LIFCR => self.clear(0, value),
-            HIFCR => self.clear(4, value),
-            _ => {
-                let Some(s) = stream(offset).and_then(|n| self.streams.get_mut(n)) else {
-                    return false;
-                };
-                let register = (offset - STREAMS) % STREAM_SIZE;
-                let enabled = s.cr & EN != 0;
-                match register {
-                    0x00 if value & !MODELLED != 0 => return false,
-                    0x00 => {
-                        if value & EN != 0 && !enabled {
-                            s.length = s.ndtr;
-                        }
-                        // Without bytes to move it does not start.
-                        let idle = value & EN != 0 && s.ndtr == 0;
-                        s.cr = if idle { value & !EN } else { value };
-                    }
-                    // The others are locked while the stream is enabled.
-                    0x04 | 0x08 | 0x0C if enabled => {}
-                    0x04 => s.ndtr = value & 0xFFFF,
-                    0x08 => s.par = value,
-                    0x0C => s.m0ar = value,
-                    _ => return false,
-                }
-            }
-        }
-        true
-    }
-
-    fn gather(&self, first: usize) -> u32 {
-        let flags = self.flags[first..first + 4].iter().zip(FLAGS_AT);
-        flags.fold(0, |all, (flags, at)| all | flags << at)
-    }
-
-    fn clear(&mut self, first: usize, value: u32) {
-        for (flags, at) in self.flags[first..first + 4].iter_mut().zip(FLAGS_AT) {
-            *flags &= !((value >> at) & 0x3F);
+        match self {
+            Self::Streams(streams) => streams.write(offset, value),
+            Self::Channels(channels) => channels.write(offset, value),
         }
     }
-}
-
-fn stream(offset: u32) -> Option<usize> {
-    Some((offset.checked_sub(STREAMS)? / STREAM_SIZE) as usize)
 }

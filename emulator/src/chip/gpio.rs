@@ -1,54 +1,57 @@
-//! A GPIO port (RM0390, chapter 7).
+//! A GPIO port. How a pin is configured differs between the families, a file each.
 
-const MODER: u32 = 0x00;
-const OTYPER: u32 = 0x04;
-const OSPEEDR: u32 = 0x08;
-const PUPDR: u32 = 0x0C;
-const IDR: u32 = 0x10;
-const ODR: u32 = 0x14;
-const BSRR: u32 = 0x18;
-const AFRL: u32 = 0x20;
-const AFRH: u32 = 0x24;
+mod roles;
+mod v1;
+mod v2;
 
-/// What drives a pin.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
-    /// Nobody here: an input.
-    Input,
-    /// The port's output register, at this level.
-    Output(bool),
-    /// Another peripheral, by the number of the alternate function.
-    Alternate(u32),
-    /// Analogue: disconnected.
-    Analogue,
+pub(super) use roles::Role;
+
+use roles::Common;
+use v1::TwoRegisters;
+use v2::Modes;
+
+/// A port after a reset.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Reset {
+    /// Four bits a pin (STM32F1): all are inputs.
+    V1,
+    /// MODER, OSPEEDR and PUPDR (STM32F4, STM32G0).
+    V2([u32; 3]),
 }
 
-/// Registers that keep what is written.
-const KEPT: [u32; 7] = [MODER, OTYPER, OSPEEDR, PUPDR, ODR, AFRL, AFRH];
+/// How a port's pins are configured.
+#[derive(Debug, Clone)]
+enum Config {
+    V1(TwoRegisters),
+    V2(Modes),
+}
+
+impl Config {
+    fn new(reset: Reset) -> Self {
+        match reset {
+            Reset::V1 => Self::V1(TwoRegisters::default()),
+            Reset::V2(modes) => Self::V2(Modes::new(modes)),
+        }
+    }
+}
 
 #[derive(Debug, Clone)]
 pub(super) struct Gpio {
-    /// MODER, OSPEEDR and PUPDR after a reset.
-    reset: [u32; 3],
-    /// By their offsets, a word each.
-    registers: [u32; 10],
+    reset: Reset,
+    config: Config,
+    odr: u32,
     /// Levels from outside; what nobody drives reads high.
     outside: u32,
 }
 
 impl Gpio {
-    /// A port whose MODER, OSPEEDR and PUPDR have these values after reset.
-    pub(super) fn new(reset: [u32; 3]) -> Self {
-        let [moder, ospeedr, pupdr] = reset;
+    pub(super) fn new(reset: Reset) -> Self {
         Self {
             reset,
-            registers: [moder, 0, ospeedr, pupdr, 0, 0, 0, 0, 0, 0],
+            config: Config::new(reset),
+            odr: 0,
             outside: 0xFFFF,
         }
-    }
-
-    fn get(&self, offset: u32) -> u32 {
-        self.registers[offset as usize / 4]
     }
 
     pub(super) fn reset(&mut self) {
@@ -64,19 +67,27 @@ impl Gpio {
     }
 
     pub(super) fn role(&self, pin: u32) -> Role {
-        match (self.get(MODER) >> (2 * pin)) & 3 {
-            0 => Role::Input,
-            1 => Role::Output(self.get(ODR) & (1 << pin) != 0),
-            2 => {
-                let functions = self.get(if pin < 8 { AFRL } else { AFRH });
-                Role::Alternate((functions >> (4 * (pin % 8))) & 15)
-            }
-            _ => Role::Analogue,
+        let high = self.odr & (1 << pin) != 0;
+        match &self.config {
+            Config::V1(config) => config.role(pin, high),
+            Config::V2(config) => config.role(pin, high),
+        }
+    }
+
+    /// Whether a peripheral hears the pin by that alternate function.
+    pub(super) fn feeds(&self, pin: u32, function: u32) -> bool {
+        match self.config {
+            // An ordinary input is a peripheral's, too.
+            Config::V1(_) => self.role(pin) == Role::Input,
+            Config::V2(_) => self.role(pin) == Role::Alternate(function),
         }
     }
 
     pub(super) fn is_open_drain(&self, pin: u32) -> bool {
-        self.get(OTYPER) & (1 << pin) != 0
+        match &self.config {
+            Config::V1(config) => config.is_open_drain(pin),
+            Config::V2(config) => config.is_open_drain(pin),
+        }
     }
 
     fn levels(&self) -> u32 {
@@ -90,26 +101,34 @@ impl Gpio {
         })
     }
 
+    fn common(&self, offset: u32) -> Option<Common> {
+        match self.config {
+            Config::V1(_) => v1::common(offset),
+            Config::V2(_) => v2::common(offset),
+        }
+    }
+
     pub(super) fn read(&self, offset: u32) -> Option<u32> {
-        match offset {
-            IDR => Some(self.levels()),
-            BSRR => Some(0),
-            _ => KEPT.contains(&offset).then(|| self.get(offset)),
+        match (self.common(offset), &self.config) {
+            (Some(Common::Idr), _) => Some(self.levels()),
+            (Some(Common::Odr), _) => Some(self.odr),
+            (Some(Common::Bsrr | Common::Brr), _) => Some(0),
+            (None, Config::V1(config)) => config.read(offset),
+            (None, Config::V2(config)) => config.read(offset),
         }
     }
 
     /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
-        let (kept, value) = match offset {
+        match (self.common(offset), &mut self.config) {
+            (Some(Common::Idr), _) => return false,
+            (Some(Common::Odr), _) => self.odr = value & 0xFFFF,
             // Set goes before reset.
-            BSRR => (ODR, self.get(ODR) & !(value >> 16) | value & 0xFFFF),
-            OTYPER | ODR => (offset, value & 0xFFFF),
-            _ => (offset, value),
-        };
-        let is_known = KEPT.contains(&kept);
-        if is_known {
-            self.registers[kept as usize / 4] = value;
+            (Some(Common::Bsrr), _) => self.odr = self.odr & !(value >> 16) | value & 0xFFFF,
+            (Some(Common::Brr), _) => self.odr &= !value,
+            (None, Config::V1(config)) => return config.write(offset, value),
+            (None, Config::V2(config)) => return config.write(offset, value),
         }
-        is_known
+        true
     }
 }

@@ -29,6 +29,8 @@ pub(crate) struct Model {
     /// Bytes of flash, and of RAM.
     pub(crate) flash: u32,
     pub(crate) ram: u32,
+    /// Counts of a period of the motors' PWM, as the board's program sets it up: 20 kHz.
+    pub(crate) pwm_counts: u16,
     pub(super) map: &'static [Entry],
     pub(super) rcc: &'static Layout,
     /// What each timer can do, and the bus whose clock it counts.

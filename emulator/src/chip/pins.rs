@@ -3,30 +3,39 @@
 
 use super::Chip;
 use super::gpio::Role;
-use super::timers::TIM1;
-use super::wiring::{BUTTON, ENABLES, HALLS, PWM, PWM_FUNCTION, Pin, SIDES, SPI_FUNCTION};
+use super::map::Unit;
+use super::wiring::{BUTTON, ENABLES, HALLS, PWM, Pin};
 
 impl Chip {
     fn role(&self, Pin { port, number }: Pin) -> Role {
         self.gpio[port].role(number)
     }
 
-    fn carries(&self, pins: &[Pin], function: u32) -> bool {
+    /// Whether a peripheral drives the pins by that alternate function.
+    fn drives(&self, pins: &[Pin], function: u32) -> bool {
         let mut roles = pins.iter().map(|&pin| self.role(pin));
         roles.all(|role| role == Role::Alternate(function))
     }
 
+    /// Whether a peripheral hears the pins by that alternate function.
+    fn hears(&self, pins: &[Pin], function: u32) -> bool {
+        let mut pins = pins.iter();
+        pins.all(|pin| self.gpio[pin.port].feeds(pin.number, function))
+    }
+
     /// Moves the encoder of a side to this position, counts.
     pub(crate) fn set_encoder(&mut self, side: usize, position: i32) {
-        let wires = &SIDES[side];
-        let connected = self.carries(&wires.encoder, wires.encoder_function);
+        let wires = &self.model.wiring.sides[side];
+        let connected = self.hears(&wires.encoder, wires.encoder_function);
         self.timers[wires.encoder_timer].set_position(position, connected);
     }
 
     /// Sets the levels of the Hall sensors of a brushless motor.
     pub(crate) fn set_halls(&mut self, levels: [bool; 3]) {
         for (Pin { port, number }, high) in HALLS.into_iter().zip(levels) {
-            self.gpio[port].drive(number, high);
+            // A line that the debugger keeps is not the port's.
+            let kept = self.has(Unit::Remap) && self.remap.keeps(port, number);
+            self.gpio[port].drive(number, high || kept);
         }
     }
 
@@ -39,9 +48,11 @@ impl Chip {
     /// is not the timer's.
     pub(crate) fn motor_duties(&self) -> [(u32, u32); 3] {
         [0, 1, 2].map(|channel| {
-            let (on, period) = self.timers[TIM1].duty(channel);
+            let (on, period) = self.timers[self.model.wiring.pwm_timer].duty(channel);
             match self.role(PWM[channel]) {
-                Role::Alternate(PWM_FUNCTION) => (on, period),
+                Role::Alternate(function) if function == self.model.wiring.pwm_function => {
+                    (on, period)
+                }
                 Role::Output(true) => (period, period),
                 _ => (0, period),
             }
@@ -54,7 +65,12 @@ impl Chip {
 
     /// Level of the direction of each side's H-bridge. A pin that is not driven is low.
     pub(crate) fn motor_directions(&self) -> [bool; 2] {
-        [0, 1].map(|side: usize| self.is_high(SIDES[side].direction))
+        let sides = self.model.wiring.sides;
+        [0, 1].map(|side| {
+            sides
+                .get(side)
+                .is_some_and(|side| self.is_high(side.direction))
+        })
     }
 
     /// Levels of the enables of three half-bridges. A pin that is not driven is low.
@@ -64,16 +80,17 @@ impl Chip {
 
     /// Whether the pins and mode of a side's SPI are those that the sensor's wires need.
     pub(super) fn sensor_is_connected(&self, side: usize) -> bool {
-        let pins = SIDES[side].spi;
-        let [_, _, mosi] = pins;
-        self.carries(&pins, SPI_FUNCTION)
+        let [sck, miso, mosi] = self.model.wiring.sides[side].spi;
+        let function = self.model.wiring.spi_function;
+        self.drives(&[sck, mosi], function)
+            && self.hears(&[miso], function)
             && self.gpio[mosi.port].is_open_drain(mosi.number)
             && self.spis[side].is_mode_1()
     }
 
     /// Brings the levels of the pins to the sensors' /SS.
     pub(super) fn select_sensors(&mut self) {
-        for (side, wires) in SIDES.iter().enumerate() {
+        for (side, wires) in self.model.wiring.sides.iter().enumerate() {
             let low = self.role(wires.select) == Role::Output(false);
             self.lines[side].select(low);
         }

@@ -22,7 +22,7 @@ impl Remap {
     }
 
     /// What JTAG gives up cannot be read back.
-    pub(super) const fn read(self, offset: u32) -> Option<u32> {
+    pub(super) const fn read(offset: u32) -> Option<u32> {
         match offset {
             MAPR => Some(0),
             _ => None,

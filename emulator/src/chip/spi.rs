@@ -1,4 +1,5 @@
-//! An SPI as master of eight-bit frames (RM0390, chapter 26).
+//! An SPI as master of eight-bit frames (RM0390, chapter 26; RM0008, chapter 25; RM0444,
+//! chapter 35).
 
 use super::time::Ps;
 
@@ -17,11 +18,47 @@ const SSM: u32 = 1 << 9;
 /// Receive-only, 16 bits, CRC, one line: not modelled.
 const OTHERS: u32 = 0xFC00;
 const RXDMAEN: u32 = 1 << 0;
+/// With queues: bits of a frame, less one; and whether a byte received is told, or a pair.
+const DS: u32 = 15 << 8;
+const DS_8: u32 = 7 << 8;
+const FRXTH: u32 = 1 << 12;
 
 const RXNE: u32 = 1 << 0;
 const TXE: u32 = 1 << 1;
 const OVR: u32 = 1 << 6;
 const BSY: u32 = 1 << 7;
+
+/// Which SPI.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Version {
+    /// It holds one byte of each direction (STM32F1, STM32F4).
+    #[default]
+    One,
+    /// It has a queue of four bytes for each direction; an access of 16 bits is two of
+    /// them (STM32G0).
+    Queues,
+}
+
+/// Bytes in their order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Queue {
+    bytes: [u8; 4],
+    len: usize,
+}
+
+impl Queue {
+    const fn push(&mut self, byte: u8) {
+        self.bytes[self.len % 4] = byte;
+        self.len += 1;
+    }
+
+    fn pop(&mut self) -> Option<u8> {
+        let first = self.bytes[0];
+        self.len = self.len.checked_sub(1)?;
+        self.bytes.rotate_left(1);
+        Some(first)
+    }
+}
 
 /// A byte on its way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,12 +70,13 @@ pub(super) struct Shift {
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Spi {
+    version: Version,
     cr1: u32,
     cr2: u32,
     /// The byte on its way.
     pub(super) shift: Option<Shift>,
-    waiting: Option<u8>,
-    received: Option<u8>,
+    waiting: Queue,
+    received: Queue,
     last: u8,
     overrun: bool,
     /// DR has been read since the overrun.
@@ -46,6 +84,29 @@ pub(super) struct Spi {
 }
 
 impl Spi {
+    pub(super) fn new(version: Version) -> Self {
+        Self {
+            version,
+            cr2: match version {
+                Version::One => 0,
+                Version::Queues => DS_8,
+            },
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        *self = Self::new(self.version);
+    }
+
+    /// Bytes that it can hold of each direction.
+    const fn room(&self) -> usize {
+        match self.version {
+            Version::One => 1,
+            Version::Queues => 4,
+        }
+    }
+
     /// Whether clock polarity, phase and bit order are those of SPI mode 1.
     pub(super) const fn is_mode_1(&self) -> bool {
         self.cr1 & (CPHA | CPOL | LSBFIRST) == CPHA
@@ -58,7 +119,7 @@ impl Spi {
 
     fn begin(&mut self, now: Ps, bus: Ps) {
         if self.shift.is_none()
-            && let Some(sent) = self.waiting.take()
+            && let Some(sent) = self.waiting.pop()
         {
             let (began, ends) = (now, now + 8 * self.bit(bus));
             self.shift = Some(Shift { sent, began, ends });
@@ -68,21 +129,36 @@ impl Spi {
     /// The byte on its way has come to its end: `answer` was on the line.
     pub(super) fn end(&mut self, answer: u8, now: Ps, bus: Ps) {
         self.shift = None;
-        if self.received.is_some() {
+        if self.received.len == self.room() {
             self.overrun = true;
             self.overrun_seen = false;
         } else {
-            self.received = Some(answer);
+            self.received.push(answer);
         }
         self.begin(now, bus);
     }
 
-    /// Whether a received byte asks the DMA to fetch it.
-    pub(super) const fn requests(&self) -> bool {
-        self.received.is_some() && self.cr2 & RXDMAEN != 0
+    /// Whether as much has been received as is told.
+    const fn is_received(&self) -> bool {
+        let pairs = matches!(self.version, Version::Queues) && self.cr2 & FRXTH == 0;
+        self.received.len >= if pairs { 2 } else { 1 }
     }
 
-    pub(super) fn read(&mut self, offset: u32) -> Option<u32> {
+    /// Whether a received byte asks the DMA to fetch it.
+    pub(super) const fn requests(&self) -> bool {
+        self.is_received() && self.cr2 & RXDMAEN != 0
+    }
+
+    /// Bytes that an access of so many moves.
+    fn moved(&self, bytes: u32) -> u32 {
+        match self.version {
+            Version::One => 1,
+            Version::Queues => bytes.min(2),
+        }
+    }
+
+    /// Reads so many bytes of a register.
+    pub(super) fn read(&mut self, offset: u32, bytes: u32) -> Option<u32> {
         Some(match offset {
             CR1 => self.cr1,
             CR2 => self.cr2,
@@ -92,24 +168,38 @@ impl Spi {
                     self.overrun_seen = false;
                 }
                 let flag = |on: bool, bit: u32| if on { bit } else { 0 };
-                flag(self.received.is_some(), RXNE)
-                    | flag(self.waiting.is_none(), TXE)
+                flag(self.is_received(), RXNE)
+                    | flag(self.waiting.len <= self.room() / 2, TXE)
                     | flag(self.overrun, OVR)
                     | flag(self.shift.is_some(), BSY)
+                    | self.levels()
             }
             DR => {
                 self.overrun_seen = self.overrun;
-                if let Some(byte) = self.received.take() {
-                    self.last = byte;
-                }
-                u32::from(self.last)
+                (0..self.moved(bytes)).fold(0, |word, n| {
+                    if let Some(byte) = self.received.pop() {
+                        self.last = byte;
+                    }
+                    word | u32::from(self.last) << (8 * n)
+                })
             }
             _ => return None,
         })
     }
 
-    /// Whether register and setting are modelled.
-    pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, bus: Ps) -> bool {
+    /// FRLVL and FTLVL: how full the queues are, in quarters.
+    fn levels(&self) -> u32 {
+        match self.version {
+            Version::One => 0,
+            Version::Queues => {
+                let quarters = |len: usize| len.min(3) as u32;
+                quarters(self.received.len) << 9 | quarters(self.waiting.len) << 11
+            }
+        }
+    }
+
+    /// Writes so many bytes of a register; whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32, bytes: u32, now: Ps, bus: Ps) -> bool {
         match offset {
             CR1 => {
                 let master = value & (MSTR | SSM | SSI) == MSTR | SSM | SSI;
@@ -118,15 +208,33 @@ impl Spi {
                 }
                 self.cr1 = value;
             }
-            // Requests for transmission are made by a timer here.
-            CR2 if value & !RXDMAEN != 0 => return false,
-            CR2 => self.cr2 = value,
-            SR => {}
-            DR => {
-                if self.cr1 & SPE != 0 {
-                    self.waiting = Some(value as u8);
-                    self.begin(now, bus);
+            CR2 => {
+                // Requests for transmission are made by a timer here.
+                let other = match self.version {
+                    Version::One => value & !RXDMAEN,
+                    Version::Queues => value & !(RXDMAEN | FRXTH | DS) | (value & DS) ^ DS_8,
+                };
+                if other != 0 {
+                    return false;
                 }
+                self.cr2 = value;
+            }
+            SR => {}
+            DR if self.cr1 & SPE == 0 => {}
+            DR => {
+                let mut rest = value;
+                for _ in 0..self.moved(bytes) {
+                    if self.waiting.len == self.room() {
+                        // The one that waits is written over; a full queue takes no more.
+                        match self.version {
+                            Version::One => self.waiting.len = 0,
+                            Version::Queues => return true,
+                        }
+                    }
+                    self.waiting.push(rest as u8);
+                    rest >>= 8;
+                }
+                self.begin(now, bus);
             }
             _ => return false,
         }

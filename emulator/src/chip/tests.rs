@@ -8,9 +8,12 @@ mod time;
 
 use std::cell::RefCell;
 
-use super::{Chip, Fault, Memory, Ps, ResetCause, SensorEnd};
+use super::models::F446;
+use super::{Chip, CoreKind, Fault, Memory, Model, Ps, ResetCause, SensorEnd};
 
 const RCC: u32 = 0x4002_3800;
+/// On the STM32F103 and the STM32G071.
+const SMALL_RCC: u32 = 0x4002_1000;
 const FLASH: u32 = 0x4002_3C00;
 const TIM1: u32 = 0x4001_0000;
 const TIM6: u32 = 0x4000_1000;
@@ -68,8 +71,12 @@ struct Rig {
 
 impl Rig {
     fn new() -> Self {
+        Self::of(&F446)
+    }
+
+    fn of(model: &'static Model) -> Self {
         Self {
-            chip: Chip::new().unwrap(),
+            chip: Chip::new(model).unwrap(),
             ram: Ram(RefCell::new([0; 64])),
             sensors: Default::default(),
             now: 0,
@@ -96,7 +103,7 @@ impl Rig {
 
     fn read(&mut self, address: u32) -> u32 {
         self.chip.now = self.now;
-        self.chip.read(address).unwrap()
+        self.chip.read(address, u32::MAX).unwrap()
     }
 
     fn try_pass(&mut self, time: Ps) -> Result<Option<ResetCause>, Fault> {
@@ -108,13 +115,31 @@ impl Rig {
         assert_eq!(self.try_pass(time), Ok(None));
     }
 
-    /// The clocks of the board: 8 MHz from outside to 160 MHz, buses at 40 and 80.
+    /// The clocks of the board, as its program sets them up.
     fn run_fast(&mut self) {
-        self.write(RCC, 0x0005_0083);
-        self.write(RCC + 0x04, 4 | 160 << 6 | 1 << 22);
-        self.write(RCC, 0x0105_0083);
-        self.write(FLASH, 0x705);
-        self.write(RCC + 0x08, 2 | 5 << 10 | 4 << 13);
+        match self.chip.model.core {
+            // 8 MHz from outside to 160 MHz, buses at 40 and 80.
+            CoreKind::M4F => {
+                self.write(RCC, 0x0005_0083);
+                self.write(RCC + 0x04, 4 | 160 << 6 | 1 << 22);
+                self.write(RCC, 0x0105_0083);
+                self.write(FLASH, 0x705);
+                self.write(RCC + 0x08, 2 | 5 << 10 | 4 << 13);
+            }
+            // 8 MHz from outside to 72 MHz, buses at 36 and 72.
+            CoreKind::M3 => {
+                self.write(SMALL_RCC, 0x0005_0083);
+                self.write(SMALL_RCC + 0x04, 1 << 16 | 7 << 18 | 4 << 8);
+                self.write(SMALL_RCC, 0x0105_0083);
+                self.write(SMALL_RCC + 0x04, 1 << 16 | 7 << 18 | 4 << 8 | 2);
+            }
+            // 16 MHz from inside to 64 MHz.
+            CoreKind::M0Plus => {
+                self.write(SMALL_RCC + 0x0C, 2 | 8 << 8 | 1 << 28 | 1 << 29);
+                self.write(SMALL_RCC, 0x0100_0500);
+                self.write(SMALL_RCC + 0x08, 2);
+            }
+        }
     }
 }
 
@@ -155,7 +180,7 @@ fn what_is_not_modelled_is_told_and_not_guessed() {
     let mut rig = Rig::clocked();
     // PWR, the ADC, a register that TIM1 has not, one-pulse mode.
     for address in [0x4000_7000, 0x4001_2000, TIM1 + 0x50] {
-        told(&rig.chip.read(address));
+        told(&rig.chip.read(address, u32::MAX));
         told(&rig.try_write(address, 0));
     }
     told(&rig.try_write(TIM1, 1 << 3));

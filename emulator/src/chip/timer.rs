@@ -1,4 +1,5 @@
-//! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19): counting up, updates with
+//! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19; RM0008, chapters 14 to 17; RM0444,
+//! chapters 20 to 23): counting up, updates with
 //! interrupt and DMA request, PWM mode 1 and encoder mode 3.
 //!
 //! The count is worked out when somebody looks; only updates that interrupt or
@@ -218,6 +219,8 @@ impl Timer {
                     self.update(true);
                 }
             }
+            // The modes above 16 bits are not modelled.
+            CCMR1 | CCMR2 if value > 0xFFFF => return false,
             CCMR1 => self.ccmr[0] = value,
             CCMR2 => self.ccmr[1] = value,
             CCER => self.ccer = value,

@@ -1,8 +1,7 @@
 //! What may befall the registers, from outside of the program.
 
 use super::Chip;
-use super::registers::{MAP, Unit};
-use super::wiring::SIDES;
+use super::map::Unit;
 
 /// Offsets within a unit that hold settings or counts.
 const OFFSETS: u32 = 0x80;
@@ -12,14 +11,14 @@ impl Chip {
     /// name, or nothing where no such bit is modelled.
     pub(crate) fn flip(&mut self, detail: u64) -> Option<String> {
         let mut found = Vec::new();
-        for (unit, base, _) in MAP {
+        for &(unit, base, _) in self.model.map {
             // Reading the data register of an SPI takes a byte away; the watchdog has keys.
             if matches!(unit, Unit::Spi(_) | Unit::Watchdog | Unit::Debug) {
                 continue;
             }
             for offset in (0..OFFSETS).step_by(4) {
                 let address = base + offset;
-                let value = self.read(address).unwrap_or(0);
+                let value = self.read(address, u32::MAX).unwrap_or(0);
                 found.extend((value != 0).then_some((address, value)));
             }
         }
@@ -37,7 +36,7 @@ impl Chip {
 
     /// Disables the DMA stream that receives the left sensor's bytes.
     pub(crate) fn stop_dma(&mut self) {
-        let side = &SIDES[0];
+        let side = &self.model.wiring.sides[0];
         if let Some(dma) = self.dmas.get_mut(side.dma) {
             dma.stop(side.rx.stream);
         }

@@ -1,19 +1,24 @@
-//! The independent watchdog (RM0390, chapter 20), on an LSI of its nominal 32 kHz.
+//! The independent watchdog (RM0390, chapter 20; RM0008, chapter 19; RM0444, chapter 28),
+//! on an LSI of its nominal frequency. A window is not modelled: only that there is none.
 
 use super::time::Ps;
 
-/// One period of the LSI.
-const LSI: Ps = 1_000_000_000_000 / 32_000;
-/// A setting takes five of its periods to cross into the watchdog's clock.
-const CROSSING: Ps = 5 * LSI;
+/// A setting takes so many periods of the LSI to cross into the watchdog's clock.
+const CROSSING: Ps = 5;
 
 const KR: u32 = 0x00;
 const PR: u32 = 0x04;
 const RLR: u32 = 0x08;
 const SR: u32 = 0x0C;
+const WINR: u32 = 0x10;
+/// The window after a reset: none.
+const NO_WINDOW: u32 = 0xFFF;
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Watchdog {
+    /// One period of the LSI.
+    lsi: Ps,
+    has_window: bool,
     running: bool,
     unlocked: bool,
     prescaler: u32,
@@ -24,16 +29,27 @@ pub(super) struct Watchdog {
 }
 
 impl Watchdog {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(lsi_hz: u64, has_window: bool) -> Self {
         Self {
+            lsi: 1_000_000_000_000 / lsi_hz,
+            has_window,
             reload: 0xFFF,
             ..Self::default()
         }
     }
 
+    pub(super) fn reset(&mut self) {
+        *self = Self {
+            lsi: self.lsi,
+            has_window: self.has_window,
+            reload: 0xFFF,
+            ..Self::default()
+        };
+    }
+
     /// When it will bite if it is not fed.
     pub(super) fn bites(&self) -> Option<Ps> {
-        let count = LSI * (4 << self.prescaler.min(6));
+        let count = self.lsi * (4 << self.prescaler.min(6));
         self.running
             .then(|| self.fed + count * (Ps::from(self.reload) + 1))
     }
@@ -45,6 +61,7 @@ impl Watchdog {
             PR => self.prescaler,
             RLR => self.reload,
             SR => busy(0) | busy(1),
+            WINR if self.has_window => NO_WINDOW,
             _ => return None,
         })
     }
@@ -66,13 +83,14 @@ impl Watchdog {
             (KR, key) => self.unlocked = key == 0x5555,
             (PR, value) if self.unlocked => {
                 self.prescaler = value & 7;
-                self.settled[0] = now + CROSSING;
+                self.settled[0] = now + CROSSING * self.lsi;
             }
             (RLR, value) if self.unlocked => {
                 self.reload = value & 0xFFF;
-                self.settled[1] = now + CROSSING;
+                self.settled[1] = now + CROSSING * self.lsi;
             }
             (PR | RLR, _) => {}
+            (WINR, NO_WINDOW) if self.has_window => {}
             _ => return false,
         }
         true

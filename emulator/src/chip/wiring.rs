@@ -1,11 +1,8 @@
-//! The board's wires, a side each: the pins, and the timers, DMA streams and
-//! interrupts behind them.
+//! The board's wires: the pins, and the timers, DMA streams and interrupts behind them.
 //!
-//! The numbers are those of RM0390 and the chip's data sheet. Each is held against
-//! another source, the description that stm32-metapac makes from ST's configuration
-//! tool, in `tests/description.rs`.
-
-use super::timers::{TIM2, TIM3, TIM6, TIM8};
+//! The numbers, in the chips' files, are those of the reference manuals and the data
+//! sheets. Each is held against another source, the description that stm32-metapac makes
+//! from ST's configuration tool, in `tests/description.rs`.
 
 /// A pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,16 +13,18 @@ pub(super) struct Pin {
 }
 
 impl Pin {
-    const fn new(port: char, number: u32) -> Self {
+    pub(super) const fn new(port: char, number: u32) -> Self {
         let port = port as usize - 'A' as usize;
         Self { port, number }
     }
 }
 
-/// What a stream of a DMA controller listens to.
+/// What a stream or channel of a DMA controller listens to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Request {
+    /// The stream, or the channel of a controller without streams; counted from 0.
     pub(super) stream: usize,
+    /// The channel of the stream, or the number of DMAMUX; nothing where it is wired.
     pub(super) channel: u32,
 }
 
@@ -55,61 +54,37 @@ pub(super) struct Side {
     pub(super) direction: Pin,
 }
 
-/// Left and right.
-pub(super) const SIDES: [Side; 2] = [
-    Side {
-        spi: [Pin::new('A', 5), Pin::new('A', 6), Pin::new('A', 7)],
-        select: Pin::new('B', 6),
-        byte_timer: TIM8,
-        dma: 1,
-        rx: Request {
-            stream: 0,
-            channel: 3,
-        },
-        tx: Request {
-            stream: 1,
-            channel: 7,
-        },
-        end_of_frame: 56,
-        encoder: [Pin::new('A', 0), Pin::new('A', 1)],
-        encoder_timer: TIM2,
-        encoder_function: 1,
-        direction: Pin::new('B', 5),
-    },
-    Side {
-        spi: [Pin::new('B', 13), Pin::new('B', 14), Pin::new('B', 15)],
-        select: Pin::new('B', 12),
-        byte_timer: TIM6,
-        dma: 0,
-        rx: Request {
-            stream: 3,
-            channel: 0,
-        },
-        tx: Request {
-            stream: 1,
-            channel: 7,
-        },
-        end_of_frame: 14,
-        encoder: [Pin::new('C', 6), Pin::new('C', 7)],
-        encoder_timer: TIM3,
-        encoder_function: 2,
-        direction: Pin::new('C', 8),
-    },
-];
+/// Everything that a board has wired.
+#[derive(Debug)]
+pub(super) struct Wiring {
+    /// Left and, where the board has it, right.
+    pub(super) sides: &'static [Side],
+    /// The timer that makes the ticks, and its interrupt in the NVIC.
+    pub(super) tick: usize,
+    pub(super) tick_irq: u16,
+    /// The timer of the motors' PWM, TIM1.
+    pub(super) pwm_timer: usize,
+    /// The alternate functions of the pins of PWM and SPIs.
+    pub(super) pwm_function: u32,
+    pub(super) spi_function: u32,
+}
 
 /// What messages and the log call the sides.
 pub(crate) const SIDE_NAMES: [&str; 2] = ["left", "right"];
 
-/// The alternate function of the SPIs' pins.
-pub(super) const SPI_FUNCTION: u32 = 5;
-
-/// Channels 1 to 3 of TIM1: an H-bridge a side on the first two, or three half-bridges.
+/// Channels 1 to 3 of TIM1 on every board: an H-bridge a side on the first two, or three
+/// half-bridges.
 pub(super) const PWM: [Pin; 3] = [Pin::new('A', 8), Pin::new('A', 9), Pin::new('A', 10)];
-/// The alternate function of the PWM's pins.
-pub(super) const PWM_FUNCTION: u32 = 1;
 /// Enable inputs of three half-bridges.
 pub(super) const ENABLES: [Pin; 3] = [Pin::new('C', 10), Pin::new('C', 11), Pin::new('C', 12)];
 /// The user button, low while it is pressed.
 pub(super) const BUTTON: Pin = Pin::new('C', 13);
 /// Hall sensors of a brushless motor.
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];
+
+/// The left side's pins, which every board has: SCK, MISO and MOSI; /SS; the encoder; the
+/// direction.
+pub(super) const LEFT_SPI: [Pin; 3] = [Pin::new('A', 5), Pin::new('A', 6), Pin::new('A', 7)];
+pub(super) const LEFT_SELECT: Pin = Pin::new('B', 6);
+pub(super) const LEFT_ENCODER: [Pin; 2] = [Pin::new('A', 0), Pin::new('A', 1)];
+pub(super) const LEFT_DIRECTION: Pin = Pin::new('B', 5);

@@ -1,0 +1,152 @@
+//! What a core must not execute, seen to trap.
+
+use super::{Core, v6m};
+use crate::chip::{Chip, CoreKind, MODELS};
+use crate::memory::{FLASH, Memories, Shared};
+
+const CODE: u32 = FLASH + 0x100;
+const HANDLER: u32 = FLASH + 0x80;
+const RAM: u32 = 0x2000_0000;
+const HARD_FAULT: u32 = 3;
+
+/// A core of that kind whose flash begins with a vector table, a handler of hard faults that
+/// loops, and the code.
+fn core(kind: CoreKind, code: &[u16]) -> Core {
+    let mut words = vec![0_u32; 0x40];
+    words[0] = RAM + 0x800;
+    words[1] = CODE | 1;
+    words[3] = HANDLER | 1;
+    words[0x20] = 0xE7FE_E7FE;
+    let mut flash: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    flash.extend(code.iter().flat_map(|half| half.to_le_bytes()));
+    let model = MODELS.iter().find(|model| model.core == kind).unwrap();
+    let segments = std::iter::once((FLASH, flash.as_slice()));
+    let memories = Memories::flashed(segments, 0x200, 0x1000).unwrap();
+    let shared = Shared::new(Chip::new(model).unwrap());
+    let space = memories.space(&shared).unwrap();
+    let mut core = Core::new(model, &memories, space);
+    core.step();
+    core
+}
+
+/// Whether the first instruction traps, with its own address for the return.
+fn traps(core: &mut Core, steps: usize) -> bool {
+    for _ in 0..steps {
+        core.step();
+    }
+    let in_handler = core.xpsr() & 0x1FF == HARD_FAULT && !core.has_locked_up();
+    in_handler && core.pc() & !3 == HANDLER
+}
+
+#[test]
+fn every_opcode_of_16_bits_that_v6m_lacks_traps() {
+    let mut lacking = 0;
+    for first in (0..0xE800).filter(|&first| !v6m::is_known(first, 0)) {
+        lacking += 1;
+        let mut core = core(CoreKind::M0Plus, &[first, 0xBF00]);
+        assert!(traps(&mut core, 1), "{first:#06x}");
+    }
+    // By group: CBZ and CBNZ 1024, IT 240, other CPS and SETEND's place 254, the unused
+    // parts of 0xB6, 0xB7, 0xB8 and 0xBA, BX and BLX with low bits 224, UDF 256.
+    assert_eq!(lacking, 1024 + 240 + 254 + 512 + 64 + 224 + 256);
+}
+
+#[test]
+fn every_opcode_of_32_bits_that_v6m_lacks_traps() {
+    // Of every first half-word some second ones, among them those of the six that are known.
+    let seconds = [
+        0x0000, 0x0F80, 0x1A20, 0x2100, 0x8000, 0x8400, 0x8810, 0x8811, 0x8F2F, 0x8F4F, 0x8F5F,
+        0x8F6F, 0x9000, 0xA000, 0xC000, 0xE000, 0xF8D1, 0xFFFF,
+    ];
+    let known = |first: u16, second: u16| match first {
+        0xF000..=0xF7FF if second & 0xD000 == 0xD000 => true,
+        0xF3BF => matches!(second, 0x8F4F | 0x8F5F | 0x8F6F),
+        0xF380..=0xF38F => second == 0x8810,
+        0xF3EF => matches!(second, 0x8000 | 0x8400 | 0x8810),
+        _ => false,
+    };
+    for first in 0xE800..=0xFFFF {
+        for second in seconds {
+            let found = v6m::is_known(first, second);
+            assert_eq!(found, known(first, second), "{first:#06x} {second:#06x}");
+        }
+        let mut core = core(CoreKind::M0Plus, &[first, 0xF8D1, 0xBF00]);
+        let lacking = !known(first, 0xF8D1);
+        assert_eq!(traps(&mut core, 1), lacking, "{first:#06x}");
+    }
+}
+
+#[test]
+fn what_v6m_has_runs() {
+    // movs r0, #7; muls r0, r0; rev r0, r0; dsb; mrs r1, primask; cpsid i; bl to the nop
+    let code = [
+        0x2007, 0x4340, 0xBA00, 0xF3BF, 0x8F4F, 0xF3EF, 0x8110, 0xB672, 0xF000, 0xF800, 0xBF00,
+    ];
+    let mut core = core(CoreKind::M0Plus, &code);
+    for _ in 0..7 {
+        core.step();
+    }
+    assert_eq!((core.pc(), core.reg(0)), (CODE + 20, 49_u32.swap_bytes()));
+    assert_eq!(core.reg(14), (CODE + 20) | 1);
+}
+
+#[test]
+fn no_access_of_v6m_but_an_aligned_one() {
+    // ldr, str, ldrh, strh, ldrsh of r1 at r0 or r0 + r2; ldm and stm at r0.
+    for (what, code, bytes) in [
+        ("ldr", 0x6801, 4),
+        ("str", 0x6001, 4),
+        ("ldrh", 0x8801, 2),
+        ("strh", 0x8001, 2),
+        ("ldrsh", 0x5E81, 2),
+        ("ldm", 0xC802, 4),
+        ("stm", 0xC002, 4),
+    ] {
+        for offset in 0..4 {
+            let mut core = core(CoreKind::M0Plus, &[code, 0xBF00]);
+            core.set_reg(0, RAM + offset);
+            core.set_reg(2, 0);
+            let aligned = offset % bytes == 0;
+            // The access faults; the next step enters the handler.
+            assert_eq!(traps(&mut core, 2), !aligned, "{what} at {offset}");
+        }
+    }
+}
+
+#[test]
+fn a_cortex_m3_has_neither_dsp_nor_fpu() {
+    for (what, code) in [
+        ("qadd", [0xFA82, 0xF381]),
+        ("sadd16", [0xFA92, 0xF301]),
+        ("smulbb", [0xFB11, 0xF302]),
+        ("smmulr", [0xFB51, 0xF312]),
+        ("smlad", [0xFB21, 0x3302]),
+        ("pkhbt", [0xEAC1, 0x0302]),
+        ("uxtab", [0xFA51, 0xF382]),
+        ("vadd.f32", [0xEE30, 0x1A20]),
+        ("vldr", [0xED90, 0x0A00]),
+        ("vmov", [0xEE10, 0x0A10]),
+    ] {
+        let mut m3 = core(CoreKind::M3, &code);
+        m3.set_reg(0, RAM);
+        assert!(traps(&mut m3, 2), "{what}");
+    }
+    // What it has: smull, sdiv, an access that is not aligned.
+    for code in [[0xFB81, 0x1302], [0xFB91, 0xF3F2], [0xF8D0, 0x1001]] {
+        let mut m3 = core(CoreKind::M3, &code);
+        m3.set_reg(0, RAM);
+        m3.set_reg(2, 1);
+        assert!(!traps(&mut m3, 1), "{code:x?}");
+        assert_eq!(m3.pc(), CODE + 4);
+    }
+}
+
+#[test]
+fn within_a_hard_fault_there_is_only_the_lock_up() {
+    let mut core = core(CoreKind::M0Plus, &[0xBF08, 0xBF00]);
+    core.step();
+    assert!(!core.has_locked_up());
+    core.set_pc(CODE);
+    core.step();
+    assert!(core.has_locked_up());
+}

@@ -8,7 +8,7 @@ pub(super) const fn is_known(first: u16, second: u16) -> bool {
         0b11101 | 0b11111 => false,
         0b11110 => is_known_wide(first, second),
         // BX and BLX: their low bits are zero.
-        0b01000 if first & 0xFF00 == 0x4700 => first & 7 == 0,
+        0b01000 if first & 0xFF00 == 0x4700 => first.trailing_zeros() >= 3,
         0b10110 | 0b10111 => is_known_misc(first),
         // A conditional branch of condition 14 is undefined.
         0b11011 => first & 0xFF00 != 0xDE00,
@@ -26,7 +26,7 @@ const fn is_known_misc(first: u16) -> bool {
         // REV, REV16, REVSH.
         0b1010 => first & 0xC0 != 0x80,
         // Hints; with low bits it is an IT.
-        0b1111 => first & 15 == 0,
+        0b1111 => first.trailing_zeros() >= 4,
         _ => false,
     }
 }
@@ -34,12 +34,10 @@ const fn is_known_misc(first: u16) -> bool {
 /// Those of 32 bits (A5.3.1).
 const fn is_known_wide(first: u16, second: u16) -> bool {
     match (first, second) {
-        // BL.
-        (_, 0xD000..=0xDFFF | 0xF000..=0xFFFF) => true,
-        (0xF380..=0xF38F, 0x8800..=0x88FF) => is_register(second),
-        (0xF3EF, 0x8000..=0x8FFF) => is_register(second),
-        // DSB, DMB, ISB.
-        (0xF3BF, 0x8F40..=0x8F6F) => true,
+        // BL; DSB, DMB and ISB.
+        (_, 0xD000..=0xDFFF | 0xF000..=0xFFFF) | (0xF3BF, 0x8F40..=0x8F6F) => true,
+        // MSR and MRS.
+        (0xF380..=0xF38F, 0x8800..=0x88FF) | (0xF3EF, 0x8000..=0x8FFF) => is_register(second),
         _ => false,
     }
 }

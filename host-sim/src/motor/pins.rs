@@ -13,10 +13,6 @@ use embedded_hal::digital::{self, InputPin, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use firmware::AngleInput;
 
-/// Duty of a PWM channel that is fully on: the NUCLEO-F446RE's timer of 160 MHz
-/// at 20 kHz, so that its steps are the board's.
-pub const PWM_MAX: u16 = 8000;
-
 /// A wire that can be cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wire {
@@ -63,10 +59,12 @@ pub(super) struct Wires {
     /// Angle that the encoder has not seen, rad.
     missed: Level,
     counts_per_rad: f64,
+    /// Duty that is fully on.
+    pwm_counts: u16,
 }
 
 impl Wires {
-    pub(super) fn new(counts_per_rad: f64) -> Self {
+    pub(super) fn new(counts_per_rad: f64, pwm_counts: u16) -> Self {
         Self {
             duty: Default::default(),
             high: Default::default(),
@@ -78,12 +76,13 @@ impl Wires {
             angle: Level::default(),
             missed: Level::default(),
             counts_per_rad,
+            pwm_counts,
         }
     }
 
     /// Wires of the same motor, intact and at rest.
     pub(super) fn renewed(&self) -> Self {
-        Self::new(self.counts_per_rad)
+        Self::new(self.counts_per_rad, self.pwm_counts)
     }
 
     pub(super) fn set_angle(&self, angle: f64) {
@@ -116,7 +115,7 @@ impl Wires {
     /// Duty of a PWM, 0 to 1.
     pub(super) fn duty(&self, i: usize) -> f64 {
         let duty = self.duty.get(i).map_or(0, |duty| duty.load(Relaxed));
-        f64::from(duty) / f64::from(PWM_MAX)
+        f64::from(duty) / f64::from(self.pwm_counts)
     }
 
     pub(super) fn is_high(&self, i: usize) -> bool {
@@ -179,12 +178,12 @@ impl pwm::ErrorType for SimPwm {
 
 impl SetDutyCycle for SimPwm {
     fn max_duty_cycle(&self) -> u16 {
-        PWM_MAX
+        self.0.wires.pwm_counts
     }
 
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
         if let Some(place) = self.0.wires.duty.get(self.0.i) {
-            place.store(duty.min(PWM_MAX), Relaxed);
+            place.store(duty.min(self.max_duty_cycle()), Relaxed);
         }
         Ok(())
     }

@@ -41,7 +41,12 @@ pub struct MotorSettings {
     /// Whisker angles θ′ of the end stops, degrees; infinite where there are none. Rest lies
     /// between them.
     pub stops_deg: [f64; 2],
+    /// Counts of a period of the PWM, which are the steps of the duty; 1 to 65,535.
+    pub pwm_counts: u16,
 }
+
+/// Steps of the duty on the NUCLEO-F446RE: its timer of 160 MHz at 20 kHz.
+pub const PWM_COUNTS: u16 = 8000;
 
 impl MotorSettings {
     /// The class described above.
@@ -61,6 +66,7 @@ impl MotorSettings {
         counts_per_rev: 512,
         rest_deg: whisking::REST_DEG,
         stops_deg: [f64::NEG_INFINITY, f64::INFINITY],
+        pwm_counts: PWM_COUNTS,
     };
 
     /// Inertia seen by the rotor: J = J_rotor + J_whisker/G².
@@ -93,7 +99,8 @@ impl MotorSettings {
         within("counts_per_rev", counts, 4.0..=65_536.0)?;
         within("rest_deg", self.rest_deg, -360.0..=360.0)?;
         let [lowest, highest] = self.stops_deg;
-        within("stops_deg", self.rest_deg, lowest..=highest)
+        within("stops_deg", self.rest_deg, lowest..=highest)?;
+        within("pwm_counts", self.pwm_counts.into(), 1.0..=65_535.0)
     }
 }
 

@@ -1,7 +1,7 @@
 //! A DMA controller whose channels move single bytes on request (STM32F1 and STM32G0;
 //! RM0008, chapter 13; RM0444, chapter 10): not circular, not from memory to memory.
 
-use super::Move;
+use super::moved::Move;
 
 const ISR: u32 = 0x00;
 const IFCR: u32 = 0x04;
@@ -40,13 +40,22 @@ pub(in crate::chip) struct Channels {
 }
 
 impl Channels {
+    /// Disables a channel.
+    pub(super) fn stop(&mut self, channel: usize) {
+        if let Some(channel) = self.channels.get_mut(channel) {
+            channel.ccr &= !EN;
+        }
+    }
+
     /// Serves a request on a channel, counted from 0: the byte to move, if it listens.
     pub(super) fn request(&mut self, channel: usize) -> Option<Move> {
         let c = self.channels.get_mut(channel)?;
         if c.ccr & EN == 0 || c.cndtr == 0 {
             return None;
         }
-        let memory = c.cmar.wrapping_add(if c.ccr & MINC != 0 { c.done } else { 0 });
+        let memory = c
+            .cmar
+            .wrapping_add(if c.ccr & MINC != 0 { c.done } else { 0 });
         let moved = Move {
             peripheral: c.cpar,
             memory,

@@ -1,7 +1,7 @@
 //! A port with a mode, a type, a speed, a pull and a function register (STM32F4, STM32G0;
 //! RM0390, chapter 7; RM0444, chapter 7).
 
-use super::{Common, Role};
+use super::roles::{Common, Role};
 
 const MODER: u32 = 0x00;
 const OTYPER: u32 = 0x04;
@@ -67,7 +67,11 @@ impl Modes {
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let is_known = KEPT.contains(&offset);
         if is_known {
-            let value = if offset == OTYPER { value & 0xFFFF } else { value };
+            let value = if offset == OTYPER {
+                value & 0xFFFF
+            } else {
+                value
+            };
             self.registers[offset as usize / 4] = value;
         }
         is_known

@@ -27,6 +27,7 @@ pub(crate) static F103: Model = Model {
     priority_bits: 4,
     flash: 128 * 1024,
     ram: 20 * 1024,
+    pwm_counts: 3_600,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

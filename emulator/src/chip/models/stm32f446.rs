@@ -27,6 +27,7 @@ pub(crate) static F446: Model = Model {
     priority_bits: 4,
     flash: 512 * 1024,
     ram: 128 * 1024,
+    pwm_counts: 8_000,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

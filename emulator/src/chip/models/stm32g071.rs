@@ -24,6 +24,7 @@ pub(crate) static G071: Model = Model {
     priority_bits: 2,
     flash: 128 * 1024,
     ram: 36 * 1024,
+    pwm_counts: 3_200,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

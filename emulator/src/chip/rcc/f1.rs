@@ -1,19 +1,15 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
-use super::{
-    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider,
-};
+use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
 const HSI_HZ: u64 = 8_000_000;
 
 const CFGR: u32 = 0x04;
-const CIR: u32 = 0x08;
 
 const HSION: u32 = 1 << 0;
 const HSEON: u32 = 1 << 16;
-const CSSON: u32 = 1 << 19;
 const PLLON: u32 = 1 << 24;
 
 /// In CFGR: the PLL's input is HSE, and that is halved.
@@ -34,17 +30,20 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (HSEON, HSEON << 1),
         (PLLON, PLLON << 1),
     ],
-    hse: HSEON,
     selection: (CFGR, 3, 2),
-    security: Some(Security {
-        switch: CSSON,
-        flag: (CIR, 1 << 7),
-        clear: (CIR, 1 << 23),
-    }),
     resets: &[(Bus::Apb2, 0x0C), (Bus::Apb1, 0x10)],
-    gates: &[(Bus::Ahb, 0x14, 0x14), (Bus::Apb2, 0x18, 0), (Bus::Apb1, 0x1C, 0)],
+    gates: &[
+        (Bus::Ahb, 0x14, 0x14),
+        (Bus::Apb2, 0x18, 0),
+        (Bus::Apb1, 0x1C, 0),
+    ],
     csr: (0x24, RMVF),
-    causes: [PINRSTF | PORRSTF, PINRSTF | IWDGRSTF, PINRSTF | SFTRSTF],
+    causes: [
+        PINRSTF | PORRSTF,
+        PINRSTF | IWDGRSTF,
+        PINRSTF,
+        PINRSTF | SFTRSTF,
+    ],
     clocks,
 };
 

@@ -1,8 +1,6 @@
 //! RCC of the STM32F446 (RM0390, chapter 6).
 
-use super::{
-    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider,
-};
+use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -10,11 +8,9 @@ const HSI_HZ: u64 = 16_000_000;
 
 const PLLCFGR: u32 = 0x04;
 const CFGR: u32 = 0x08;
-const CIR: u32 = 0x0C;
 
 const HSION: u32 = 1 << 0;
 const HSEON: u32 = 1 << 16;
-const CSSON: u32 = 1 << 19;
 const PLLON: u32 = 1 << 24;
 
 /// Flags of CSR: what caused the reset.
@@ -32,19 +28,18 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (HSEON, HSEON << 1),
         (PLLON, PLLON << 1),
     ],
-    hse: HSEON,
     selection: (CFGR, 3, 2),
-    security: Some(Security {
-        switch: CSSON,
-        flag: (CIR, 1 << 7),
-        clear: (CIR, 1 << 23),
-    }),
     resets: &[(Bus::Ahb, 0x10), (Bus::Apb1, 0x20), (Bus::Apb2, 0x24)],
-    gates: &[(Bus::Ahb, 0x30, 0), (Bus::Apb1, 0x40, 0), (Bus::Apb2, 0x44, 0)],
+    gates: &[
+        (Bus::Ahb, 0x30, 0),
+        (Bus::Apb1, 0x40, 0),
+        (Bus::Apb2, 0x44, 0),
+    ],
     csr: (0x74, RMVF),
     causes: [
         BORRSTF | PINRSTF | PORRSTF,
         PINRSTF | IWDGRSTF,
+        PINRSTF,
         PINRSTF | SFTRSTF,
     ],
     clocks,
@@ -80,7 +75,7 @@ fn pll_hz(rcc: &Rcc) -> Option<u64> {
     let runs = rcc.running() & if hse { HSEON } else { HSION } != 0;
     let input = if hse { HSE_HZ } else { HSI_HZ }.checked_div(m)?;
     let oscillator = input * n;
-    let in_range = (950_000..=2_100_000).contains(&input)
-        && (100_000_000..=432_000_000).contains(&oscillator);
+    let in_range =
+        (950_000..=2_100_000).contains(&input) && (100_000_000..=432_000_000).contains(&oscillator);
     (runs && in_range).then(|| oscillator / p)
 }

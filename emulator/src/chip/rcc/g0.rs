@@ -1,6 +1,6 @@
 //! RCC of the STM32G071 (RM0444, chapter 5).
 
-use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, Security, divider};
+use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -14,7 +14,6 @@ const HSIRDY: u32 = 1 << 10;
 /// A divider of the internal oscillator.
 const HSIDIV: u32 = 7 << 11;
 const HSEON: u32 = 1 << 16;
-const CSSON: u32 = 1 << 19;
 const PLLON: u32 = 1 << 24;
 
 /// In PLLCFGR: the output towards the core is on.
@@ -29,18 +28,8 @@ const IWDGRSTF: u32 = 1 << 29;
 
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x500), (CFGR, 0), (PLLCFGR, 0x1000)],
-    switches: &[
-        (HSION, HSIRDY),
-        (HSEON, HSEON << 1),
-        (PLLON, PLLON << 1),
-    ],
-    hse: HSEON,
+    switches: &[(HSION, HSIRDY), (HSEON, HSEON << 1), (PLLON, PLLON << 1)],
     selection: (CFGR, 7, 3),
-    security: Some(Security {
-        switch: CSSON,
-        flag: (0x1C, 1 << 8),
-        clear: (0x20, 1 << 8),
-    }),
     resets: &[
         (Bus::Ports, 0x24),
         (Bus::Ahb, 0x28),
@@ -54,7 +43,12 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (Bus::Apb2, 0x40, 0),
     ],
     csr: (0x60, RMVF),
-    causes: [PINRSTF | PWRRSTF, PINRSTF | IWDGRSTF, PINRSTF | SFTRSTF],
+    causes: [
+        PINRSTF | PWRRSTF,
+        PINRSTF | IWDGRSTF,
+        PINRSTF,
+        PINRSTF | SFTRSTF,
+    ],
     clocks,
 };
 

@@ -2,7 +2,7 @@
 //! DMA2, on the right SPI2, TIM6 and DMA1.
 
 use super::{GPIOA, GPIOB, MS, RAM, RCC, Rig, US};
-use crate::chip::{FRAME_IRQS, Ps};
+use crate::chip::Ps;
 
 pub(super) const ANSWERS: [u8; 8] = [0xFF, 1, 2, 3, 4, 5, 6, 7];
 /// From the start of a byte to that of the next.
@@ -129,9 +129,8 @@ impl Registers {
     }
 
     pub(super) fn is_done(&self, rig: &Rig) -> bool {
-        rig.chip
-            .interrupts()
-            .contains(&(FRAME_IRQS[self.side], true))
+        let frame = rig.chip.interrupts().nth(1 + self.side);
+        frame.is_some_and(|(_, up)| up)
     }
 
     pub(super) fn received(&self, rig: &Rig) -> [u8; 8] {

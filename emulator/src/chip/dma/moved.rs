@@ -1,0 +1,9 @@
+//! What a DMA controller moves.
+
+/// A byte to be moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::chip) struct Move {
+    pub(in crate::chip) peripheral: u32,
+    pub(in crate::chip) memory: u32,
+    pub(in crate::chip) to_memory: bool,
+}

@@ -1,0 +1,140 @@
+//! A DMA controller whose streams move single bytes on request (STM32F4; RM0390,
+//! chapter 9): direct mode, no double buffer, no circular mode, no bursts.
+
+use super::moved::Move;
+
+const LISR: u32 = 0x00;
+const HISR: u32 = 0x04;
+const LIFCR: u32 = 0x08;
+const HIFCR: u32 = 0x0C;
+const STREAMS: u32 = 0x10;
+const STREAM_SIZE: u32 = 0x18;
+
+const EN: u32 = 1 << 0;
+const TCIE: u32 = 1 << 4;
+const DIR_FROM_MEMORY: u32 = 1 << 6;
+const MINC: u32 = 1 << 10;
+/// DMEIE, TEIE, TCIE, DIR to memory or from it, MINC, priority and channel: the rest is not
+/// modelled.
+const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | 3 << 16 | 7 << 25;
+
+/// The flags of a stream in LISR or HISR begin at these bits; TCIF is the sixth.
+const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
+const TCIF: u32 = 1 << 5;
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Stream {
+    cr: u32,
+    ndtr: u32,
+    par: u32,
+    m0ar: u32,
+    /// Bytes asked for when it was enabled.
+    length: u32,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(in crate::chip) struct Streams {
+    streams: [Stream; 8],
+    /// Flags of each stream, as if it were the first.
+    flags: [u32; 8],
+}
+
+impl Streams {
+    /// Disables a stream.
+    pub(super) fn stop(&mut self, stream: usize) {
+        if let Some(stream) = self.streams.get_mut(stream) {
+            stream.cr &= !EN;
+        }
+    }
+
+    /// Serves a request of `channel` on a stream: the byte to move, if the
+    /// stream listens.
+    pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
+        let s = self.streams.get_mut(stream)?;
+        if s.cr & EN == 0 || (s.cr >> 25) & 7 != channel {
+            return None;
+        }
+        let done = s.length - s.ndtr;
+        let memory = s.m0ar.wrapping_add(if s.cr & MINC != 0 { done } else { 0 });
+        s.ndtr -= 1;
+        if s.ndtr == 0 {
+            s.cr &= !EN;
+            self.flags[stream] |= TCIF;
+        }
+        Some(Move {
+            peripheral: s.par,
+            memory,
+            to_memory: s.cr & DIR_FROM_MEMORY == 0,
+        })
+    }
+
+    pub(super) fn interrupts(&self, stream: usize) -> bool {
+        self.flags[stream] & TCIF != 0 && self.streams[stream].cr & TCIE != 0
+    }
+
+    pub(super) fn read(&self, offset: u32) -> Option<u32> {
+        Some(match offset {
+            LISR => self.gather(0),
+            HISR => self.gather(4),
+            LIFCR | HIFCR => 0,
+            _ => {
+                let s = self.streams.get(stream(offset)?)?;
+                match (offset - STREAMS) % STREAM_SIZE {
+                    0x00 => s.cr,
+                    0x04 => s.ndtr,
+                    0x08 => s.par,
+                    0x0C => s.m0ar,
+                    _ => return None,
+                }
+            }
+        })
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
+        match offset {
+            LIFCR => self.clear(0, value),
+            HIFCR => self.clear(4, value),
+            _ => {
+                let Some(s) = stream(offset).and_then(|n| self.streams.get_mut(n)) else {
+                    return false;
+                };
+                let register = (offset - STREAMS) % STREAM_SIZE;
+                let enabled = s.cr & EN != 0;
+                match register {
+                    0x00 if value & !MODELLED != 0 => return false,
+                    0x00 => {
+                        if value & EN != 0 && !enabled {
+                            s.length = s.ndtr;
+                        }
+                        // Without bytes to move it does not start.
+                        let idle = value & EN != 0 && s.ndtr == 0;
+                        s.cr = if idle { value & !EN } else { value };
+                    }
+                    // The others are locked while the stream is enabled.
+                    0x04 | 0x08 | 0x0C if enabled => {}
+                    0x04 => s.ndtr = value & 0xFFFF,
+                    0x08 => s.par = value,
+                    0x0C => s.m0ar = value,
+                    _ => return false,
+                }
+            }
+        }
+        true
+    }
+
+    fn gather(&self, first: usize) -> u32 {
+        let flags = self.flags[first..first + 4].iter().zip(FLAGS_AT);
+        flags.fold(0, |all, (flags, at)| all | flags << at)
+    }
+
+    fn clear(&mut self, first: usize, value: u32) {
+        for (flags, at) in self.flags[first..first + 4].iter_mut().zip(FLAGS_AT) {
+            *flags &= !((value >> at) & 0x3F);
+        }
+    }
+}
+
+fn stream(offset: u32) -> Option<usize> {
+    Some((offset.checked_sub(STREAMS)? / STREAM_SIZE) as usize)
+}
