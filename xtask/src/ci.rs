@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::emulate::Task;
-use crate::firmware::{self, Board};
+use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
 use crate::{arrows, cost, count, dependencies, docs, emulate, faults, fuzz, panics, readme, size};
@@ -32,7 +32,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
-    steps.run("emulated board, one side and two", board)?;
+    steps.run("emulated boards, one side and two", board)?;
     steps.run("injected faults, a thousand", faults::short)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
@@ -71,9 +71,10 @@ fn experiments() -> Result<(), Fault> {
 /// and in fixed point, with one side and with two; contact on one side excites the other
 /// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
 /// either side, are noticed, and no start that nobody asked for drives a motor.
+/// The boards that carry one side run its scene alike.
 fn board() -> Result<(), Fault> {
-    let board = firmware::Board::ALL[0];
-    let do_all = |scene: &Path, tasks: &[Task]| -> Result<(), Fault> {
+    let [board, small @ ..] = Board::ALL;
+    let do_all = |board: Board, scene: &Path, tasks: &[Task]| -> Result<(), Fault> {
         let mut done = tasks
             .iter()
             .map(|task| emulate::emulate(board, scene, task));
@@ -87,9 +88,16 @@ fn board() -> Result<(), Fault> {
         Task::Damage,
         Task::SensorLoss,
     ];
-    do_all(Path::new(emulate::FULL), &one_side)?;
-    do_all(Path::new(emulate::CIA), &[Task::Compare, Task::Latency])?;
+    do_all(board, Path::new(emulate::FULL), &one_side)?;
+    do_all(
+        board,
+        Path::new(emulate::CIA),
+        &[Task::Compare, Task::Latency],
+    )?;
     let both_sides = [Task::Deadlines(0.05), Task::SensorLoss];
-    do_all(&emulate::noisiest()?, &both_sides)?;
-    emulate::compare_in_fixed_point(board)
+    do_all(board, &emulate::noisiest()?, &both_sides)?;
+    emulate::compare_in_fixed_point(board)?;
+    small
+        .into_iter()
+        .try_for_each(|board| do_all(board, Path::new(emulate::FULL), &one_side))
 }

@@ -20,6 +20,8 @@ pub(crate) struct Board {
     chip: &'static str,
     /// Whether its core computes f32 by itself.
     pub(crate) has_fpu: bool,
+    /// Whether it carries a whisker a side, and not the left alone.
+    pub(crate) has_both_sides: bool,
 }
 
 impl Board {
@@ -31,6 +33,7 @@ impl Board {
             target: "thumbv7em-none-eabihf",
             chip: "STM32F446RETx",
             has_fpu: true,
+            has_both_sides: true,
         },
         Self {
             name: "nucleo-f103rb",
@@ -38,6 +41,7 @@ impl Board {
             target: "thumbv7m-none-eabi",
             chip: "STM32F103RBTx",
             has_fpu: false,
+            has_both_sides: false,
         },
         Self {
             name: "nucleo-g071rb",
@@ -45,6 +49,7 @@ impl Board {
             target: "thumbv6m-none-eabi",
             chip: "STM32G071RBTx",
             has_fpu: false,
+            has_both_sides: false,
         },
     ];
 
@@ -53,11 +58,6 @@ impl Board {
         let names = || Self::ALL.map(|board| board.name).join(", ");
         let board = Self::ALL.into_iter().find(|board| board.name == name);
         board.ok_or_else(|| format!("no such board; there is: {}", names()))
-    }
-
-    /// Whether the emulator models its chip.
-    pub(crate) fn is_emulated(self) -> bool {
-        self.name == "nucleo-f446re"
     }
 
     /// What cargo needs to build its program.
