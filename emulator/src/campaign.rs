@@ -23,7 +23,7 @@ mod table;
 mod words;
 
 pub use injection::Kind;
-pub use outcome::{Outcome, Row};
+pub use outcome::{Ending, RunRow};
 pub use page::{described, page};
 pub use shard::{Scenes, Shard, run};
-pub use table::{Table, rows};
+pub use table::{ShardTable, rows};

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use emulator::campaign::{self, Outcome, Shard, Table};
+use emulator::campaign::{self, Ending, Shard, ShardTable};
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, sensor_loss, starting,
 };
@@ -140,7 +140,7 @@ fn inject(campaign: Campaign) -> Result<(), Error> {
         remainder: campaign.shard,
         shards: campaign.shards.max(1),
     };
-    let mut table = Table::open(&campaign.out)?;
+    let mut table = ShardTable::open(&campaign.out)?;
     let done = table.done().to_vec();
     campaign::run(&campaign.subject, &scenes, shard, &done, |row| {
         table.add(&row)
@@ -158,7 +158,7 @@ fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
         let page = campaign::page(&rows).map_err(Error::Work)?;
         write_whole(out, page.as_bytes())?;
     }
-    let harmful = rows.iter().filter(|row| row.outcome == Outcome::Harmful);
+    let harmful = rows.iter().filter(|row| row.outcome == Ending::Harmful);
     let harmful: Vec<String> = harmful.map(campaign::described).collect();
     if harmful.is_empty() {
         report::say(format_args!("{} runs, none harmful", rows.len()));

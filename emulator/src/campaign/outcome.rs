@@ -8,7 +8,7 @@ use super::judge::Harm;
 /// How a run is called.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Outcome {
+pub enum Ending {
     /// In the end the whiskers move and decide as in the undisturbed run.
     Masked,
     /// The module has told of it: a fault, a line of the log, or a reset.
@@ -23,7 +23,7 @@ pub enum Outcome {
 
 /// A run, as it stands in the table of its shard.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct RunRow {
     /// Where it ran: `host-sim`, or the board's name.
     pub subject: String,
     /// Its number, from which it can be repeated.
@@ -37,7 +37,7 @@ pub struct Row {
     /// For how many ticks; nothing: to the end.
     pub ticks: Option<u64>,
     /// How it is called.
-    pub outcome: Outcome,
+    pub outcome: Ending,
     /// Why, or what was told first.
     pub reason: String,
     /// The word of RAM or the register that was changed.
@@ -59,20 +59,20 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Outcome and reason.
-    pub(super) fn verdict(&self) -> (Outcome, String) {
+    /// Ending and reason.
+    pub(super) fn verdict(&self) -> (Ending, String) {
         if let Some((tick, harm)) = &self.harm {
-            return (Outcome::Harmful, format!("{harm}, tick {tick}"));
+            return (Ending::Harmful, format!("{harm}, tick {tick}"));
         }
         if let Some(what) = &self.unfollowed {
-            return (Outcome::Unfollowed, what.clone());
+            return (Ending::Unfollowed, what.clone());
         }
         if let Some((_, what)) = &self.told {
-            return (Outcome::Noticed, what.clone());
+            return (Ending::Noticed, what.clone());
         }
         match self.difference {
-            Some(what) => (Outcome::Silent, what.to_owned()),
-            None => (Outcome::Masked, String::new()),
+            Some(what) => (Ending::Silent, what.to_owned()),
+            None => (Ending::Masked, String::new()),
         }
     }
 }

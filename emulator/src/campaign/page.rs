@@ -4,18 +4,18 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::injection::Kind;
-use super::outcome::{Outcome, Row};
+use super::outcome::{Ending, RunRow};
 
 /// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.
 const REASONS: &str = include_str!("reasons.toml");
 
 /// Outcomes in the order of the columns.
-const OUTCOMES: [Outcome; 5] = [
-    Outcome::Masked,
-    Outcome::Noticed,
-    Outcome::Silent,
-    Outcome::Harmful,
-    Outcome::Unfollowed,
+const OUTCOMES: [Ending; 5] = [
+    Ending::Masked,
+    Ending::Noticed,
+    Ending::Silent,
+    Ending::Harmful,
+    Ending::Unfollowed,
 ];
 
 /// The name of a value as it stands in the tables.
@@ -27,12 +27,12 @@ fn name(value: impl serde::Serialize) -> String {
 }
 
 /// The runs with an outcome.
-fn with(rows: &[Row], outcome: Outcome) -> impl Iterator<Item = &Row> {
+fn with(rows: &[RunRow], outcome: Ending) -> impl Iterator<Item = &RunRow> {
     rows.iter().filter(move |row| row.outcome == outcome)
 }
 
 /// How many of `rows` have each outcome, as cells of a table.
-fn cells(rows: &[&Row]) -> String {
+fn cells(rows: &[&RunRow]) -> String {
     let counts = OUTCOMES.map(|outcome| {
         let count = rows.iter().filter(|row| row.outcome == outcome).count();
         format!("{count} |")
@@ -41,7 +41,7 @@ fn cells(rows: &[&Row]) -> String {
 }
 
 /// Middle and largest time until something was told, ms.
-fn noticed(rows: &[&Row]) -> String {
+fn noticed(rows: &[&RunRow]) -> String {
     let mut times: Vec<f64> = rows.iter().filter_map(|row| row.noticed_ms).collect();
     times.sort_by(f64::total_cmp);
     match (times.get(times.len() / 2), times.last()) {
@@ -66,7 +66,7 @@ fn without_indices(name: &str) -> String {
 }
 
 /// Where a silent run was hit: a variable, a register, or the kind of fault.
-fn place(row: &Row) -> String {
+fn place(row: &RunRow) -> String {
     match &row.changed {
         Some(changed) => {
             let word = changed.split(" bit ").next().unwrap_or(changed);
@@ -89,7 +89,7 @@ fn reason(place: &str, reasons: &BTreeMap<String, String>) -> Option<String> {
 ///
 /// # Errors
 /// What is wrong with the table of reasons.
-pub fn page(rows: &[Row]) -> Result<String, String> {
+pub fn page(rows: &[RunRow]) -> Result<String, String> {
     let reasons: BTreeMap<String, String> =
         toml::from_str(REASONS).map_err(|error| error.to_string())?;
     let mut text = String::new();
@@ -104,10 +104,10 @@ pub fn page(rows: &[Row]) -> Result<String, String> {
     subjects.sort_unstable();
     subjects.dedup();
     for subject in subjects {
-        let of: Vec<&Row> = rows.iter().filter(|row| row.subject == subject).collect();
+        let of: Vec<&RunRow> = rows.iter().filter(|row| row.subject == subject).collect();
         let _ = writeln!(text, "| {subject} | {} | {}", of.len(), cells(&of));
     }
-    let all: Vec<&Row> = rows.iter().collect();
+    let all: Vec<&RunRow> = rows.iter().collect();
     let _ = writeln!(text, "| all | {} | {}", all.len(), cells(&all));
 
     let _ = writeln!(
@@ -115,17 +115,18 @@ pub fn page(rows: &[Row]) -> Result<String, String> {
         "\n## By what was injected\n\n| | runs | masked | noticed | silent | harmful | not followed \
          | told after, ms: middle | most |\n|---|---|---|---|---|---|---|---|---|"
     );
-    let kinds: BTreeMap<Kind, Vec<&Row>> = rows.iter().fold(BTreeMap::new(), |mut kinds, row| {
-        kinds.entry(row.kind).or_default().push(row);
-        kinds
-    });
+    let kinds: BTreeMap<Kind, Vec<&RunRow>> =
+        rows.iter().fold(BTreeMap::new(), |mut kinds, row| {
+            kinds.entry(row.kind).or_default().push(row);
+            kinds
+        });
     for (kind, of) in &kinds {
         let (cells, noticed) = (cells(of), noticed(of));
         let _ = writeln!(text, "| {} | {} | {cells} {noticed}", name(kind), of.len());
     }
 
     let _ = writeln!(text, "\n## Harmful\n");
-    let mut harmful = with(rows, Outcome::Harmful).peekable();
+    let mut harmful = with(rows, Ending::Harmful).peekable();
     if harmful.peek().is_none() {
         let _ = writeln!(text, "None.");
     }
@@ -138,8 +139,8 @@ pub fn page(rows: &[Row]) -> Result<String, String> {
         "\n## Silent, by what was hit\n\n| | runs | how it ends | why nothing is told |\n\
          |---|---|---|---|"
     );
-    let mut silent: BTreeMap<String, Vec<&Row>> = BTreeMap::new();
-    for row in with(rows, Outcome::Silent) {
+    let mut silent: BTreeMap<String, Vec<&RunRow>> = BTreeMap::new();
+    for row in with(rows, Ending::Silent) {
         silent.entry(place(row)).or_default().push(row);
     }
     for (place, of) in &silent {
@@ -159,7 +160,7 @@ pub fn page(rows: &[Row]) -> Result<String, String> {
     }
 
     let _ = writeln!(text, "\n## Not followed\n");
-    let mut unfollowed = with(rows, Outcome::Unfollowed).peekable();
+    let mut unfollowed = with(rows, Ending::Unfollowed).peekable();
     if unfollowed.peek().is_none() {
         let _ = writeln!(text, "None.");
     }
@@ -170,7 +171,7 @@ pub fn page(rows: &[Row]) -> Result<String, String> {
 }
 
 /// A run in a line.
-pub fn described(row: &Row) -> String {
+pub fn described(row: &RunRow) -> String {
     let changed = row.changed.as_ref().map(|word| format!(" of `{word}`"));
     format!(
         "{}, run {}, scene {}: {}{} before tick {}: {}",

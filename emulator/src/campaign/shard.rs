@@ -11,7 +11,7 @@ use scene::PlantKind;
 
 use super::draw::{self, Has, RUN_S};
 use super::judge::{Harm, Judge};
-use super::outcome::{Findings, Row};
+use super::outcome::{Findings, RunRow};
 use super::subject::{OnBoard, OnPc, Seen, Subject};
 use super::words::Words;
 use crate::chip::Fault;
@@ -92,7 +92,7 @@ impl Prepared {
         })
     }
 
-    fn run(&self, subject_name: &str, number: u64) -> Result<Row, Error> {
+    fn run(&self, subject_name: &str, number: u64) -> Result<RunRow, Error> {
         let mut random = draw::random(number);
         let injection = draw::injection(self.has, &mut random);
         let mut subject = self.subject()?;
@@ -150,7 +150,7 @@ impl Prepared {
         let noticed_ms = noticed
             .map(|(tick, _)| (tick - injection.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
         let (outcome, reason) = findings.verdict();
-        Ok(Row {
+        Ok(RunRow {
             subject: subject_name.to_owned(),
             run: number,
             scene: self.loaded.scene.name.clone(),
@@ -230,7 +230,7 @@ pub fn run(
     scenes: &Scenes,
     shard: Shard,
     done: &[u64],
-    mut take: impl FnMut(Row) -> Result<(), Error>,
+    mut take: impl FnMut(RunRow) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let mut prepared: BTreeMap<usize, Prepared> = BTreeMap::new();
     for number in shard.first..shard.end {
@@ -247,7 +247,7 @@ fn run_one(
     scenes: &Scenes,
     number: u64,
     prepared: &mut BTreeMap<usize, Prepared>,
-) -> Result<Row, Error> {
+) -> Result<RunRow, Error> {
     // The scenes in turn, whatever the number of shards.
     let n = (number % scenes.len().max(1) as u64) as usize;
     let (scene, program) = scenes

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 
 use host_sim::Error;
 
-use super::outcome::Row;
+use super::outcome::RunRow;
 
 /// A table that grows.
 #[derive(Debug)]
-pub struct Table {
+pub struct ShardTable {
     path: PathBuf,
     writer: csv::Writer<File>,
     done: Vec<u64>,
 }
 
-impl Table {
+impl ShardTable {
     /// Opens the table in `path`, or begins one.
     ///
     /// # Errors
@@ -53,7 +53,7 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn add(&mut self, row: &Row) -> Result<(), Error> {
+    pub fn add(&mut self, row: &RunRow) -> Result<(), Error> {
         let written = self.writer.serialize(row);
         let written = written.and_then(|()| self.writer.flush().map_err(Into::into));
         written.map_err(|error| Error::write(&self.path, error.into()))
@@ -64,8 +64,8 @@ impl Table {
 ///
 /// # Errors
 /// [`Error::Input`] if it is no such table.
-pub fn rows(path: &Path) -> Result<Vec<Row>, Error> {
+pub fn rows(path: &Path) -> Result<Vec<RunRow>, Error> {
     let read = csv::Reader::from_path(path);
-    let rows: Result<Vec<Row>, _> = read.and_then(|mut reader| reader.deserialize().collect());
+    let rows: Result<Vec<RunRow>, _> = read.and_then(|mut reader| reader.deserialize().collect());
     rows.map_err(|error| Error::file(path, error))
 }
