@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use firmware::Event;
 use host_sim::Error;
 use host_sim::bus::{Slave, WireFault};
 use host_sim::commands::run::Loaded;
@@ -20,6 +21,8 @@ struct Loss {
     said: &'static str,
     /// A line that follows.
     reason: Option<&'static str>,
+    /// Tenths of a second within which it is found.
+    tenths: u32,
 }
 
 const fn on_the_wire(befall: fn(&mut Slave), said: &'static str) -> Loss {
@@ -28,10 +31,11 @@ const fn on_the_wire(befall: fn(&mut Slave), said: &'static str) -> Loss {
         mend: |slave| slave.set_fault(None),
         said,
         reason: None,
+        tenths: 1,
     }
 }
 
-const LOSSES: [Loss; 4] = [
+const LOSSES: [Loss; 6] = [
     on_the_wire(|slave| slave.set_fault(Some(WireFault::Silent)), "fault 18"),
     on_the_wire(
         |slave| slave.set_fault(Some(WireFault::LineLow)),
@@ -43,6 +47,16 @@ const LOSSES: [Loss; 4] = [
         mend: |slave| slave.set_error_word(Faults::NONE),
         said: "fault 22",
         reason: Some("field too low"),
+        tenths: 1,
+    },
+    on_the_wire(
+        |slave| slave.set_fault(Some(WireFault::LowAfterStart)),
+        "fault 23",
+    ),
+    Loss {
+        // A quarter of a second, unless the scene has another.
+        tenths: 3,
+        ..on_the_wire(|slave| slave.set_fault(Some(WireFault::Frozen)), "fault 24")
     },
 ];
 
@@ -79,8 +93,9 @@ pub fn lose(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     Ok(heard)
 }
 
-/// A tenth of a second broken, a tenth mended, each seen to its end for as long again;
-/// the sensors of the sides `lost` break, and the motors of those `off` must rest.
+/// Broken for as long as it takes to be found, mended for a tenth of a second, each seen to
+/// its end for a tenth more; the sensors of the sides `lost` break, and the motors of those
+/// `off` must rest.
 fn pass_through(
     trouble: &mut Trouble,
     tenth: u32,
@@ -92,7 +107,7 @@ fn pass_through(
     for &side in lost {
         (loss.befall)(sensor(trouble, side)?);
     }
-    trouble.pass(tenth)?;
+    trouble.pass(loss.tenths * tenth)?;
     check(trouble, tenth, off, &format!("after {}", loss.said))?;
     let contact = trouble.run.row().contact;
     if let Some(side) = lost.iter().find(|&&side| contact[side] != 0.0) {
@@ -133,11 +148,20 @@ fn sensor(trouble: &mut Trouble, side: usize) -> Result<&mut Slave, Error> {
 }
 
 /// Lets so many ticks pass: the motors of the sides `off` must rest in all of them, the
-/// others be driven in [`DRIVEN`] of them.
+/// others be driven in [`DRIVEN`] of them, and nothing be decided on the sides `off`.
 fn check(trouble: &mut Trouble, ticks: u32, off: &[usize], when: &str) -> Result<(), Error> {
     let mut driven = [0; 2];
     for _ in 0..ticks {
         trouble.pass(1)?;
+        let events = trouble.run.events().iter();
+        let mut deciding = events.filter_map(|event| match event {
+            Event::Decision(place, _) => Some(usize::from(place.side)),
+            _ => None,
+        });
+        if let Some(side) = deciding.find(|side| off.contains(side)) {
+            let name = SIDE_NAMES[side];
+            return Err(Error::Work(format!("{when} the {name} still decides")));
+        }
         for (count, is_driven) in driven.iter_mut().zip(trouble.driven()) {
             *count += u32::from(is_driven);
         }

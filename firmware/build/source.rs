@@ -18,6 +18,7 @@ pub(crate) fn source<R: Real>(
     number: &TokenStream,
 ) -> Result<String, Box<dyn Error>> {
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
+    let (frozen_s, jump_per_s) = (scene.sensor.frozen_s, scene.sensor.jump_per_s);
     let touch = model.and_then(Model::touch_rule);
     let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate))?;
     let contact = Source::optional(
@@ -49,7 +50,13 @@ pub(crate) fn source<R: Real>(
         quote! {
             pub(crate) const SETTINGS: Settings = firmware::Config {
                 decoder: mlx90333::Decoder::new(),
-                hold_limits: firmware::design_parameters::hold_limits(TICK_HZ),
+                sensor_limits: firmware::design_parameters::sensor_limits(
+                    TICK_HZ,
+                    firmware::design_parameters::Plausible {
+                        frozen_s: #frozen_s,
+                        jump_per_s: #jump_per_s,
+                    },
+                ),
                 contact: #contact_value,
                 motion: #motion_value,
                 perception: #perception_value,

@@ -3,14 +3,27 @@
 //! Durations are given in seconds or microseconds and become ticks at the
 //! scene's tick rate.
 
-use crate::{ButtonLimits, HoldLimits, Retry};
+use mlx90333::timing::SS_HIGH_US;
+
+use crate::{ButtonLimits, Retry, SensorLimits};
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
-/// The sensor may recompute only every 1.5 ms (its slow mode), and a disturbed
-/// frame costs one tick; contact changes within 7 ms (a quarter of the period
-/// of 35 Hz, the lowest resonance of a 100 mm whisker: BIOTACT section II-C).
-pub const HOLD_S: f64 = 0.005;
+/// Three bad frames in succession at 2 kHz, each with the 2 ms after it in which the sensor
+/// is left alone ([`sensor_limits`]); the sensor itself may recompute only every 1.5 ms (its
+/// slow mode). Contact changes within 7 ms (a quarter of the period of 35 Hz, the lowest
+/// resonance of a 100 mm whisker: BIOTACT section II-C).
+pub const HOLD_S: f64 = 0.0075;
+
+/// How far bad ticks may outweigh good ones, s: [`crate::BAD_WEIGHT`] ticks for each of them.
+///
+/// More than three times the weight of the longest gap that is bridged, so that one alone is
+/// none too many; where every second tick is bad, two thirds of this time pass.
+pub const BURST_S: f64 = 0.1;
+
+/// How much later in a tick than in another something may happen, us; far more than was ever
+/// measured (`docs/measured/deadlines.csv`).
+pub const JITTER_US: u32 = 100;
 
 /// How long readings must be good before a whisker with a sensor fault moves again, s.
 ///
@@ -41,11 +54,42 @@ pub const fn button(tick_hz: u32) -> ButtonLimits {
     }
 }
 
-/// For how long readings are held at `tick_hz` ticks a second.
-pub const fn hold_limits(tick_hz: u32) -> HoldLimits {
-    HoldLimits {
-        hold: ticks(HOLD_S, tick_hz),
+/// What a sensor's readings cannot do, as the scene has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plausible {
+    /// Repeat to the bit for longer than this, s; infinite: no limit.
+    pub frozen_s: f64,
+    /// Change faster than by this in a second, of the deflection from mid-scale to full
+    /// scale; infinite: no limit.
+    pub jump_per_s: f64,
+}
+
+impl Plausible {
+    /// Anything can be: for sensors that are not real.
+    pub const ANY: Self = Self {
+        frozen_s: f64::INFINITY,
+        jump_per_s: f64::INFINITY,
+    };
+}
+
+/// What is borne of a sensor at `tick_hz` ticks a second.
+///
+/// After a bad frame /SS is high for [`SS_HIGH_US`] and [`JITTER_US`] at least, in whole ticks.
+pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
+    // Half of the 65,536 steps of a word are full scale.
+    let jump = plausible.jump_per_s * 32_768.0 / tick_hz as f64;
+    let (hold, frozen) = (ticks(HOLD_S, tick_hz), ticks(plausible.frozen_s, tick_hz));
+    SensorLimits {
+        hold,
+        // What is held for want of a frame, and what is read again and again, is as good.
+        stale: if frozen == u16::MAX { frozen } else { hold },
         recover: ticks(RECOVER_S, tick_hz),
+        // At most 33 ticks at the highest rate of a scene.
+        resync: ((SS_HIGH_US + JITTER_US) as u64 * tick_hz as u64).div_ceil(1_000_000) as u16,
+        frozen,
+        // A number too large becomes the largest.
+        jump: jump as u16,
+        burst: ticks(BURST_S, tick_hz),
     }
 }
 
@@ -72,14 +116,39 @@ pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
 
 #[cfg(test)]
 mod tests {
-    use super::{HOLD_S, RETRY_S, ticks};
+    use super::{BURST_S, HOLD_S, Plausible, RETRY_S, sensor_limits, ticks};
+    use crate::BAD_WEIGHT;
+    use mlx90333::timing::SS_HIGH_US;
 
     #[test]
     fn durations_become_ticks_at_any_rate() {
-        assert_eq!(ticks(HOLD_S, 2_000), 10);
-        assert_eq!(ticks(HOLD_S, 200), 1);
+        assert_eq!(ticks(HOLD_S, 2_000), 15);
+        assert_eq!(ticks(HOLD_S, 200), 2);
         assert_eq!(ticks(RETRY_S, 20_000), 20_000);
         assert_eq!(ticks(1e-9, 200), 1);
         assert_eq!(ticks(1e9, 200), u16::MAX);
+    }
+
+    #[test]
+    fn a_sensor_is_left_alone_for_long_enough_and_bridged_for_longer() {
+        for tick_hz in 200..=2_100 {
+            let limits = sensor_limits(tick_hz, Plausible::ANY);
+            // From the tick that finds the frame bad to the one that starts the next.
+            let rest_us = u32::from(limits.resync) * 1_000_000 / tick_hz;
+            assert!(rest_us > SS_HIGH_US, "{tick_hz} Hz: {rest_us} us");
+            assert!(limits.hold > limits.resync, "{tick_hz} Hz");
+            assert!(limits.burst > limits.hold * BAD_WEIGHT, "{tick_hz} Hz");
+            assert_eq!([limits.frozen, limits.jump], [u16::MAX; 2]);
+        }
+        assert_eq!(ticks(BURST_S, 2_000), 200);
+        let plausible = Plausible {
+            frozen_s: 0.25,
+            jump_per_s: 1_500.0,
+        };
+        let limits = sensor_limits(2_000, plausible);
+        assert_eq!(
+            [limits.frozen, limits.jump, limits.resync],
+            [500, 24_576, 4]
+        );
     }
 }

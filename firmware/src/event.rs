@@ -39,6 +39,13 @@ pub enum SensorFault {
     Bus,
     /// The frame was refused; the reason says more.
     Frame(FrameError),
+    /// Its words repeat to the bit for longer than the noise of a sensor lets them.
+    Frozen,
+    /// Its words jump about farther than a whisker can move.
+    Jump,
+    /// Ticks without a good frame are too many, if never too many in succession. With the
+    /// number of what was wrong with the last.
+    Often(u8),
 }
 
 impl SensorFault {
@@ -52,6 +59,10 @@ impl SensorFault {
             Self::Frame(FrameError::BadStart(_)) => number::BAD_START,
             Self::Frame(FrameError::BadSum { .. }) => number::BAD_SUM,
             Self::Frame(FrameError::Sensor(_)) => number::SENSOR_REPORT,
+            Self::Frame(FrameError::StuckWords) => number::STUCK_WORDS,
+            Self::Frozen => number::FROZEN,
+            Self::Jump => number::JUMP,
+            Self::Often(_) => number::OFTEN,
         }
     }
 }
@@ -66,6 +77,7 @@ impl fmt::Display for SensorFault {
                 write!(f, ": {found:#04x} instead of {expected:#04x}")
             }
             Self::Frame(FrameError::Sensor(reported)) => write!(f, ": {reported}"),
+            Self::Often(last) => write!(f, ", the last: {}", name(*last)),
             _ => Ok(()),
         }
     }

@@ -11,12 +11,20 @@ pub struct BusError;
 ///
 /// Reading takes most of a tick (64 bits at 400 kHz are 160 µs), so a board
 /// reads by DMA or interrupt while the tick works on the frame before.
+///
+/// Between two frames that were good the sensor is deselected for some time; after one that
+/// was not, [`start`](Self::start) comes some ticks later, so that it begins anew.
 pub trait FrameSource {
-    /// The newest frame that was finished since the last call, without waiting.
+    /// The frame that was started last, if it is finished, without waiting. Afterwards
+    /// there is none under way.
     ///
     /// # Errors
     /// [`BusError`] if the transfer failed.
     fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError>;
+
+    /// Starts a frame. Nothing to do where [`take`](Self::take) itself reads one.
+    #[inline]
+    fn start(&mut self) {}
 }
 
 /// Where the whisker is.

@@ -51,6 +51,6 @@ pub use perception::{
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, ResetCause, Start};
-pub use sensing::{HoldLimits, Reading, Sensor, SensorHealth};
+pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use timing::Timing;

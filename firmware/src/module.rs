@@ -3,7 +3,7 @@
 use mlx90333::Decoder;
 use whisking::{Optional, Real, filter};
 
-use crate::sensing::{HoldLimits, Reading, Sensor};
+use crate::sensing::{Reading, Sensor, SensorLimits};
 use crate::{
     Clock, Command, Event, FrameSource, Motion, MotorControl, NoActiveWhisker, Perception, Place,
     Timing,
@@ -16,8 +16,8 @@ use crate::{
 pub struct Config<M, P, H> {
     /// How the sensors' frames are read.
     pub decoder: Decoder,
-    /// How long bad frames are bridged.
-    pub hold_limits: HoldLimits,
+    /// What is borne of the sensors.
+    pub sensor_limits: SensorLimits,
     /// H50 on x, where something needs contact signals.
     pub contact: H,
     /// How it moves.
@@ -72,7 +72,7 @@ where
     {
         self.timing.begin(self.clock.now(), config.period);
 
-        let sensed = self.sense(config.decoder, config.hold_limits, events);
+        let sensed = self.sense(config.decoder, config.sensor_limits, events);
         let mut readings = sensed;
         for (side, readings) in readings.iter_mut().enumerate() {
             for (w, reading) in readings.iter_mut().enumerate() {
@@ -96,7 +96,7 @@ where
     fn sense(
         &mut self,
         decoder: Decoder,
-        limits: HoldLimits,
+        limits: SensorLimits,
         events: &mut impl FnMut(Event),
     ) -> [[Reading; N]; S] {
         let mut readings = [[Reading::REST; N]; S];

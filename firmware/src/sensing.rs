@@ -1,9 +1,14 @@
 //! From frames to readings, and what happens without good frames.
 
+mod limits;
+mod plausible;
+
 use mlx90333::{Decoder, FRAME_LEN, Word};
 
 use crate::io::{BusError, FrameSource};
 use crate::{Event, Place, SensorFault};
+pub use limits::{BAD_WEIGHT, SensorLimits};
+use plausible::Course;
 
 /// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +19,9 @@ pub struct Reading {
     pub y: Word,
     /// A new frame arrived in this tick; otherwise the last good one is held.
     pub fresh: bool,
+    /// The words have changed within the time for which readings are held. If not, they
+    /// may be frozen: they still are the best there is to move by, but no evidence.
+    pub current: bool,
     /// False while the whisker has a fault, of its sensor or of its motor: x and y
     /// are then at rest and the motor must be off.
     pub valid: bool,
@@ -24,6 +32,7 @@ impl Reading {
         x: Word::MID,
         y: Word::MID,
         fresh: false,
+        current: true,
         valid: true,
     };
 
@@ -49,33 +58,31 @@ pub enum SensorHealth {
     },
 }
 
-/// For how long readings are held, and how long a recovery takes, in ticks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct HoldLimits {
-    /// Ticks without a good frame for which the last one is held.
-    pub hold: u16,
-    /// Good frames in succession before a faulty sensor is trusted again.
-    pub recover: u16,
-}
-
 /// One whisker's sensor and its health.
 #[derive(Debug)]
 pub struct Sensor<F> {
     source: F,
     last: Reading,
     health: SensorHealth,
+    course: Course,
+    /// Ticks left in which no frame is begun.
+    rest: u16,
+    /// How near bad ticks are to [`SensorLimits::burst`].
+    burst: u16,
+    /// What was wrong with the last bad frame.
+    why: SensorFault,
 }
 
 #[inline]
 fn decode(
     decoder: Decoder,
     taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
-) -> Result<(Word, Word), SensorFault> {
+) -> Result<[Word; 2], SensorFault> {
     let bytes = taken
         .map_err(|_| SensorFault::Bus)?
         .ok_or(SensorFault::NoFrame)?;
     let frame = decoder.decode(&bytes).map_err(SensorFault::Frame)?;
-    Ok((frame.first(), frame.second()))
+    Ok([frame.first(), frame.second()])
 }
 
 impl<F: FrameSource> Sensor<F> {
@@ -85,6 +92,10 @@ impl<F: FrameSource> Sensor<F> {
             source,
             last: Reading::REST,
             health: SensorHealth::Ok { bad: 0 },
+            course: Course::UNKNOWN,
+            rest: 0,
+            burst: 0,
+            why: SensorFault::NoFrame,
         }
     }
 
@@ -98,35 +109,60 @@ impl<F: FrameSource> Sensor<F> {
         self.health
     }
 
-    /// Takes the frame of this tick. Without a good one the last good reading
-    /// is held for `limits.hold` ticks; then the sensor counts as faulty until
-    /// `limits.recover` good ones have come in succession.
+    /// Takes the frame of this tick, and begins the next. Without a good one the last
+    /// good reading is held for `limits.hold` ticks, or less if that happens too often;
+    /// then the sensor counts as faulty until `limits.recover` good ones have come in
+    /// succession. Words that repeat for `limits.frozen` ticks are a fault at once.
     #[inline]
     pub fn read(
         &mut self,
         decoder: Decoder,
-        limits: HoldLimits,
+        limits: SensorLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) -> Reading {
-        match (decode(decoder, self.source.take()), self.health) {
-            (Ok((x, y)), SensorHealth::Ok { .. }) => self.accept(x, y),
-            (Ok((x, y)), SensorHealth::Faulted { good }) => {
-                self.recover(good, limits, [x, y], place, events);
+        let read = self.next(decoder, limits.resync);
+        let judged = read.and_then(|words| self.course.follow(words, limits));
+        match (judged, self.health) {
+            (Ok(()), SensorHealth::Ok { .. }) => {
+                self.burst = self.burst.saturating_sub(1);
+                self.accept(limits);
             }
+            (Ok(()), SensorHealth::Faulted { good }) => self.recover(good, limits, place, events),
             (Err(fault), health) => self.hold(health, limits, fault, place, events),
         }
         self.last
     }
 
+    /// The words of the frame that was finished, and the start of the next: after a frame
+    /// that was refused, only once the sensor has been deselected for `resync` ticks.
+    #[inline]
+    fn next(&mut self, decoder: Decoder, resync: u16) -> Result<[Word; 2], SensorFault> {
+        let mut read = Err(SensorFault::NoFrame);
+        if self.rest == 0 {
+            read = decode(decoder, self.source.take());
+            if let Err(SensorFault::Bus | SensorFault::Frame(_)) = read {
+                self.rest = resync;
+            }
+        } else {
+            self.rest -= 1;
+        }
+        if self.rest == 0 {
+            self.source.start();
+        }
+        read
+    }
+
     /// A good frame of a trusted sensor.
     #[inline]
-    const fn accept(&mut self, x: Word, y: Word) {
+    const fn accept(&mut self, limits: SensorLimits) {
         self.health = SensorHealth::Ok { bad: 0 };
+        let [x, y] = self.course.words;
         self.last = Reading {
             x,
             y,
             fresh: true,
+            current: self.course.repeats <= limits.stale,
             valid: true,
         };
     }
@@ -137,14 +173,16 @@ impl<F: FrameSource> Sensor<F> {
     fn recover(
         &mut self,
         good: u16,
-        limits: HoldLimits,
-        [x, y]: [Word; 2],
+        limits: SensorLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
         let good = good.saturating_add(1);
-        if good >= limits.recover {
-            self.accept(x, y);
+        if self.course.repeats > limits.stale {
+            self.health = SensorHealth::Faulted { good: 0 };
+        } else if good >= limits.recover {
+            self.burst = 0;
+            self.accept(limits);
             events(Event::SensorBack(place));
         } else {
             self.health = SensorHealth::Faulted { good };
@@ -157,120 +195,37 @@ impl<F: FrameSource> Sensor<F> {
     fn hold(
         &mut self,
         health: SensorHealth,
-        limits: HoldLimits,
+        limits: SensorLimits,
         fault: SensorFault,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
-        self.health = match health {
-            SensorHealth::Ok { bad } if bad < limits.hold => {
-                self.last.fresh = false;
-                SensorHealth::Ok { bad: bad + 1 }
-            }
-            SensorHealth::Ok { .. } => {
-                self.last = Reading::FAULT;
-                events(Event::SensorLost(place, fault));
-                SensorHealth::Faulted { good: 0 }
-            }
-            SensorHealth::Faulted { .. } => SensorHealth::Faulted { good: 0 },
+        self.course.miss();
+        let SensorHealth::Ok { bad } = health else {
+            self.health = SensorHealth::Faulted { good: 0 };
+            return;
         };
+        // A tick without a frame follows from one with a bad frame, if there was one.
+        if bad == 0 || fault != SensorFault::NoFrame {
+            self.why = fault;
+        }
+        self.burst = self.burst.saturating_add(BAD_WEIGHT);
+        let fault = match self.why {
+            SensorFault::Frozen => SensorFault::Frozen,
+            why if bad >= limits.hold => why,
+            _ if self.burst <= limits.burst => {
+                self.last.fresh = false;
+                self.health = SensorHealth::Ok { bad: bad + 1 };
+                return;
+            }
+            SensorFault::Jump => SensorFault::Jump,
+            why => SensorFault::Often(why.code()),
+        };
+        self.last = Reading::FAULT;
+        self.health = SensorHealth::Faulted { good: 0 };
+        events(Event::SensorLost(place, fault));
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{HoldLimits, Reading, Sensor};
-    use crate::io::{BusError, FrameSource};
-    use crate::{Event, Place, SensorFault};
-    use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
-
-    const PLACE: Place = Place::new(1, 4);
-
-    type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;
-
-    struct Script<I>(I);
-
-    impl<I: Iterator<Item = Taken>> FrameSource for Script<I> {
-        fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-            self.0.next().unwrap_or(Ok(None))
-        }
-    }
-
-    /// A good frame with x at each of these words.
-    fn good<const N: usize>(words: [u16; N]) -> [Taken; N] {
-        words.map(|x| {
-            let x = Word::new(x);
-            Ok(Some(encode::alpha_beta(
-                x,
-                Word::MID,
-                Faults::NONE,
-                SumRule::SumB1B6,
-            )))
-        })
-    }
-
-    fn play(script: &[Taken]) -> (Vec<Reading>, Vec<(usize, Event)>) {
-        let mut sensor = Sensor::new(Script(script.iter().copied()));
-        let hold_limits = HoldLimits {
-            hold: 3,
-            recover: 2,
-        };
-        let mut events = Vec::new();
-        let readings = (0..script.len())
-            .map(|tick| {
-                sensor.read(Decoder::new(), hold_limits, PLACE, &mut |e| {
-                    events.push((tick, e));
-                })
-            })
-            .collect();
-        (readings, events)
-    }
-
-    #[test]
-    fn a_short_gap_is_bridged_and_a_long_one_is_a_fault() {
-        let bad = Ok(Some([0xFF; FRAME_LEN]));
-        let [first, second] = good([0x9000, 0xA000]);
-        let (readings, events) = play(&[first, bad, bad, bad, second, bad, bad, bad, bad, bad]);
-        assert!(readings[..8].iter().all(|r| r.valid));
-        assert_eq!(readings[3].x.raw(), 0x9000, "held");
-        assert!(!readings[3].fresh && readings[4].fresh);
-        let lost = Event::SensorLost(PLACE, SensorFault::Frame(FrameError::NoSensor));
-        assert_eq!(events, [(8, lost)], "told once");
-        assert_eq!(readings[8].x, Word::MID, "a faulty sensor feels nothing");
-        assert!(!readings[9].valid);
-    }
-
-    #[test]
-    fn recovery_needs_good_frames_in_a_row() {
-        let bad = Err(BusError);
-        let [one, two, three] = good([1, 2, 0x4000]);
-        let (readings, events) = play(&[bad, bad, Ok(None), bad, one, bad, two, three, Ok(None)]);
-        assert_eq!(
-            events,
-            [
-                (3, Event::SensorLost(PLACE, SensorFault::Bus)),
-                (7, Event::SensorBack(PLACE)),
-            ]
-        );
-        assert!(!readings[6].valid && readings[7].valid && readings[8].valid);
-        assert_eq!(readings[8].x.raw(), 0x4000);
-    }
-
-    #[test]
-    fn fault_numbers_are_stable() {
-        let numbers = [
-            SensorFault::NoFrame,
-            SensorFault::Bus,
-            SensorFault::Frame(FrameError::NoSensor),
-            SensorFault::Frame(FrameError::LineLow),
-            SensorFault::Frame(FrameError::BadStart(1)),
-            SensorFault::Frame(FrameError::BadSum {
-                expected: 1,
-                found: 2,
-            }),
-            SensorFault::Frame(FrameError::Sensor(Faults::FIELD_TOO_LOW)),
-        ]
-        .map(SensorFault::code);
-        assert_eq!(numbers, [16, 17, 18, 19, 20, 21, 22]);
-    }
-}
+mod tests;

@@ -1,7 +1,7 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
-use firmware::design_parameters::{hold_limits, retry};
+use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
     NoActiveWhisker, Place, Polled, Servo, ServoConfig, StopAll,
@@ -190,6 +190,18 @@ where
     }
 }
 
+/// What the readings of a scene's sensors can be.
+fn plausible(scene: &Scene) -> Plausible {
+    Plausible {
+        frozen_s: scene.sensor.frozen_s,
+        // By BIOTACT eq. 11 contact with a stiff obstacle is a step.
+        jump_per_s: match scene.plant.kind {
+            PlantKind::Ideal => f64::INFINITY,
+            PlantKind::Textured | PlantKind::Whisker => scene.sensor.jump_per_s,
+        },
+    }
+}
+
 fn misfit(what: &str) -> Error {
     Error::Work(format!("the module's {what} do not fit the scene"))
 }
@@ -291,7 +303,7 @@ where
     let start = plan.as_ref().map(|plan| plan.start);
     let config = Config {
         decoder: Decoder::new(),
-        hold_limits: hold_limits(scene.tick_hz),
+        sensor_limits: sensor_limits(scene.tick_hz, plausible(scene)),
         contact,
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,

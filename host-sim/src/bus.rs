@@ -9,6 +9,9 @@
 //! - *wired-AND*: MOSI and MISO are one open-drain line. Whoever sends a zero
 //!   pulls it low, so the master reads `sent & answered` and a master that
 //!   sends zeros reads zeros;
+//! - *noise*: what a sensor has below its resolution of 14 bits: the lowest bit
+//!   of its words changes from frame to frame, so that two frames are never
+//!   the same though their codes are;
 //! - *error word*: what the sensor reports about itself, in a valid frame;
 //! - *wire fault*: what happens to the frame on its way ([`WireFault`]).
 //!
@@ -48,6 +51,13 @@ pub enum WireFault {
     /// A byte, counted from 0, comes twice: the next ones come a byte late, and the last
     /// is lost. Others change nothing.
     ByteDoubled(u8),
+    /// The line is held low after the first byte, which leaves a good sum.
+    LowAfterStart,
+    /// The sensor's converter stands still: frame after frame is that of the
+    /// start of the fault.
+    Frozen,
+    /// Alpha arrives this far off, modulo 65,536, under a good sum.
+    Shift(u16),
 }
 
 /// What has gone over a bus since its slave was made.
@@ -92,6 +102,9 @@ pub struct Slave {
     mode: Mode,
     sum_rule: SumRule,
     words: [Word; 3],
+    /// The words of the last frame, with noise.
+    sent: [Word; 3],
+    is_noisy: bool,
     error_word: Faults,
     standing: Option<WireFault>,
     passing: Option<(WireFault, u32)>,
@@ -112,6 +125,8 @@ impl Slave {
             mode,
             sum_rule,
             words: [Word::MID; 3],
+            sent: [Word::MID; 3],
+            is_noisy: true,
             error_word: Faults::NONE,
             standing: None,
             passing: None,
@@ -126,6 +141,14 @@ impl Slave {
         let [_, _, z] = self.words;
         let word = |value: f64| Word::from_normalised(value as f32);
         self.words = [word(x), word(y), z];
+    }
+
+    /// The same without noise.
+    pub const fn without_noise(self) -> Self {
+        Self {
+            is_noisy: false,
+            ..self
+        }
     }
 
     /// What the sensor reports about itself from now on.
@@ -170,7 +193,8 @@ impl Slave {
 
     /// Puts the deflections of this moment into a frame that was latched before, of which
     /// no byte that carries any has been clocked yet; what happens to it stays.
-    pub fn latch_again(&self, exchange: &mut Exchange) {
+    pub fn latch_again(&mut self, exchange: &mut Exchange) {
+        self.measure(exchange.fault);
         let frame = match exchange.fault {
             Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
             fault => self.frame(fault),
@@ -195,17 +219,35 @@ impl Slave {
             .passing
             .and_then(|(fault, left)| Some((fault, left.checked_sub(1).filter(|&n| n > 0)?)));
         let fault = self.standing.or(passing).or(by_chance);
+        self.measure(fault);
         (self.frame(fault), fault)
     }
 
-    /// The frame that the deflections make, with what befalls it.
+    /// The words of this frame, with noise, unless the sensor stands still.
+    fn measure(&mut self, fault: Option<WireFault>) {
+        if fault != Some(WireFault::Frozen) {
+            let noise = self.is_noisy && self.traffic.transactions.is_multiple_of(2);
+            let noisy = |word: Word| Word::new(word.raw() | u16::from(noise));
+            self.sent = self.words.map(noisy);
+        }
+    }
+
+    /// The frame of the words last measured, with what befalls it.
     fn frame(&self, fault: Option<WireFault>) -> [u8; FRAME_LEN] {
-        let [x, y, z] = self.words;
+        let [x, y, z] = self.sent;
+        let x = match fault {
+            Some(WireFault::Shift(by)) => Word::new(x.raw().wrapping_add(by)),
+            _ => x,
+        };
         let mut frame = match self.mode {
             Mode::AlphaBeta => encode::alpha_beta(x, y, self.error_word, self.sum_rule),
             Mode::Xyz => encode::xyz(x, y, z, self.sum_rule),
         };
         match fault {
+            Some(WireFault::LowAfterStart) => {
+                let [_, rest @ ..] = &mut frame;
+                rest.fill(0);
+            }
             Some(WireFault::Silent) => frame = [RELEASED; FRAME_LEN],
             Some(WireFault::BadSum) => {
                 let [.., sum] = &mut frame;

@@ -161,6 +161,10 @@ pub enum FrameError {
     /// An alpha-beta frame arrived whole and the sensor reports faults; its
     /// words are not valid readings.
     Sensor(Faults),
+    /// The first two words are both all zeros or both all ones, under a good
+    /// sum. Likely cause: the line held low or let go after B0. A deflection to
+    /// the very corner of both curves reads so too, and is no use either.
+    StuckWords,
 }
 
 impl fmt::Display for FrameError {
@@ -175,6 +179,7 @@ impl fmt::Display for FrameError {
                 write!(f, "bad sum byte: {found:#04x}, expected {expected:#04x}")
             }
             FrameError::Sensor(faults) => write!(f, "sensor reports: {faults}"),
+            FrameError::StuckWords => f.write_str("both words all zeros or all ones"),
         }
     }
 }
@@ -234,6 +239,9 @@ impl Decoder {
         let last = u16::from_le_bytes([b5, b6]);
         match self.mode {
             Mode::AlphaBeta if last != 0 => Err(FrameError::Sensor(Faults::new(last))),
+            _ if matches!([first.raw(), second.raw()], [0, 0] | [u16::MAX, u16::MAX]) => {
+                Err(FrameError::StuckWords)
+            }
             Mode::AlphaBeta => Ok(Frame::AlphaBeta {
                 alpha: first,
                 beta: second,

@@ -10,6 +10,7 @@ mod head;
 mod motor;
 mod plant;
 mod scene;
+mod sensor;
 mod shaft;
 mod whisking;
 
@@ -21,6 +22,7 @@ pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
 pub use scene::Scene;
+pub use sensor::SensorSection;
 pub use shaft::{ShaftName, ShaftNumbers};
 pub use whisking::{Numbers, WhiskingSection};
 
@@ -62,9 +64,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, two of the plant, one of the head, of whisking and of the
-        // classifier.
-        assert_eq!(defaults, 24);
+        // Nineteen of the motor, two of the sensor and of the plant, one of the head, of
+        // whisking and of the classifier.
+        assert_eq!(defaults, 26);
     }
 
     #[test]

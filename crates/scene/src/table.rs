@@ -55,6 +55,17 @@ pub(crate) const fn optional<K: Keys>(without: &'static str) -> Table<Option<K::
     }
 }
 
+/// A table whose keys all have defaults: it is always there. Leaving it out means `without`.
+pub(crate) const fn by_default<K: Keys>(without: &'static str) -> Table<K::Value> {
+    Table {
+        presence: Presence::Optional {
+            without,
+            needs: None,
+        },
+        ..required::<K>()
+    }
+}
+
 /// A table whose keys all have defaults: it is there wherever the section
 /// `other` is, and an error elsewhere. Leaving it out means `without`.
 pub(crate) const fn implied<K: Keys>(

@@ -92,7 +92,7 @@ impl Chip {
     pub(super) fn select_sensors(&mut self) {
         for (side, wires) in self.model.wiring.sides.iter().enumerate() {
             let low = self.role(wires.select) == Role::Output(false);
-            self.lines[side].select(low);
+            self.lines[side].select(low, self.now);
         }
     }
 }

@@ -1,10 +1,14 @@
 //! The sensor's wires as the chip drives them, and whether the sensor bears it.
 //!
 //! The driver's waits are held against the sensor's data: start-up, clock,
-//! gaps between bytes. (The time that /SS must be high between frames is not
-//! known for this sensor; what stands in its sister's data is for the first.)
+//! gaps between bytes, and the time for which /SS must be high before the first
+//! frame. A sensor that has lost its place in a frame is taken to need the same
+//! time, so it is asked for after every frame that was broken off, or that the
+//! master cannot have taken for good. (What it needs between good frames is not
+//! known.)
 
-use mlx90333::timing::{BYTE_GAP_FAST_NS, CLOCK_MAX_HZ, START_UP_US};
+use mlx90333::timing::{BYTE_GAP_FAST_NS, CLOCK_MAX_HZ, SS_HIGH_US, START_UP_US};
+use mlx90333::{Decoder, FRAME_LEN};
 
 use super::fault::Fault;
 use super::time::Ps;
@@ -33,6 +37,12 @@ pub(super) struct SensorLines {
     ended: Option<Ps>,
     /// When the byte that the sensor has been told of began.
     told: Option<Ps>,
+    /// What the master has read since /SS fell.
+    read: Vec<u8>,
+    /// When /SS rose after a frame that was not good.
+    bad: Option<Ps>,
+    /// /SS fell too soon after that.
+    early: bool,
 }
 
 impl SensorLines {
@@ -43,11 +53,18 @@ impl SensorLines {
         }
     }
 
-    /// /SS is at this level now.
-    pub(super) const fn select(&mut self, low: bool) {
+    /// /SS is at this level from `now` on.
+    pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
             self.fresh = true;
             self.ended = None;
+            self.read.clear();
+            let high = self.bad.map(|bad| now.saturating_sub(bad));
+            self.early = high.is_some_and(|high| high < ps(SS_HIGH_US * 1_000));
+        } else if !low && self.selected {
+            let bytes = <[u8; FRAME_LEN]>::try_from(self.read.as_slice());
+            let is_good = bytes.is_ok_and(|bytes| Decoder::new().decode(&bytes).is_ok());
+            self.bad = (!is_good).then_some(now);
         }
         self.selected = low;
     }
@@ -74,6 +91,9 @@ impl SensorLines {
         if began < ps(START_UP_US * 1_000) {
             return wrong("a frame within the sensor's start-up");
         }
+        if self.early {
+            return wrong("a frame too soon after one that was not good");
+        }
         let gap = self.ended.map(|ended| began.saturating_sub(ended));
         if gap.is_some_and(|gap| gap < ps(BYTE_GAP_FAST_NS)) {
             return wrong("the gap between two bytes is too short");
@@ -88,9 +108,11 @@ impl SensorLines {
     /// A byte ended: what the master has read from the sensor, if it is connected.
     pub(super) fn end(&mut self, sent: u8, now: Ps, sensor: Option<&mut impl SensorEnd>) -> u8 {
         self.ended = Some(now);
-        match sensor {
+        let read = match sensor {
             Some(sensor) if self.selected => sensor.exchange(sent),
             _ => 0xFF,
-        }
+        };
+        self.read.push(read);
+        read
     }
 }

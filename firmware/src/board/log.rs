@@ -245,6 +245,15 @@ pub(crate) fn sensor_lost(place: Place, of: SensorFault) {
             defmt::error!("- error word {=u16:#06x}", faults.bits());
             sensor_reports(faults);
         }
+        SensorFault::Often(last) => {
+            let [name, causes] = texts(last);
+            defmt::error!(
+                "- the last: fault {=u8}, {=istr} ({=istr}?)",
+                last,
+                name,
+                causes
+            );
+        }
         _ => {}
     }
 }

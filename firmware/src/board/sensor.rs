@@ -8,10 +8,11 @@
 //! - *tx DMA*: writes one 0xFF into the SPI's data register at each request.
 //! - *rx DMA*: moves each received byte to memory and interrupts after the eighth.
 //!
-//! A frame takes some ten register writes: [`Frames::take`] in a tick starts
+//! A frame takes some ten register writes: [`FrameSource::start`] in a tick starts
 //! one, [`Frames::end_of_frame`] in the interrupt of the rx DMA raises /SS, and
-//! the next [`Frames::take`] returns the bytes. The two share no state but the
-//! hardware's own flags. What differs between chips is in `spi_*.rs` and
+//! [`FrameSource::take`] in the next tick returns the bytes. They share no state but the
+//! hardware's own flags. When to start one is the module's business, which leaves
+//! the sensor alone for a while after a bad frame. What differs between chips is in `spi_*.rs` and
 //! `dma_*.rs`.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
@@ -37,7 +38,7 @@ pub(crate) struct Frames {
 
 impl Frames {
     /// Sets everything up, once the sensors' clocks run; the first frame starts with the
-    /// first [`take`](FrameSource::take). The sensor must have had its start-up time by then.
+    /// first [`start`](FrameSource::start). The sensor must have had its start-up time by then.
     pub(crate) fn new(port: &'static SensorPort, slot_counts: u16) -> Self {
         let pins = &port.pins;
         Pin::new_high(pins.select);
@@ -72,21 +73,6 @@ impl Frames {
         }
     }
 
-    #[inline]
-    fn start(&mut self) {
-        // A byte left over would come before the first of this frame.
-        spi::drain(self.port.spi);
-        compiler_fence(Ordering::Release);
-        self.transfers.start(FRAME_LEN as u16);
-        self.port.pins.select.low();
-        let timer = self.port.byte_timer;
-        timer.cnt().write(|_| {});
-        timer.sr().write(|_| {});
-        timer.dier().write(|w| w.set_ude(true));
-        timer.cr1().write(|w| w.set_cen(true));
-        self.running = true;
-    }
-
     /// Stops the byte timer and raises /SS. The timer's DMA request is withdrawn
     /// too: one that is still pending would put a byte before the next frame.
     #[inline]
@@ -101,7 +87,7 @@ impl Frames {
     #[inline]
     pub(crate) fn end_of_frame(&mut self) {
         if !self.transfers.has_ended() {
-            // The interrupt came late, after `take` had begun another frame.
+            // The interrupt came late, after `start` had begun another frame.
             return;
         }
         self.stop();
@@ -141,14 +127,9 @@ fn set_up_spi(port: &SensorPort) {
 }
 
 impl FrameSource for Frames {
-    /// Returns the frame that the last call started, and starts the next.
-    ///
-    /// After an error no frame is started: /SS is high for a tick, so that the
-    /// sensor begins anew, and the next call finds none.
     #[inline]
     fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
         if !self.running {
-            self.start();
             return Ok(None);
         }
         self.running = false;
@@ -165,8 +146,22 @@ impl FrameSource for Frames {
             .0
             .each_ref()
             .map(|word| word.load(Ordering::Relaxed));
-        self.start();
         let [low, high] = words.map(u64::from);
         Ok(Some((high << 32 | low).to_le_bytes()))
+    }
+
+    #[inline]
+    fn start(&mut self) {
+        // A byte left over would come before the first of this frame.
+        spi::drain(self.port.spi);
+        compiler_fence(Ordering::Release);
+        self.transfers.start(FRAME_LEN as u16);
+        self.port.pins.select.low();
+        let timer = self.port.byte_timer;
+        timer.cnt().write(|_| {});
+        timer.sr().write(|_| {});
+        timer.dier().write(|w| w.set_ude(true));
+        timer.cr1().write(|w| w.set_cen(true));
+        self.running = true;
     }
 }

@@ -95,6 +95,22 @@ macro_rules! fault_table {
                 "magnet too far, too near or off axis; its converter",
                 "the lines below it; the magnet; keep the motor's magnet away",
                 WhiskerOff, GoodFrames;
+            23 STUCK_WORDS: "both words all zeros or all ones",
+                "the line is held low or let go after the first byte; a sensor without a field",
+                "as 19; the sensor's program",
+                WhiskerOff, GoodFrames;
+            24 FROZEN: "readings repeat to the bit",
+                "the sensor's converter stands still while it answers; readings of something else",
+                "supply of the sensor off and on; if it stays, another sensor; `frozen_s`",
+                WhiskerOff, GoodFrames;
+            25 JUMP: "readings jump",
+                "two sensors on one line; noise that the sum does not see; the magnet is loose",
+                "/SS of each sensor; the magnet; `jump_per_s`",
+                WhiskerOff, GoodFrames;
+            26 OFTEN: "too many bad frames",
+                "a loose contact; noise; slow edges",
+                "what the line below it says of the last one",
+                WhiskerOff, GoodFrames;
 
             32 MISSED: "ticks were missed",
                 "a debugger halted the core; a tick took too long",

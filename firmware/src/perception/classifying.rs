@@ -55,8 +55,8 @@ pub struct ClassifyingConfig<T, D> {
 /// its own contact and touch: the first whisker of the module alone, or all.
 ///
 /// Samples are the sensor's raw 14-bit codes, not the filtered contact signal:
-/// texture is in the vibration above 50 Hz. While a whisker has a fault it touches
-/// nothing and there are no samples.
+/// texture is in the vibration above 50 Hz. While a whisker has a fault, and while its
+/// reading is not [current](Reading::current), it touches nothing and there are no samples.
 #[derive(Debug)]
 pub struct Classifying<L, const A: usize = 1, const B: usize = 1> {
     classifier: L,
@@ -131,7 +131,7 @@ impl<L: SampleClassifier> Heard<'_, L> {
         }
     }
 
-    /// A tick with a fault.
+    /// A tick with a fault, or with a reading that may be frozen.
     #[cold]
     fn interrupt(self, events: &mut impl FnMut(Event)) {
         let place = self.place;
@@ -174,7 +174,7 @@ where
                     whisker,
                     place: Place::new(side as u8, w as u8),
                 };
-                if reading.valid {
+                if reading.valid && reading.current {
                     let codes = [reading.x.code14(), reading.y.code14()];
                     let counts = least.is_none_or(|least| contact >= least);
                     heard.step(codes, counts, events);

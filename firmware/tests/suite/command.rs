@@ -68,7 +68,7 @@ type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1,
 fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     let config = Config {
         decoder: Decoder::new(),
-        hold_limits: AT_ONCE,
+        sensor_limits: AT_ONCE,
         contact: Some(filter::Config::new(filter::CORNER_HZ, 2000.0).unwrap()),
         motion: ActiveConfig {
             whisking: SETTINGS.build().unwrap(),

@@ -5,8 +5,8 @@ use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Clock, Config, Event, HoldLimits, Module, Place, Polled,
-    Retry, SensorFault, Servo, ServoConfig,
+    Active, ActiveConfig, AngleInput, Clock, Config, Event, Module, Place, Polled, Retry,
+    SensorFault, SensorLimits, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{GuardSettings, HBridge};
@@ -102,9 +102,14 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
     };
     Config {
         decoder: Decoder::new(),
-        hold_limits: HoldLimits {
+        sensor_limits: SensorLimits {
             hold: 1,
             recover: 2,
+            resync: 0,
+            stale: u16::MAX,
+            frozen: u16::MAX,
+            jump: u16::MAX,
+            burst: u16::MAX,
         },
         contact: Present(filter::Config::new(50.0, 2000.0).unwrap()),
         motion: ActiveConfig {

@@ -1,19 +1,24 @@
 //! Hardware that is always the same.
 
-use firmware::{BusError, Clock, Config, FrameSource, HoldLimits};
+use firmware::{BusError, Clock, Config, FrameSource, SensorLimits};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
 
 /// A bad frame is bridged, and a good one ends the fault.
-pub(crate) const AT_ONCE: HoldLimits = HoldLimits {
+pub(crate) const AT_ONCE: SensorLimits = SensorLimits {
     hold: 1,
     recover: 1,
+    resync: 0,
+    stale: u16::MAX,
+    frozen: u16::MAX,
+    jump: u16::MAX,
+    burst: u16::MAX,
 };
 
 /// A module that does nothing but feel.
 pub(crate) const fn feeling<C>(contact: C) -> Config<(), (), C> {
     Config {
         decoder: Decoder::new(),
-        hold_limits: AT_ONCE,
+        sensor_limits: AT_ONCE,
         contact,
         motion: (),
         perception: (),

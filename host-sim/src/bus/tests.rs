@@ -9,6 +9,11 @@ use super::{SimSpiError, Slave, WireFault};
 
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
+/// A sensor whose frames are the same as long as its codes are.
+fn still() -> Slave {
+    Slave::new().without_noise()
+}
+
 fn read(slave: &mut Slave) -> [u8; 8] {
     let mut bytes = [0xFF; 8];
     slave.transfer_in_place(&mut bytes).unwrap();
@@ -16,12 +21,12 @@ fn read(slave: &mut Slave) -> [u8; 8] {
 }
 
 fn driver() -> Mlx90333<Slave> {
-    Mlx90333::new(Slave::new(), Decoder::new())
+    Mlx90333::new(still(), Decoder::new())
 }
 
 #[test]
 fn deflections_become_these_bytes() {
-    let mut slave = Slave::new();
+    let mut slave = still();
     assert_eq!(read(&mut slave), REST);
     // x = 1: code 16383, word 0xFFFC. y = −1: code 1, word 0x0004.
     slave.set([1.0, -1.0]);
@@ -35,7 +40,7 @@ fn deflections_become_these_bytes() {
 
 #[test]
 fn mode_and_sum_rule_are_the_sensor_s() {
-    let mut slave = Slave::with(Mode::Xyz, SumRule::ComplementB1B6);
+    let mut slave = Slave::with(Mode::Xyz, SumRule::ComplementB1B6).without_noise();
     slave.set([0.25, 0.0]);
     let frame = [0xFF, 0x00, 0xA0, 0x00, 0x80, 0x00, 0x80, !0xA0];
     assert_eq!(read(&mut slave), frame);
@@ -43,7 +48,7 @@ fn mode_and_sum_rule_are_the_sensor_s() {
 
 #[test]
 fn the_line_is_a_wired_and() {
-    let mut slave = Slave::new();
+    let mut slave = still();
     slave.set([1.0, -1.0]);
     let mut bytes = [0xFF, 0x0F, 0xFF, 0x00, 0xFF, 0xFF, 0xFF, 0x3C];
     slave.transfer_in_place(&mut bytes).unwrap();
@@ -55,7 +60,7 @@ fn the_line_is_a_wired_and() {
 
 #[test]
 fn operations_of_one_transaction_walk_through_one_frame() {
-    let mut slave = Slave::new();
+    let mut slave = still();
     slave.set([0.25, 0.0]);
     let (mut first, mut rest, mut after) = ([0; 2], [0xFF; 4], [0xFF; 2]);
     slave
@@ -116,6 +121,10 @@ fn each_fault_is_seen_as_what_it_is() {
         (WireFault::Bus, Error::Bus(SimSpiError)),
         (WireFault::Flip(3), Error::Frame(FrameError::BadStart(0xEF))),
         (WireFault::Flip(9), Error::Frame(flipped)),
+        (
+            WireFault::LowAfterStart,
+            Error::Frame(FrameError::StuckWords),
+        ),
     ] {
         sensor.spi_mut().inject(fault, 2);
         assert_eq!(sensor.read(), Err(error));
@@ -182,6 +191,29 @@ fn disturbances_come_as_often_as_asked_and_again_by_seed() {
     assert!((1800..=2200).contains(&bad), "{bad}");
     assert_eq!(errors, run(1));
     assert_ne!(errors, run(2));
+}
+
+#[test]
+fn noise_changes_every_frame_and_no_code() {
+    let mut noisy = Slave::new();
+    let frames: Vec<[u8; 8]> = (0..4).map(|_| read(&mut noisy)).collect();
+    assert!(frames.windows(2).all(|two| two[0] != two[1]));
+    for frame in &frames {
+        let frame = Decoder::new().decode(frame).unwrap();
+        let codes = [frame.first(), frame.second()].map(Word::code14);
+        assert_eq!(codes, [8192; 2]);
+    }
+    let last = read(&mut noisy);
+    noisy.set_fault(Some(WireFault::Frozen));
+    noisy.set([0.5, 0.5]);
+    assert_eq!([read(&mut noisy), read(&mut noisy)], [last; 2]);
+    noisy.set_fault(None);
+    let frame = Decoder::new().decode(&read(&mut noisy)).unwrap();
+    assert_eq!(frame.first().code14(), 8192 + 4096);
+    noisy.inject(WireFault::Shift(0x1000), 1);
+    let frame = Decoder::new().decode(&read(&mut noisy)).unwrap();
+    assert_eq!(frame.first().code14(), 8192 + 4096 + 1024);
+    assert_eq!(frame.second().code14(), 8192 + 4096);
 }
 
 proptest! {

@@ -2,7 +2,7 @@
 //! that it knows of its whiskers comes by sensor frames and encoders. A whisker
 //! that is bent pulls back on its motor.
 
-use firmware::design_parameters::{hold_limits, retry};
+use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, BusError, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
@@ -103,7 +103,7 @@ impl HeadModule {
         };
         let config = Config {
             decoder: Decoder::new(),
-            hold_limits: hold_limits(ticks_per_s),
+            sensor_limits: sensor_limits(ticks_per_s, Plausible::ANY),
             contact: Some(filter::Config::new(filter::CORNER_HZ, tick_hz).map_err(refused)?),
             motion: ActiveConfig {
                 whisking: settings.build().map_err(refused)?,

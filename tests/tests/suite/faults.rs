@@ -2,7 +2,7 @@
 //! switch the motor of that whisker off, and nothing else suffers.
 
 use crate::played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
-use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
+use firmware::design_parameters::{HOLD_S, Plausible, RECOVER_S, sensor_limits, ticks};
 use firmware::{Event, Place, SensorFault};
 use host_sim::bus::{Slave, WireFault};
 use host_sim::run::Run;
@@ -13,6 +13,13 @@ use scene::Scene;
 /// Bad frames that are bridged, and good ones before a whisker moves again.
 const HOLD: u64 = ticks(HOLD_S, TICK_HZ as u32) as u64;
 const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;
+
+/// Bad frames in succession that are bridged: each takes a tick, and those after it in which
+/// the sensor is left alone.
+const FRAMES: u64 = {
+    let limits = sensor_limits(TICK_HZ as u32, Plausible::ANY);
+    HOLD / (1 + limits.resync as u64)
+};
 
 /// A tick at which the left side protracts fastest, at 0.35 degrees a tick.
 const AMID: u64 = 1440;
@@ -58,7 +65,7 @@ fn short_faults_are_bridged() {
     let sound = undisturbed(&scene, length);
     let course = angles(&sound, 0);
     for (fault, _) in WIRE {
-        for frames in [1, HOLD] {
+        for frames in [1, FRAMES] {
             let played = play(&scene, length, |tick, run| {
                 if tick == AMID {
                     slave(run, 0).inject(fault, frames as u32);

@@ -5,7 +5,7 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{hold_limits, retry};
+use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
     CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
@@ -126,7 +126,8 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
     /// and a classifier of nine classes; no noise, which few scenes have.
     const SETTINGS: Settings<R> = Config {
         decoder: Decoder::new(),
-        hold_limits: hold_limits(TICK_HZ),
+        // The samples are not a whisker's course; what is compared is the same.
+        sensor_limits: sensor_limits(TICK_HZ, Plausible::ANY),
         contact: Present(*R::H50),
         motion: ActiveConfig {
             whisking: *R::WHISKING,

@@ -1,6 +1,6 @@
 //! The byte-per-interrupt transfer against a plain list of bytes.
 
-use crate::common::{rule, word};
+use crate::common::{pair, rule};
 use mlx90333::{Decoder, Faults, Frame, Mode, Step, Transfer, encode};
 use proptest::prelude::*;
 
@@ -48,7 +48,7 @@ fn idle_drops_bytes() {
 
 proptest! {
     #[test]
-    fn frames_decode_as_sent(frames in prop::collection::vec((word(), word()), 1..5), rule in rule()) {
+    fn frames_decode_as_sent(frames in prop::collection::vec(pair(), 1..5), rule in rule()) {
         let decoder = Decoder::with(Mode::AlphaBeta, rule);
         let mut transfer = Transfer::new();
         for (alpha, beta) in frames {

@@ -10,10 +10,11 @@ use super::gates::{Cia, Rcp};
 use super::head::HeadSection;
 use super::motor::MotorSection;
 use super::plant::PlantSection;
+use super::sensor::SensorSection;
 use super::whisking::WhiskingSection;
 use crate::key::{integer, name, positive};
 use crate::keys::keys;
-use crate::table::{implied, optional, required};
+use crate::table::{by_default, implied, optional, required};
 
 /// Tick rates of the module, all whole.
 const TICK_HZ: RangeInclusive<u64> =
@@ -39,6 +40,9 @@ keys! {
 
         /// The array of whiskers.
         [head]: HeadSection = required::<HeadSection>(),
+
+        /// What the readings of the whiskers' sensors cannot do.
+        [sensor]: SensorSection = by_default::<SensorSection>("the defaults below hold"),
 
         /// Active whisking: oscillators, their coupling, and muscle (BIOTACT section III).
         [whisking]: Option<WhiskingSection> = optional::<WhiskingSection>(

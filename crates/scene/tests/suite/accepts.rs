@@ -4,7 +4,7 @@ use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
+    Scene, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -31,6 +31,10 @@ fn every_key_reaches_its_field() {
         head: HeadSection {
             whiskers_per_side: 1,
             sides: Sides::Both,
+        },
+        sensor: SensorSection {
+            frozen_s: 0.25,
+            jump_per_s: 1500.0,
         },
         whisking: Some(WhiskingSection {
             frequency_hz: 2.0,

@@ -99,6 +99,32 @@ fn bytes_that_come_too_close_or_too_fast_or_too_early_are_told() {
     }
 }
 
+/// Neither eight bytes that are no frame, as these answers are none, nor a part of one.
+#[test]
+fn after_a_bad_frame_the_sensor_asks_for_its_rest() {
+    for on in SIDES {
+        for bytes in [8, 3] {
+            let again_after = |rest| {
+                let mut rig = on.rig(on.divider);
+                on.begin(&mut rig, SLOT);
+                rig.pass(bytes * SLOT + BYTE);
+                on.raise_select(&mut rig);
+                rig.write(on.timer, 0);
+                rig.write(on.stream(0), 0);
+                rig.write(on.stream(1), 0);
+                rig.write(on.dma + 8, u32::MAX);
+                rig.pass(rest);
+                on.begin(&mut rig, SLOT);
+                rig.try_pass(MS)
+            };
+            let fault = again_after(MS * 3 / 2 - US);
+            let soon = matches!(fault, Err(Fault::Wires { what, .. }) if what.contains("too soon"));
+            assert!(soon, "{bytes} bytes: {fault:?}");
+            assert!(again_after(MS * 3 / 2).is_ok(), "{bytes} bytes");
+        }
+    }
+}
+
 #[test]
 fn a_sensor_that_is_not_selected_or_misspoken_to_is_silent() {
     for on in SIDES {

@@ -1,0 +1,26 @@
+//! What is borne of a sensor.
+
+/// What is borne of a sensor, and how long a recovery takes; in ticks but for `jump`.
+/// `u16::MAX` is no limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SensorLimits {
+    /// Ticks without a good frame for which the last reading is held.
+    pub hold: u16,
+    /// Good frames in succession before a faulty sensor is trusted again.
+    pub recover: u16,
+    /// Ticks in which no frame is begun after one that was refused or broke off.
+    pub resync: u16,
+    /// Ticks for which the words may repeat to the bit and still be evidence.
+    pub stale: u16,
+    /// Ticks for which they may repeat.
+    pub frozen: u16,
+    /// Largest change of a word in a tick, of its 65,536 steps.
+    pub jump: u16,
+    /// Where ticks without a good frame are too many: each counts [`BAD_WEIGHT`], each with
+    /// one takes 1 away.
+    pub burst: u16,
+}
+
+/// What a tick without a good frame counts: more than one in `BAD_WEIGHT + 1` of them are
+/// too many in the long run.
+pub const BAD_WEIGHT: u16 = 4;
