@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
 use crate::core::Core;
-use crate::memory::{Memories, Shared};
+use crate::memory::{Memories, RAM, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
 use crate::rtt::Ring;
@@ -18,8 +18,19 @@ const INTERRUPTS: u32 = 16;
 /// The exception number in xPSR.
 const EXCEPTION: u32 = 0x1FF;
 
+/// How a core crashes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Crash {
+    /// There is no memory where it goes on.
+    Nowhere,
+    /// Its stack is used up.
+    Stack,
+}
+
 /// Between flash and RAM.
 const NOWHERE: u32 = 0x1800_0000;
+/// The register of the stack pointer.
+const SP: u8 = 13;
 
 /// Instructions of the tick's handler before it is held.
 const HOLD_AFTER: u64 = 200;
@@ -85,8 +96,8 @@ pub(crate) struct Machine {
     /// For how long the core is to be held, and before which instruction of the tick.
     hold: Ps,
     hold_at: u64,
-    /// Whether it is to crash there.
-    crash: bool,
+    /// How it is to crash there.
+    crash: Option<Crash>,
     spent: Spent,
 }
 
@@ -115,7 +126,7 @@ impl Machine {
             ready: false,
             hold: 0,
             hold_at: u64::MAX,
-            crash: false,
+            crash: None,
             spent: Spent::default(),
         })
     }
@@ -138,10 +149,9 @@ impl Machine {
         self.hold = time;
     }
 
-    /// Lets the core run into nothing in the middle of the next tick: there is no memory
-    /// where it goes on.
-    pub(crate) const fn crash_next_tick(&mut self) {
-        self.crash = true;
+    /// Lets the core crash in the middle of the next tick.
+    pub(crate) const fn crash_next_tick(&mut self, how: Crash) {
+        self.crash = Some(how);
     }
 
     /// Runs, with `sensors` on the wires, the left one first, until the tick's handler
@@ -195,7 +205,7 @@ impl Machine {
             if self.exception == self.tick {
                 let latency = self.now - self.shared.chip().tick_began();
                 observer.tick_begins(self.now, latency, &self.spent);
-                if self.hold > 0 || self.crash {
+                if self.hold > 0 || self.crash.is_some() {
                     self.hold_at = self.spent.tick + HOLD_AFTER;
                 }
             }
@@ -213,8 +223,10 @@ impl Machine {
             let held = std::mem::take(&mut self.hold);
             self.now += held;
             self.core.pass(held, self.cycle);
-            if std::mem::take(&mut self.crash) {
-                self.core.set_pc(NOWHERE);
+            match self.crash.take() {
+                Some(Crash::Nowhere) => self.core.set_pc(NOWHERE),
+                Some(Crash::Stack) => self.core.set_reg(SP, RAM + 8),
+                None => {}
             }
         }
         if before == self.tick && self.exception == 0 {

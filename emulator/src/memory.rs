@@ -12,7 +12,8 @@ use crate::program::Program;
 
 /// Where the flash begins.
 pub(crate) const FLASH: u32 = 0x0800_0000;
-const RAM: u32 = 0x2000_0000;
+/// Where RAM begins.
+pub(crate) const RAM: u32 = 0x2000_0000;
 
 /// Where peripherals can be: those on buses, ports with a bus of their own, the debug unit.
 const PERIPHERALS: [(&str, u32, u64); 3] = [

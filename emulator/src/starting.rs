@@ -1,12 +1,14 @@
 //! Starts that nobody asked for, and the button: is the motor off after them, and does the
 //! module say why?
 
+use std::iter;
 use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 
 use crate::chip::{Ps, ResetCause};
+use crate::machine::Crash;
 use crate::trouble::Trouble;
 
 /// Longer than the watchdog bears.
@@ -14,13 +16,14 @@ const HANG: Ps = 60_000_000_000;
 /// Within which after the start of its tick a crash must have taken the pins low.
 const PINS_LOW: Ps = 20_000_000;
 /// Hard faults in succession, and how often they come, in hundredths of a second.
-const FAULTS: u32 = 3;
+const FAULTS: usize = 3;
 const FAULT_HUNDREDTHS: u32 = 75;
 /// How far a whisker may run on without its motor, degrees.
 const RUN_ON_DEG: f64 = 60.0;
 
 /// Has the watchdog reset the chip while the whiskers of the scene in `path` whisk; presses
-/// the user button, for long and as it should be; crashes the core every 0.75 s; and resets
+/// the user button, for long and as it should be; crashes the core every 0.75 s; overflows its
+/// stack; and resets
 /// the chip three times in a minute. The motors must be off after each but the press, and
 /// the log must say why. Returns the lines of the log.
 ///
@@ -47,10 +50,11 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     whisks(&mut trouble, 100 * hundredth, "after a press")?;
     heard.push(trouble.hear("armed by the user button")?);
 
-    for _ in 0..FAULTS {
+    let crashes = iter::repeat_n((Crash::Nowhere, "fault 49"), FAULTS);
+    for (crash, said) in crashes.chain([(Crash::Stack, "fault 54")]) {
         trouble.log.clear();
         let board = trouble.board_mut();
-        board.machine.crash_next_tick();
+        board.machine.crash_next_tick(crash);
         if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
             return Err(Error::Work("driven in a hard fault".to_owned()));
         }
@@ -59,11 +63,10 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
             FAULT_HUNDREDTHS * hundredth,
             "after a hard fault",
         )?;
-        trouble.hear("fault 49, hard fault")?;
-        trouble.hear("not armed: fault 49")?;
+        trouble.hear(said)?;
+        trouble.hear(&format!("last {said}"))?;
+        heard.push(trouble.hear(&format!("not armed: {said}"))?);
     }
-    heard.push(trouble.hear("last fault 49")?);
-    heard.push(trouble.hear("not armed: fault 49")?);
 
     trouble.log.clear();
     trouble.board_mut().reset_now(ResetCause::Pin)?;

@@ -38,10 +38,43 @@ fn panic(info: &PanicInfo<'_>) -> ! {
     })
 }
 
-#[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
-// SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
+#[allow(unsafe_code, reason = "a handler that needs no stack is no function")]
+mod vector {
+    //! The vector of the hard fault, in place of that of cortex-m-rt, which pushes. A stack
+    //! without room has no frame, and none for a handler: that begins on a new one, as nobody
+    //! comes back to the old.
+
+    // SAFETY: run by the hardware only; it hands `hard_fault` what it expects, a frame or zero,
+    // and a stack with room. MSP is the only stack pointer in use.
+    core::arch::global_asm!(
+        ".section .HardFaultTrampoline, \"ax\"",
+        ".global HardFault",
+        ".type HardFault,%function",
+        ".thumb_func",
+        "HardFault:",
+        "mrs r0, MSP",
+        "ldr r1, =_stack_end + {room}",
+        "cmp r0, r1",
+        "bhs 1f",
+        "movs r0, #0",
+        "ldr r1, =_stack_start",
+        "msr MSP, r1",
+        "1: ldr r1, ={handler}",
+        "bx r1",
+        ".ltorg",
+        room = const super::HANDLER_ROOM,
+        handler = sym super::hard_fault,
+    );
+}
+
+/// What a hard fault pushes, and its handler needs, bytes.
+const HANDLER_ROOM: usize = 512;
+
+/// A hard fault; without a frame where the stack has no room left.
+extern "C" fn hard_fault(frame: Option<&ExceptionFrame>) -> ! {
+    let Some(frame) = frame else {
+        die(number::STACK_OVERFLOW, || {});
+    };
     die(number::HARD_FAULT, || {
         let [configurable, hard] = crate::here::fault_status();
         defmt::error!(
@@ -58,7 +91,10 @@ unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
 unsafe fn NonMaskableInt() -> ! {
-    die(number::CLOCK_STOPPED, || {})
+    if crate::here::has_clock_stopped() {
+        die(number::CLOCK_STOPPED, || {});
+    }
+    die(number::STRAY_INTERRUPT, || defmt::error!("- non-maskable"))
 }
 
 #[allow(unsafe_code, reason = "cortex-m-rt asks for it")]

@@ -160,6 +160,12 @@ mod chip {
         Ok(())
     }
 
+    /// Whether the clock security system has raised the non-maskable interrupt: CSSF in
+    /// RCC_CIR (RM0008, chapter 7.3.3).
+    pub(crate) fn has_clock_stopped() -> bool {
+        RCC.cir().read().cssf()
+    }
+
     /// Clock for the ports, and for what says which pin does what.
     pub(crate) fn clock_ports() {
         RCC.apb2enr().modify(|w| {

@@ -250,6 +250,12 @@ mod chip {
         Ok(())
     }
 
+    /// Whether the clock security system has raised the non-maskable interrupt: CSSF in
+    /// RCC_CIR (RM0390, chapter 6.3.4).
+    pub(crate) fn has_clock_stopped() -> bool {
+        RCC.cir().read().cssf()
+    }
+
     /// Clock for the ports.
     pub(crate) fn clock_ports() {
         RCC.ahb1enr().modify(|w| {

@@ -171,6 +171,12 @@ mod chip {
         Ok(())
     }
 
+    /// Whether the non-maskable interrupt is that of a clock: this one runs by its own
+    /// oscillator, which nothing watches. What is left is memory (RM0444, chapter 11.3).
+    pub(crate) const fn has_clock_stopped() -> bool {
+        false
+    }
+
     /// Clock for the ports.
     pub(crate) fn clock_ports() {
         RCC.gpioenr().modify(|w| {

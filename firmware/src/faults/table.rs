@@ -134,7 +134,7 @@ macro_rules! fault_table {
                 "another port or cable",
                 AllOff, Restart;
             51 STRAY_INTERRUPT: "an interrupt without a handler",
-                "a fault of this program",
+                "a fault of this program; memory that has lost a bit",
                 "keep the line below it and report it",
                 AllOff, Restart;
             52 WATCHDOG: "reset by the watchdog",
@@ -144,6 +144,10 @@ macro_rules! fault_table {
             53 SUPPLY: "the supply dipped",
                 "USB port or cable too weak; motors on the board's supply; a short",
                 "the board's 3.3 V with an oscilloscope while the motors start",
+                AllOff, Restart;
+            54 STACK_OVERFLOW: "the stack has no room left",
+                "a fault of this program; a bit of the stack pointer that has changed",
+                "report it, with the scene",
                 AllOff, Restart;
             55 SETTINGS: "the settings in RAM are damaged",
                 "a flipped bit; a fault of this program",
