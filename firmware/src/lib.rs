@@ -50,7 +50,7 @@ pub use perception::{
     shifts,
 };
 pub use queue::Queue;
-pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, ResetCause, Start};
+pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use timing::Timing;

@@ -16,7 +16,7 @@ pub const RESET_WINDOW_S: u8 = 60;
 
 /// Why the chip started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ResetCause {
+pub enum StartCause {
     /// The independent watchdog: tick or idle stood still, or a fault handler waited for it.
     Watchdog,
     /// By software: a debugger or the programmer.
@@ -31,7 +31,7 @@ pub enum ResetCause {
     Other,
 }
 
-impl ResetCause {
+impl StartCause {
     /// The first whose flag is set in the reset status register. The most specific must come
     /// first: a power-up sets the pin's flag too, and so does every internal reset.
     pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {
@@ -67,7 +67,7 @@ pub struct Record {
 
 /// A start of the chip, as the record has it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Start {
+pub struct Startup {
     /// Its number since power-up, from 1.
     pub number: u32,
     /// The number of the last fault since power-up; 0: none.
@@ -76,7 +76,7 @@ pub struct Start {
     refusal: Option<NotArmed>,
 }
 
-impl Start {
+impl Startup {
     /// Whether motors may be armed now, where the scene arms them `at_start`.
     ///
     /// # Errors
@@ -129,18 +129,18 @@ impl Record {
     /// No motor may be armed by itself after a fault that ended in a reset, after the
     /// watchdog, after a dip of the supply (one so short that RAM has kept its contents, too),
     /// after [`RESETS`] resets in a minute, and after a reset for no known reason.
-    pub fn start(found: Option<Self>, cause: ResetCause) -> (Self, Start) {
+    pub fn start(found: Option<Self>, cause: StartCause) -> (Self, Startup) {
         let mut record = found.unwrap_or_default();
         record.starts = record.starts.saturating_add(1);
         let is_dip = match cause {
-            ResetCause::BrownOut => true,
-            ResetCause::Power => found.is_some(),
+            StartCause::BrownOut => true,
+            StartCause::Power => found.is_some(),
             _ => false,
         };
         let is_often = found.is_some() && record.count_reset();
         let fault = if record.is_fresh {
             Some(record.fault)
-        } else if cause == ResetCause::Watchdog {
+        } else if cause == StartCause::Watchdog {
             Some(number::WATCHDOG)
         } else if is_dip {
             Some(number::SUPPLY)
@@ -149,8 +149,8 @@ impl Record {
         };
         record.fault = fault.unwrap_or(record.fault);
         record.is_fresh = false;
-        let unknown = (cause == ResetCause::Other).then_some(NotArmed::Unknown);
-        let start = Start {
+        let unknown = (cause == StartCause::Other).then_some(NotArmed::Unknown);
+        let start = Startup {
             number: record.starts,
             fault: record.fault,
             refusal: fault.map(NotArmed::After).or(unknown),
@@ -179,11 +179,11 @@ fn sum(words: [u32; RECORD_WORDS - 1]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{NotArmed, Record, ResetCause, Start};
+    use super::{NotArmed, Record, StartCause, Startup};
     use crate::faults::number;
 
     /// A start after `found` seconds of running.
-    fn after(record: Record, seconds: u8, cause: ResetCause) -> (Record, Start) {
+    fn after(record: Record, seconds: u8, cause: StartCause) -> (Record, Startup) {
         let mut record = Record::load(record.words()).expect("its sum is right");
         for _ in 0..seconds {
             record.second();
@@ -192,7 +192,7 @@ mod tests {
     }
 
     fn powered() -> Record {
-        let (record, start) = Record::start(None, ResetCause::Power);
+        let (record, start) = Record::start(None, StartCause::Power);
         assert_eq!((start.number, start.fault), (1, 0));
         assert_eq!(start.may_arm(true), Ok(()));
         record
@@ -201,13 +201,13 @@ mod tests {
     #[test]
     fn people_arm_and_faults_do_not() {
         for (cause, arms) in [
-            (ResetCause::Pin, Ok(())),
-            (ResetCause::Software, Ok(())),
-            (ResetCause::Watchdog, Err(NotArmed::After(number::WATCHDOG))),
-            (ResetCause::BrownOut, Err(NotArmed::After(number::SUPPLY))),
+            (StartCause::Pin, Ok(())),
+            (StartCause::Software, Ok(())),
+            (StartCause::Watchdog, Err(NotArmed::After(number::WATCHDOG))),
+            (StartCause::BrownOut, Err(NotArmed::After(number::SUPPLY))),
             // RAM has kept its contents: the supply was away for a moment.
-            (ResetCause::Power, Err(NotArmed::After(number::SUPPLY))),
-            (ResetCause::Other, Err(NotArmed::Unknown)),
+            (StartCause::Power, Err(NotArmed::After(number::SUPPLY))),
+            (StartCause::Other, Err(NotArmed::Unknown)),
         ] {
             let (_, start) = after(powered(), 100, cause);
             assert_eq!(start.may_arm(true), arms, "{cause:?}");
@@ -223,10 +223,10 @@ mod tests {
             let mut record = powered();
             record.note(fault);
             // Whoever is quicker than the watchdog does not arm it either.
-            for cause in [ResetCause::Watchdog, ResetCause::Pin] {
+            for cause in [StartCause::Watchdog, StartCause::Pin] {
                 let (record, start) = after(record, 100, cause);
                 assert_eq!(start.may_arm(true), Err(NotArmed::After(fault)));
-                let (_, start) = after(record, 100, ResetCause::Pin);
+                let (_, start) = after(record, 100, StartCause::Pin);
                 assert_eq!((start.may_arm(true), start.fault), (Ok(()), fault));
             }
         }
@@ -238,7 +238,7 @@ mod tests {
             let mut record = powered();
             let mut last = None;
             for pause in pauses {
-                let (next, start) = after(record, pause, ResetCause::Pin);
+                let (next, start) = after(record, pause, StartCause::Pin);
                 record = next;
                 last = Some(start.may_arm(true));
             }

@@ -9,7 +9,7 @@
 )]
 
 use firmware::faults::number;
-use firmware::{NotArmed, Place, ResetCause, SensorFault, Start};
+use firmware::{NotArmed, Place, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
@@ -32,7 +32,7 @@ defmt::timestamp!("{=u32:ms}", {
 const US: u32 = CLOCKS.counter_hz / 1_000_000;
 
 /// The first lines after a reset.
-pub(crate) fn start(cause: ResetCause, start: &Start) {
+pub(crate) fn start(cause: StartCause, start: &Startup) {
     defmt::info!(
         "whisker {=str}: scene {=str}, {=u32} ticks a second",
         env!("CARGO_PKG_VERSION"),
@@ -40,12 +40,12 @@ pub(crate) fn start(cause: ResetCause, start: &Start) {
         TICK_HZ
     );
     match cause {
-        ResetCause::Watchdog => fatal(number::WATCHDOG),
-        ResetCause::Software => defmt::info!("reset by software"),
-        ResetCause::Power => defmt::info!("reset by power-up"),
-        ResetCause::BrownOut => fatal(number::SUPPLY),
-        ResetCause::Pin => defmt::info!("reset by the reset pin"),
-        ResetCause::Other => defmt::warn!("reset, cause unknown"),
+        StartCause::Watchdog => fatal(number::WATCHDOG),
+        StartCause::Software => defmt::info!("reset by software"),
+        StartCause::Power => defmt::info!("reset by power-up"),
+        StartCause::BrownOut => fatal(number::SUPPLY),
+        StartCause::Pin => defmt::info!("reset by the reset pin"),
+        StartCause::Other => defmt::warn!("reset, cause unknown"),
     }
     let (starts, fault) = (start.number, start.fault);
     if fault == 0 {

@@ -61,7 +61,7 @@ pub(crate) use chip::*;
 #[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
-    use firmware::ResetCause;
+    use firmware::StartCause;
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
@@ -117,14 +117,14 @@ mod chip {
     };
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> ResetCause {
+    pub(crate) fn reset_cause() -> StartCause {
         let flags = RCC.csr().read();
         RCC.csr().modify(|w| w.set_rmvf(true));
-        ResetCause::first([
-            (flags.iwdgrstf(), ResetCause::Watchdog),
-            (flags.sftrstf(), ResetCause::Software),
-            (flags.porrstf(), ResetCause::Power),
-            (flags.pinrstf(), ResetCause::Pin),
+        StartCause::first([
+            (flags.iwdgrstf(), StartCause::Watchdog),
+            (flags.sftrstf(), StartCause::Software),
+            (flags.porrstf(), StartCause::Power),
+            (flags.pinrstf(), StartCause::Pin),
         ])
     }
 

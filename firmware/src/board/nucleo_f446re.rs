@@ -71,7 +71,7 @@ pub(crate) use chip::*;
 #[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
-    use firmware::{Clock, ResetCause};
+    use firmware::{Clock, StartCause};
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
     use stm32_metapac::spi::Spi;
@@ -187,17 +187,17 @@ mod chip {
     }
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> ResetCause {
+    pub(crate) fn reset_cause() -> StartCause {
         let flags = RCC.csr().read();
         RCC.csr().modify(|w| w.set_rmvf(true));
-        ResetCause::first([
-            (flags.wdgrstf(), ResetCause::Watchdog),
-            (flags.sftrstf(), ResetCause::Software),
+        StartCause::first([
+            (flags.wdgrstf(), StartCause::Watchdog),
+            (flags.sftrstf(), StartCause::Software),
             // A dip that the brown-out reset ends sets its flag alone, a power-up both
             // (RM0390, chapter 6.3.21).
-            (flags.porrstf(), ResetCause::Power),
-            (flags.borrstf(), ResetCause::BrownOut),
-            (flags.padrstf(), ResetCause::Pin),
+            (flags.porrstf(), StartCause::Power),
+            (flags.borrstf(), StartCause::BrownOut),
+            (flags.padrstf(), StartCause::Pin),
         ])
     }
 

@@ -3,7 +3,7 @@
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
 
-use firmware::{RECORD_WORDS, Record, ResetCause, Start};
+use firmware::{RECORD_WORDS, Record, StartCause, Startup};
 
 /// Words that a reset leaves as they are.
 struct Retained(UnsafeCell<MaybeUninit<[u32; RECORD_WORDS]>>);
@@ -39,7 +39,7 @@ impl Retained {
 }
 
 /// Counts this start.
-pub(crate) fn start(cause: ResetCause) -> Start {
+pub(crate) fn start(cause: StartCause) -> Startup {
     let (record, start) = Record::start(RETAINED.load(), cause);
     RETAINED.store(&record);
     start
