@@ -60,6 +60,8 @@ pub(crate) struct Chip {
     rcc: Rcc,
     clocks: Clocks,
     flash: Plain,
+    /// What switches the pull-downs of USB-C pins off, on the G071.
+    system: Plain,
     debug: Plain,
     gpio: [Gpio; 3],
     remap: Remap,
@@ -88,6 +90,7 @@ impl Chip {
             rcc,
             clocks,
             flash: Plain::new(model.flash_registers),
+            system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),
             remap: Remap::default(),
@@ -106,6 +109,7 @@ impl Chip {
         self.rcc.reset(cause);
         self.clocks = self.rcc.clocks()?;
         self.flash.reset();
+        self.system.reset();
         self.debug.reset();
         self.gpio.iter_mut().for_each(Gpio::reset);
         self.remap = Remap::default();

@@ -16,6 +16,8 @@ pub(super) enum Unit {
     Requests,
     /// AFIO.
     Remap,
+    /// SYSCFG.
+    System,
     Debug,
 }
 

@@ -44,6 +44,7 @@ impl Chip {
                 Unit::Dma(n) => self.dmas[n].read(offset),
                 Unit::Requests => self.mux.read(offset),
                 Unit::Remap => Remap::read(offset),
+                Unit::System => self.system.read(offset),
                 Unit::Debug => self.debug.read(offset),
             }
         });
@@ -98,6 +99,7 @@ impl Chip {
             Unit::Dma(n) => self.dmas[n].write(offset, value),
             Unit::Requests => self.mux.write(offset, value),
             Unit::Remap => self.remap.write(offset, value),
+            Unit::System => self.system.write(offset, value),
             Unit::Debug => self.debug.write(offset, value),
         };
         if !known {
@@ -132,6 +134,7 @@ impl Chip {
                 Unit::Dma(n) => self.dmas[n].reset(),
                 Unit::Requests => self.mux = Mux::default(),
                 Unit::Remap => self.remap = Remap::default(),
+                Unit::System => self.system.reset(),
                 Unit::Debug => self.debug.reset(),
                 Unit::Watchdog | Unit::Rcc | Unit::Flash => {}
             }

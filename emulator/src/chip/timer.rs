@@ -149,7 +149,9 @@ impl Timer {
         let moved = position.wrapping_sub(self.position);
         self.position = position;
         if connected && self.is_encoder() && self.cr1 & CEN != 0 {
-            self.count = self.count.wrapping_add_signed(moved) & self.kind.mask();
+            // From the reload value it goes on to zero, and the other way round.
+            let range = self.arr as i64 + 1;
+            self.count = (self.count as i64 + moved as i64).rem_euclid(range) as u32;
         }
     }
 

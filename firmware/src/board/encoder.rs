@@ -37,6 +37,8 @@ impl Encoder {
                 w.set_icf(channel, FILTER);
             }
         });
+        // The round of 16 bits that the difference below relies on, whatever a boot loader left.
+        timer.arr().write(|w| w.set_arr(u16::MAX));
         timer.smcr().write(|w| w.set_sms(Sms::ENCODER_MODE_3));
         timer.cr1().write(|w| w.set_cen(true));
         let last = timer.cnt().read().cnt();

@@ -174,6 +174,7 @@ mod chip {
     impl Counter {
         /// Counts from now on.
         pub(crate) fn start(_: cortex_m::Peripherals) -> Self {
+            TIM5.arr().write_value(u32::MAX);
             TIM5.cr1().write(|w| w.set_cen(true));
             Self(())
         }

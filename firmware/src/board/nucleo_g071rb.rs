@@ -68,7 +68,7 @@ mod chip {
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::TimGp16;
-    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, TIM2, TIM3, TIM6};
+    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, SYSCFG, TIM2, TIM3, TIM6};
 
     use super::dma::Route;
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
@@ -203,11 +203,21 @@ mod chip {
         RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
     }
 
-    /// Clock for motor and encoder.
+    /// Clock for motor and encoder. From the reset on PA8 and PB15 are pulled down, as the
+    /// pins of a USB-C socket with an empty battery are, until the strobe of their controller,
+    /// which is never switched on, lets go of them (RM0444, section 8.1.1; embassy-stm32's
+    /// `ucpd::init` does the same).
     pub(crate) fn clock_motors() {
         RCC.apbenr1().modify(|w| w.set_tim2en(true));
-        RCC.apbenr2().modify(|w| w.set_tim1en(true));
+        RCC.apbenr2().modify(|w| {
+            w.set_tim1en(true);
+            w.set_syscfgen(true);
+        });
         settle();
+        SYSCFG.cfgr1().modify(|w| {
+            w.set_ucpd1_strobe(true);
+            w.set_ucpd2_strobe(true);
+        });
     }
 
     /// The debugger has no claim to them on this chip.

@@ -30,6 +30,7 @@ pub(crate) static G071: Model = Model {
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
         (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
         (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::System, 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM1), 0x4001_2C00, Some((Bus::Apb2, 11))),
         (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
         (Unit::Debug, 0x4001_5800, Some((Bus::Apb1, 27))),

@@ -47,6 +47,7 @@ fn name(unit: Unit) -> &'static str {
         Unit::Dma(n) => DMAS[n],
         Unit::Requests => "DMAMUX1",
         Unit::Remap => "AFIO",
+        Unit::System => "SYSCFG",
         Unit::Debug => "DBGMCU",
     }
 }
