@@ -36,6 +36,12 @@ pub enum Kind {
     SensorLoose,
     /// The data line is shorted to ground.
     SensorLow,
+    /// The data line is shorted to ground after the first byte, which leaves a good sum.
+    SensorLowTail,
+    /// The sensor repeats a frame.
+    SensorFrozen,
+    /// Alpha is far off under a good sum.
+    SensorJumps,
     /// One frame in so many has an inverted bit.
     SensorNoise,
     /// A byte of every frame is lost.
@@ -71,10 +77,13 @@ impl Kind {
         Self::Pushed,
     ];
     /// Those that befall a sensor and its wires.
-    pub(super) const SENSOR: [Self; 9] = [
+    pub(super) const SENSOR: [Self; 12] = [
         Self::SensorSilent,
         Self::SensorLoose,
         Self::SensorLow,
+        Self::SensorLowTail,
+        Self::SensorFrozen,
+        Self::SensorJumps,
         Self::SensorNoise,
         Self::ByteLost,
         Self::ByteDoubled,
@@ -94,7 +103,12 @@ impl Kind {
     pub(super) const fn spoils_every_frame(self) -> bool {
         matches!(
             self,
-            Self::SensorSilent | Self::SensorLow | Self::SumWrong | Self::ErrorWord
+            Self::SensorSilent
+                | Self::SensorLow
+                | Self::SensorLowTail
+                | Self::SensorFrozen
+                | Self::SumWrong
+                | Self::ErrorWord
         )
     }
 
@@ -179,6 +193,15 @@ impl Injection {
                 self.frames(subject, open.then_some(WireFault::Silent));
             }
             Kind::SensorLow => self.frames(subject, lasts.then_some(WireFault::LineLow)),
+            Kind::SensorLowTail => {
+                self.frames(subject, lasts.then_some(WireFault::LowAfterStart));
+            }
+            Kind::SensorFrozen => self.frames(subject, lasts.then_some(WireFault::Frozen)),
+            Kind::SensorJumps => {
+                // Now and then, by a half of the range: beyond what a whisker does.
+                let jumps = lasts && random.next_u64().is_multiple_of(16);
+                self.frames(subject, jumps.then_some(WireFault::Shift(0x8000)));
+            }
             Kind::SumWrong => self.frames(subject, lasts.then_some(WireFault::BadSum)),
             Kind::BusError => self.frames(subject, lasts.then_some(WireFault::Bus)),
             Kind::ByteLost => {
