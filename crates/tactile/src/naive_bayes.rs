@@ -50,7 +50,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// is then not taken.
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
-        if self.stream.push(&self.model, codes)? {
+        if self.stream.push(&self.model, codes, self.rule.interval())? {
             return Ok(self.stream.end_of_block(&self.model, &self.rule));
         }
         Ok(None)

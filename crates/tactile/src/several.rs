@@ -167,7 +167,7 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Sev
         let Some(one) = self.streams.get_mut(stream) else {
             return Ok(None);
         };
-        if one.push(&self.model, codes)? {
+        if one.push(&self.model, codes, self.rule.interval())? {
             return Ok(V::end_of_block(
                 &self.model,
                 &self.rule,

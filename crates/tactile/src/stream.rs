@@ -58,15 +58,16 @@ impl<E> StreamState<E> {
         }
     }
 
-    /// Takes a sample that counts; whether it was the last of its block.
+    /// Takes a sample that counts; whether it was the last of its block of `interval`.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,
         model: &Model<W>,
         codes: &[i32],
+        interval: u32,
     ) -> Result<bool, WrongChannels> {
         check(model, codes)?;
-        Ok(self.sums.push(model.parts(), codes, model.has_roughness()))
+        Ok(self.sums.push(model, codes, interval))
     }
 
     /// Takes a sample that does not count.

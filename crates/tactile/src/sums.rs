@@ -5,8 +5,9 @@
 //! generic: the code is there once, and as small as this crate is built.
 
 use crate::format::{MAX_CLASSES, TableRecord};
-use crate::model::Parts;
+use crate::model::{Model, Parts};
 use crate::roughness::Roughness;
+use crate::words::Words;
 
 /// What is known of the open block, and of the touch by the blocks before.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,22 +41,28 @@ impl Sums {
         self.roughness.clear();
     }
 
-    /// Takes a sample, and its roughness where the model `has_roughness`; whether it was
-    /// the last of its block.
+    /// Takes a sample, and its roughness where the model has it; whether it was the last of
+    /// its block of `interval`.
     #[inline]
-    pub(crate) fn push(&mut self, model: Parts<'_>, codes: &[i32], has_roughness: bool) -> bool {
-        if has_roughness {
+    pub(crate) fn push<W: Words>(
+        &mut self,
+        model: &Model<W>,
+        codes: &[i32],
+        interval: u32,
+    ) -> bool {
+        if model.has_roughness() {
             self.roughness.push(codes, true);
         }
+        let model = model.parts();
         for table in model.sample_tables() {
             // No row of a checked model is missing.
             let _ = add(model, table, codes, &mut self.classes);
         }
         if self.left > 1 {
             self.left -= 1;
-            if self.left >= model.block() {
+            if self.left >= interval {
                 // Its bits were flipped: nothing is known of the block.
-                self.clear(model.block());
+                self.clear(interval);
             }
             return false;
         }

@@ -119,6 +119,7 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
     let h50 = filter::Config::<f64>::new(50.0, settings.tick_hz).unwrap();
     let mut filters = [filter::State::default(); 2];
     let mut theta_deg = [50.0; 2];
+    let mut lifts = [Gate::default(); 2];
     (1..=(RUN_S * settings.tick_hz) as usize)
         .map(|n| {
             let mut contact = [0.0; 2];
@@ -130,8 +131,11 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
                 }
             }
             let zeta = contact[0].max(contact[1]);
-            for side in &mut state.whiskers {
-                excite(cia, &mut side[0].lift, zeta);
+            // In place of CIA, which the product does not have here.
+            let sides = state.whiskers.iter_mut().zip(&mut lifts).zip(&gain);
+            for ((side, lift), [nominal]) in sides {
+                excite(cia, lift, zeta);
+                side[0].set_nominal(nominal + lift.mean);
             }
             config.step(&mut state, contact);
             theta_deg = state.theta().map(|side| degrees(side[0]));

@@ -94,7 +94,8 @@ fn a_lost_sensor_leaves_the_other_side_as_it_was() {
 
 #[test]
 fn a_motor_that_stalls_feels_nothing_while_it_rests() {
-    let scene = touching("");
+    // The guard of the encoder would be first.
+    let scene = touching("[motor]\nunmoved_duty = 2\n");
     let sound = undisturbed(&scene, 8000);
     for (side, place) in SIDES.into_iter().enumerate() {
         let start = first_touch(&sound, side, 2000) + 4;
