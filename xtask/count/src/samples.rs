@@ -46,7 +46,8 @@ pub fn frame(call: u32) -> &'static [u8; FRAME_LEN] {
         let mut frames = [[0; FRAME_LEN]; 128];
         let mut i = 0;
         while i < frames.len() {
-            let word = (i as u16).wrapping_mul(40_503);
+            // Not both words zero, which no sensor sends.
+            let word = (i as u16 + 1).wrapping_mul(40_503);
             let (x, y) = (Word::new(word), Word::new(word.rotate_left(7)));
             frames[i] = encode::alpha_beta(x, y, Faults::NONE, SumRule::SumB1B6);
             i += 1;
