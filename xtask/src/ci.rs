@@ -71,7 +71,8 @@ fn experiments() -> Result<(), Fault> {
 /// and in fixed point, with one side and with two; contact on one side excites the other
 /// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
 /// either side, are noticed, and no start that nobody asked for drives a motor.
-/// The boards that carry one side run its scene alike.
+/// The boards that carry one side run its scene as the PC does, and notice a sensor that is
+/// lost; the rest is for the night.
 fn board() -> Result<(), Fault> {
     let [board, small @ ..] = Board::ALL;
     let do_all = |board: Board, scene: &Path, tasks: &[Task]| -> Result<(), Fault> {
@@ -97,7 +98,8 @@ fn board() -> Result<(), Fault> {
     let both_sides = [Task::Deadlines(0.05), Task::SensorLoss];
     do_all(board, &emulate::noisiest()?, &both_sides)?;
     emulate::compare_in_fixed_point(board)?;
+    let in_short = [Task::Compare, Task::SensorLoss];
     small
         .into_iter()
-        .try_for_each(|board| do_all(board, Path::new(emulate::FULL), &one_side))
+        .try_for_each(|board| do_all(board, Path::new(emulate::FULL), &in_short))
 }
