@@ -124,14 +124,6 @@ fn folder() -> PathBuf {
     target().join("faults")
 }
 
-/// Every subject: the PC, and the boards, emulated.
-fn subjects() -> Vec<&'static str> {
-    let boards = Board::ALL.into_iter();
-    std::iter::once(PC)
-        .chain(boards.map(|board| board.name))
-        .collect()
-}
-
 /// The campaign, or what `choice` leaves of it; writes docs/measured/reliability.md where
 /// nothing is left out.
 ///
@@ -144,19 +136,17 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if !choice.resume && folder().exists() {
         fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
     }
-    let shards = choice.shards.max(1);
+    let on_a_board = choice.runs / A_BOARD_S;
+    let boards = Board::ALL.map(|board| (board.name, on_a_board));
+    let on_pc = choice.runs - on_a_board * boards.len() as u64;
+    let everywhere = std::iter::once((PC, on_pc)).chain(boards).collect();
+    let wanted: Vec<(&str, u64)> = match &choice.subject {
+        Some(name) => vec![(name, choice.runs)],
+        None => everywhere,
+    };
     let mut tables = Vec::new();
-    for name in subjects() {
-        if choice.subject.as_deref().is_some_and(|only| only != name) {
-            continue;
-        }
-        let boards = subjects().len() as u64 - 1;
-        let runs = match (name, &choice.subject) {
-            (_, Some(_)) => choice.runs,
-            (PC, None) => choice.runs - boards * (choice.runs / A_BOARD_S),
-            _ => choice.runs / A_BOARD_S,
-        };
-        tables.extend(Subject::of(name)?.run(runs, shards)?);
+    for (name, runs) in wanted {
+        tables.extend(Subject::of(name)?.run(runs, choice.shards.max(1))?);
     }
     let page = top().join("docs/measured/reliability.md");
     told(&tables, choice.subject.is_none().then_some(page.as_path()))

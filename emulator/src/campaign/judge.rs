@@ -1,6 +1,6 @@
 //! What must hold in every tick of every run.
 
-use firmware::FAULTS;
+use firmware::design_parameters::{HOLD_S, RETRY_S};
 use scene::Scene;
 
 use super::injection::{Injection, Kind};
@@ -70,6 +70,8 @@ pub(super) struct Judge {
     tick_hz: f64,
     limit: f64,
     following_deg: f64,
+    /// Ticks in which a setpoint approaches through the whole travel.
+    approach: u32,
     reset: bool,
 }
 
@@ -84,6 +86,10 @@ impl Judge {
             tick_hz: f64::from(scene.tick_hz),
             limit: motor.map_or(0.0, |motor| motor.duty_limit) + ROUNDING,
             following_deg: motor.map_or(f64::MAX, |motor| motor.following_limit_deg),
+            approach: motor.map_or(0, |motor| {
+                let travel_deg = motor.max_deg - motor.min_deg + 2.0 * motor.travel_margin_deg;
+                (travel_deg / motor.approach_deg_s * f64::from(scene.tick_hz)).ceil() as u32
+            }),
             reset: false,
         }
     }
@@ -102,10 +108,10 @@ impl Judge {
             }
             whisker.last_displaced_deg = displaced;
         }
+        // A frame is used a tick after it was sent, and the last good one is held.
+        let held = (HOLD_S * self.tick_hz).ceil() as u64 + 1;
         let decided = seen.decisions.iter().any(|(n, _)| {
             let known = self.whiskers.get(*n).is_some_and(Whisker::must_rest);
-            // A frame is used a tick after it was sent, and the last good one is held.
-            let held = (0.006 * self.tick_hz) as u64;
             let spoilt = injection.kind.spoils_every_frame()
                 && injection.whisker == *n
                 && injection.lasts(tick)
@@ -128,7 +134,7 @@ impl Judge {
     }
 
     fn note(&mut self, n: usize, notice: Notice) {
-        let approach = (firmware::design_parameters::RETRY_S * self.tick_hz) as u32;
+        let approach = self.approach;
         let Some(whisker) = self.whiskers.get_mut(n) else {
             return;
         };
@@ -194,7 +200,7 @@ impl Judge {
         if self.reset {
             return None;
         }
-        let rest_ticks = (firmware::design_parameters::RETRY_S * self.tick_hz) as u32 + OFF_TICKS;
+        let rest_ticks = (RETRY_S * self.tick_hz) as u32 + OFF_TICKS;
         for (n, whisker) in self.whiskers.iter().enumerate() {
             // A motor that has had another fault rests again, or is given up.
             let rests = whisker.given_up || (whisker.motor_rests && whisker.off_for <= rest_ticks);
@@ -213,5 +219,3 @@ impl Judge {
         None
     }
 }
-
-const _: () = assert!(FAULTS == 3, "the text of the page says so");

@@ -220,8 +220,8 @@ fn stripped(line: &str) -> String {
     said.map_or(line, |(_, said)| said).trim().to_owned()
 }
 
-/// Runs what is left of a shard on `subject`; `done` are the numbers of those that were run before, and
-/// every other row goes to `take` as soon as it is there.
+/// Runs what is left of a shard on `subject`; `done` are the numbers of those that were run
+/// before, and every other row goes to `take` as soon as it is there.
 ///
 /// # Errors
 /// [`Error`] for a scene or a program that is wrong, and what `take` brings.

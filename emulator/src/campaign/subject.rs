@@ -33,7 +33,7 @@ pub(super) struct Seen {
     pub(super) reset: Option<ResetCause>,
 }
 
-/// A scene that runs.
+/// A scene that runs. Without a chip there is nothing of one to be changed.
 pub(super) trait Subject {
     /// One tick.
     ///
@@ -51,28 +51,38 @@ pub(super) trait Subject {
     ///
     /// # Errors
     /// [`Fault`] where there is none.
-    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault>;
+    fn flip_ram(&mut self, _detail: u64) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Inverts a bit of a register.
     ///
     /// # Errors
     /// [`Fault`] where there is none.
-    fn flip_register(&mut self, detail: u64) -> Result<(), Fault>;
+    fn flip_register(&mut self, _detail: u64) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Stops the DMA of a sensor.
     ///
     /// # Errors
     /// [`Fault`] where there is none.
-    fn stop_dma(&mut self) -> Result<(), Fault>;
+    fn stop_dma(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Holds the core within the next tick.
-    fn hold(&mut self, detail: u64);
+    fn hold(&mut self, _detail: u64) {}
 
     /// The word or register that was changed.
-    fn changed(&self) -> Option<String>;
+    fn changed(&self) -> Option<String> {
+        None
+    }
 
     /// Errors and warnings of the log since the last call.
-    fn complaints(&mut self) -> Vec<String>;
+    fn complaints(&mut self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// A scene on this PC.
@@ -135,28 +145,6 @@ impl Subject for OnPc {
 
     fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
         self.run.slave_mut(whisker)
-    }
-
-    fn flip_ram(&mut self, _: u64) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn flip_register(&mut self, _: u64) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn stop_dma(&mut self) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    fn hold(&mut self, _: u64) {}
-
-    fn changed(&self) -> Option<String> {
-        None
-    }
-
-    fn complaints(&mut self) -> Vec<String> {
-        Vec::new()
     }
 }
 

@@ -251,3 +251,27 @@ impl Rcc {
 const STOPPED: Fault = Fault::Clock("the system clock does not run");
 const AHB_DIVIDED: Fault = Fault::Clock("an AHB divider is not modelled");
 const BUS_TOO_FAST: Fault = Fault::Clock("a peripheral bus runs too fast");
+
+/// The core's clock, Hz: of the internal oscillator, the external one and the PLL, whose
+/// `switches` are in this order, the one that is selected.
+///
+/// # Errors
+/// [`STOPPED`] if it does not run.
+fn core_hz(
+    rcc: &Rcc,
+    selected: u32,
+    switches: [u32; 3],
+    hsi_hz: u64,
+    pll_hz: fn(&Rcc) -> Option<u64>,
+) -> Result<u64, Fault> {
+    let switch = switches.get(selected as usize).ok_or(STOPPED)?;
+    if rcc.running() & switch == 0 {
+        return Err(STOPPED);
+    }
+    let hz = match selected {
+        0 => Some(hsi_hz),
+        1 => Some(HSE_HZ),
+        _ => pll_hz(rcc),
+    };
+    hz.ok_or(STOPPED)
+}

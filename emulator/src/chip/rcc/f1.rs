@@ -1,6 +1,6 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
-use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, divider};
+use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, core_hz, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -49,14 +49,7 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
 
 fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
     let cfgr = rcc.kept(CFGR);
-    let running = |switch: u32| (rcc.running() & switch != 0).then_some(());
-    let core_hz = match cfgr & 3 {
-        0 => running(HSION).map(|()| HSI_HZ),
-        1 => running(HSEON).map(|()| HSE_HZ),
-        2 => running(PLLON).and_then(|()| pll_hz(rcc)),
-        _ => None,
-    };
-    let core_hz = core_hz.ok_or(STOPPED)?;
+    let core_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
     if cfgr & 0xF0 != 0 {
         return Err(AHB_DIVIDED);
     }

@@ -1,6 +1,6 @@
 //! RCC of the STM32G071 (RM0444, chapter 5).
 
-use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, STOPPED, divider};
+use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, core_hz, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -57,14 +57,7 @@ fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
     if rcc.kept(CR) & HSIDIV != 0 {
         return Err(Fault::Clock("a divider of HSI is not modelled"));
     }
-    let running = |switch: u32| (rcc.running() & switch != 0).then_some(());
-    let core_hz = match cfgr & 7 {
-        0 => running(HSION).map(|()| HSI_HZ),
-        1 => running(HSEON).map(|()| HSE_HZ),
-        2 => running(PLLON).and_then(|()| pll_hz(rcc)),
-        _ => None,
-    };
-    let core_hz = core_hz.ok_or(STOPPED)?;
+    let core_hz = core_hz(rcc, cfgr & 7, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
     if cfgr & 0xF00 != 0 {
         return Err(AHB_DIVIDED);
     }
