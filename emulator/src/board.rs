@@ -75,6 +75,8 @@ pub(crate) struct Board {
     /// Left side first; none where the whiskers are passive.
     pins: Vec<Pins>,
     log: Vec<u8>,
+    /// Whether somebody fetches the log.
+    has_reader: bool,
     /// The faults that the module has told of, and their ends, until they are taken.
     pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
@@ -100,6 +102,7 @@ impl Board {
             sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
             pins,
             log: Vec::new(),
+            has_reader: true,
             notices: Vec::new(),
             reset: None,
         };
@@ -168,7 +171,23 @@ impl Board {
         self.sensors.get(side).map_or(0, |sensor| sensor.latched)
     }
 
+    /// Asks the program to wait where the log's ring is full, as a probe does that attaches.
+    pub(crate) fn attach_reader(&mut self) -> Result<(), Fault> {
+        let Machine { ring, memories, .. } = &self.machine;
+        ring.ask_to_wait(memories)
+    }
+
+    /// From now on nobody fetches the log, and its ring is full.
+    pub(crate) fn lose_reader(&mut self) -> Result<(), Fault> {
+        self.has_reader = false;
+        let Machine { ring, memories, .. } = &self.machine;
+        ring.fill(memories)
+    }
+
     fn drain(&mut self) -> Result<(), Fault> {
+        if !self.has_reader {
+            return Ok(());
+        }
         let Machine { ring, memories, .. } = &self.machine;
         self.log.extend(ring.drain(memories)?);
         Ok(())

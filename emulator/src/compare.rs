@@ -18,6 +18,22 @@ use crate::program::Program;
 /// divider makes exactly are met within 2e-5.
 const PERIOD_ERROR: f64 = 3e-5;
 
+/// Who fetches the log from the board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Probe {
+    /// A probe, all the time.
+    Attached,
+    /// Nobody ever; the log's ring is full after half a second.
+    Absent,
+    /// A probe that has asked the program to wait for it where the ring is full, as
+    /// probe-rs does, and was then pulled: after half a second, with the ring full.
+    Pulled,
+}
+
+/// After what time of the scene the ring is full, s: early enough for short scenes, and
+/// after the lines of the start.
+const GONE_AFTER_S: f64 = 0.5;
+
 /// What was compared, and found equal to the last bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Agreement {
@@ -30,8 +46,8 @@ pub struct Agreement {
 }
 
 /// Runs the scene in `path` on the PC, in the board's number format, and on the
-/// board; every number of every row of the trace and every decision must be the same,
-/// to the last bit. The board's ticks must come at the scene's rate.
+/// board, with `probe` at its log; every number of every row of the trace and every decision
+/// must be the same, to the last bit. The board's ticks must come at the scene's rate.
 ///
 /// Contact is compared where the scene uses it: host-sim's trace shows it
 /// wherever there is an obstacle, the board computes it only for RCP, CIA or a
@@ -39,7 +55,7 @@ pub struct Agreement {
 ///
 /// # Errors
 /// [`Error::Work`] names the first tick and column that differ.
-pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
+pub fn compare(path: &Path, program: &Path, probe: Probe) -> Result<Agreement, Error> {
     let mut loaded = Loaded::new(path)?;
     let program = Program::load(program)?;
     let model = program.model()?;
@@ -60,8 +76,19 @@ pub fn compare(path: &Path, program: &Path) -> Result<Agreement, Error> {
     let mut host = Run::with_pwm(scene, classifier, model.pwm_counts)?;
     let mut target = start(scene, host.classes().to_vec(), &program)?;
 
+    if probe == Probe::Pulled {
+        target.module_mut().board.attach_reader()?;
+    }
+    let gone_at = match probe {
+        Probe::Attached => None,
+        Probe::Absent | Probe::Pulled => Some((GONE_AFTER_S * f64::from(scene.tick_hz)) as u64),
+    };
+
     let mut agreement = Agreement::default();
     for n in 1..=host.ticks() {
+        if gone_at == Some(n) {
+            target.module_mut().board.lose_reader()?;
+        }
         let mut expected = host.tick();
         let mut found = target.tick();
         target.module_mut().check()?;

@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use emulator::campaign::{self, Ending, Shard, ShardTable};
+use emulator::compare::Probe;
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, sensor_loss, starting,
 };
@@ -51,7 +52,13 @@ enum Command {
         out: PathBuf,
     },
     /// Runs one scene on PC and board and compares every tick
-    Compare(Flashed),
+    Compare {
+        #[command(flatten)]
+        flashed: Flashed,
+        /// Who fetches the log
+        #[arg(long, value_enum, default_value_t = Reader::Attached)]
+        probe: Reader,
+    },
     /// Measures how the board keeps its time; fails if it misses a tick
     Deadlines {
         #[command(flatten)]
@@ -117,6 +124,27 @@ struct Campaign {
     /// The table of the shard: rows that it has are not run again
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+}
+
+/// Who fetches the log from the board.
+#[derive(Clone, Copy, ValueEnum)]
+enum Reader {
+    /// A probe
+    Attached,
+    /// Nobody
+    Absent,
+    /// A probe that is pulled while the program waits for it
+    Pulled,
+}
+
+impl From<Reader> for Probe {
+    fn from(reader: Reader) -> Self {
+        match reader {
+            Reader::Attached => Self::Attached,
+            Reader::Absent => Self::Absent,
+            Reader::Pulled => Self::Pulled,
+        }
+    }
 }
 
 /// A scene and what is flashed for it.
@@ -186,8 +214,11 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
             write_whole(&out, picture::picture(&flashed)?.as_bytes())?;
         }
-        Command::Compare(Flashed { scene, program }) => {
-            let agreed = compare::compare(&scene, &program)?;
+        Command::Compare {
+            flashed: Flashed { scene, program },
+            probe,
+        } => {
+            let agreed = compare::compare(&scene, &program, probe.into())?;
             report::say(format_args!(
                 "{}: PC and board agree to the last bit in {} ticks, {} decisions; {} bytes of stack",
                 scene.display(),

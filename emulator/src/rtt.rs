@@ -9,11 +9,15 @@ use crate::memory::Memories;
 use crate::program::Program;
 
 /// Offsets in the control block: the first up-channel's buffer, its length,
-/// and the offsets of writer and reader.
+/// the offsets of writer and reader, and what is done where there is no room.
 const BUFFER: u32 = 28;
 const LENGTH: u32 = 32;
 const WRITER: u32 = 36;
 const READER: u32 = 40;
+const MODE: u32 = 44;
+
+/// The mode of a channel whose writer waits for room, which a probe sets as it attaches.
+const BLOCK_IF_FULL: u32 = 2;
 
 /// The ring in RAM.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +34,18 @@ impl Ring {
     /// Where the writer stands; changes with every line.
     pub(crate) fn writer(self, ram: &Memories) -> Result<u32, Fault> {
         ram.word(self.block + WRITER)
+    }
+
+    /// Asks the program to wait where the ring is full, as probe-rs does.
+    pub(crate) fn ask_to_wait(self, ram: &Memories) -> Result<(), Fault> {
+        ram.write(self.block + MODE, &BLOCK_IF_FULL.to_le_bytes())
+    }
+
+    /// Leaves no room, as if nobody had fetched anything for long.
+    pub(crate) fn fill(self, ram: &Memories) -> Result<(), Fault> {
+        let length = ram.word(self.block + LENGTH)?;
+        let reader = (self.writer(ram)? + 1).checked_rem(length).unwrap_or(0);
+        ram.write(self.block + READER, &reader.to_le_bytes())
     }
 
     /// Fetches what has been written.

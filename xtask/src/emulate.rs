@@ -4,16 +4,29 @@ pub(crate) mod variants;
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
+
 use crate::firmware::{self, Board};
 use crate::run::{Fault, absolute, cargo, listing, output, read_bytes, run, target, top, write};
+
+/// Who fetches the log from a board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Probe {
+    /// A probe
+    Attached,
+    /// Nobody
+    Absent,
+    /// A probe that is pulled while the program waits for it
+    Pulled,
+}
 
 /// What is done with a scene.
 #[derive(Debug, Clone)]
 pub(crate) enum Task {
     /// Writes its files there.
     Run(PathBuf),
-    /// Compares every tick with host-sim.
-    Compare,
+    /// Compares every tick with host-sim, with such a probe at the board's log.
+    Compare(Probe),
     /// Measures how the board keeps its time, over so many minutes.
     Deadlines(f64),
     /// Makes ticks too long on purpose.
@@ -37,7 +50,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
     let task_name = match task {
         Task::Run(_) => "run",
-        Task::Compare => "compare",
+        Task::Compare(_) => "compare",
         Task::Deadlines(_) => "deadlines",
         Task::Overload => "overload",
         Task::Starting => "starting",
@@ -48,8 +61,10 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     command.arg(task_name).arg(absolute(scene)?);
     match task {
         Task::Run(out) => command.arg("--out").arg(absolute(out)?),
+        Task::Compare(Probe::Absent) => command.args(["--probe", "absent"]),
+        Task::Compare(Probe::Pulled) => command.args(["--probe", "pulled"]),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
-        Task::Compare
+        Task::Compare(Probe::Attached)
         | Task::Overload
         | Task::Starting
         | Task::Damage
@@ -100,7 +115,7 @@ pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
             println!("not on the {}: {reason}", board.name);
             continue;
         }
-        emulate(board, &taken, &Task::Compare)?;
+        emulate(board, &taken, &Task::Compare(Probe::Attached))?;
     }
     if board.has_fpu {
         compare_in_fixed_point(board)?;
@@ -123,7 +138,7 @@ const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
 pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
     for scene in IN_FIXED_POINT {
         let fixed = variants::in_fixed_point(&top().join(scene), &target().join("fixed"))?;
-        emulate(board, &fixed, &Task::Compare)?;
+        emulate(board, &fixed, &Task::Compare(Probe::Attached))?;
     }
     Ok(())
 }

@@ -174,6 +174,10 @@ struct Emulate {
     /// Write nothing; compare every tick with host-sim
     #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
     check: bool,
+    /// Who fetches the log meanwhile
+    #[arg(long, requires = "check", conflicts_with = "all", value_enum)]
+    #[arg(default_value_t = emulate::Probe::Attached)]
+    probe: emulate::Probe,
     /// Compare every scene in scenes/
     #[arg(long, requires = "check", conflicts_with = "scene")]
     all: bool,
@@ -207,7 +211,7 @@ struct Emulate {
 impl Emulate {
     fn run(self) -> Result<(), run::Fault> {
         let task = match self.out {
-            _ if self.check => emulate::Task::Compare,
+            _ if self.check => emulate::Task::Compare(self.probe),
             _ if self.overload => emulate::Task::Overload,
             _ if self.sensor_loss => emulate::Task::SensorLoss,
             _ if self.latency => emulate::Task::Latency,

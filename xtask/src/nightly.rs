@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::emulate::Task;
+use crate::emulate::{Probe, Task};
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
@@ -49,7 +49,7 @@ fn lints() -> Result<(), Fault> {
     Ok(())
 }
 
-/// PC and board agree, over ten minutes no tick is missed, and ticks that are too long
+/// PC and board agree, with a probe at the log and without, over ten minutes no tick is missed, and ticks that are too long
 /// and a sensor that is lost are noticed; no start that nobody asked for drives a motor.
 fn boards() -> Result<(), Fault> {
     for board in Board::ALL {
@@ -58,11 +58,13 @@ fn boards() -> Result<(), Fault> {
         if board.has_both_sides {
             emulate::emulate(board, Path::new(emulate::CIA), &Task::Latency)?;
             let both = emulate::noisiest()?;
-            emulate::emulate(board, &both, &Task::Compare)?;
+            emulate::emulate(board, &both, &Task::Compare(Probe::Attached))?;
             scenes.push(both);
         }
         for scene in &scenes {
             for task in [
+                Task::Compare(Probe::Absent),
+                Task::Compare(Probe::Pulled),
                 Task::Deadlines(10.0),
                 Task::Overload,
                 Task::Starting,

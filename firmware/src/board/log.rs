@@ -2,7 +2,8 @@
 //! a number for each.
 //!
 //! Only the start writes here, idle, and fault handlers. A line that finds no room in the
-//! ring is dropped whole; nothing waits for the probe.
+//! ring is dropped whole, on a Cortex-M0+ it takes the place of older ones; nothing waits for
+//! a probe, not even for one that asked for it and was pulled.
 #![allow(
     clippy::match_same_arms,
     reason = "arms differ in their texts, which clippy does not see within a macro"
@@ -22,7 +23,7 @@ use crate::here::CLOCKS;
 defmt::timestamp!("{=u32:ms}", {
     let ticks = TICKS.get();
     let (whole, part) = (ticks / TICK_HZ, ticks % TICK_HZ);
-    // Wraps after seven weeks, as a clock of 32 bits in milliseconds does.
+    // Begins anew with the count of ticks: at 2 kHz after 24.8 days.
     whole
         .wrapping_mul(1_000)
         .wrapping_add(part * 1_000 / TICK_HZ)
