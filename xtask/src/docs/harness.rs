@@ -27,8 +27,10 @@ enum InWire {
     /// Nothing.
     #[serde(rename = "")]
     Nothing,
-    /// A buffer supplied from 5 V.
-    Buffer,
+    /// A buffer supplied from 5 V, its input low while the chip's pin floats.
+    BufferLow,
+    /// The same, its input high, and its output where it does not drive.
+    BufferHigh,
     /// 2.2 kΩ to 5 V.
     PullUp,
     /// 10 kΩ to ground.
@@ -45,12 +47,16 @@ fn wires() -> Result<Vec<Wire>, Fault> {
 }
 
 /// Size of the drawing, and its middle.
-const WIDTH: f64 = 940.0;
+const WIDTH: f64 = 1100.0;
 const MIDDLE: f64 = WIDTH / 2.0;
 /// From the middle: the board's edge, the near and the far edge of the parts.
 const BOARD: f64 = 115.0;
-const NEAR: f64 = 320.0;
-const FAR: f64 = 450.0;
+const NEAR: f64 = 400.0;
+const FAR: f64 = 530.0;
+/// A gate, and what is before and after it.
+const GATE: f64 = 288.0;
+const BEFORE: f64 = 234.0;
+const AFTER: f64 = 352.0;
 /// Between two wires, and from one part to the next.
 const PITCH: f64 = 26.0;
 const GAP: f64 = 26.0;
@@ -146,14 +152,14 @@ fn draw_in_wire(body: &mut String, in_wire: InWire, side: Side, y: f64) {
     let at = NEAR - 80.0;
     match in_wire {
         InWire::Nothing => {}
-        InWire::Buffer => {
-            let (base, tip) = (side.x(at), side.x(at + 18.0));
-            let (above, below) = (y - 9.0, y + 9.0);
-            let _ = writeln!(
-                body,
-                "<polygon points=\"{base},{above} {base},{below} {tip},{y}\" fill=\"white\" \
-                 stroke=\"black\"/>"
-            );
+        InWire::BufferLow => {
+            gate(body, side, y);
+            text(body, side.x(BEFORE), y - 4.0, "middle", "10 kΩ to ground");
+        }
+        InWire::BufferHigh => {
+            gate(body, side, y);
+            text(body, side.x(BEFORE), y - 4.0, "middle", "10 kΩ to 3.3 V");
+            text(body, side.x(AFTER), y - 4.0, "middle", "10 kΩ to 5 V");
         }
         InWire::PullUp => text(body, side.x(at), y - 4.0, "middle", "2.2 kΩ to 5 V"),
         InWire::PullDown => text(body, side.x(at), y - 4.0, "middle", "10 kΩ to ground"),
@@ -162,6 +168,17 @@ fn draw_in_wire(body: &mut String, in_wire: InWire, side: Side, y: f64) {
             line(body, [x, y], [x, y - PITCH]);
         }
     }
+}
+
+/// A gate of a buffer, which points away from the board.
+fn gate(body: &mut String, side: Side, y: f64) {
+    let (base, tip) = (side.x(GATE), side.x(GATE + 18.0));
+    let (above, below) = (y - 9.0, y + 9.0);
+    let _ = writeln!(
+        body,
+        "<polygon points=\"{base},{above} {base},{below} {tip},{y}\" fill=\"white\" \
+         stroke=\"black\"/>"
+    );
 }
 
 fn rectangle(body: &mut String, x: f64, y: f64, width: f64, height: f64) {
