@@ -15,6 +15,16 @@ static DYING: AtomicBool = AtomicBool::new(false);
 
 /// Motor off, the fault with this number to the record and to the log, `details` too, reset.
 pub(crate) fn die(number: u8, details: impl FnOnce()) -> ! {
+    if begin(number) {
+        details();
+    }
+    watchdog::wait_for_reset()
+}
+
+/// What every fault begins with; whether it is the first. Once in the program, and not in
+/// each of the places that end here.
+#[inline(never)]
+fn begin(number: u8) -> bool {
     cortex_m::interrupt::disable();
     outputs::off();
     // A load and a store, because a Cortex-M0+ has no swap; only a fault within
@@ -24,9 +34,8 @@ pub(crate) fn die(number: u8, details: impl FnOnce()) -> ! {
     if first {
         retained::note(number);
         log::fatal(number);
-        details();
     }
-    watchdog::wait_for_reset()
+    first
 }
 
 #[panic_handler]

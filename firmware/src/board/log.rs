@@ -81,6 +81,8 @@ macro_rules! texts {
     ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
         $reaction:ident, $recovery:ident;)*) => {
         /// What is wrong, and likely causes, of each row of the table of faults.
+        // Once in the program, as it takes nearly a kilobyte.
+        #[inline(never)]
         fn texts(number: u8) -> [defmt::Str; 2] {
             match number {
                 $($number => [defmt::intern!($name), defmt::intern!($causes)],)*

@@ -44,6 +44,7 @@ const LAST_FEEDS: u32 = 1_000;
 /// Gives the probe time to fetch the last line, then waits for the watchdog,
 /// started now if it was not: some ten milliseconds more if it runs, up to a
 /// second otherwise.
+#[inline(never)]
 pub(crate) fn wait_for_reset() -> ! {
     for _ in 0..LAST_FEEDS {
         key(Key::RESET);
