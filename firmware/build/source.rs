@@ -175,6 +175,11 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
             quote! { pub(crate) const HEARS_SEVERAL: bool = false; },
             quote! { pub(crate) type Perception = (); },
             quote! {
+                pub(crate) fn constants(_: &Perception) -> (&impl Sized, &impl Sized) {
+                    (&(), &())
+                }
+            },
+            quote! {
                 pub(crate) fn model() -> &'static [u8] {
                     &[]
                 }
@@ -238,6 +243,11 @@ fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Opt
         quote! {
             pub(crate) fn model() -> &'static [u8] {
                 tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"))
+            }
+        },
+        quote! {
+            pub(crate) fn constants(perception: &Perception) -> (&impl Sized, &impl Sized) {
+                perception.classifier().constants()
             }
         },
         quote! {

@@ -33,7 +33,7 @@ pub(crate) enum Task {
     Overload,
     /// Resets the chip in every way that nobody asked for.
     Starting,
-    /// Flips bits in settings and model.
+    /// Flips bits in what nothing writes.
     Damage,
     /// Breaks the sensors' wires on purpose.
     SensorLoss,

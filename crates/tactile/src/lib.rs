@@ -65,6 +65,7 @@ compile_error!("models are little-endian and read in place: big-endian targets a
 
 mod any_rule;
 mod binner;
+mod constants;
 mod decision;
 mod error;
 mod evidence;
@@ -95,6 +96,7 @@ mod words;
 
 pub use any_rule::{AnyEvidence, AnyRule, AnyRuleSettings};
 pub use binner::Binner;
+pub use constants::Constants;
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;

@@ -1,5 +1,6 @@
 //! The classifier of one whisker: a model, a rule, and the evidence so far.
 
+use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::format::MAX_CLASSES;
@@ -13,8 +14,7 @@ use crate::words::Words;
 /// (see [`Model`]).
 #[derive(Debug, Clone)]
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
-    model: Model<W>,
-    rule: R,
+    constants: Constants<R, W>,
     stream: StreamState<R::Evidence>,
 }
 
@@ -28,17 +28,16 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     ///
     /// The rule's settings do not fit the model.
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
-        let rule = R::new(&model, settings)?;
+        let constants = Constants::new(model, settings)?;
         Ok(Self {
-            stream: StreamState::new(&rule),
-            model,
-            rule,
+            stream: StreamState::new(&constants.rule),
+            constants,
         })
     }
 
     /// The model.
     pub const fn model(&self) -> &Model<W> {
-        &self.model
+        &self.constants.model
     }
 
     /// Takes one sample of all channels, as codes of the model's quantisers.
@@ -50,8 +49,9 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// is then not taken.
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
-        if self.stream.push(&self.model, codes, self.rule.interval())? {
-            return Ok(self.stream.end_of_block(&self.model, &self.rule));
+        let Constants { model, rule } = &self.constants;
+        if self.stream.push(model, codes, rule.interval())? {
+            return Ok(self.stream.end_of_block(model, rule));
         }
         Ok(None)
     }
@@ -64,14 +64,15 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.stream.pass(&self.model, codes)
+        self.stream.pass(&self.constants.model, codes)
     }
 
     /// A touch begins, whose `number` its decisions bear. Where the model has a
     /// [`TouchRule`](crate::TouchRule), the open block is dropped and what came before
     /// is limited: the surface may have changed.
     pub fn touch(&mut self, number: u16) {
-        self.stream.begin_touch(&self.model, &self.rule, number);
+        let Constants { model, rule } = &self.constants;
+        self.stream.begin_touch(model, rule, number);
     }
 
     /// Samples are missing before the next: the differences of which roughness is made
@@ -84,31 +85,34 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// (None if there was no sample), the others drop what they have. All
     /// evidence is then forgotten.
     pub fn finish(&mut self) -> Option<Decision> {
+        let Constants { model, rule } = &self.constants;
         let StreamState { sums, evidence, .. } = &self.stream;
-        let samples = self.rule.interval().saturating_sub(sums.left);
-        let sums = sums.classes.get(..self.model.classes()).unwrap_or_default();
-        let decision = self.rule.finish(sums, samples, evidence.clone());
+        let samples = rule.interval().saturating_sub(sums.left);
+        let sums = sums.classes.get(..model.classes()).unwrap_or_default();
+        let decision = rule.finish(sums, samples, evidence.clone());
         self.reset();
         decision
     }
 
     /// Forgets all evidence.
     pub fn reset(&mut self) {
-        self.stream = StreamState::new(&self.rule);
+        self.stream = StreamState::new(&self.constants.rule);
     }
 
     /// Posterior of each class after the last full block. For display: costs
     /// an exponential a class and a division.
     pub fn posteriors(&self) -> Posteriors {
-        posteriors(&self.model, &self.rule, &self.stream.evidence)
+        let Constants { model, rule } = &self.constants;
+        posteriors(model, rule, &self.stream.evidence)
     }
 }
 
 impl<R: DecisionRule, W: Words> Streams for NaiveBayes<R, W> {
     type Words = W;
+    type Rule = R;
 
-    fn model(&self) -> &Model<W> {
-        &self.model
+    fn constants(&self) -> &Constants<R, W> {
+        &self.constants
     }
 
     #[inline]

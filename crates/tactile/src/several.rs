@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::model::Model;
@@ -15,8 +16,7 @@ use crate::words::Words;
 /// they decide by, `K` how many there are.
 #[derive(Debug, Clone)]
 pub struct Several<V, R: DecisionRule, W, const K: usize> {
-    model: Model<W>,
-    rule: R,
+    constants: Constants<R, W>,
     streams: [StreamState<R::Evidence>; K],
     decides_by: PhantomData<V>,
 }
@@ -138,11 +138,10 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Several<V, R, W
     ///
     /// The rule's settings do not fit the model.
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
-        let rule = R::new(&model, settings)?;
+        let constants = Constants::new(model, settings)?;
         Ok(Self {
-            streams: core::array::from_fn(|_| StreamState::new(&rule)),
-            model,
-            rule,
+            streams: core::array::from_fn(|_| StreamState::new(&constants.rule)),
+            constants,
             decides_by: PhantomData,
         })
     }
@@ -150,30 +149,28 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Several<V, R, W
     /// Posterior of each class after the last full block, by which a stream would decide;
     /// see [`crate::NaiveBayes::posteriors`].
     pub fn posteriors(&self, stream: usize) -> Posteriors {
-        let evidence = V::evidence(&self.model, &self.rule, &self.streams, stream);
-        posteriors(&self.model, &self.rule, &evidence)
+        let Constants { model, rule } = &self.constants;
+        let evidence = V::evidence(model, rule, &self.streams, stream);
+        posteriors(model, rule, &evidence)
     }
 }
 
 impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Several<V, R, W, K> {
     type Words = W;
+    type Rule = R;
 
-    fn model(&self) -> &Model<W> {
-        &self.model
+    fn constants(&self) -> &Constants<R, W> {
+        &self.constants
     }
 
     #[inline]
     fn push_to(&mut self, stream: usize, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
+        let Constants { model, rule } = &self.constants;
         let Some(one) = self.streams.get_mut(stream) else {
             return Ok(None);
         };
-        if one.push(&self.model, codes, self.rule.interval())? {
-            return Ok(V::end_of_block(
-                &self.model,
-                &self.rule,
-                &mut self.streams,
-                stream,
-            ));
+        if one.push(model, codes, rule.interval())? {
+            return Ok(V::end_of_block(model, rule, &mut self.streams, stream));
         }
         Ok(None)
     }
@@ -181,7 +178,7 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Sev
     #[inline]
     fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels> {
         let stream = self.streams.get_mut(stream);
-        stream.map_or(Ok(()), |stream| stream.pass(&self.model, codes))
+        stream.map_or(Ok(()), |stream| stream.pass(&self.constants.model, codes))
     }
 
     #[inline]
@@ -191,7 +188,8 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Sev
 
     fn begin_touch(&mut self, stream: usize, number: u16) {
         if let Some(stream) = self.streams.get_mut(stream) {
-            stream.begin_touch(&self.model, &self.rule, number);
+            let Constants { model, rule } = &self.constants;
+            stream.begin_touch(model, rule, number);
         }
     }
 
@@ -203,7 +201,7 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Sev
 
     fn restart(&mut self) {
         for stream in &mut self.streams {
-            *stream = StreamState::new(&self.rule);
+            *stream = StreamState::new(&self.constants.rule);
         }
     }
 }

@@ -4,6 +4,7 @@
 
 use core::fmt;
 
+use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::model::Model;
 use crate::rule::DecisionRule;
@@ -149,9 +150,16 @@ impl<E> StreamState<E> {
 pub trait Streams {
     /// Where the model lies.
     type Words: Words;
+    /// By which they decide.
+    type Rule;
+
+    /// What no sample changes.
+    fn constants(&self) -> &Constants<Self::Rule, Self::Words>;
 
     /// The model.
-    fn model(&self) -> &Model<Self::Words>;
+    fn model(&self) -> &Model<Self::Words> {
+        &self.constants().model
+    }
 
     /// Takes a sample of a stream that counts, as [`crate::NaiveBayes::push`]; a stream that is
     /// not there takes none.

@@ -1,13 +1,14 @@
-//! Settings and model, which nothing writes after the start: checked by a sum while the core
-//! is idle. A mismatch is a fault of the board, and a reset copies the settings anew.
+//! What nothing writes after the start, the settings, the model and what the classifier has
+//! made of it: checked by a sum while the core is idle. A mismatch is a fault of the board,
+//! and a reset makes anew what is in RAM.
 //!
-//! Some words of both are looked at in every tick: settings of 150 words once in ten ticks, a
+//! Some words of each are looked at in every tick: settings of 150 words once in ten ticks, a
 //! model of 12 KiB once in 200.
 
 use firmware::faults::number;
 
 use super::faults;
-use super::scene::Settings;
+use super::scene::{self, Perception, Settings};
 
 /// Words of each that are looked at between two sleeps.
 const WORDS: usize = 16;
@@ -25,9 +26,9 @@ struct Region {
 }
 
 impl Region {
-    /// That of something which nobody writes from now on. A part of a word at its end is
-    /// left out; there is none.
-    fn of<T: ?Sized>(constant: &'static T, fault: u8) -> Self {
+    /// That of something which stays where it is and which nobody writes from now on. A part
+    /// of a word at its end is left out; there is none.
+    fn of<T: ?Sized>(constant: &T, fault: u8) -> Self {
         let mut region = Self {
             address: core::ptr::from_ref(constant).addr(),
             words: size_of_val(constant) / size_of::<u32>(),
@@ -83,24 +84,25 @@ fn word(address: usize) -> u32 {
     word
 }
 
-/// The walk over both.
-pub(crate) struct Integrity {
-    settings: Region,
-    model: Region,
-}
+/// The walk over all.
+pub(crate) struct Integrity([Region; 4]);
 
 impl Integrity {
-    /// Their sums as they are now.
-    pub(crate) fn new(settings: &'static Settings, model: &'static [u8]) -> Self {
-        Self {
-            settings: Region::of(settings, number::SETTINGS),
-            model: Region::of(model, number::MODEL),
-        }
+    /// Their sums as they are now; both stay where they are.
+    pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
+        let (classifier, factors) = scene::constants(perception);
+        Self([
+            Region::of(settings, number::SETTINGS),
+            Region::of(scene::model(), number::MODEL),
+            Region::of(classifier, number::MODEL),
+            Region::of(factors, number::MODEL),
+        ])
     }
 
-    /// Looks at some words more of both. Does not come back from a fault.
+    /// Looks at some words more of each. Does not come back from a fault.
     pub(crate) fn step(&mut self) {
-        self.settings.step();
-        self.model.step();
+        for region in &mut self.0 {
+            region.step();
+        }
     }
 }

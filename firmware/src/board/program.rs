@@ -5,7 +5,7 @@
 //! | `tick` | 2 | one [`firmware::Module::tick`]; puts its events into a queue |
 //! | `end_of_frame` | 2 | raises /SS after the left sensor's last byte |
 //! | `end_of_right_frame` | 2 | the same on the right, where the scene has that side |
-//! | `idle` | 0 | writes the log, checks settings and model, feeds the watchdog, sleeps |
+//! | `idle` | 0 | writes the log, checks what nothing writes, feeds the watchdog, sleeps |
 //!
 //! All but the last have one priority, as they work on the same registers: none can
 //! interrupt another, and they share the module without a lock. The queue they share
@@ -91,6 +91,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     let (Some(perception), Some(settings)) = (perception, place.settings.fill(SETTINGS)) else {
         faults::die(number::MODEL, || {})
     };
+    let integrity = Integrity::new(settings, perception);
     let counter = Counter::start(core);
     let mut inner = firmware::Module::new(sources, motion, perception, counter);
     if scene::HAS_MOTOR {
@@ -102,13 +103,12 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
-    let settings: &'static Settings = settings;
     let module = Module {
         inner,
         settings,
         second: TICK_HZ,
     };
-    (module, Integrity::new(settings, scene::model()))
+    (module, integrity)
 }
 
 /// One tick of the module; `put` puts its events into the queue, or gives them back.

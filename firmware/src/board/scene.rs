@@ -8,7 +8,7 @@
 //!   is left out by type.
 //! - `Motion`, `start_motion`, `HAS_MOTOR`, `ARMS_AT_START`: how it moves.
 //! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides; `model`: the bytes of
-//!   its model, or none.
+//!   its model, or none; `constants`: what it holds that no sample changes.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
     clippy::unnecessary_wraps,

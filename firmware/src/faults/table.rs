@@ -153,9 +153,9 @@ macro_rules! fault_table {
                 "a flipped bit; a fault of this program",
                 "if it comes again, report it",
                 AllOff, Restart;
-            56 MODEL: "the model in flash is damaged",
-                "flashing was interrupted; flash worn out",
-                "flash again",
+            56 MODEL: "the model is damaged",
+                "flashing was interrupted; flash worn out; a flipped bit in the classifier's RAM",
+                "if it comes again, flash again",
                 AllOff, Restart;
             57 NO_CLOCK: "a clock did not start",
                 "solder bridges; ST-LINK cut off",

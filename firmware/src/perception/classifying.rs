@@ -83,6 +83,11 @@ impl<L, const A: usize, const B: usize> Classifying<L, A, B> {
     }
 
     /// The classifier.
+    pub const fn classifier(&self) -> &L {
+        &self.classifier
+    }
+
+    /// The classifier.
     pub const fn classifier_mut(&mut self) -> &mut L {
         &mut self.classifier
     }

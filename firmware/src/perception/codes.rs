@@ -1,6 +1,6 @@
 //! A classifier of the sensors' codes.
 
-use tactile::{Decision, Model, Streams, Words};
+use tactile::{Constants, Decision, Model, Streams, Words};
 
 use super::{Sample, SampleClassifier};
 
@@ -11,8 +11,6 @@ pub struct CodeClassifier<B> {
     bayes: B,
     /// The model's codes a code of the sensor: powers of two.
     factors: [i32; 2],
-    /// Whether samples count only while something is touched.
-    needs_touch: bool,
 }
 
 /// The model was not trained on the integer codes of a sensor's two channels,
@@ -47,17 +45,17 @@ impl<B: Streams> CodeClassifier<B> {
     pub fn new(bayes: B) -> Result<Self, NotCodes> {
         // At most 17 bits.
         let factors = shifts(bayes.model())?.map(|shift| 1 << shift);
-        let needs_touch = bayes.model().touch_rule().is_some();
-        Ok(Self {
-            bayes,
-            factors,
-            needs_touch,
-        })
+        Ok(Self { bayes, factors })
     }
 
     /// The classifier: its model, and posteriors.
     pub const fn bayes(&self) -> &B {
         &self.bayes
+    }
+
+    /// What no sample changes: its model and rule, and the factors of its codes.
+    pub fn constants(&self) -> (&Constants<B::Rule, B::Words>, &[i32; 2]) {
+        (self.bayes.constants(), &self.factors)
     }
 }
 
@@ -82,7 +80,7 @@ impl<B: Streams> SampleClassifier for CodeClassifier<B> {
 
     #[inline]
     fn knows_touches(&self) -> bool {
-        B::Words::JOINT && self.needs_touch
+        self.bayes.model().touch_rule().is_some()
     }
 
     fn interrupt(&mut self, whisker: usize) {

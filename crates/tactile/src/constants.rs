@@ -1,0 +1,26 @@
+//! What a classifier holds that no sample changes.
+
+use crate::error::SetupError;
+use crate::model::Model;
+use crate::rule::DecisionRule;
+use crate::words::Words;
+
+/// A model and a rule for it. Nothing changes after they were joined, so a program can hold
+/// the memory they take against a sum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constants<R, W> {
+    pub(crate) model: Model<W>,
+    pub(crate) rule: R,
+}
+
+impl<R: DecisionRule, W: Words> Constants<R, W> {
+    /// Joins them.
+    ///
+    /// # Errors
+    ///
+    /// The rule's settings do not fit the model.
+    pub(crate) fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
+        let rule = R::new(&model, settings)?;
+        Ok(Self { model, rule })
+    }
+}
