@@ -81,6 +81,10 @@ pub(crate) struct Board {
     pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
+    /// The world moves on after so long, even if no tick has ended; none: it waits.
+    pub(crate) world_waits: Option<Ps>,
+    /// No tick has ended since the world moved on last.
+    pub(crate) is_late: bool,
 }
 
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
@@ -105,6 +109,8 @@ impl Board {
             has_reader: true,
             notices: Vec::new(),
             reset: None,
+            world_waits: None,
+            is_late: false,
         };
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
@@ -117,13 +123,15 @@ impl Board {
     /// Runs to the end of the next tick, through resets if they are borne.
     pub(crate) fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
         self.inputs();
-        let limit = self.machine.now + PATIENCE;
+        let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
             let stop = self.machine.run(limit, &mut self.sensors, observer)?;
+            self.is_late = stop == Stop::Time;
             match stop {
                 Stop::Tick => break,
                 Stop::Ready => {}
-                Stop::Time => return Err(Fault::Asleep),
+                Stop::Time if self.world_waits.is_some() => break,
+                Stop::Time => return Err(self.machine.stands_still()),
                 Stop::Reset(cause) => {
                     self.reset = Some(cause);
                     self.watch.restart();

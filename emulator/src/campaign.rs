@@ -17,11 +17,13 @@ mod injection;
 mod judge;
 mod outcome;
 mod page;
+mod prepared;
 mod shard;
 mod subject;
 mod table;
 mod words;
 
+pub use draw::Plan;
 pub use injection::Kind;
 pub use outcome::{Ending, RunRow};
 pub use page::{described, page};

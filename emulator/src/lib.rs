@@ -35,4 +35,5 @@ mod rtt;
 pub mod sensor_loss;
 pub mod starting;
 mod trouble;
+mod upset;
 mod watch;

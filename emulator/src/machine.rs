@@ -8,32 +8,16 @@ use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
 use crate::core::Core;
-use crate::memory::{Memories, RAM, Shared};
+use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
 use crate::rtt::Ring;
+use crate::upset::{Planned, Upset};
 
 /// Interrupts are exceptions from this number on.
 const INTERRUPTS: u32 = 16;
 /// The exception number in xPSR.
 const EXCEPTION: u32 = 0x1FF;
-
-/// How a core crashes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Crash {
-    /// There is no memory where it goes on.
-    Nowhere,
-    /// Its stack is used up.
-    Stack,
-}
-
-/// Between flash and RAM.
-const NOWHERE: u32 = 0x1800_0000;
-/// The register of the stack pointer.
-const SP: u8 = 13;
-
-/// Instructions of the tick's handler before it is held.
-const HOLD_AFTER: u64 = 200;
 
 /// Why [`Machine::run`] came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,11 +77,9 @@ pub(crate) struct Machine {
     pub(crate) cycle: Ps,
     exception: u32,
     ready: bool,
-    /// For how long the core is to be held, and before which instruction of the tick.
-    hold: Ps,
-    hold_at: u64,
-    /// How it is to crash there.
-    crash: Option<Crash>,
+    /// Nothing but a reset gets the core on.
+    is_locked_up: bool,
+    planned: Planned,
     spent: Spent,
 }
 
@@ -124,9 +106,8 @@ impl Machine {
             shared,
             exception: 0,
             ready: false,
-            hold: 0,
-            hold_at: u64::MAX,
-            crash: None,
+            is_locked_up: false,
+            planned: Planned::default(),
             spent: Spent::default(),
         })
     }
@@ -138,20 +119,24 @@ impl Machine {
         work(&mut chip)
     }
 
+    /// Why no tick ends.
+    pub(crate) fn stands_still(&self) -> Fault {
+        if self.is_locked_up {
+            Fault::LockUp { pc: self.core.pc() }
+        } else {
+            Fault::Asleep
+        }
+    }
+
     /// The most bytes that the stack has held since the reset.
     pub(crate) fn stack_used(&self) -> Result<u32, Fault> {
         self.stack.used(&self.memories)
     }
 
-    /// Holds the core for `time` in the middle of the next tick while the
-    /// peripherals go on: a tick that is too long.
-    pub(crate) const fn hold_next_tick(&mut self, time: Ps) {
-        self.hold = time;
-    }
-
-    /// Lets the core crash in the middle of the next tick.
-    pub(crate) const fn crash_next_tick(&mut self, how: Crash) {
-        self.crash = Some(how);
+    /// Lets something befall the core before an instruction of the next tick's handler,
+    /// counted from 1; if that has fewer, in the tick after it.
+    pub(crate) const fn upset_next_tick(&mut self, instruction: u64, upset: Upset) {
+        self.planned.plan(instruction, upset);
     }
 
     /// Runs, with `sensors` on the wires, the left one first, until the tick's handler
@@ -163,6 +148,7 @@ impl Machine {
         sensors: &mut [impl SensorEnd],
         observer: &mut impl Observer,
     ) -> Result<Stop, Fault> {
+        let mut asleep = self.core.is_asleep();
         loop {
             if let Some(cause) = self.look(sensors)? {
                 self.reset(cause)?;
@@ -171,21 +157,19 @@ impl Machine {
             if self.now >= until {
                 return Ok(Stop::Time);
             }
-            let asleep = self.core.is_asleep();
+            if self.is_locked_up {
+                self.sleep(until, 0)?;
+                continue;
+            }
             let cycles = self.core.step();
-            if asleep && self.core.is_asleep() {
+            let was_asleep = std::mem::replace(&mut asleep, self.core.is_asleep());
+            if was_asleep && asleep {
                 if !self.ready {
                     self.ready = true;
                     return Ok(Stop::Ready);
                 }
-                // Nothing was pending: on to the next event.
-                let due = self.due.ok_or(Fault::Asleep)?;
-                let slept = due.min(until).saturating_sub(self.now);
-                self.now += slept;
                 // The step that found it asleep has counted its cycle.
-                let counted = cycles * self.cycle;
-                self.core.pass(slept.saturating_sub(counted), self.cycle);
-                self.shared.set_now(self.now);
+                self.sleep(until, cycles * self.cycle)?;
                 continue;
             }
             self.now += cycles * self.cycle;
@@ -194,6 +178,16 @@ impl Machine {
                 return Ok(Stop::Tick);
             }
         }
+    }
+
+    /// Nothing is pending: on to the next event, of which SysTick has counted a part.
+    fn sleep(&mut self, until: Ps, counted: Ps) -> Result<(), Fault> {
+        let due = self.due.ok_or(Fault::Asleep)?;
+        let slept = due.min(until).saturating_sub(self.now);
+        self.now += slept;
+        self.core.pass(slept.saturating_sub(counted), self.cycle);
+        self.shared.set_now(self.now);
+        Ok(())
     }
 
     /// Counts the step that was just made; whether the tick's handler has returned.
@@ -205,9 +199,7 @@ impl Machine {
             if self.exception == self.tick {
                 let latency = self.now - self.shared.chip().tick_began();
                 observer.tick_begins(self.now, latency, &self.spent);
-                if self.hold > 0 || self.crash.is_some() {
-                    self.hold_at = self.spent.tick + HOLD_AFTER;
-                }
+                self.planned.tick_begins(self.spent.tick);
             }
             return Ok(false);
         }
@@ -218,24 +210,16 @@ impl Machine {
             _ => &mut self.spent.other,
         };
         *counter += 1;
-        if self.spent.tick == self.hold_at {
-            self.hold_at = u64::MAX;
-            let held = std::mem::take(&mut self.hold);
+        if let Some(upset) = self.planned.due(self.spent.tick) {
+            let held = upset.happen(&self.core, &self.memories)?;
             self.now += held;
             self.core.pass(held, self.cycle);
-            match self.crash.take() {
-                Some(Crash::Nowhere) => self.core.set_pc(NOWHERE),
-                Some(Crash::Stack) => self.core.set_reg(SP, RAM + 8),
-                None => {}
-            }
         }
         if before == self.tick && self.exception == 0 {
             observer.tick_ends(self.now, &self.spent);
             return Ok(true);
         }
-        if before != 0 && before < 16 && self.core.has_locked_up() {
-            return Err(Fault::LockUp { pc: self.core.pc() });
-        }
+        self.is_locked_up = before != 0 && before < INTERRUPTS && self.core.has_locked_up();
         Ok(false)
     }
 
@@ -277,6 +261,7 @@ impl Machine {
         self.follow_chip();
         self.exception = 0;
         self.ready = false;
+        self.is_locked_up = false;
         Ok(())
     }
 

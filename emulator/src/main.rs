@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use emulator::campaign::{self, Ending, Shard, ShardTable};
+use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::Probe;
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, sensor_loss, starting,
@@ -106,14 +106,17 @@ struct Campaign {
     /// The programs that were built for them, in the same order; none: on the PC
     #[arg(long, value_name = "ELF")]
     program: Vec<PathBuf>,
+    /// A run for every word of RAM of the only scene's program, of which it flips a bit
+    #[arg(long, requires = "program")]
+    words: bool,
     /// What the rows call it
     #[arg(long, default_value = "host-sim")]
     subject: String,
     /// The number of the first run
     #[arg(long, default_value_t = 0)]
     first: u64,
-    /// How many runs
-    #[arg(long)]
+    /// How many runs; with --words no more than there are words
+    #[arg(long, default_value_t = u64::MAX, required_unless_present = "words")]
     runs: u64,
     /// Which shard
     #[arg(long, default_value_t = 0)]
@@ -168,9 +171,14 @@ fn inject(campaign: Campaign) -> Result<(), Error> {
         remainder: campaign.shard,
         shards: campaign.shards.max(1),
     };
+    let plan = if campaign.words {
+        Plan::Words
+    } else {
+        Plan::Drawn
+    };
     let mut table = ShardTable::open(&campaign.out)?;
     let done = table.done().to_vec();
-    campaign::run(&campaign.subject, &scenes, shard, &done, |row| {
+    campaign::run(&campaign.subject, &scenes, plan, shard, &done, |row| {
         table.add(&row)
     })
 }

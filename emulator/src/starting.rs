@@ -8,8 +8,8 @@ use host_sim::Error;
 use host_sim::commands::run::Loaded;
 
 use crate::chip::{Ps, ResetCause};
-use crate::machine::Crash;
 use crate::trouble::Trouble;
+use crate::upset::{MIDDLE, Upset};
 
 /// Longer than the watchdog bears.
 const HANG: Ps = 60_000_000_000;
@@ -50,11 +50,11 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     whisks(&mut trouble, 100 * hundredth, "after a press")?;
     heard.push(trouble.hear("armed by the user button")?);
 
-    let crashes = iter::repeat_n((Crash::Nowhere, "fault 49"), FAULTS);
-    for (crash, said) in crashes.chain([(Crash::Stack, "fault 54")]) {
+    let crashes = iter::repeat_n((Upset::Astray, "fault 49"), FAULTS);
+    for (crash, said) in crashes.chain([(Upset::NoStack, "fault 54")]) {
         trouble.log.clear();
         let board = trouble.board_mut();
-        board.machine.crash_next_tick(crash);
+        board.machine.upset_next_tick(MIDDLE, crash);
         if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
             return Err(Error::Work("driven in a hard fault".to_owned()));
         }

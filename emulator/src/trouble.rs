@@ -11,6 +11,7 @@ use crate::chip::Ps;
 use crate::emulate::start;
 use crate::program::Program;
 use crate::rtt::LogDecoder;
+use crate::upset::{MIDDLE, Upset};
 
 /// A board in trouble.
 pub(crate) struct Trouble {
@@ -51,7 +52,8 @@ impl Trouble {
 
     /// Holds the core for `time` in the middle of the next tick.
     pub(crate) fn hold(&mut self, time: Ps) {
-        self.board_mut().machine.hold_next_tick(time);
+        let machine = &mut self.board_mut().machine;
+        machine.upset_next_tick(MIDDLE, Upset::Held(time));
     }
 
     /// The board.

@@ -12,6 +12,10 @@ use crate::run::{Fault, cargo, listing, read, read_bytes, run, target, top, writ
 
 /// What the rows call a run on this PC.
 const PC: &str = "host-sim";
+/// What they call a run that flips a bit of a word of RAM, of which every word has one.
+const WORDS: &str = "nucleo-f446re-words";
+/// How many runs make a campaign, beside those of words.
+const RUNS: u64 = 10_000;
 /// Of so many runs, one is on each board; the others are on the PC, where they take a
 /// hundredth of the time.
 const A_BOARD_S: u64 = 33;
@@ -19,10 +23,11 @@ const A_BOARD_S: u64 = 33;
 /// Which runs are made.
 #[derive(Args)]
 pub(crate) struct Choice {
-    /// How many runs in all
-    #[arg(long, default_value_t = 10_000)]
+    /// How many runs in all, beside one for every word of RAM
+    #[arg(long, default_value_t = RUNS)]
     runs: u64,
-    /// Where they run: host-sim or the name of a board; none: everywhere
+    /// Where they run: host-sim, the name of a board, or nucleo-f446re-words for one run
+    /// for every word of RAM; none: everywhere
     #[arg(long)]
     subject: Option<String>,
     /// One run again, by its number, printed as a row; needs --subject
@@ -31,7 +36,7 @@ pub(crate) struct Choice {
     /// How many shards run at once
     #[arg(long, default_value_t = 2)]
     shards: u64,
-    /// Go on with the tables that are there
+    /// Go on with the tables that are there; refused where the boards' programs have changed
     #[arg(long)]
     resume: bool,
 }
@@ -41,28 +46,39 @@ struct Subject {
     name: &'static str,
     scenes: Vec<PathBuf>,
     programs: Vec<PathBuf>,
+    /// How many runs; none: one for every word of RAM.
+    runs: Option<u64>,
 }
 
 impl Subject {
-    fn of(name: &str) -> Result<Self, Fault> {
+    /// # Errors
+    /// An unknown name, and what cannot be built.
+    fn of(name: &str, runs: u64) -> Result<Self, Fault> {
         let scenes = listing(&top().join("scenes"), "toml")?;
-        if name == PC {
-            return Ok(Self {
+        match name {
+            PC => Ok(Self {
                 name: PC,
                 scenes,
                 programs: Vec::new(),
-            });
+                runs: Some(runs),
+            }),
+            WORDS => Ok(Self {
+                name: WORDS,
+                runs: None,
+                ..Self::on(Board::ALL[0], &[top().join(crate::emulate::FULL)], runs)?
+            }),
+            _ => Self::on(Board::named(name)?, &scenes, runs),
         }
-        Self::on(Board::named(name)?, &scenes)
     }
 
     /// On a board, those of `scenes` that it takes; of several whiskers a side the first.
-    fn on(board: Board, scenes: &[PathBuf]) -> Result<Self, Fault> {
+    fn on(board: Board, scenes: &[PathBuf], runs: u64) -> Result<Self, Fault> {
         let folder = folder().join(board.name);
         let mut subject = Self {
             name: board.name,
             scenes: Vec::new(),
             programs: Vec::new(),
+            runs: Some(runs),
         };
         for scene in scenes {
             let single = variants::single(scene, &folder)?;
@@ -70,8 +86,17 @@ impl Subject {
             if let Ok(built) = firmware::try_build(board, &scene)? {
                 let name = scene.file_stem().unwrap_or_default();
                 let kept = folder.join(name).with_extension("elf");
+                let built = read_bytes(&built)?;
+                if kept.exists() && read_bytes(&kept)? != built {
+                    return Err(format!(
+                        "{}: the program of {} is not that of the tables; begin anew without \
+                         --resume",
+                        board.name,
+                        scene.display()
+                    ));
+                }
                 // The next build takes the place of the last.
-                write(&kept, read_bytes(&built)?)?;
+                write(&kept, built)?;
                 subject.scenes.push(scene);
                 subject.programs.push(kept);
             }
@@ -79,34 +104,45 @@ impl Subject {
         Ok(subject)
     }
 
-    /// The command that makes `runs` runs from `first` on, of which a shard.
-    fn command(&self, [first, runs]: [u64; 2], [shard, shards]: [u64; 2], out: &Path) -> Command {
+    /// The command that makes so many runs from `first` on, of which a shard.
+    fn command(
+        &self,
+        first: u64,
+        runs: Option<u64>,
+        [shard, shards]: [u64; 2],
+        out: &Path,
+    ) -> Command {
         let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "campaign"]);
         command.args(&self.scenes);
         for program in &self.programs {
             command.arg("--program").arg(program);
         }
-        for (option, value) in [
-            ("--first", first),
-            ("--runs", runs),
-            ("--shard", shard),
-            ("--shards", shards),
-        ] {
+        for (option, value) in [("--first", first), ("--shard", shard), ("--shards", shards)] {
             command.args([option, &value.to_string()]);
+        }
+        if let Some(runs) = runs {
+            command.args(["--runs", &runs.to_string()]);
+        }
+        if self.runs.is_none() {
+            command.arg("--words");
         }
         command.args(["--subject", self.name]).arg("--out").arg(out);
         command
     }
 
     /// Makes the runs in so many shards at once; their tables.
-    fn run(&self, runs: u64, shards: u64) -> Result<Vec<PathBuf>, Fault> {
-        println!("{}: {runs} runs in {} scenes", self.name, self.scenes.len());
+    fn run(&self, shards: u64) -> Result<Vec<PathBuf>, Fault> {
+        let runs = match self.runs {
+            Some(runs) => runs.to_string(),
+            None => "as many runs as words".to_owned(),
+        };
+        println!("{}: {runs} in {} scenes", self.name, self.scenes.len());
         let table = |shard| folder().join(format!("{}-{shard}.csv", self.name));
         let tables: Vec<PathBuf> = (0..shards).map(table).collect();
         let started: Result<Vec<Child>, Fault> = (0..shards)
             .zip(&tables)
             .map(|(shard, out)| {
-                let mut command = self.command([0, runs], [shard, shards], out);
+                let mut command = self.command(0, self.runs, [shard, shards], out);
                 command.spawn().map_err(|error| error.to_string())
             })
             .collect();
@@ -133,23 +169,51 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if let (Some(name), Some(number)) = (&choice.subject, choice.again) {
         return again(name, number);
     }
-    if !choice.resume && folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
     let on_a_board = choice.runs / A_BOARD_S;
     let boards = Board::ALL.map(|board| (board.name, on_a_board));
     let on_pc = choice.runs - on_a_board * boards.len() as u64;
-    let everywhere = std::iter::once((PC, on_pc)).chain(boards).collect();
+    let everywhere = [(PC, on_pc), (WORDS, 0)]
+        .into_iter()
+        .chain(boards)
+        .collect();
     let wanted: Vec<(&str, u64)> = match &choice.subject {
+        Some(name) if ![PC, WORDS].contains(&name.as_str()) => {
+            vec![(Board::named(name)?.name, choice.runs)]
+        }
         Some(name) => vec![(name, choice.runs)],
         None => everywhere,
     };
+    if !choice.resume {
+        forget()?;
+    }
     let mut tables = Vec::new();
     for (name, runs) in wanted {
-        tables.extend(Subject::of(name)?.run(runs, choice.shards.max(1))?);
+        tables.extend(Subject::of(name, runs)?.run(choice.shards.max(1))?);
     }
     let page = top().join("docs/measured/reliability.md");
     told(&tables, choice.subject.is_none().then_some(page.as_path()))
+}
+
+/// The whole campaign, as the command without options makes it.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn whole() -> Result<(), Fault> {
+    all(&Choice {
+        runs: RUNS,
+        subject: None,
+        again: None,
+        shards: 2,
+        resume: false,
+    })
+}
+
+/// Deletes all tables and programs of earlier campaigns.
+fn forget() -> Result<(), Fault> {
+    if folder().exists() {
+        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
+    }
+    Ok(())
 }
 
 /// One run again.
@@ -158,7 +222,7 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
     if out.exists() {
         fs::remove_file(&out).map_err(|error| error.to_string())?;
     }
-    run(&mut Subject::of(name)?.command([number, 1], [0, 1], &out))?;
+    run(&mut Subject::of(name, 1)?.command(number, Some(1), [0, 1], &out))?;
     print!("{}", read(&out)?);
     Ok(())
 }
@@ -178,11 +242,9 @@ fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 /// # Errors
 /// Harmful runs, and what cannot be built.
 pub(crate) fn short() -> Result<(), Fault> {
-    if folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
-    let mut tables = Subject::of(PC)?.run(1000, 2)?;
+    forget()?;
+    let mut tables = Subject::of(PC, 1000)?.run(2)?;
     let one = [top().join(crate::emulate::FULL)];
-    tables.extend(Subject::on(Board::ALL[0], &one)?.run(24, 2)?);
+    tables.extend(Subject::on(Board::ALL[0], &one, 24)?.run(2)?);
     told(&tables, None)
 }

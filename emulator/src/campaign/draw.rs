@@ -13,6 +13,15 @@ const TO_S: f64 = 0.5;
 /// The longest that is taken away again, s.
 const LONGEST_S: f64 = 0.4;
 
+/// What is injected in the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Plan {
+    /// What a run's number draws.
+    Drawn,
+    /// A bit of the word of RAM that has the run's number; which bit, and when, is drawn.
+    Words,
+}
+
 /// What a scene and its subject have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Has {
@@ -38,13 +47,16 @@ fn one_of(random: &mut Xoshiro256PlusPlus, kinds: &[Kind]) -> Kind {
     kinds.get(n).copied().unwrap_or(Kind::SensorSilent)
 }
 
-/// Draws an injection. Half of those that can be taken away again stay to the end.
-pub(super) fn injection(has: Has, random: &mut Xoshiro256PlusPlus) -> Injection {
+/// Draws the injection of a run. Half of those that can be taken away again stay to the end.
+pub(super) fn injection(
+    plan: Plan,
+    number: u64,
+    has: Has,
+    random: &mut Xoshiro256PlusPlus,
+) -> Injection {
     let kind = match below(random, 10) {
-        0..6 if has.chip => match below(random, 10) {
-            0..8 => Kind::RamBit,
-            _ => one_of(random, &Kind::CHIP),
-        },
+        _ if plan == Plan::Words => Kind::RamBit,
+        0..6 if has.chip => one_of(random, &Kind::CHIP),
         n if has.motors && n % 2 == 0 => one_of(random, &Kind::MOTOR),
         _ => one_of(random, &Kind::SENSOR),
     };
@@ -58,11 +70,41 @@ pub(super) fn injection(has: Has, random: &mut Xoshiro256PlusPlus) -> Injection 
     } else {
         (!stays).then(|| longest.powf(share) as u64)
     };
-    Injection {
+    let drawn = Injection {
         kind,
         whisker: below(random, has.whiskers as u64) as usize,
         start,
         ticks: length,
         detail: random.next_u64(),
+    };
+    match plan {
+        Plan::Drawn => drawn,
+        Plan::Words => Injection {
+            detail: drawn.detail & !u64::from(u32::MAX) | number & u64::from(u32::MAX),
+            ..drawn
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Has, Kind, Plan, injection, random};
+
+    #[test]
+    fn every_word_has_its_run() {
+        let has = Has {
+            motors: true,
+            chip: true,
+            whiskers: 1,
+            tick_hz: 2_000,
+        };
+        for number in [0, 1, 700, u64::from(u32::MAX)] {
+            let drawn = injection(Plan::Words, number, has, &mut random(number));
+            assert_eq!(
+                (drawn.kind, drawn.detail as u32),
+                (Kind::RamBit, number as u32)
+            );
+            assert_eq!(drawn.ticks, Some(1));
+        }
     }
 }

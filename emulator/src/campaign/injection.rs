@@ -54,12 +54,16 @@ pub enum Kind {
     ErrorWord,
     /// The controller of the bus reports an error.
     BusError,
-    /// A bit of the board's RAM is inverted once.
+    /// A bit of the board's RAM is inverted once, between two ticks or within one.
     RamBit,
-    /// A bit of a register that the program has set is inverted once.
+    /// A bit of a register of the core is inverted once, within a tick.
+    CoreBit,
+    /// A bit of a peripheral's register that is not zero is inverted once.
     RegisterBit,
     /// The DMA that moves the bytes of the frames stops.
     DmaStopped,
+    /// The clock that the board is fed with stops.
+    ClockStopped,
     /// Interrupts come late: the core is held within a tick.
     Late,
 }
@@ -91,11 +95,13 @@ impl Kind {
         Self::ErrorWord,
         Self::BusError,
     ];
-    /// Those that befall a chip. Memory is most of it.
-    pub(super) const CHIP: [Self; 4] = [
+    /// Those that befall a chip.
+    pub(super) const CHIP: [Self; 6] = [
         Self::RamBit,
+        Self::CoreBit,
         Self::RegisterBit,
         Self::DmaStopped,
+        Self::ClockStopped,
         Self::Late,
     ];
 
@@ -116,7 +122,12 @@ impl Kind {
     pub(super) const fn is_momentary(self) -> bool {
         matches!(
             self,
-            Self::RamBit | Self::RegisterBit | Self::DmaStopped | Self::Late
+            Self::RamBit
+                | Self::CoreBit
+                | Self::RegisterBit
+                | Self::DmaStopped
+                | Self::ClockStopped
+                | Self::Late
         )
     }
 }
@@ -230,8 +241,10 @@ impl Injection {
                 }
             }
             Kind::RamBit if begins => subject.flip_ram(self.detail)?,
+            Kind::CoreBit if begins => subject.flip_core(self.detail),
             Kind::RegisterBit if begins => subject.flip_register(self.detail)?,
             Kind::DmaStopped if begins => subject.stop_dma()?,
+            Kind::ClockStopped if begins => subject.stop_clock(),
             Kind::Late if begins => subject.hold(self.detail),
             _ => {}
         }

@@ -12,6 +12,9 @@ const OFF_TICKS: u32 = 2;
 /// For how long a whisker may be further from its setpoint than the scene allows, and be
 /// driven, s.
 const AWAY_S: f64 = 0.05;
+/// For how long the core may not come to the end of a tick, s: a fault's handler waits for a
+/// probe, and the start after it for the sensor.
+const HUNG_S: f64 = 0.75;
 /// Steps of a PWM by which a duty may be rounded.
 const ROUNDING: f64 = 1e-3;
 
@@ -73,6 +76,8 @@ pub(super) struct Judge {
     /// Ticks in which a setpoint approaches through the whole travel.
     approach: u32,
     reset: bool,
+    /// Ticks for which the core has not come to the end of one.
+    late_for: u32,
 }
 
 impl Judge {
@@ -91,6 +96,7 @@ impl Judge {
                 (travel_deg / motor.approach_deg_s * f64::from(scene.tick_hz)).ceil() as u32
             }),
             reset: false,
+            late_for: 0,
         }
     }
 
@@ -99,6 +105,10 @@ impl Judge {
         if seen.reset.is_some() {
             self.reset = true;
             self.whiskers.fill(Whisker::default());
+        }
+        self.late_for = if seen.is_late { self.late_for + 1 } else { 0 };
+        if f64::from(self.late_for) > HUNG_S * self.tick_hz {
+            return Some(Harm::LockedUp);
         }
         let cut = injection.kind == Kind::EncoderStuck && injection.lasts(tick);
         for (whisker, &displaced) in self.whiskers.iter_mut().zip(&seen.displaced_deg) {

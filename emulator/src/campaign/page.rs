@@ -70,7 +70,8 @@ fn place(row: &RunRow) -> String {
     match &row.changed {
         Some(changed) => {
             let word = changed.split(" bit ").next().unwrap_or(changed);
-            without_indices(word)
+            let named = word.split_once(' ').map_or(word, |(_, name)| name);
+            without_indices(named)
         }
         None => name(row.kind),
     }

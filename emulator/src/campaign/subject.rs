@@ -8,13 +8,14 @@ use host_sim::motor::SimMotor;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 
-use super::words::Words;
+use super::words::{STACK, Words};
 use crate::board::Emulated;
 use crate::chip::{Fault, ResetCause};
 use crate::emulate::start;
 use crate::notice::Notice;
 use crate::program::Program;
 use crate::rtt::LogDecoder;
+use crate::upset::{MIDDLE, REGISTERS, Upset};
 
 /// What can be seen of a tick from outside.
 #[derive(Debug, Clone, Default)]
@@ -31,6 +32,24 @@ pub(super) struct Seen {
     pub(super) decisions: Vec<(usize, String)>,
     /// What has reset the chip.
     pub(super) reset: Option<ResetCause>,
+    /// The core has not come to the end of a tick in a tick's time.
+    pub(super) is_late: bool,
+}
+
+impl Seen {
+    /// Whether nothing at all can be told from `other`.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        // A side that does not exist has values that are not even equal to themselves.
+        let bits = |row: &Row| row.pairs().map(|pair| pair.map(f64::to_bits));
+        bits(&self.row) == bits(&other.row)
+            && self.row.touch == other.row.touch
+            && self.effort == other.effort
+            && self.displaced_deg == other.displaced_deg
+            && self.notices == other.notices
+            && self.decisions == other.decisions
+            && self.reset == other.reset
+            && self.is_late == other.is_late
+    }
 }
 
 /// A scene that runs. Without a chip there is nothing of one to be changed.
@@ -55,7 +74,10 @@ pub(super) trait Subject {
         Ok(())
     }
 
-    /// Inverts a bit of a register.
+    /// Inverts a bit of a register of the core within the next tick.
+    fn flip_core(&mut self, _detail: u64) {}
+
+    /// Inverts a bit of a peripheral's register.
     ///
     /// # Errors
     /// [`Fault`] where there is none.
@@ -70,6 +92,9 @@ pub(super) trait Subject {
     fn stop_dma(&mut self) -> Result<(), Fault> {
         Ok(())
     }
+
+    /// Stops the clock that the chip is fed with.
+    fn stop_clock(&mut self) {}
 
     /// Holds the core within the next tick.
     fn hold(&mut self, _detail: u64) {}
@@ -163,7 +188,11 @@ impl<'p> OnBoard<'p> {
     /// As [`start`].
     pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
         let mut run = start(&loaded.scene, loaded.classes()?, program)?;
-        run.module_mut().bears_resets = true;
+        let emulated = run.module_mut();
+        emulated.bears_resets = true;
+        // Ticks are not equally long.
+        let period = 1e12 / f64::from(loaded.scene.tick_hz);
+        emulated.board.world_waits = Some((1.5 * period) as u64);
         Ok(Self {
             run,
             words,
@@ -173,6 +202,18 @@ impl<'p> OnBoard<'p> {
             changed: None,
         })
     }
+}
+
+/// Which bit, which byte or register, whether within a tick, and before which instruction of
+/// it: ticks of a decision are the longest, and have up to 2,400.
+const fn parts(detail: u64) -> [u32; 4] {
+    let drawn = (detail >> 32) as u32;
+    [
+        drawn % 32,
+        (drawn >> 5) % 32,
+        (drawn >> 10) % 2,
+        1 + (drawn >> 11) % 1_500,
+    ]
 }
 
 impl Subject for OnBoard<'_> {
@@ -187,6 +228,7 @@ impl Subject for OnBoard<'_> {
             .map(|(place, notice)| (number(place, 1), notice))
             .collect();
         seen.reset = board.reset.take();
+        seen.is_late = board.is_late;
         let duties = board.machine.with_chip(|chip| chip.motor_duties());
         let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
         for n in 0..self.sides {
@@ -212,14 +254,48 @@ impl Subject for OnBoard<'_> {
     }
 
     fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
-        let board = &mut self.run.module_mut().board;
-        let memories = &board.machine.memories;
-        let (address, name) = self.words.pick(detail);
-        let bit = (detail >> 32) % 32;
-        let word = memories.word(address)? ^ (1 << bit);
-        memories.write(address, &word.to_le_bytes())?;
-        self.changed = Some(format!("{name} bit {bit}"));
+        let (word, name) = self.words.pick(detail as u32);
+        let [bit, byte, within, instruction] = parts(detail);
+        let (address, bits) = (word + byte % 4, 1_u8 << (bit % 8));
+        let machine = &mut self.run.module_mut().board.machine;
+        // What lies on the stack between two ticks is idle's, and little.
+        let within = within % 2 == 0 || name == STACK;
+        if within {
+            let upset = Upset::Ram { address, bits };
+            machine.upset_next_tick(instruction.into(), upset);
+        } else {
+            machine.memories.flip(address, bits)?;
+        }
+        let bit = 8 * (byte % 4) + bit % 8;
+        let when = if within { "within a tick" } else { "" };
+        self.changed = Some(
+            format!("{word:#010x} {name} bit {bit} {when}")
+                .trim()
+                .to_owned(),
+        );
         Ok(())
+    }
+
+    fn flip_core(&mut self, detail: u64) {
+        let [bit, register, _, instruction] = parts(detail);
+        let register = register % REGISTERS.len() as u32;
+        let name = REGISTERS
+            .get(register as usize)
+            .copied()
+            .unwrap_or_default();
+        // Of xPSR the flags, which are its top five bits.
+        let bit = if name == "xpsr" {
+            27 + bit % 5
+        } else {
+            bit % 32
+        };
+        let upset = Upset::Core {
+            register: register as u8,
+            bits: 1 << bit,
+        };
+        let machine = &mut self.run.module_mut().board.machine;
+        machine.upset_next_tick(instruction.into(), upset);
+        self.changed = Some(format!("{name} bit {bit}"));
     }
 
     fn flip_register(&mut self, detail: u64) -> Result<(), Fault> {
@@ -238,11 +314,8 @@ impl Subject for OnBoard<'_> {
         // From a tenth of a tick to ten ticks, which the watchdog bears.
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
         let time = share * 1e12 / f64::from(self.tick_hz);
-        self.run
-            .module_mut()
-            .board
-            .machine
-            .hold_next_tick(time as u64);
+        let machine = &mut self.run.module_mut().board.machine;
+        machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
     }
 
     fn changed(&self) -> Option<String> {

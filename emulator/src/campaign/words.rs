@@ -4,8 +4,10 @@ use crate::chip::Fault;
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
 
-/// Bytes at the top of the stack, where idle's frames lie between two ticks.
-const STACK: u32 = 128;
+/// What words of the stack are called.
+pub(super) const STACK: &str = "stack";
+/// Bytes at the top of the stack, which a tick with a decision uses.
+const STACK_BYTES: u32 = 1024;
 /// The log's buffer is written by the program and read by a probe only.
 const LOG: [&str; 2] = ["_SEGGER_RTT", "BUFFER"];
 
@@ -31,8 +33,8 @@ impl Words {
             words.extend((first..=last).map(|word| (4 * word, name.clone())));
         }
         let top = program.symbol("_stack_start")?;
-        let stack = (top - STACK..top).step_by(4);
-        words.extend(stack.map(|address| (address, "stack".to_owned())));
+        let stack = (top - STACK_BYTES..top).step_by(4);
+        words.extend(stack.map(|address| (address, STACK.to_owned())));
         words.sort();
         words.dedup_by_key(|(address, _)| *address);
         if words.is_empty() {
@@ -41,9 +43,14 @@ impl Words {
         Ok(Self { words })
     }
 
-    /// The address and name of a word.
-    pub(super) fn pick(&self, detail: u64) -> (u32, &str) {
-        let n = (detail % self.words.len() as u64) as usize;
+    /// How many there are.
+    pub(super) const fn len(&self) -> usize {
+        self.words.len()
+    }
+
+    /// The address and name of a word, counted from 0 and then from the first again.
+    pub(super) fn pick(&self, n: u32) -> (u32, &str) {
+        let n = n as usize % self.words.len();
         self.words
             .get(n)
             .map_or((0, ""), |(address, name)| (*address, name))

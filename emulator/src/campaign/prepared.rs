@@ -1,0 +1,225 @@
+//! A scene that is run again and again, each time with another fault.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::commands::run::Loaded;
+use scene::PlantKind;
+
+use super::draw::{self, Has, Plan, RUN_S};
+use super::judge::{Harm, Judge};
+use super::outcome::{Findings, RunRow};
+use super::subject::{OnBoard, OnPc, Seen, Subject};
+use super::words::Words;
+use crate::chip::Fault;
+use crate::program::Program;
+
+/// A scene, ready to be run again and again.
+pub(super) struct Prepared {
+    loaded: Loaded,
+    board: Option<(Program, Words)>,
+    has: Has,
+    ticks: u64,
+    undisturbed: Vec<Seen>,
+}
+
+/// At the end of a run it is compared with the undisturbed one for so long, s.
+const COMPARED_S: f64 = 0.5;
+/// By how much the angle of an undisturbed whisker may differ, degrees.
+const SAME_DEG: f64 = 1.0;
+/// What happens once, and in so long, s, changes nothing that can be seen, is taken for masked.
+const SETTLED_S: f64 = 0.75;
+/// A whisker that ranges over less than this share of what it should is parked.
+const PARKED: f64 = 0.5;
+/// After what time a fault that was taken away is to be recovered from, s: a rest of 1 s,
+/// and the approach to the setpoint.
+const RECOVERED_S: f64 = 1.4;
+
+impl Prepared {
+    /// # Errors
+    /// [`Error`] for a scene or a program that is wrong, and where not even the undisturbed
+    /// run can be made.
+    pub(super) fn new(scene: &Path, program: Option<&Path>) -> Result<Self, Error> {
+        let loaded = Loaded::new(scene)?;
+        let board = match program {
+            None => None,
+            Some(path) => {
+                let program = Program::load(path)?;
+                let words = Words::new(&program)?;
+                Some((program, words))
+            }
+        };
+        let has = Has {
+            motors: loaded.scene.motor.is_some() && loaded.scene.plant.kind != PlantKind::Ideal,
+            chip: board.is_some(),
+            whiskers: loaded.scene.whiskers(),
+            tick_hz: loaded.scene.tick_hz,
+        };
+        let ticks = (RUN_S * f64::from(has.tick_hz)) as u64;
+        let mut prepared = Self {
+            loaded,
+            board,
+            has,
+            ticks,
+            undisturbed: Vec::new(),
+        };
+        let mut subject = prepared.subject()?;
+        let seen: Result<Vec<_>, Fault> = (0..ticks).map(|_| subject.tick()).collect();
+        drop(subject);
+        prepared.undisturbed = seen?;
+        Ok(prepared)
+    }
+
+    fn subject(&self) -> Result<Box<dyn Subject + '_>, Error> {
+        Ok(match &self.board {
+            None => Box::new(OnPc::new(&self.loaded)?),
+            Some((program, words)) => Box::new(OnBoard::new(&self.loaded, program, words)?),
+        })
+    }
+
+    /// How many words of RAM its program has.
+    pub(super) fn words(&self) -> u64 {
+        let words = self.board.as_ref().map(|(_, words)| words.len());
+        words.unwrap_or(0) as u64
+    }
+
+    /// Makes a run.
+    ///
+    /// # Errors
+    /// [`Error`] where the scene cannot be started.
+    pub(super) fn run(&self, subject_name: &str, number: u64, plan: Plan) -> Result<RunRow, Error> {
+        let mut random = draw::random(number);
+        let injection = draw::injection(plan, number, self.has, &mut random);
+        let settled = (SETTLED_S * f64::from(self.has.tick_hz)) as u64;
+        let mut same_for = 0;
+        let mut subject = self.subject()?;
+        let mut judge = Judge::new(&self.loaded.scene, self.has.motors);
+        let mut findings = Findings::default();
+        let mut disturbed: Vec<Seen> = Vec::new();
+        for tick in 1..=self.ticks {
+            let done = catch_unwind(AssertUnwindSafe(|| {
+                injection.apply(tick, &mut *subject, &mut random)?;
+                subject.tick()
+            }));
+            let seen = match done {
+                Ok(Ok(seen)) => seen,
+                Ok(Err(fault)) => {
+                    findings.unfollowed = Some(fault.to_string());
+                    break;
+                }
+                Err(_) => {
+                    findings.harm = Some((tick, Harm::Panicked));
+                    break;
+                }
+            };
+            let complaints = subject.complaints();
+            if complaints.iter().any(|line| line.contains("panic at")) {
+                findings.harm = Some((tick, Harm::Panicked));
+                break;
+            }
+            if tick >= injection.start && findings.told.is_none() {
+                let said = first_told(&seen, &complaints);
+                findings.told = said.map(|said| (tick, said));
+            }
+            if let Some(harm) = judge.look(tick, &seen, &injection) {
+                findings.harm = Some((tick, harm));
+                break;
+            }
+            let undisturbed = self.undisturbed.get(disturbed.len());
+            let is_same = undisturbed.is_some_and(|undisturbed| seen.is_same(undisturbed));
+            same_for = if is_same { same_for + 1 } else { 0 };
+            disturbed.push(seen);
+            if injection.kind.is_momentary()
+                && findings.told.is_none()
+                && same_for >= settled
+                && tick >= injection.start + settled
+            {
+                break;
+            }
+        }
+        let recovered = (RECOVERED_S * f64::from(self.has.tick_hz)) as u64;
+        if let (Some(end), Some(last)) = (injection.end(), disturbed.last())
+            && !findings.is_over()
+            && !injection.kind.is_momentary()
+            && end + recovered <= self.ticks
+        {
+            let tick = self.ticks;
+            findings.harm = judge.end(last).map(|harm| (tick, harm));
+        }
+        if !findings.is_over() && disturbed.len() as u64 == self.ticks {
+            findings.difference = self.difference(injection.start as usize, &disturbed);
+        }
+        let noticed = findings.told.as_ref();
+        let noticed_ms = noticed
+            .map(|(tick, _)| (tick - injection.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
+        let (outcome, reason) = findings.verdict();
+        Ok(RunRow {
+            subject: subject_name.to_owned(),
+            run: number,
+            scene: self.loaded.scene.name.clone(),
+            kind: injection.kind,
+            start: injection.start,
+            ticks: injection.ticks,
+            outcome,
+            reason,
+            changed: subject.changed(),
+            noticed_ms,
+        })
+    }
+
+    /// How a run with a fault from tick `start` on ends otherwise than without it.
+    fn difference(&self, start: usize, disturbed: &[Seen]) -> Option<&'static str> {
+        let compared = (COMPARED_S * f64::from(self.has.tick_hz)) as usize;
+        let from = disturbed.len().saturating_sub(compared);
+        let (found, expected) = (disturbed.get(from..)?, self.undisturbed.get(from..)?);
+        for side in 0..2 {
+            let angles = |seen: &[Seen]| -> Vec<f64> {
+                seen.iter().map(|seen| seen.row.angle_deg[side]).collect()
+            };
+            let (found, expected) = (angles(found), angles(expected));
+            if extent(&found) < PARKED * extent(&expected) {
+                return Some("parked");
+            }
+            let mut pairs = found.iter().zip(&expected);
+            if pairs.any(|(a, b)| (a - b).abs() > SAME_DEG) {
+                return Some("moves otherwise");
+            }
+        }
+        let decisions = |seen: &[Seen]| -> Vec<(usize, String)> {
+            let from = seen.get(start..).unwrap_or_default();
+            from.iter()
+                .flat_map(|seen| seen.decisions.clone())
+                .collect()
+        };
+        (decisions(disturbed) != decisions(&self.undisturbed)).then_some("decides otherwise")
+    }
+}
+
+impl Findings {
+    const fn is_over(&self) -> bool {
+        self.harm.is_some() || self.unfollowed.is_some()
+    }
+}
+
+/// By how much the angles differ at most; 0 where there are none.
+fn extent(angles: &[f64]) -> f64 {
+    let lowest = angles.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = angles.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (highest - lowest).max(0.0)
+}
+
+/// What a tick has told first.
+fn first_told(seen: &Seen, complaints: &[String]) -> Option<String> {
+    let notice = seen.notices.first();
+    let notice = notice.map(|(_, notice)| format!("{notice:?}"));
+    let reset = seen.reset.map(|cause| format!("reset: {cause:?}"));
+    let line = complaints.first().map(|line| stripped(line));
+    notice.or(reset).or(line)
+}
+
+/// A line of the log without its time and level.
+fn stripped(line: &str) -> String {
+    let said = line.split_once("ERROR").or_else(|| line.split_once("WARN"));
+    said.map_or(line, |(_, said)| said).trim().to_owned()
+}
