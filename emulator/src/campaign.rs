@@ -15,6 +15,7 @@
 mod draw;
 mod injection;
 mod judge;
+mod on_board;
 mod outcome;
 mod page;
 mod prepared;

@@ -9,8 +9,9 @@ use scene::PlantKind;
 
 use super::draw::{self, Has, Plan, RUN_S};
 use super::judge::{Harm, Judge};
+use super::on_board::OnBoard;
 use super::outcome::{Findings, RunRow};
-use super::subject::{OnBoard, OnPc, Seen, Subject};
+use super::subject::{OnPc, Seen, Subject};
 use super::words::Words;
 use crate::chip::Fault;
 use crate::program::Program;

@@ -1,0 +1,174 @@
+//! A scene as a board's program on its emulated chip, of which bits can be inverted.
+
+use host_sim::Error;
+use host_sim::bus::Slave;
+use host_sim::commands::run::Loaded;
+use host_sim::motor::SimMotor;
+use host_sim::run::Run;
+
+use super::subject::{Seen, Subject, number, told};
+use super::words::{STACK, Words};
+use crate::board::Emulated;
+use crate::chip::Fault;
+use crate::emulate::start;
+use crate::program::Program;
+use crate::rtt::LogDecoder;
+use crate::upset::{MIDDLE, REGISTERS, Upset};
+
+/// A scene on an emulated board.
+pub(super) struct OnBoard<'p> {
+    run: Run<Emulated>,
+    words: &'p Words,
+    decoder: LogDecoder,
+    sides: usize,
+    tick_hz: u32,
+    changed: Option<String>,
+}
+
+impl<'p> OnBoard<'p> {
+    /// # Errors
+    /// As [`start`].
+    pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
+        let mut run = start(&loaded.scene, loaded.classes()?, program)?;
+        let emulated = run.module_mut();
+        emulated.bears_resets = true;
+        // Ticks are not equally long.
+        let period = 1e12 / f64::from(loaded.scene.tick_hz);
+        emulated.board.world_waits = Some((1.5 * period) as u64);
+        Ok(Self {
+            run,
+            words,
+            decoder: LogDecoder::new(program)?,
+            sides: loaded.scene.head.sides.count(),
+            tick_hz: loaded.scene.tick_hz,
+            changed: None,
+        })
+    }
+}
+
+/// Which bit, which byte or register, whether within a tick, and before which instruction of
+/// it: ticks of a decision are the longest, and have up to 2,400.
+const fn parts(detail: u64) -> [u32; 4] {
+    let drawn = (detail >> 32) as u32;
+    [
+        drawn % 32,
+        (drawn >> 5) % 32,
+        (drawn >> 10) % 2,
+        1 + (drawn >> 11) % 1_500,
+    ]
+}
+
+impl Subject for OnBoard<'_> {
+    fn tick(&mut self) -> Result<Seen, Fault> {
+        self.run.tick();
+        let mut seen = told(&self.run, 1);
+        let emulated = self.run.module_mut();
+        emulated.check()?;
+        let board = &mut emulated.board;
+        let notices = std::mem::take(&mut board.notices).into_iter();
+        seen.notices = notices
+            .map(|(place, notice)| (number(place, 1), notice))
+            .collect();
+        seen.reset = board.reset.take();
+        seen.is_late = board.is_late;
+        let duties = board.machine.with_chip(|chip| chip.motor_duties());
+        let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
+        for n in 0..self.sides {
+            let motor = self.run.motor_mut(n);
+            seen.displaced_deg
+                .extend(motor.map(|motor| motor.displaced_deg()));
+        }
+        seen.effort = if self.sides == 1 {
+            // It may have all three outputs.
+            vec![duties.into_iter().map(share).fold(0.0, f64::max)]
+        } else {
+            duties.into_iter().take(self.sides).map(share).collect()
+        };
+        Ok(seen)
+    }
+
+    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
+        self.run.motor_mut(whisker)
+    }
+
+    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
+        self.run.slave_mut(whisker)
+    }
+
+    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
+        let (word, name) = self.words.pick(detail as u32);
+        let [bit, byte, within, instruction] = parts(detail);
+        let (address, bits) = (word + byte % 4, 1_u8 << (bit % 8));
+        let machine = &mut self.run.module_mut().board.machine;
+        // What lies on the stack between two ticks is idle's, and little.
+        let within = within % 2 == 0 || name == STACK;
+        if within {
+            let upset = Upset::Ram { address, bits };
+            machine.upset_next_tick(instruction.into(), upset);
+        } else {
+            machine.memories.flip(address, bits)?;
+        }
+        let bit = 8 * (byte % 4) + bit % 8;
+        let when = if within { "within a tick" } else { "" };
+        self.changed = Some(
+            format!("{word:#010x} {name} bit {bit} {when}")
+                .trim()
+                .to_owned(),
+        );
+        Ok(())
+    }
+
+    fn flip_core(&mut self, detail: u64) {
+        let [bit, register, _, instruction] = parts(detail);
+        let register = register % REGISTERS.len() as u32;
+        let name = REGISTERS
+            .get(register as usize)
+            .copied()
+            .unwrap_or_default();
+        // Of xPSR the flags, which are its top five bits.
+        let bit = if name == "xpsr" {
+            27 + bit % 5
+        } else {
+            bit % 32
+        };
+        let upset = Upset::Core {
+            register: register as u8,
+            bits: 1 << bit,
+        };
+        let machine = &mut self.run.module_mut().board.machine;
+        machine.upset_next_tick(instruction.into(), upset);
+        self.changed = Some(format!("{name} bit {bit}"));
+    }
+
+    fn flip_register(&mut self, detail: u64) -> Result<(), Fault> {
+        let board = &mut self.run.module_mut().board;
+        self.changed = board.machine.with_chip(|chip| chip.flip(detail));
+        Ok(())
+    }
+
+    fn stop_dma(&mut self) -> Result<(), Fault> {
+        let board = &mut self.run.module_mut().board;
+        board.machine.with_chip(crate::chip::Chip::stop_dma);
+        Ok(())
+    }
+
+    fn hold(&mut self, detail: u64) {
+        // From a tenth of a tick to ten ticks, which the watchdog bears.
+        let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
+        let time = share * 1e12 / f64::from(self.tick_hz);
+        let machine = &mut self.run.module_mut().board.machine;
+        machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
+    }
+
+    fn changed(&self) -> Option<String> {
+        self.changed.clone()
+    }
+
+    fn complaints(&mut self) -> Vec<String> {
+        let bytes = self.run.module_mut().take_log();
+        let lines = self.decoder.lines(&bytes).into_iter();
+        lines
+            .filter(|line| line.contains("ERROR") || line.contains("WARN"))
+            .collect()
+    }
+}
