@@ -9,7 +9,9 @@
 //! ignores writes, as on the chip.
 
 mod dma;
+mod facts;
 mod fault;
+mod fields;
 mod gpio;
 mod map;
 mod model;
@@ -31,6 +33,7 @@ mod upset;
 mod watchdog;
 mod wiring;
 
+pub(crate) use facts::{Fact, FactKind, facts};
 pub(crate) use fault::Fault;
 pub(crate) use model::{CoreKind, Model};
 pub(crate) use models::MODELS;

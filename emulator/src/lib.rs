@@ -31,6 +31,7 @@ pub mod overload;
 mod paint;
 pub mod picture;
 mod program;
+pub mod registers;
 mod rtt;
 pub mod sensor_loss;
 pub mod starting;

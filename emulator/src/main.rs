@@ -8,7 +8,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::Probe;
 use emulator::{
-    compare, damage, deadlines, emulate, latency, overload, picture, sensor_loss, starting,
+    compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
+    starting,
 };
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -81,6 +82,12 @@ enum Command {
     Starting(Flashed),
     /// Injects faults at random into running scenes and writes a row a run
     Campaign(Campaign),
+    /// Prints what drivers and emulated chips take from the chips' manuals, as the page of it
+    Facts {
+        /// That of one board, a line a fact
+        #[arg(long)]
+        board: Option<String>,
+    },
     /// Makes the page of the campaign from its tables; fails if a run was harmful
     Reliability {
         /// The tables of all shards
@@ -252,6 +259,8 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Command::Campaign(campaign) => inject(campaign)?,
         Command::Reliability { tables, out } => reliability(&tables, out.as_deref())?,
+        Command::Facts { board: None } => report::say(registers::page().trim_end()),
+        Command::Facts { board: Some(board) } => report::say(registers::table(&board)?.trim_end()),
         Command::Damage(Flashed { scene, program }) => {
             report::say(damage::damage(&scene, &program)?.join("\n"));
         }

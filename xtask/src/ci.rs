@@ -7,7 +7,10 @@ use crate::emulate::{Probe, Task};
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
-use crate::{arrows, cost, count, dependencies, docs, emulate, faults, fuzz, panics, readme, size};
+use crate::{
+    arrows, cost, count, dependencies, descriptions, docs, emulate, faults, fuzz, panics, readme,
+    size,
+};
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -28,6 +31,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("dependencies", dependencies::check)?;
     steps.run("untrusted input", || fuzz::all(&[], 0.05, false))?;
     steps.run("main job and documents", || docs::all(true))?;
+    steps.run("chips as described", descriptions::compare)?;
     steps.run("README's commands", readme::all)?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, three scenes", size::short)?;

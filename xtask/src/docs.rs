@@ -6,7 +6,7 @@ mod main_job;
 
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top};
-use crate::{cost, emulate};
+use crate::{cost, descriptions, emulate};
 use main_job::DECISIONS;
 
 /// Writes the documents that follow from the source alone, or checks that they are up to date.
@@ -25,6 +25,7 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     quick(check)?;
+    descriptions::page(check)?;
     asymmetry(check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
     cost::write_page(check)?;

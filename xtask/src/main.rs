@@ -5,6 +5,7 @@ mod ci;
 mod cost;
 mod count;
 mod dependencies;
+mod descriptions;
 mod docs;
 mod elf;
 mod emulate;
@@ -129,6 +130,9 @@ enum Command {
     /// Measures the time that host-sim takes for a tick of an elastic whisker, free
     /// and in lasting contact, beside another host-sim if there is one
     Speed(speed::Choice),
+    /// Writes docs/registers.md, and holds its facts against the descriptions that others
+    /// have made of the chips
+    Descriptions,
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -254,6 +258,7 @@ fn main() -> ExitCode {
         } => fuzz::all(&targets, minutes, page),
         Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
         Command::Speed(choice) => speed::speed(&choice),
+        Command::Descriptions => descriptions::page(false).and_then(|()| descriptions::compare()),
         Command::Docs { check, quick: true } => docs::quick(check),
         Command::Docs { check, .. } => docs::all(check),
     };

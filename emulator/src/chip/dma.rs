@@ -6,6 +6,7 @@ mod streams;
 
 pub(super) use moved::Move;
 
+use super::fields::Field;
 use channels::Channels;
 use streams::Streams;
 
@@ -16,6 +17,14 @@ pub(super) enum Version {
     Streams,
     /// Channels, whose requests are wired, or selected by a DMAMUX.
     Channels,
+}
+
+/// What is known of the registers of that kind.
+pub(super) const fn fields(version: Version) -> &'static [Field] {
+    match version {
+        Version::Streams => &streams::FIELDS,
+        Version::Channels => &channels::FIELDS,
+    }
 }
 
 #[derive(Debug, Clone)]

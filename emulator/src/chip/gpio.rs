@@ -6,6 +6,7 @@ mod v2;
 
 pub(super) use roles::Role;
 
+use super::fields::Field;
 use roles::Common;
 use v1::TwoRegisters;
 use v2::Modes;
@@ -17,6 +18,14 @@ pub(super) enum Reset {
     V1,
     /// MODER, OSPEEDR and PUPDR (STM32F4, STM32G0).
     V2([u32; 3]),
+}
+
+/// What is known of a port's registers.
+pub(super) const fn fields(reset: Reset) -> &'static [Field] {
+    match reset {
+        Reset::V1 => &v1::FIELDS,
+        Reset::V2(_) => &v2::FIELDS,
+    }
 }
 
 /// How a port's pins are configured.

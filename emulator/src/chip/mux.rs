@@ -1,9 +1,16 @@
 //! DMAMUX: which request a channel of the DMA listens to (STM32G0; RM0444, chapter 11).
 //! Synchronisation and generators are not modelled.
 
+use super::fields::{Field, field};
+
 const CHANNELS: u32 = 7;
 /// The request of a channel.
 const DMAREQ_ID: u32 = 0x3F;
+
+pub(super) const FIELDS: [Field; 2] = [
+    field("C0CR", 0, "DMAREQ_ID", DMAREQ_ID),
+    field("C1CR", 4, "DMAREQ_ID", DMAREQ_ID),
+];
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Mux {

@@ -6,6 +6,7 @@
 
 pub(super) mod f1;
 pub(super) mod f4;
+mod fields;
 pub(super) mod g0;
 
 use super::fault::Fault;

@@ -1,9 +1,14 @@
 //! AFIO: which pins the debugger keeps (STM32F1; RM0008, chapter 9). Another place for a
 //! peripheral's pins is not modelled.
 
+use super::fields::{Field, field};
+
 const MAPR: u32 = 0x04;
 /// What of the debugger's pins is given up.
 const SWJ_CFG: u32 = 7 << 24;
+
+pub(super) const FIELDS: [Field; 1] = [field("MAPR", MAPR, "SWJ_CFG", SWJ_CFG)];
+
 /// JTAG, but not the two other wires; or everything.
 const JTAG_GIVEN_UP: [u32; 2] = [2 << 24, 4 << 24];
 

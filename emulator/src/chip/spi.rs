@@ -1,6 +1,7 @@
 //! An SPI as master of eight-bit frames (RM0390, chapter 26; RM0008, chapter 25; RM0444,
 //! chapter 35).
 
+use super::fields::{Field, field, whole};
 use super::time::Ps;
 
 const CR1: u32 = 0x00;
@@ -11,6 +12,7 @@ const DR: u32 = 0x0C;
 const CPHA: u32 = 1 << 0;
 const CPOL: u32 = 1 << 1;
 const MSTR: u32 = 1 << 2;
+const BR: u32 = 7 << 3;
 const SPE: u32 = 1 << 6;
 const LSBFIRST: u32 = 1 << 7;
 const SSI: u32 = 1 << 8;
@@ -27,6 +29,35 @@ const RXNE: u32 = 1 << 0;
 const TXE: u32 = 1 << 1;
 const OVR: u32 = 1 << 6;
 const BSY: u32 = 1 << 7;
+
+const FIELDS: [Field; 14] = [
+    field("CR1", CR1, "CPHA", CPHA),
+    field("CR1", CR1, "CPOL", CPOL),
+    field("CR1", CR1, "MSTR", MSTR),
+    field("CR1", CR1, "BR", BR),
+    field("CR1", CR1, "SPE", SPE),
+    field("CR1", CR1, "LSBFIRST", LSBFIRST),
+    field("CR1", CR1, "SSI", SSI),
+    field("CR1", CR1, "SSM", SSM),
+    field("CR2", CR2, "RXDMAEN", RXDMAEN),
+    field("SR", SR, "RXNE", RXNE),
+    field("SR", SR, "TXE", TXE),
+    field("SR", SR, "OVR", OVR),
+    field("SR", SR, "BSY", BSY),
+    whole("DR", DR),
+];
+const OF_QUEUES: [Field; 2] = [
+    field("CR2", CR2, "DS", DS),
+    field("CR2", CR2, "FRXTH", FRXTH),
+];
+
+/// What is known of the registers of that version.
+pub(super) fn fields(version: Version) -> Vec<Field> {
+    match version {
+        Version::One => FIELDS.to_vec(),
+        Version::Queues => FIELDS.into_iter().chain(OF_QUEUES).collect(),
+    }
+}
 
 /// Which SPI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -114,7 +145,7 @@ impl Spi {
 
     /// The period of the SPI's clock, from that of its bus.
     pub(super) fn bit(&self, bus: Ps) -> Ps {
-        bus << (((self.cr1 >> 3) & 7) + 1)
+        bus << (((self.cr1 & BR) >> BR.trailing_zeros()) + 1)
     }
 
     fn begin(&mut self, now: Ps, bus: Ps) {

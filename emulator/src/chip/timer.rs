@@ -6,6 +6,7 @@
 //! make a DMA request are events. Compare values act at once: the buffering of
 //! a PWM period, 50 µs, is not modelled.
 
+use super::fields::{Field, field, whole};
 use super::time::Ps;
 use super::timers::Kind;
 
@@ -29,10 +30,36 @@ const CEN: u32 = 1 << 0;
 const UDIS: u32 = 1 << 1;
 const URS: u32 = 1 << 2;
 const ARPE: u32 = 1 << 7;
+const SMS: u32 = 7;
 const UIE: u32 = 1 << 0;
 const UDE: u32 = 1 << 8;
 const UIF: u32 = 1 << 0;
+const UG: u32 = 1 << 0;
+/// Of channel 1; those of the others stand at equal distances.
+const OC1M: u32 = 7 << 4;
+const CC1E: u32 = 1 << 0;
 const MOE: u32 = 1 << 15;
+
+const FIELDS: [Field; 18] = [
+    field("CR1", CR1, "CEN", CEN),
+    field("CR1", CR1, "UDIS", UDIS),
+    field("CR1", CR1, "URS", URS),
+    field("CR1", CR1, "ARPE", ARPE),
+    field("SMCR", SMCR, "SMS", SMS),
+    field("DIER", DIER, "UIE", UIE),
+    field("DIER", DIER, "UDE", UDE),
+    field("SR", SR, "UIF", UIF),
+    field("EGR", EGR, "UG", UG),
+    field("CCMR1", CCMR1, "OC1M", OC1M),
+    field("CCMR1", CCMR1, "OC2M", OC1M << 8),
+    field("CCMR2", CCMR2, "OC3M", OC1M),
+    field("CCER", CCER, "CC1E", CC1E),
+    field("CCER", CCER, "CC2E", CC1E << 4),
+    whole("CNT", CNT),
+    whole("PSC", PSC),
+    whole("ARR", ARR),
+    field("BDTR", BDTR, "MOE", MOE),
+];
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timer {
@@ -61,6 +88,21 @@ pub(super) struct Timer {
     position: i32,
 }
 
+/// Whether a timer of that kind has a register there.
+const fn has(kind: Kind, offset: u32) -> bool {
+    match kind {
+        Kind::Basic => !matches!(offset, SMCR | CCMR1..=CCER | CCR1..),
+        Kind::General | Kind::Wide => offset != BDTR,
+        Kind::Advanced => true,
+    }
+}
+
+/// What is known of the registers of a timer of that kind.
+pub(super) fn fields(kind: Kind) -> Vec<Field> {
+    let fields = FIELDS.into_iter();
+    fields.filter(|field| has(kind, field.offset)).collect()
+}
+
 impl Timer {
     pub(super) fn new(kind: Kind) -> Self {
         Self {
@@ -80,15 +122,11 @@ impl Timer {
 
     /// Whether it has that register, which is one of those above.
     const fn has(&self, offset: u32) -> bool {
-        match self.kind {
-            Kind::Basic => !matches!(offset, SMCR | CCMR1..=CCER | CCR1..),
-            Kind::General | Kind::Wide => offset != BDTR,
-            Kind::Advanced => true,
-        }
+        has(self.kind, offset)
     }
 
     const fn is_encoder(&self) -> bool {
-        matches!(self.smcr & 7, 1..=3)
+        matches!(self.smcr & SMS, 1..=3)
     }
 
     const fn counts_time(&self) -> bool {
@@ -157,9 +195,10 @@ impl Timer {
 
     /// Duty of channel 0 to 3, as a fraction: on and of how many counts.
     pub(super) fn duty(&self, channel: usize) -> (u32, u32) {
-        let mode = (self.ccmr[channel / 2] >> (8 * (channel % 2) + 4)) & 7;
+        let mode = self.ccmr[channel / 2] >> (8 * (channel % 2));
+        let mode = (mode & OC1M) >> OC1M.trailing_zeros();
         let enabled = self.cr1 & CEN != 0
-            && self.ccer & (1 << (4 * channel)) != 0
+            && self.ccer & (CC1E << (4 * channel)) != 0
             && (self.bdtr & MOE != 0 || self.kind != Kind::Advanced);
         let period = self.arr.saturating_add(1);
         let on = if enabled && mode == 6 {
@@ -215,7 +254,7 @@ impl Timer {
             }
             SR => self.sr &= value,
             EGR => {
-                if value & 1 != 0 {
+                if value & UG != 0 {
                     self.count = 0;
                     self.since = now;
                     self.update(true);

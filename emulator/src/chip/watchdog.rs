@@ -1,6 +1,7 @@
 //! The independent watchdog (RM0390, chapter 20; RM0008, chapter 19; RM0444, chapter 28),
 //! on an LSI of its nominal frequency. A window is not modelled: only that there is none.
 
+use super::fields::{Field, field};
 use super::time::Ps;
 
 /// A setting takes so many periods of the LSI to cross into the watchdog's clock.
@@ -11,6 +12,20 @@ const PR: u32 = 0x04;
 const RLR: u32 = 0x08;
 const SR: u32 = 0x0C;
 const WINR: u32 = 0x10;
+const KEY: u32 = 0xFFFF;
+const PRESCALER: u32 = 7;
+const RELOAD: u32 = 0xFFF;
+const PVU: u32 = 1 << 0;
+const RVU: u32 = 1 << 1;
+
+pub(super) const FIELDS: [Field; 5] = [
+    field("KR", KR, "KEY", KEY),
+    field("PR", PR, "PR", PRESCALER),
+    field("RLR", RLR, "RL", RELOAD),
+    field("SR", SR, "PVU", PVU),
+    field("SR", SR, "RVU", RVU),
+];
+
 /// The window after a reset: none.
 const NO_WINDOW: u32 = 0xFFF;
 
@@ -55,12 +70,12 @@ impl Watchdog {
     }
 
     pub(super) fn read(&self, offset: u32, now: Ps) -> Option<u32> {
-        let busy = |setting: usize| u32::from(now < self.settled[setting]) << setting;
+        let busy = |setting: usize, bit| if now < self.settled[setting] { bit } else { 0 };
         Some(match offset {
             KR => 0,
             PR => self.prescaler,
             RLR => self.reload,
-            SR => busy(0) | busy(1),
+            SR => busy(0, PVU) | busy(1, RVU),
             WINR if self.has_window => NO_WINDOW,
             _ => return None,
         })
@@ -68,7 +83,7 @@ impl Watchdog {
 
     /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps) -> bool {
-        match (offset, value & 0xFFFF) {
+        match (offset, value & KEY) {
             (KR, 0xCCCC) => {
                 if !self.running {
                     self.fed = now;
@@ -82,11 +97,11 @@ impl Watchdog {
             }
             (KR, key) => self.unlocked = key == 0x5555,
             (PR, value) if self.unlocked => {
-                self.prescaler = value & 7;
+                self.prescaler = value & PRESCALER;
                 self.settled[0] = now + CROSSING * self.lsi;
             }
             (RLR, value) if self.unlocked => {
-                self.reload = value & 0xFFF;
+                self.reload = value & RELOAD;
                 self.settled[1] = now + CROSSING * self.lsi;
             }
             (PR | RLR, _) => {}

@@ -2,7 +2,7 @@
 //!
 //! The numbers, in the chips' files, are those of the reference manuals and the data
 //! sheets. Each is held against another source, the description that stm32-metapac makes
-//! from ST's configuration tool, in `tests/description.rs`.
+//! from ST's configuration tool: `cargo xtask descriptions`.
 
 /// A pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

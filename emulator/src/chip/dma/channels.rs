@@ -2,11 +2,18 @@
 //! RM0008, chapter 13; RM0444, chapter 10): not circular, not from memory to memory.
 
 use super::moved::Move;
+use crate::chip::fields::{Field, field, whole};
 
 const ISR: u32 = 0x00;
 const IFCR: u32 = 0x04;
 const CHANNELS: u32 = 0x08;
 const CHANNEL_SIZE: u32 = 0x14;
+
+/// Of a channel, from where it begins.
+const CCR: u32 = 0x00;
+const CNDTR: u32 = 0x04;
+const CPAR: u32 = 0x08;
+const CMAR: u32 = 0x0C;
 
 const EN: u32 = 1 << 0;
 const TCIE: u32 = 1 << 1;
@@ -21,6 +28,23 @@ const GIF: u32 = 1 << 0;
 const TCIF: u32 = 1 << 1;
 const HTIF: u32 = 1 << 2;
 const ALL: u32 = 15;
+
+pub(super) const FIELDS: [Field; 14] = [
+    field("ISR", ISR, "GIF1", GIF),
+    field("ISR", ISR, "TCIF1", TCIF),
+    field("ISR", ISR, "HTIF1", HTIF),
+    field("ISR", ISR, "TCIF2", TCIF << 4),
+    field("IFCR", IFCR, "CTCIF1", TCIF),
+    field("CCR1", CHANNELS + CCR, "EN", EN),
+    field("CCR1", CHANNELS + CCR, "TCIE", TCIE),
+    field("CCR1", CHANNELS + CCR, "TEIE", TEIE),
+    field("CCR1", CHANNELS + CCR, "DIR", DIR_FROM_MEMORY),
+    field("CCR1", CHANNELS + CCR, "MINC", MINC),
+    whole("CNDTR1", CHANNELS + CNDTR),
+    whole("CPAR1", CHANNELS + CPAR),
+    whole("CMAR1", CHANNELS + CMAR),
+    field("CCR2", CHANNELS + CHANNEL_SIZE, "EN", EN),
+];
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Channel {
@@ -87,10 +111,10 @@ impl Channels {
             _ => {
                 let c = self.channels.get(channel(offset)?)?;
                 match (offset - CHANNELS) % CHANNEL_SIZE {
-                    0x00 => c.ccr,
-                    0x04 => c.cndtr,
-                    0x08 => c.cpar,
-                    0x0C => c.cmar,
+                    CCR => c.ccr,
+                    CNDTR => c.cndtr,
+                    CPAR => c.cpar,
+                    CMAR => c.cmar,
                     _ => return None,
                 }
             }
@@ -113,8 +137,8 @@ impl Channels {
         };
         let enabled = c.ccr & EN != 0;
         match (offset - CHANNELS) % CHANNEL_SIZE {
-            0x00 if value & !MODELLED != 0 => return false,
-            0x00 => {
+            CCR if value & !MODELLED != 0 => return false,
+            CCR => {
                 if value & EN != 0 && !enabled {
                     c.length = c.cndtr;
                     c.done = 0;
@@ -122,10 +146,10 @@ impl Channels {
                 c.ccr = value;
             }
             // The others are locked while the channel is enabled.
-            0x04 | 0x08 | 0x0C if enabled => {}
-            0x04 => c.cndtr = value & 0xFFFF,
-            0x08 => c.cpar = value,
-            0x0C => c.cmar = value,
+            CNDTR | CPAR | CMAR if enabled => {}
+            CNDTR => c.cndtr = value & 0xFFFF,
+            CPAR => c.cpar = value,
+            CMAR => c.cmar = value,
             _ => return false,
         }
         true

@@ -2,6 +2,7 @@
 //! chapter 9): direct mode, no double buffer, no circular mode, no bursts.
 
 use super::moved::Move;
+use crate::chip::fields::{Field, field, whole};
 
 const LISR: u32 = 0x00;
 const HISR: u32 = 0x04;
@@ -10,17 +11,43 @@ const HIFCR: u32 = 0x0C;
 const STREAMS: u32 = 0x10;
 const STREAM_SIZE: u32 = 0x18;
 
+/// Of a stream, from where it begins.
+const CR: u32 = 0x00;
+const NDTR: u32 = 0x04;
+const PAR: u32 = 0x08;
+const M0AR: u32 = 0x0C;
+
 const EN: u32 = 1 << 0;
 const TCIE: u32 = 1 << 4;
 const DIR_FROM_MEMORY: u32 = 1 << 6;
 const MINC: u32 = 1 << 10;
+const PL: u32 = 3 << 16;
+const CHSEL: u32 = 7 << 25;
 /// DMEIE, TEIE, TCIE, DIR to memory or from it, MINC, priority and channel: the rest is not
 /// modelled.
-const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | 3 << 16 | 7 << 25;
+const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | PL | CHSEL;
 
 /// The flags of a stream in LISR or HISR begin at these bits; TCIF is the sixth.
 const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
 const TCIF: u32 = 1 << 5;
+
+pub(super) const FIELDS: [Field; 15] = [
+    field("LISR", LISR, "TCIF0", TCIF << FLAGS_AT[0]),
+    field("LISR", LISR, "TCIF1", TCIF << FLAGS_AT[1]),
+    field("LISR", LISR, "TCIF3", TCIF << FLAGS_AT[3]),
+    field("LIFCR", LIFCR, "CTCIF0", TCIF << FLAGS_AT[0]),
+    field("HIFCR", HIFCR, "CTCIF4", TCIF << FLAGS_AT[0]),
+    field("S0CR", STREAMS + CR, "EN", EN),
+    field("S0CR", STREAMS + CR, "TCIE", TCIE),
+    field("S0CR", STREAMS + CR, "DIR", DIR_FROM_MEMORY),
+    field("S0CR", STREAMS + CR, "MINC", MINC),
+    field("S0CR", STREAMS + CR, "PL", PL),
+    field("S0CR", STREAMS + CR, "CHSEL", CHSEL),
+    whole("S0NDTR", STREAMS + NDTR),
+    whole("S0PAR", STREAMS + PAR),
+    whole("S0M0AR", STREAMS + M0AR),
+    field("S3CR", STREAMS + 3 * STREAM_SIZE, "EN", EN),
+];
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Stream {
@@ -51,7 +78,7 @@ impl Streams {
     /// stream listens.
     pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
         let s = self.streams.get_mut(stream)?;
-        if s.cr & EN == 0 || (s.cr >> 25) & 7 != channel {
+        if s.cr & EN == 0 || (s.cr & CHSEL) >> CHSEL.trailing_zeros() != channel {
             return None;
         }
         let done = s.length - s.ndtr;
@@ -80,10 +107,10 @@ impl Streams {
             _ => {
                 let s = self.streams.get(stream(offset)?)?;
                 match (offset - STREAMS) % STREAM_SIZE {
-                    0x00 => s.cr,
-                    0x04 => s.ndtr,
-                    0x08 => s.par,
-                    0x0C => s.m0ar,
+                    CR => s.cr,
+                    NDTR => s.ndtr,
+                    PAR => s.par,
+                    M0AR => s.m0ar,
                     _ => return None,
                 }
             }
@@ -102,8 +129,8 @@ impl Streams {
                 let register = (offset - STREAMS) % STREAM_SIZE;
                 let enabled = s.cr & EN != 0;
                 match register {
-                    0x00 if value & !MODELLED != 0 => return false,
-                    0x00 => {
+                    CR if value & !MODELLED != 0 => return false,
+                    CR => {
                         if value & EN != 0 && !enabled {
                             s.length = s.ndtr;
                         }
@@ -112,10 +139,10 @@ impl Streams {
                         s.cr = if idle { value & !EN } else { value };
                     }
                     // The others are locked while the stream is enabled.
-                    0x04 | 0x08 | 0x0C if enabled => {}
-                    0x04 => s.ndtr = value & 0xFFFF,
-                    0x08 => s.par = value,
-                    0x0C => s.m0ar = value,
+                    NDTR | PAR | M0AR if enabled => {}
+                    NDTR => s.ndtr = value & 0xFFFF,
+                    PAR => s.par = value,
+                    M0AR => s.m0ar = value,
                     _ => return false,
                 }
             }

@@ -2,17 +2,34 @@
 //! chapter 9).
 
 use super::roles::{Common, Role};
+use crate::chip::fields::{Field, field};
 
 const CRL: u32 = 0x00;
 const CRH: u32 = 0x04;
+const IDR: u32 = 0x08;
+const ODR: u32 = 0x0C;
+const BSRR: u32 = 0x10;
+const BRR: u32 = 0x14;
+
+/// Those of pin 1, and of pin 9 where it is in another register.
+pub(super) const FIELDS: [Field; 8] = [
+    field("CRL", CRL, "MODE1", 3 << 4),
+    field("CRL", CRL, "CNF1", 3 << 6),
+    field("CRH", CRH, "MODE9", 3 << 4),
+    field("CRH", CRH, "CNF9", 3 << 6),
+    field("IDR", IDR, "IDR1", 1 << 1),
+    field("ODR", ODR, "ODR1", 1 << 1),
+    field("BSRR", BSRR, "BR1", 1 << 17),
+    field("BRR", BRR, "BR1", 1 << 1),
+];
 
 /// The registers that every port has, where they stand here.
 pub(super) const fn common(offset: u32) -> Option<Common> {
     match offset {
-        0x08 => Some(Common::Idr),
-        0x0C => Some(Common::Odr),
-        0x10 => Some(Common::Bsrr),
-        0x14 => Some(Common::Brr),
+        IDR => Some(Common::Idr),
+        ODR => Some(Common::Odr),
+        BSRR => Some(Common::Bsrr),
+        BRR => Some(Common::Brr),
         _ => None,
     }
 }

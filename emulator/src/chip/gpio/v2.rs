@@ -2,6 +2,7 @@
 //! RM0390, chapter 7; RM0444, chapter 7).
 
 use super::roles::{Common, Role};
+use crate::chip::fields::{Field, field};
 
 const MODER: u32 = 0x00;
 const OTYPER: u32 = 0x04;
@@ -9,14 +10,30 @@ const OSPEEDR: u32 = 0x08;
 const PUPDR: u32 = 0x0C;
 const AFRL: u32 = 0x20;
 const AFRH: u32 = 0x24;
+const IDR: u32 = 0x10;
+const ODR: u32 = 0x14;
+const BSRR: u32 = 0x18;
+
+/// Those of pin 1, and of pin 9 where it is in another register.
+pub(super) const FIELDS: [Field; 9] = [
+    field("MODER", MODER, "MODER1", 3 << 2),
+    field("OTYPER", OTYPER, "OT1", 1 << 1),
+    field("OSPEEDR", OSPEEDR, "OSPEEDR1", 3 << 2),
+    field("PUPDR", PUPDR, "PUPDR1", 3 << 2),
+    field("AFRL", AFRL, "AFR1", 15 << 4),
+    field("AFRH", AFRH, "AFR9", 15 << 4),
+    field("IDR", IDR, "IDR1", 1 << 1),
+    field("ODR", ODR, "ODR1", 1 << 1),
+    field("BSRR", BSRR, "BR1", 1 << 17),
+];
 
 /// The registers that every port has, where they stand here. BRR, which not all of these
 /// chips have, is not used.
 pub(super) const fn common(offset: u32) -> Option<Common> {
     match offset {
-        0x10 => Some(Common::Idr),
-        0x14 => Some(Common::Odr),
-        0x18 => Some(Common::Bsrr),
+        IDR => Some(Common::Idr),
+        ODR => Some(Common::Odr),
+        BSRR => Some(Common::Bsrr),
         _ => None,
     }
 }

@@ -1,0 +1,191 @@
+//! What driver and models take from the chips' manuals, as a list: where peripherals stand,
+//! their gates, interrupts, pins and requests, and the bits of their registers. Every value is
+//! the one that the models use.
+
+use super::fields::{Field, whole};
+use super::map::Unit;
+use super::rcc::Bus;
+use super::wiring::{PWM, Pin, Request};
+use super::{Model, dma, gpio, mux, remap, spi, timer, watchdog};
+
+/// What a fact is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FactKind {
+    /// Bytes of flash, or of RAM; bits of a priority in the NVIC.
+    Chip,
+    /// The base of a peripheral.
+    Address,
+    /// The register of RCC, from its base, and the bit in it that clocks a peripheral.
+    Gate,
+    /// The same of its reset.
+    Reset,
+    /// The number of an interrupt in the NVIC.
+    Interrupt,
+    /// The alternate function of a pin.
+    Pin,
+    /// What selects a request: the channel of a stream, or the number of DMAMUX.
+    Request,
+    /// A register, from the base of its peripheral, and bits of it.
+    Bits,
+}
+
+/// A fact.
+#[derive(Debug, Clone)]
+pub(crate) struct Fact {
+    pub(crate) kind: FactKind,
+    /// The peripheral, by the name that the manuals have for it.
+    pub(crate) of: String,
+    /// What of it.
+    pub(crate) part: String,
+    pub(crate) value: [u32; 2],
+}
+
+fn fact(kind: FactKind, of: &str, part: impl Into<String>, value: [u32; 2]) -> Fact {
+    Fact {
+        kind,
+        of: of.to_owned(),
+        part: part.into(),
+        value,
+    }
+}
+
+fn base(model: &Model, unit: Unit) -> u32 {
+    let mut map = model.map.iter();
+    map.find(|(found, ..)| *found == unit)
+        .map_or(0, |entry| entry.1)
+}
+
+/// The manuals' name of a unit. Timers have that of their place.
+fn name(model: &Model, unit: Unit) -> &'static str {
+    match unit {
+        Unit::Tim(_) => match base(model, unit) {
+            0x4000_0000 => "TIM2",
+            0x4000_0400 => "TIM3",
+            0x4000_0800 => "TIM4",
+            0x4000_0C00 => "TIM5",
+            0x4000_1000 => "TIM6",
+            0x4000_1400 => "TIM7",
+            0x4001_0400 => "TIM8",
+            _ => "TIM1",
+        },
+        Unit::Watchdog => "IWDG",
+        Unit::Spi(n) => ["SPI1", "SPI2"][n],
+        Unit::Gpio(n) => ["GPIOA", "GPIOB", "GPIOC"][n],
+        Unit::Rcc => "RCC",
+        Unit::Flash => "FLASH",
+        Unit::Dma(n) => ["DMA1", "DMA2"][n],
+        Unit::Requests => "DMAMUX1",
+        Unit::Remap => "AFIO",
+        Unit::System => "SYSCFG",
+        Unit::Debug => "DBGMCU",
+    }
+}
+
+/// What is known of a unit's registers.
+fn fields(model: &Model, unit: Unit) -> Vec<Field> {
+    match unit {
+        Unit::Tim(n) => timer::fields(model.timers[n].0),
+        Unit::Watchdog => watchdog::FIELDS.to_vec(),
+        Unit::Spi(_) => spi::fields(model.spi_version),
+        Unit::Gpio(n) => gpio::fields(model.ports[n]).to_vec(),
+        Unit::Rcc => model.rcc.fields(),
+        Unit::Flash => vec![whole("ACR", 0)],
+        Unit::Dma(n) => dma::fields(model.dmas[n]).to_vec(),
+        Unit::Requests => mux::FIELDS.to_vec(),
+        Unit::Remap => remap::FIELDS.to_vec(),
+        _ => Vec::new(),
+    }
+}
+
+/// All facts of a chip.
+pub(crate) fn facts(model: &Model) -> Vec<Fact> {
+    let mut facts = vec![
+        fact(FactKind::Chip, "flash", "", [model.flash, 0]),
+        fact(FactKind::Chip, "RAM", "", [model.ram, 0]),
+        fact(
+            FactKind::Chip,
+            "NVIC",
+            "priority bits",
+            [model.priority_bits.into(), 0],
+        ),
+    ];
+    for &(unit, base, gate) in model.map {
+        let of = name(model, unit);
+        facts.push(fact(FactKind::Address, of, "", [base, 0]));
+        if let Some((bus, bit)) = gate {
+            facts.extend(gates(model, of, bus, bit));
+        }
+    }
+    facts.extend(wired(model));
+    // Of several alike one is enough; that the others are is in their addresses' list.
+    let mut known: Vec<Vec<Field>> = Vec::new();
+    for &(unit, ..) in model.map {
+        let of_unit = fields(model, unit);
+        if !known.contains(&of_unit) {
+            let of = name(model, unit);
+            facts.extend(of_unit.iter().map(|field| bits(of, field)));
+            known.push(of_unit);
+        }
+    }
+    facts
+}
+
+fn gates(model: &Model, of: &str, bus: Bus, bit: u32) -> impl Iterator<Item = Fact> {
+    let gate = model.rcc.gate(bus);
+    let gate = gate.map(|register| fact(FactKind::Gate, of, "", [register, bit]));
+    let reset = model.rcc.reset(bus);
+    let reset = reset.map(|register| fact(FactKind::Reset, of, "", [register, bit]));
+    gate.into_iter().chain(reset)
+}
+
+fn bits(of: &str, field: &Field) -> Fact {
+    let part = match field.name {
+        "" => field.register.to_owned(),
+        name => format!("{}.{name}", field.register),
+    };
+    fact(FactKind::Bits, of, part, [field.offset, field.bits])
+}
+
+/// What the board's wires hang on.
+fn wired(model: &Model) -> Vec<Fact> {
+    let wiring = &model.wiring;
+    let timer = |n| name(model, Unit::Tim(n));
+    let interrupt =
+        |of, part: &str, number: u16| fact(FactKind::Interrupt, of, part, [number.into(), 0]);
+    let mut facts = vec![interrupt(timer(wiring.tick), "UP", wiring.tick_irq)];
+    for (n, side) in wiring.sides.iter().enumerate() {
+        let (spi, dma) = (name(model, Unit::Spi(n)), name(model, Unit::Dma(side.dma)));
+        let frame = interrupt(dma, &channel(model, side.dma, side.rx), side.end_of_frame);
+        facts.push(frame);
+        for (of, signal, request) in [
+            (spi, "RX", side.rx),
+            (timer(side.byte_timer), "UP", side.tx),
+        ] {
+            let part = format!("{signal} on {dma}_{}", channel(model, side.dma, request));
+            facts.push(fact(FactKind::Request, of, part, [request.channel, 0]));
+        }
+        let signals = ["SCK", "MISO", "MOSI"];
+        facts.extend(pins(spi, &signals, &side.spi, wiring.spi_function));
+        let encoder = timer(side.encoder_timer);
+        let function = side.encoder_function;
+        facts.extend(pins(encoder, &["CH1", "CH2"], &side.encoder, function));
+    }
+    let pwm = timer(wiring.pwm_timer);
+    let signals = ["CH1", "CH2", "CH3"];
+    facts.extend(pins(pwm, &signals, &PWM, wiring.pwm_function));
+    facts
+}
+
+fn pins(of: &str, signals: &[&str], pins: &[Pin], function: u32) -> Vec<Fact> {
+    let pins = signals.iter().zip(pins).map(|(signal, pin)| {
+        let part = format!("{signal} on P{}{}", ["A", "B", "C"][pin.port], pin.number);
+        fact(FactKind::Pin, of, part, [function, 0])
+    });
+    pins.collect()
+}
+
+/// The manuals' name of a stream, or of a channel, which are counted from 1.
+fn channel(model: &Model, dma: usize, request: Request) -> String {
+    let first = usize::from(model.dmas[dma] == dma::Version::Channels);
+    format!("CH{}", request.stream + first)
+}

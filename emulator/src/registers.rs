@@ -1,0 +1,223 @@
+//! The facts of the chips: as a table, to be compared with their descriptions, and as the page
+//! `docs/registers.md`.
+
+use std::fmt::Write as _;
+
+use host_sim::Error;
+
+use crate::chip::{Fact, FactKind, MODELS, Model, facts};
+
+/// The beginning of the page.
+const HEAD: &str = include_str!("registers/head.md");
+
+/// What the description of a chip has not: the board's program, kind and peripheral, and who
+/// says it.
+const ALONE: [(&str, FactKind, &str, &str); 2] = [
+    (
+        "nucleo_g071rb",
+        FactKind::Gate,
+        "DBGMCU",
+        "stm32g0xx-hal `src/rcc/enable.rs`: DBG",
+    ),
+    (
+        "nucleo_g071rb",
+        FactKind::Reset,
+        "DBGMCU",
+        "stm32g0xx-hal `src/rcc/enable.rs`: DBG",
+    ),
+];
+
+/// A chip on the page.
+struct Chip {
+    program: &'static str,
+    title: &'static str,
+    /// Who says the same of its pins, and of its requests.
+    pins: &'static str,
+    requests: &'static str,
+}
+
+const CHIPS: [Chip; 3] = [
+    Chip {
+        program: "nucleo_f446re",
+        title: "NUCLEO-F446RE: STM32F446RE (RM0390)",
+        pins: "stm32f4xx-hal `src/gpio/alt/f4.rs`",
+        requests: "stm32f4xx-hal `src/dma/traits/f4.rs`",
+    },
+    Chip {
+        program: "nucleo_f103rb",
+        title: "NUCLEO-F103RB: STM32F103RB (RM0008)",
+        pins: "stm32f1xx-hal `src/afio.rs`, in place 0",
+        requests: "stm32f1xx-hal `src/spi/dma.rs` of SPI1, nobody of TIM4",
+    },
+    Chip {
+        program: "nucleo_g071rb",
+        title: "NUCLEO-G071RB: STM32G071RB (RM0444)",
+        pins: "stm32g0xx-hal `src/spi.rs` and `src/timer/pins.rs`",
+        requests: "stm32g0xx-hal `src/dmamux.rs`",
+    },
+];
+
+/// What a kind is called in the table.
+const fn word(kind: FactKind) -> &'static str {
+    match kind {
+        FactKind::Chip => "chip",
+        FactKind::Address => "address",
+        FactKind::Gate => "gate",
+        FactKind::Reset => "reset",
+        FactKind::Interrupt => "interrupt",
+        FactKind::Pin => "pin",
+        FactKind::Request => "request",
+        FactKind::Bits => "bits",
+    }
+}
+
+/// Where else a fact stands that no description has.
+fn alone(model: &Model, fact: &Fact) -> Option<&'static str> {
+    let mut all = ALONE.iter();
+    let found = all.find(|(program, kind, of, _)| {
+        (*program, *kind, *of) == (model.program, fact.kind, &*fact.of)
+    });
+    found.map(|found| found.3)
+}
+
+/// The facts of a board's chip, a line each: kind, peripheral, part, two numbers, and where
+/// it stands if no description has it.
+///
+/// # Errors
+/// [`Error::Input`] if there is no such board.
+pub fn table(board: &str) -> Result<String, Error> {
+    let mut models = MODELS.iter();
+    let model = models.find(|model| model.program == board.replace('-', "_"));
+    let model = model.ok_or_else(|| Error::Input(format!("no board {board}")))?;
+    let mut text = String::new();
+    for fact in facts(model) {
+        let Fact {
+            kind,
+            of,
+            part,
+            value: [first, second],
+        } = &fact;
+        let alone = alone(model, &fact).unwrap_or_default();
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{},{of},{part},{first},{second},{alone}", word(*kind));
+    }
+    Ok(text)
+}
+
+/// The page.
+pub fn page() -> String {
+    let mut text = format!(
+        "<!-- written by cargo xtask descriptions -->\n{}",
+        HEAD.trim_end()
+    );
+    for chip in &CHIPS {
+        let model = MODELS.iter().find(|model| model.program == chip.program);
+        if let Some(model) = model {
+            text += &of_chip(chip, model);
+        }
+    }
+    text + "\n"
+}
+
+fn of_chip(chip: &Chip, model: &Model) -> String {
+    let facts = facts(model);
+    let of = |kind: FactKind| facts.iter().filter(move |fact| fact.kind == kind);
+    let mut text = format!("\n\n## {}\n", chip.title);
+    let mut line = |line: String| {
+        // Writing to a string does not fail.
+        let _ = write!(text, "\n{line}");
+    };
+    let sizes: Vec<u32> = of(FactKind::Chip).map(|fact| fact.value[0]).collect();
+    if let [flash, ram, bits] = sizes[..] {
+        let (flash, ram) = (flash / 1024, ram / 1024);
+        line(format!(
+            "{flash} KiB of flash, {ram} KiB of RAM, {bits} bits of a priority."
+        ));
+    }
+    line(
+        "\n| peripheral | base | gate: RCC +, bit | reset: RCC +, bit |\n|---|---|---|---|"
+            .to_owned(),
+    );
+    for address in of(FactKind::Address) {
+        let cell = |kind| cell(model, of(kind).find(|fact| fact.of == address.of));
+        let (gate, reset) = (cell(FactKind::Gate), cell(FactKind::Reset));
+        line(format!(
+            "| {} | {} | {gate} | {reset} |",
+            address.of,
+            hex(address.value[0])
+        ));
+    }
+    line("\n| interrupt | number |\n|---|---|".to_owned());
+    for Fact {
+        of, part, value, ..
+    } in of(FactKind::Interrupt)
+    {
+        line(format!("| {of} {part} | {} |", value[0]));
+    }
+    for (kind, title, others) in [
+        (FactKind::Pin, "pin | alternate function", chip.pins),
+        (
+            FactKind::Request,
+            "DMA request | channel or number",
+            chip.requests,
+        ),
+    ] {
+        line(format!(
+            "\nThe same say {others}.\n\n| {title} |\n|---|---|"
+        ));
+        for Fact {
+            of, part, value, ..
+        } in of(kind)
+        {
+            line(format!("| {of} {part} | {} |", value[0]));
+        }
+    }
+    line("\n| register | offset | bits |\n|---|---|---|".to_owned());
+    let bits: Vec<&Fact> = of(FactKind::Bits).collect();
+    for register in bits.chunk_by(|a, b| a.of == b.of && register(a) == register(b)) {
+        if let [first, ..] = register {
+            let names: Vec<String> = register.iter().map(|fact| places(fact)).collect();
+            let (of, name) = (&first.of, self::register(first));
+            let offset = first.value[0];
+            line(format!(
+                "| {of} {name} | 0x{offset:02X} | {} |",
+                names.join(", ")
+            ));
+        }
+    }
+    text
+}
+
+/// A gate or a reset, if there is one.
+fn cell(model: &Model, fact: Option<&Fact>) -> String {
+    let Some(fact) = fact else {
+        return String::new();
+    };
+    let [register, bit] = fact.value;
+    let marked = alone(model, fact).map(|who| format!(" **†** {who}"));
+    format!("0x{register:02X}, {bit}{}", marked.unwrap_or_default())
+}
+
+/// An address as the manuals write it.
+fn hex(address: u32) -> String {
+    format!("0x{:04X}_{:04X}", address >> 16, address & 0xFFFF)
+}
+
+/// The register of some bits.
+fn register(fact: &Fact) -> &str {
+    fact.part.split('.').next().unwrap_or_default()
+}
+
+/// The name of some bits, and where they stand; nothing of a whole register.
+fn places(fact: &Fact) -> String {
+    let Some((_, name)) = fact.part.split_once('.') else {
+        return String::new();
+    };
+    let bits = fact.value[1];
+    let (lowest, highest) = (bits.trailing_zeros(), 31 - bits.leading_zeros().min(31));
+    if lowest == highest {
+        format!("{name} {lowest}")
+    } else {
+        format!("{name} {highest}:{lowest}")
+    }
+}

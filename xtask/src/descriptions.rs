@@ -1,0 +1,65 @@
+//! The facts that drivers and emulated chips take from the chips' manuals: their page, and
+//! whether stm32-metapac, made by others, says the same.
+
+use std::io::Write as _;
+use std::process::Stdio;
+
+use crate::firmware::Board;
+use crate::run::{Fault, cargo, document, output, target};
+
+/// The page.
+const PAGE: &str = "docs/registers.md";
+
+/// What the emulator says of all chips, or of a board's.
+fn facts(board: Option<Board>) -> Result<String, Fault> {
+    let mut command = cargo(&[
+        "run", "--quiet", "--locked", "-p", "emulator", "--", "facts",
+    ]);
+    if let Some(board) = board {
+        command.args(["--board", board.name]);
+    }
+    output(&mut command)
+}
+
+/// Writes the page, or checks that it is up to date.
+///
+/// # Errors
+/// If it cannot be written, or, checking, differs.
+pub(crate) fn page(check: bool) -> Result<(), Fault> {
+    document(PAGE, facts(None)?.as_bytes(), check)
+}
+
+/// Holds every fact of every board against the description of its chip.
+///
+/// # Errors
+/// What is not as described.
+pub(crate) fn compare() -> Result<(), Fault> {
+    Board::ALL.into_iter().try_for_each(of_board)
+}
+
+/// By a program that is built for the chip alone (`description`).
+fn of_board(board: Board) -> Result<(), Fault> {
+    let facts = facts(Some(board))?;
+    let build = [
+        "run",
+        "--quiet",
+        "--locked",
+        "--manifest-path",
+        "description/Cargo.toml",
+    ];
+    let mut command = cargo(&build);
+    command
+        .args(["--features", board.name, "--target-dir"])
+        .arg(target().join("description"))
+        .stdin(Stdio::piped());
+    let wrong = |error: std::io::Error| format!("{}: {error}", board.name);
+    let mut described = command.spawn().map_err(wrong)?;
+    if let Some(mut stdin) = described.stdin.take() {
+        stdin.write_all(facts.as_bytes()).map_err(wrong)?;
+    }
+    if described.wait().map_err(wrong)?.success() {
+        Ok(())
+    } else {
+        Err(format!("{}: not as described", board.name))
+    }
+}
