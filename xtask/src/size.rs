@@ -17,7 +17,7 @@ use crate::panics;
 use crate::run::{Fault, listing, read_bytes, top};
 use parts::{Named, Seen};
 use table::Row;
-pub(crate) use table::TABLE;
+pub(crate) use table::{TABLE, goals};
 use tactile::ModelBuf;
 
 /// Names between them, on one board, what no scene names: not in the table.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::stages::{Stage, beside, reasons, stages};
 use crate::figures::{Figure, INSTRUCTIONS};
 use crate::run::Fault;
+use crate::size;
 
 /// Mean and worst of `what` in `what,mean,worst` lines.
 ///
@@ -132,6 +133,7 @@ pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &str) -> Result<S
         .replace("{stages}", table.trim_end())
         .replace("{reasons}", missed(&stages, figures)?.trim_end())
         .replace("{deadlines}", &rows(deadlines))
+        .replace("{goals}", &size::goals())
         .replace("{sizes}", &rows(sizes)))
 }
 

@@ -32,6 +32,15 @@ const STACK: u64 = 2048;
 /// its place.
 const STACK_MORE: u64 = 2048;
 
+/// The goals in words.
+pub(crate) fn goals() -> String {
+    format!(
+        "The goals are {ACTIVE_FLASH} of flash without the model ({PASSIVE_FLASH} for a passive\n\
+         scene), {RAM} of static RAM, and {STACK} of stack, {STACK_MORE} more for each whisker\n\
+         but the first that is listened to."
+    )
+}
+
 /// What the firmware of a scene takes on a board.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Row {
