@@ -52,9 +52,9 @@ const fn parts(detail: u64) -> [u32; 4] {
     let drawn = (detail >> 32) as u32;
     [
         drawn % 32,
-        (drawn >> 5) % 32,
-        (drawn >> 10) % 2,
-        1 + (drawn >> 11) % 1_500,
+        (drawn >> 5) % 1024,
+        (drawn >> 15) % 2,
+        1 + (drawn >> 16) % 1_500,
     ]
 }
 
