@@ -29,4 +29,4 @@ pub use injection::Kind;
 pub use outcome::{Ending, RunRow};
 pub use page::{described, page};
 pub use shard::{Scenes, Shard, run};
-pub use table::{ShardTable, rows};
+pub use table::{ShardTable, merge, read, rows};

@@ -192,11 +192,8 @@ fn inject(campaign: Campaign) -> Result<(), Error> {
 
 /// The page of the campaign.
 fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
-    let mut rows = Vec::new();
-    for table in tables {
-        rows.extend(campaign::rows(table)?);
-    }
-    rows.sort_by(|a, b| (&a.subject, a.run).cmp(&(&b.subject, b.run)));
+    let tables: Result<Vec<_>, Error> = tables.iter().map(|path| campaign::rows(path)).collect();
+    let rows = campaign::merge(tables?)?;
     if let Some(out) = out {
         let page = campaign::page(&rows).map_err(Error::Work)?;
         write_whole(out, page.as_bytes())?;

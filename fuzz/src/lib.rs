@@ -1,14 +1,18 @@
-//! What reads data that nobody vouches for: frames of a sensor, models, scenes and
-//! recordings. Whatever the bytes, each target ends soon, in little memory, without a
+//! What reads data that nobody vouches for: frames of a sensor, models, scenes, recordings and
+//! the tables of a campaign's shards. Whatever the bytes, each target ends soon, in little memory, without a
 //! panic; and what it takes holds what the rest relies on.
 //!
 //! `cargo xtask fuzz` feeds them; the tests here run them over the corpus.
 
 mod model;
 mod scene;
+#[cfg(feature = "shards")]
+mod shards;
 
 pub use model::model;
 pub use scene::{scene, simulation};
+#[cfg(feature = "shards")]
+pub use shards::shards;
 
 use host_sim::recording;
 use mlx90333::{Decoder, Frame, Mode, SumRule, encode};
@@ -99,6 +103,12 @@ mod tests {
     fn scenes() {
         over(super::scene, "scenes");
         over(super::scene, "fuzz/corpus/scene");
+    }
+
+    #[cfg(feature = "shards")]
+    #[test]
+    fn tables_of_shards() {
+        over(super::shards, "fuzz/corpus/shards");
     }
 
     #[test]

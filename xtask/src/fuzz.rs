@@ -12,13 +12,17 @@ use crate::run::{Fault, cargo, listing, read, run, target, top, write};
 use page::Found;
 
 /// What is fed, and the folders, from the top, of its first inputs.
-const TARGETS: [(&str, &[&str]); 5] = [
+const TARGETS: [(&str, &[&str]); 6] = [
     ("frame", &["fuzz/corpus/frame"]),
     ("model", &["fuzz/corpus/model", "scenes/models"]),
     ("recording", &["fuzz/corpus/recording"]),
     ("scene", &["fuzz/corpus/scene", "scenes"]),
+    ("shards", &["fuzz/corpus/shards"]),
     ("simulation", &["fuzz/corpus/scene", "scenes"]),
 ];
+
+/// The target that is the emulator's, which takes minutes to build: for the night.
+const SLOW: &str = "shards";
 
 /// What libFuzzer needs of the compiler: counters on every edge, and what is compared with
 /// what. All of it is in the stable one.
@@ -53,8 +57,8 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
         let known = TARGETS.map(|target| target.0).join(", ");
         return Err(format!("no such target: {name}; there is: {known}"));
     }
-    build()?;
     let is_wanted = |name: &str| names.is_empty() || names.iter().any(|wanted| wanted == name);
+    build(is_wanted(SLOW))?;
     let mut found = Vec::new();
     for (name, seeds) in TARGETS.into_iter().filter(|(name, _)| is_wanted(name)) {
         let line = feed(name, seeds, minutes)?;
@@ -67,7 +71,20 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
     Ok(())
 }
 
-fn build() -> Result<(), Fault> {
+/// Feeds every target but [`SLOW`] for a few seconds.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn short() -> Result<(), Fault> {
+    let names = TARGETS.map(|target| target.0).into_iter();
+    let quick: Vec<String> = names
+        .filter(|name| *name != SLOW)
+        .map(str::to_owned)
+        .collect();
+    all(&quick, 0.05, false)
+}
+
+fn build(with_slow: bool) -> Result<(), Fault> {
     let what = [
         "build",
         "--locked",
@@ -79,7 +96,9 @@ fn build() -> Result<(), Fault> {
         "--bins",
     ];
     let mut command = cargo(&what);
-    command.args(["--features", "engine", "--target", HOST]);
+    let features = if with_slow { "engine,shards" } else { "engine" };
+    command.args(["--no-default-features", "--features", features]);
+    command.args(["--target", HOST]);
     run(command.env("RUSTFLAGS", FLAGS.join(" ")))
 }
 

@@ -1,6 +1,7 @@
 //! The table of a shard: a row a run, written as soon as the run is over.
 
 use std::fs::{File, OpenOptions};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use host_sim::Error;
@@ -65,7 +66,31 @@ impl ShardTable {
 /// # Errors
 /// [`Error::Input`] if it is no such table.
 pub fn rows(path: &Path) -> Result<Vec<RunRow>, Error> {
-    let read = csv::Reader::from_path(path);
-    let rows: Result<Vec<RunRow>, _> = read.and_then(|mut reader| reader.deserialize().collect());
-    rows.map_err(|error| Error::file(path, error))
+    let read = File::open(path).map_err(csv::Error::from).and_then(read);
+    read.map_err(|error| Error::file(path, error))
+}
+
+/// The rows of a table.
+///
+/// # Errors
+/// What is wrong with the first that is none.
+pub fn read(table: impl Read) -> Result<Vec<RunRow>, csv::Error> {
+    csv::Reader::from_reader(table).deserialize().collect()
+}
+
+/// The rows of several tables, by subject and number.
+///
+/// # Errors
+/// [`Error::Input`] if a run stands there twice.
+pub fn merge(tables: impl IntoIterator<Item = Vec<RunRow>>) -> Result<Vec<RunRow>, Error> {
+    let mut rows: Vec<RunRow> = tables.into_iter().flatten().collect();
+    let key = |row: &RunRow| (row.subject.clone(), row.run);
+    rows.sort_by_cached_key(key);
+    match rows.array_windows().find(|[a, b]| key(a) == key(b)) {
+        Some([twice, _]) => Err(Error::Input(format!(
+            "run {} of {} stands in the tables twice",
+            twice.run, twice.subject
+        ))),
+        None => Ok(rows),
+    }
 }
