@@ -165,8 +165,17 @@ impl Board {
     /// Lets time pass on the chip while nothing moves outside of it.
     pub(crate) fn wait(&mut self, time: Ps) -> Result<(), Fault> {
         let limit = self.machine.now + time;
-        while self.machine.run(limit, &mut self.sensors, &mut ())? != Stop::Time {}
-        self.drain()
+        loop {
+            match self.machine.run(limit, &mut self.sensors, &mut ())? {
+                Stop::Time => return self.drain(),
+                Stop::Reset(cause) => {
+                    self.reset = Some(cause);
+                    self.watch.restart();
+                }
+                Stop::Tick | Stop::Ready => {}
+            }
+            self.drain()?;
+        }
     }
 
     /// Ticks that the module has counted as missed since it started.

@@ -13,12 +13,14 @@ mod facts;
 mod fault;
 mod fields;
 mod gpio;
+mod lines;
 mod map;
 mod model;
 mod models;
 mod mux;
 mod pins;
 mod plain;
+mod power;
 mod rcc;
 mod registers;
 mod remap;
@@ -29,6 +31,7 @@ mod spi;
 mod time;
 mod timer;
 mod timers;
+mod trouble;
 mod upset;
 mod watchdog;
 mod wiring;
@@ -37,6 +40,7 @@ pub(crate) use facts::{Fact, FactKind, facts};
 pub(crate) use fault::Fault;
 pub(crate) use model::{CoreKind, Model};
 pub(crate) use models::MODELS;
+pub(crate) use power::WELL_MV;
 pub(crate) use reset::ResetCause;
 pub(crate) use sensor_lines::SensorEnd;
 pub(crate) use time::Ps;
@@ -44,14 +48,19 @@ pub(crate) use wiring::SIDE_NAMES;
 
 use dma::Dma;
 use gpio::Gpio;
+use lines::Lines;
 use mux::Mux;
 use plain::Plain;
+use power::Power;
 use rcc::{Clocks, Rcc};
 use remap::Remap;
 use sensor_lines::SensorLines;
 use spi::Spi;
 use timer::Timer;
 use watchdog::Watchdog;
+
+/// The voltage detector's interrupt in the NVIC, of every chip.
+const SUPPLY_IRQ: u16 = 1;
 
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
@@ -62,6 +71,8 @@ pub(crate) struct Chip {
     pub(crate) now: Ps,
     rcc: Rcc,
     clocks: Clocks,
+    power: Power,
+    exti: Lines,
     flash: Plain,
     /// What switches the pull-downs of USB-C pins off, on the G071.
     system: Plain,
@@ -92,6 +103,8 @@ impl Chip {
             now: 0,
             rcc,
             clocks,
+            power: Power::new(model.power),
+            exti: Lines::new(model.lines),
             flash: Plain::new(model.flash_registers),
             system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
@@ -111,6 +124,8 @@ impl Chip {
     pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.rcc.reset(cause);
         self.clocks = self.rcc.clocks()?;
+        self.power.reset();
+        self.exti.reset();
         self.flash.reset();
         self.system.reset();
         self.debug.reset();
@@ -131,8 +146,8 @@ impl Chip {
         self.clocks.core
     }
 
-    /// The interrupt lines of tick and frames, and whether they are up; the tick's first,
-    /// then that of the left side's frames.
+    /// The interrupt lines of tick, frames and supply, and whether they are up; the tick's
+    /// first, then that of the left side's frames.
     pub(crate) fn interrupts(&self) -> impl Iterator<Item = (u16, bool)> {
         let wiring = &self.model.wiring;
         let tick = (wiring.tick_irq, self.timers[wiring.tick].interrupts());
@@ -140,7 +155,8 @@ impl Chip {
             let up = self.dmas[side.dma].interrupts(side.rx.stream);
             (side.end_of_frame, up)
         });
-        std::iter::once(tick).chain(frames)
+        let supply = (SUPPLY_IRQ, self.exti.interrupts());
+        std::iter::once(tick).chain(frames).chain([supply])
     }
 
     /// When the tick's timer had its last update.

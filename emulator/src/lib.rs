@@ -35,6 +35,7 @@ pub mod registers;
 mod rtt;
 pub mod sensor_loss;
 pub mod starting;
+pub mod supply;
 mod trouble;
 mod upset;
 mod watch;

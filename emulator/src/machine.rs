@@ -79,6 +79,8 @@ pub(crate) struct Machine {
     ready: bool,
     /// Nothing but a reset gets the core on.
     is_locked_up: bool,
+    /// The supply holds the chip in reset.
+    held: bool,
     planned: Planned,
     spent: Spent,
 }
@@ -107,6 +109,7 @@ impl Machine {
             exception: 0,
             ready: false,
             is_locked_up: false,
+            held: false,
             planned: Planned::default(),
             spent: Spent::default(),
         })
@@ -126,6 +129,37 @@ impl Machine {
         } else {
             Fault::Asleep
         }
+    }
+
+    /// Works on the chip from outside where that changes what the core sees.
+    pub(crate) fn disturb<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
+        let done = self.with_chip(work);
+        self.shared.touch();
+        done
+    }
+
+    /// Changes the supply to so many mV. The chip is in reset while that is too low; its RAM
+    /// keeps its contents.
+    ///
+    /// # Errors
+    /// If the flash cannot keep up with the clock any more.
+    pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
+        let held = self.disturb(|chip| chip.set_supply(supply_mv))?;
+        if let Some(cause) = held {
+            self.reset(cause)?;
+        }
+        self.held = held.is_some();
+        Ok(held)
+    }
+
+    /// Raises the non-maskable interrupt without a cause.
+    pub(crate) fn raise_nmi(&self) {
+        self.core.raise_nmi();
+    }
+
+    /// Whether the core is in the handler of the tick.
+    pub(crate) const fn is_in_tick(&self) -> bool {
+        self.exception == self.tick
     }
 
     /// The most bytes that the stack has held since the reset.
@@ -148,6 +182,11 @@ impl Machine {
         sensors: &mut [impl SensorEnd],
         observer: &mut impl Observer,
     ) -> Result<Stop, Fault> {
+        if self.held {
+            self.now = until;
+            self.shared.set_now(until);
+            return Ok(Stop::Time);
+        }
         let mut asleep = self.core.is_asleep();
         loop {
             if let Some(cause) = self.look(sensors)? {
@@ -155,7 +194,7 @@ impl Machine {
                 return Ok(Stop::Reset(cause));
             }
             if self.now >= until {
-                return Ok(Stop::Time);
+                return self.at_end();
             }
             if self.is_locked_up {
                 self.sleep(until, 0)?;
@@ -188,6 +227,17 @@ impl Machine {
         self.core.pass(slept.saturating_sub(counted), self.cycle);
         self.shared.set_now(self.now);
         Ok(())
+    }
+
+    /// The time is up. A reset that the core asks for touches no peripheral, and so is seen
+    /// with the next event of one, or here.
+    fn at_end(&mut self) -> Result<Stop, Fault> {
+        if !self.core.reset_requested() {
+            return Ok(Stop::Time);
+        }
+        self.core.clear_reset_request();
+        self.reset(ResetCause::Software)?;
+        Ok(Stop::Reset(ResetCause::Software))
     }
 
     /// Counts the step that was just made; whether the tick's handler has returned.
@@ -273,5 +323,6 @@ impl Machine {
         for (irq, up) in chip.interrupts() {
             self.core.set_irq(irq, up);
         }
+        self.core.set_nmi(chip.has_nmi());
     }
 }

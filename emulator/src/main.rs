@@ -9,7 +9,7 @@ use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::Probe;
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
-    starting,
+    starting, supply,
 };
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
@@ -100,6 +100,9 @@ enum Command {
     /// Flips bits in the settings and in the model of a scene; fails if the motors are not
     /// switched off, or the log does not say why
     Damage(Flashed),
+    /// Lets the supply dip and the clock stop; fails if the motor pins are not low in time, or
+    /// the next start does not say why
+    Supply(Flashed),
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -266,6 +269,9 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         }
         Command::Starting(Flashed { scene, program }) => {
             report::say(starting::start_again(&scene, &program)?.join("\n"));
+        }
+        Command::Supply(Flashed { scene, program }) => {
+            report::say(supply::dip(&scene, &program)?.join("\n"));
         }
         Command::Latency(Flashed { scene, program }) => {
             let measured = latency::measure(&scene, &program)?;

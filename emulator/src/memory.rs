@@ -55,10 +55,15 @@ impl Shared {
         self.touched.load(Ordering::Relaxed) && self.touched.swap(false, Ordering::Relaxed)
     }
 
+    /// Has the machine look at the chip.
+    pub(crate) fn touch(&self) {
+        self.touched.store(true, Ordering::Relaxed);
+    }
+
     fn access(&self) -> MutexGuard<'_, Chip> {
         let mut chip = self.chip();
         chip.now = self.now.load(Ordering::Relaxed);
-        self.touched.store(true, Ordering::Relaxed);
+        self.touch();
         chip
     }
 }

@@ -87,7 +87,7 @@ fn press(trouble: &mut Trouble, ticks: u32) -> Result<(), Error> {
 }
 
 /// Lets so many ticks pass, in half of which every motor must be driven.
-fn whisks(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
+pub(crate) fn whisks(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
     let mut driven = 0;
     for _ in 0..ticks {
         trouble.pass(1)?;
@@ -102,7 +102,7 @@ fn whisks(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
 }
 
 /// Lets so many ticks pass, in none of which a motor may be driven.
-fn rests(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
+pub(crate) fn rests(trouble: &mut Trouble, ticks: u32, when: &str) -> Result<(), Error> {
     let [before, _] = trouble.run.row().angle_deg;
     for tick in 0..ticks {
         trouble.pass(1)?;

@@ -85,6 +85,11 @@ impl Startup {
         let on_command = (!at_start).then_some(NotArmed::OnCommand);
         self.refusal.or(on_command).map_or(Ok(()), Err)
     }
+
+    /// Whether it follows the fault with this number, which ended in a reset.
+    pub fn follows(&self, fault: u8) -> bool {
+        self.refusal == Some(NotArmed::After(fault))
+    }
 }
 
 impl Record {
@@ -226,6 +231,7 @@ mod tests {
             for cause in [StartCause::Watchdog, StartCause::Pin] {
                 let (record, start) = after(record, 100, cause);
                 assert_eq!(start.may_arm(true), Err(NotArmed::After(fault)));
+                assert!(start.follows(fault) && !start.follows(number::WATCHDOG));
                 let (_, start) = after(record, 100, StartCause::Pin);
                 assert_eq!((start.may_arm(true), start.fault), (Ok(()), fault));
             }

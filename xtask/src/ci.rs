@@ -74,7 +74,8 @@ fn experiments() -> Result<(), Fault> {
 /// The board's own program on the emulated chip: PC and board agree, in single precision
 /// and in fixed point, with one side and with two; contact on one side excites the other
 /// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
-/// either side, are noticed, and no start that nobody asked for drives a motor.
+/// either side, are noticed, no start that nobody asked for drives a motor, and a
+/// supply that dips switches it off.
 /// The boards that carry one side run its scene as the PC does, and notice a sensor that is
 /// lost; the rest is for the night. All but the first comparison are made without a probe.
 fn board() -> Result<(), Fault> {
@@ -90,6 +91,7 @@ fn board() -> Result<(), Fault> {
         Task::Deadlines(0.05),
         Task::Overload,
         Task::Starting,
+        Task::Supply,
         Task::Damage,
         Task::SensorLoss,
     ];

@@ -33,6 +33,8 @@ pub(crate) enum Task {
     Overload,
     /// Resets the chip in every way that nobody asked for.
     Starting,
+    /// Lets the supply dip and the clock stop.
+    Supply,
     /// Flips bits in what nothing writes.
     Damage,
     /// Breaks the sensors' wires on purpose.
@@ -54,6 +56,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Deadlines(_) => "deadlines",
         Task::Overload => "overload",
         Task::Starting => "starting",
+        Task::Supply => "supply",
         Task::Damage => "damage",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
@@ -67,6 +70,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Compare(Probe::Attached)
         | Task::Overload
         | Task::Starting
+        | Task::Supply
         | Task::Damage
         | Task::SensorLoss
         | Task::Latency => &mut command,

@@ -173,7 +173,7 @@ struct Emulate {
     #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
     board: firmware::Board,
     /// Where to write
-    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency", "starting", "damage"])]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency", "starting", "supply", "damage"])]
     out: Option<PathBuf>,
     /// Write nothing; compare every tick with host-sim
     #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
@@ -206,9 +206,13 @@ struct Emulate {
     /// off until the user button is pressed
     #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency"])]
     starting: bool,
+    /// Write nothing; let the supply dip and the clock stop, and see the motor pins low in time
+    /// and the next start say why
+    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency", "starting"])]
+    supply: bool,
     /// Write nothing; flip bits in the settings and in the model, and see the motors off and
     /// the log say so
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency", "starting"])]
+    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency", "starting", "supply"])]
     damage: bool,
 }
 
@@ -220,6 +224,7 @@ impl Emulate {
             _ if self.sensor_loss => emulate::Task::SensorLoss,
             _ if self.latency => emulate::Task::Latency,
             _ if self.starting => emulate::Task::Starting,
+            _ if self.supply => emulate::Task::Supply,
             _ if self.damage => emulate::Task::Damage,
             Some(out) => emulate::Task::Run(out),
             None => emulate::Task::Deadlines(self.minutes),

@@ -69,6 +69,7 @@ fn boards() -> Result<(), Fault> {
                 Task::Deadlines(10.0),
                 Task::Overload,
                 Task::Starting,
+                Task::Supply,
                 Task::Damage,
                 Task::SensorLoss,
             ] {

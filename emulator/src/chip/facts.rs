@@ -6,7 +6,7 @@ use super::fields::{Field, whole};
 use super::map::Unit;
 use super::rcc::Bus;
 use super::wiring::{PWM, Pin, Request};
-use super::{Model, dma, gpio, mux, remap, spi, timer, watchdog};
+use super::{Model, dma, gpio, lines, mux, power, remap, spi, timer, watchdog};
 
 /// What a fact is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,6 +78,8 @@ fn name(model: &Model, unit: Unit) -> &'static str {
         Unit::Remap => "AFIO",
         Unit::System => "SYSCFG",
         Unit::Debug => "DBGMCU",
+        Unit::Power => "PWR",
+        Unit::Lines => "EXTI",
     }
 }
 
@@ -89,7 +91,12 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Spi(_) => spi::fields(model.spi_version),
         Unit::Gpio(n) => gpio::fields(model.ports[n]).to_vec(),
         Unit::Rcc => model.rcc.fields(),
-        Unit::Flash => vec![whole("ACR", 0)],
+        Unit::Flash => power::options(model.power)
+            .into_iter()
+            .chain([whole("ACR", 0)])
+            .collect(),
+        Unit::Power => power::fields(model.power),
+        Unit::Lines => lines::fields(model.lines),
         Unit::Dma(n) => dma::fields(model.dmas[n]).to_vec(),
         Unit::Requests => mux::FIELDS.to_vec(),
         Unit::Remap => remap::FIELDS.to_vec(),

@@ -19,6 +19,10 @@ pub(super) enum Unit {
     /// SYSCFG.
     System,
     Debug,
+    /// PWR.
+    Power,
+    /// EXTI.
+    Lines,
 }
 
 /// A unit, its base address, and its gate in RCC where it has one.

@@ -5,7 +5,7 @@ use super::map::Entry;
 use super::rcc::{Bus, Layout};
 use super::timers::Kind;
 use super::wiring::Wiring;
-use super::{dma, gpio, spi};
+use super::{dma, gpio, lines, power, spi};
 
 /// What a core can execute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub(crate) struct Model {
     /// Counts of a period of the motors' PWM, as the board's program sets it up: 20 kHz.
     pub(crate) pwm_counts: u16,
     pub(super) map: &'static [Entry],
+    pub(super) power: &'static power::Layout,
+    pub(super) lines: &'static lines::Layout,
     pub(super) rcc: &'static Layout,
     /// What each timer can do, and the bus whose clock it counts.
     pub(super) timers: &'static [(Kind, Bus)],
@@ -46,6 +48,9 @@ pub(crate) struct Model {
     /// The watchdog's oscillator, nominal, Hz, and whether it has a window.
     pub(super) lsi_hz: u64,
     pub(super) has_window: bool,
+    /// The clock that a wait state of the flash adds, Hz, from so many mV of the supply on;
+    /// the highest supply first.
+    pub(super) flash_hz: &'static [(u32, u64)],
     /// Registers that only keep what is written, and their values after a reset: of the
     /// flash interface and of the debug unit.
     pub(super) flash_registers: &'static [(u32, u32)],

@@ -18,6 +18,13 @@ const HSE_HZ: u64 = 8_000_000;
 
 /// The control register, in which the oscillators have their switches.
 const CR: u32 = 0x00;
+/// In it, on every chip: the clock security system, HSE and the PLL are on.
+const CSSON: u32 = 1 << 19;
+const HSEON: u32 = 1 << 16;
+const PLLON: u32 = 1 << 24;
+/// In the register of clock interrupts: HSE has failed, and that is cleared.
+const CSSF: u32 = 1 << 7;
+const CSSC: u32 = 1 << 23;
 
 /// A register with gates, and one with resets, of peripherals: named for the bus or, with
 /// several buses of one clock, for the register.
@@ -108,8 +115,11 @@ pub(super) struct Layout {
     gates: &'static [(Bus, u32, u32)],
     /// The register of the causes of a reset, and the bit that clears them.
     csr: (u32, u32),
-    /// The causes' flags: power, watchdog, pin, software.
-    causes: [u32; 4],
+    /// The causes' flags: power, watchdog, pin, software, brown-out.
+    causes: [u32; 5],
+    /// Where the clock security system tells of its interrupt, and is answered; nothing where
+    /// it is not used.
+    security: Option<u32>,
     /// The clocks that the registers make.
     clocks: fn(&Rcc) -> Result<Clocks, Fault>,
 }
@@ -123,6 +133,10 @@ pub(super) struct Rcc {
     csr: u32,
     /// Bits of reset registers that have just been set.
     pulsed: [u32; BUSES],
+    /// There is nothing on the HSE input.
+    stopped: bool,
+    /// The clock security system has found that out.
+    has_failed: bool,
 }
 
 impl Rcc {
@@ -138,7 +152,31 @@ impl Rcc {
             gates,
             csr: layout.causes[ResetCause::Power as usize],
             pulsed: [0; BUSES],
+            stopped: false,
+            has_failed: false,
         }
+    }
+
+    /// The clock on the HSE input stops, or is there again; whether the chip takes it. Where
+    /// it is watched HSE and what runs by it are switched off, and the core goes on with the
+    /// internal oscillator (RM0390, chapter 6.2.7; RM0008, chapter 7.2.7).
+    pub(super) fn stop_outside(&mut self, stopped: bool) -> bool {
+        self.stopped = stopped;
+        let taken = self.kept[0] & HSEON != 0;
+        if stopped && taken && self.kept[0] & CSSON != 0 {
+            self.kept[0] &= !(HSEON | CSSON | PLLON);
+            let (selection, mask, _) = self.layout.selection;
+            if let Some(place) = self.place(selection) {
+                self.kept[place] &= !mask;
+            }
+            self.has_failed = true;
+        }
+        taken
+    }
+
+    /// Whether the clock security system interrupts.
+    pub(super) const fn has_clock_failed(&self) -> bool {
+        self.has_failed
     }
 
     /// As after a reset; the flags that tell why outlive it.
@@ -151,6 +189,7 @@ impl Rcc {
         };
         *self = Self {
             csr: kept | flags,
+            stopped: self.stopped,
             ..Self::new(self.layout)
         };
     }
@@ -181,9 +220,9 @@ impl Rcc {
         self.place(offset).map_or(0, |place| self.kept[place])
     }
 
-    /// The switches of oscillators and PLLs.
+    /// The switches of oscillators and PLLs, of what can run.
     fn running(&self) -> u32 {
-        self.kept[0]
+        self.kept[0] & if self.stopped { !HSEON } else { u32::MAX }
     }
 
     fn ready(&self) -> u32 {
@@ -203,6 +242,9 @@ impl Rcc {
         }
         if let Some((bus, ..)) = layout.gates.iter().find(|(_, at, _)| *at == offset) {
             return Some(self.gates[*bus as usize]);
+        }
+        if layout.security == Some(offset) {
+            return Some(if self.has_failed { CSSF } else { 0 });
         }
         let value = self.kept[self.place(offset)?];
         let (selection, mask, above) = layout.selection;
@@ -226,6 +268,9 @@ impl Rcc {
             self.pulsed[*bus as usize] |= value;
         } else if let Some((bus, ..)) = layout.gates.iter().find(|(_, at, _)| *at == offset) {
             self.gates[*bus as usize] = value;
+        } else if layout.security == Some(offset) {
+            self.has_failed &= value & CSSC == 0;
+            return value & !CSSC == 0;
         } else if let Some(place) = self.place(offset) {
             let ready = layout
                 .switches

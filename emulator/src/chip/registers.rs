@@ -40,7 +40,12 @@ impl Chip {
                 Unit::Spi(n) => self.spis[n].read(offset, bytes_of(mask)),
                 Unit::Gpio(n) => self.gpio[n].read(offset),
                 Unit::Rcc => self.rcc.read(offset),
-                Unit::Flash => self.flash.read(offset),
+                Unit::Flash => self
+                    .power
+                    .options(offset)
+                    .or_else(|| self.flash.read(offset)),
+                Unit::Power => self.power.read(offset),
+                Unit::Lines => self.exti.read(offset),
                 Unit::Dma(n) => self.dmas[n].read(offset),
                 Unit::Requests => self.mux.read(offset),
                 Unit::Remap => Remap::read(offset),
@@ -82,6 +87,9 @@ impl Chip {
         } else {
             self.read(address, u32::MAX)? & !mask | value & mask
         };
+        // What the clocks cannot be set to leaves them as they are.
+        let is_of_clocks = matches!(unit, Unit::Rcc | Unit::Flash);
+        let before = is_of_clocks.then(|| (self.rcc.clone(), self.flash.clone()));
         let known = match unit {
             Unit::Tim(n) => {
                 let clock = self.timer_clock(n);
@@ -96,6 +104,8 @@ impl Chip {
             Unit::Gpio(n) => self.gpio[n].write(offset, value),
             Unit::Rcc => self.rcc.write(offset, value),
             Unit::Flash => self.flash.write(offset, value),
+            Unit::Power => self.power.write(offset, value),
+            Unit::Lines => self.exti.write(offset, value),
             Unit::Dma(n) => self.dmas[n].write(offset, value),
             Unit::Requests => self.mux.write(offset, value),
             Unit::Remap => self.remap.write(offset, value),
@@ -105,12 +115,18 @@ impl Chip {
         if !known {
             return Err(unmodelled);
         }
+        if let Some((rcc, flash)) = before
+            && let Err(fault) = self.follow_clocks()
+        {
+            (self.rcc, self.flash) = (rcc, flash);
+            return Err(fault);
+        }
         match unit {
             Unit::Rcc => {
-                self.clocks = self.rcc.clocks()?;
                 self.reset_peripherals();
                 self.select_sensors();
             }
+            Unit::Power => self.compare_supply(),
             Unit::Gpio(_) => self.select_sensors(),
             _ => {}
         }
@@ -136,7 +152,8 @@ impl Chip {
                 Unit::Remap => self.remap = Remap::default(),
                 Unit::System => self.system.reset(),
                 Unit::Debug => self.debug.reset(),
-                Unit::Watchdog | Unit::Rcc | Unit::Flash => {}
+                Unit::Power => self.power.reset(),
+                Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Lines => {}
             }
         }
     }

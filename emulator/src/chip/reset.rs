@@ -11,4 +11,6 @@ pub enum ResetCause {
     Pin,
     /// The core asked for it (SYSRESETREQ).
     Software,
+    /// The supply fell below the level of the option bytes.
+    BrownOut,
 }

@@ -3,6 +3,7 @@
 mod description;
 mod frame;
 mod pins;
+mod power;
 mod side;
 mod time;
 
@@ -15,6 +16,8 @@ const RCC: u32 = 0x4002_3800;
 /// On the STM32F103 and the STM32G071.
 const SMALL_RCC: u32 = 0x4002_1000;
 const FLASH: u32 = 0x4002_3C00;
+/// On the same two.
+const SMALL_FLASH: u32 = 0x4002_2000;
 const TIM1: u32 = 0x4001_0000;
 const TIM6: u32 = 0x4000_1000;
 const GPIOA: u32 = 0x4002_0000;
@@ -131,12 +134,14 @@ impl Rig {
                 self.write(SMALL_RCC, 0x0005_0083);
                 self.write(SMALL_RCC + 0x04, 1 << 16 | 7 << 18 | 4 << 8);
                 self.write(SMALL_RCC, 0x0105_0083);
+                self.write(SMALL_FLASH, 0x32);
                 self.write(SMALL_RCC + 0x04, 1 << 16 | 7 << 18 | 4 << 8 | 2);
             }
             // 16 MHz from inside to 64 MHz.
             CoreKind::M0Plus => {
                 self.write(SMALL_RCC + 0x0C, 2 | 8 << 8 | 1 << 28 | 1 << 29);
                 self.write(SMALL_RCC, 0x0100_0500);
+                self.write(SMALL_FLASH, 0x0004_0602);
                 self.write(SMALL_RCC + 0x08, 2);
             }
         }
@@ -178,8 +183,8 @@ fn what_is_not_modelled_is_told_and_not_guessed() {
         );
     }
     let mut rig = Rig::clocked();
-    // PWR, the ADC, a register that TIM1 has not, one-pulse mode.
-    for address in [0x4000_7000, 0x4001_2000, TIM1 + 0x50] {
+    // The RTC, the ADC, a register that TIM1 has not, one-pulse mode.
+    for address in [0x4000_2800, 0x4001_2000, TIM1 + 0x50] {
         told(&rig.chip.read(address, u32::MAX));
         told(&rig.try_write(address, 0));
     }

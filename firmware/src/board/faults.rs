@@ -1,29 +1,46 @@
 //! Fatal faults: the motor's outputs go off first, then the record and the log get a line,
 //! then the watchdog resets the chip. Waiting for it gives the probe time to
-//! fetch the line.
+//! fetch the line. With a supply that falls there is no time for either.
 
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
 use firmware::faults::number;
 
-use super::{log, outputs, retained, watchdog};
+use super::{log, outputs, retained, supply, watchdog};
 
 /// Set by the first fault, so that a fault while its line is written adds none.
 static DYING: AtomicBool = AtomicBool::new(false);
 
 /// Motor off, the fault with this number to the record and to the log, `details` too, reset.
 pub(crate) fn die(number: u8, details: impl FnOnce()) -> ! {
-    if begin(number) {
+    if tell(number) {
         details();
     }
     watchdog::wait_for_reset()
 }
 
+/// The same for a supply that may be gone before a line is written, and does not bear this
+/// clock: the reset comes at once, and the next start has the line.
+fn die_at_once(number: u8) -> ! {
+    begin(number);
+    SCB::sys_reset()
+}
+
 /// What every fault begins with; whether it is the first. Once in the program, and not in
 /// each of the places that end here.
 #[inline(never)]
+fn tell(number: u8) -> bool {
+    let first = begin(number);
+    if first {
+        log::fatal(number);
+    }
+    first
+}
+
+/// Motor off, and the fault to the record; whether it is the first.
 fn begin(number: u8) -> bool {
     cortex_m::interrupt::disable();
     outputs::off();
@@ -33,7 +50,6 @@ fn begin(number: u8) -> bool {
     DYING.store(true, Ordering::Relaxed);
     if first {
         retained::note(number);
-        log::fatal(number);
     }
     first
 }
@@ -110,6 +126,9 @@ unsafe fn NonMaskableInt() -> ! {
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
 unsafe fn DefaultHandler(interrupt: i16) -> ! {
+    if supply::has_fallen() {
+        die_at_once(number::SUPPLY_LOW);
+    }
     die(number::STRAY_INTERRUPT, || {
         defmt::error!("- number {=i16}", interrupt);
     })

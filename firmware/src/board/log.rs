@@ -42,6 +42,7 @@ pub(crate) fn start(cause: StartCause, start: &Startup) {
     );
     match cause {
         StartCause::Watchdog => fatal(number::WATCHDOG),
+        StartCause::Software if start.follows(number::SUPPLY_LOW) => fatal(number::SUPPLY_LOW),
         StartCause::Software => defmt::info!("reset by software"),
         StartCause::Power => defmt::info!("reset by power-up"),
         StartCause::BrownOut => fatal(number::SUPPLY),
@@ -58,6 +59,16 @@ pub(crate) fn start(cause: StartCause, start: &Startup) {
             fault
         );
     }
+}
+
+/// The start goes on once the supply is high enough.
+pub(crate) fn waits_for_supply() {
+    defmt::warn!("waiting for the supply");
+}
+
+/// A fast dip may take the supply below what the clock needs.
+pub(crate) fn brown_out_is_low() {
+    defmt::warn!("brown-out level below what the clock needs: set BOR_LEV to level 3");
 }
 
 /// The motors are off until the user button is pressed.

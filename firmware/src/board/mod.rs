@@ -4,7 +4,7 @@
 //! A board has a file of its own beside this one, which is `crate::here`. It
 //! names three things: its clocks; the peripherals and pins of each side, a
 //! table by the types of [`wiring`]; and which of the drivers that exist in
-//! several versions (`gpio_*`, `spi_*`, `dma_*`) fit its chip. The scene's types
+//! several versions (`gpio_*`, `spi_*`, `dma_*`, `power_*`) fit its chip. The scene's types
 //! and settings come from the build script into [`scene`]; nothing else depends
 //! on the scene but the `cfg` `right_side`, by which a board gives that side its
 //! clocks and its interrupt. See docs/boards.md for how to add a board.
@@ -37,6 +37,7 @@ pub(crate) mod reset;
 pub(crate) mod retained;
 pub(crate) mod scene;
 pub(crate) mod sensor;
+pub(crate) mod supply;
 pub(crate) mod systick;
 pub(crate) mod tick_timer;
 pub(crate) mod timing;

@@ -62,6 +62,9 @@ pub(crate) mod dma;
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
 #[cfg(target_os = "none")]
+#[path = "power_f4.rs"]
+pub(crate) mod power;
+#[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
 

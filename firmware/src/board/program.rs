@@ -21,7 +21,7 @@ use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, 
 use super::sensor::Frames;
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
-use super::{faults, log, outputs, retained};
+use super::{faults, log, outputs, retained, supply};
 use crate::here::{self, CLOCKS, Counter};
 
 type Inner =
@@ -79,6 +79,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     let cause = here::reset_cause();
     let start = retained::start(cause);
     log::start(cause, &start);
+    supply::start();
     if let Err(error) = here::start_clocks() {
         faults::die(number::NO_CLOCK, || log::clock(error));
     }

@@ -161,6 +161,10 @@ macro_rules! fault_table {
                 "solder bridges; ST-LINK cut off",
                 "the bridges in [wiring.md](wiring.md#when-the-program-itself-fails)",
                 AllOff, Restart;
+            58 SUPPLY_LOW: "the supply is too low for the clock",
+                "USB port or cable too weak; motors on the board's supply; a short",
+                "the board's 3.3 V with an oscilloscope while the motors start",
+                AllOff, Restart;
             59 TOO_MANY_RESETS: "three resets in a minute",
                 "a supply or a reset line with a loose contact; somebody at the button",
                 "the lines before it",

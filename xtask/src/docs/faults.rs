@@ -65,7 +65,9 @@ const fn at_once(reaction: Reaction) -> (&'static str, &'static str) {
         ),
         Reaction::AllOff => (
             "all off",
-            "every motor output goes low, the log gets its lines, and the watchdog resets the chip.",
+            "every motor output goes low, the log gets its lines, and the watchdog resets the chip. With\n  \
+             a supply that is too low the reset comes at once, the start waits until it is back, and \
+             the\n  line is the next start's.",
         ),
         Reaction::NotArmed => (
             "not armed",

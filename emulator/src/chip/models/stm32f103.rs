@@ -2,8 +2,10 @@
 
 use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
+use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
+use crate::chip::power;
 use crate::chip::rcc::{Bus, f1};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
@@ -33,7 +35,9 @@ pub(crate) static F103: Model = Model {
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
         (Unit::Tim(TIM4), 0x4000_0800, Some((Bus::Apb1, 2))),
         (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Remap, 0x4001_0000, Some((Bus::Apb2, 0))),
+        (Unit::Lines, 0x4001_0400, None),
         (Unit::Gpio(0), 0x4001_0800, Some((Bus::Apb2, 2))),
         (Unit::Gpio(1), 0x4001_0C00, Some((Bus::Apb2, 3))),
         (Unit::Gpio(2), 0x4001_1000, Some((Bus::Apb2, 4))),
@@ -44,6 +48,8 @@ pub(crate) static F103: Model = Model {
         (Unit::Flash, 0x4002_2000, None),
         (Unit::Debug, 0xE004_2000, None),
     ],
+    power: &power::F1,
+    lines: &lines::V1,
     rcc: &f1::LAYOUT,
     timers: &[
         (Kind::General, Bus::Apb1),
@@ -59,6 +65,8 @@ pub(crate) static F103: Model = Model {
     lsi_hz: 40_000,
     has_window: false,
     flash_registers: &[(0x00, 0x30)],
+    // RM0008, chapter 3.3.3.
+    flash_hz: &[(2_000, 24_000_000)],
     debug_registers: &[(0x04, 0)],
     wiring: Wiring {
         sides: &[LEFT],

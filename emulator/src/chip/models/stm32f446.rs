@@ -2,8 +2,10 @@
 
 use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
+use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
+use crate::chip::power;
 use crate::chip::rcc::{Bus, f4};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
@@ -36,9 +38,11 @@ pub(crate) static F446: Model = Model {
         (Unit::Tim(TIM7), 0x4000_1400, Some((Bus::Apb1, 5))),
         (Unit::Watchdog, 0x4000_3000, None),
         (Unit::Spi(1), 0x4000_3800, Some((Bus::Apb1, 14))),
+        (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Tim(TIM1), 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM8), 0x4001_0400, Some((Bus::Apb2, 1))),
         (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
+        (Unit::Lines, 0x4001_3C00, None),
         (Unit::Gpio(0), 0x4002_0000, Some((Bus::Ahb, 0))),
         (Unit::Gpio(1), 0x4002_0400, Some((Bus::Ahb, 1))),
         (Unit::Gpio(2), 0x4002_0800, Some((Bus::Ahb, 2))),
@@ -48,6 +52,8 @@ pub(crate) static F446: Model = Model {
         (Unit::Dma(1), 0x4002_6400, Some((Bus::Ahb, 22))),
         (Unit::Debug, 0xE004_2000, None),
     ],
+    power: &power::F4,
+    lines: &lines::V1,
     rcc: &f4::LAYOUT,
     timers: &[
         (Kind::Wide, Bus::Apb1),
@@ -70,6 +76,13 @@ pub(crate) static F446: Model = Model {
     lsi_hz: 32_000,
     has_window: false,
     flash_registers: &[(0x00, 0)],
+    // RM0390, table 5.
+    flash_hz: &[
+        (2_700, 30_000_000),
+        (2_400, 24_000_000),
+        (2_100, 22_000_000),
+        (1_800, 20_000_000),
+    ],
     debug_registers: &[(0x04, 0), (0x08, 0), (0x0C, 0)],
     wiring: Wiring {
         sides: &[LEFT, RIGHT],

@@ -2,8 +2,10 @@
 
 use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
+use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
+use crate::chip::power;
 use crate::chip::rcc::{Bus, g0};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
@@ -30,6 +32,7 @@ pub(crate) static G071: Model = Model {
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
         (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
         (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::System, 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM1), 0x4001_2C00, Some((Bus::Apb2, 11))),
         (Unit::Spi(0), 0x4001_3000, Some((Bus::Apb2, 12))),
@@ -37,11 +40,14 @@ pub(crate) static G071: Model = Model {
         (Unit::Dma(0), 0x4002_0000, Some((Bus::Ahb, 0))),
         (Unit::Requests, 0x4002_0800, Some((Bus::Ahb, 0))),
         (Unit::Rcc, 0x4002_1000, None),
+        (Unit::Lines, 0x4002_1800, None),
         (Unit::Flash, 0x4002_2000, None),
         (Unit::Gpio(0), 0x5000_0000, Some((Bus::Ports, 0))),
         (Unit::Gpio(1), 0x5000_0400, Some((Bus::Ports, 1))),
         (Unit::Gpio(2), 0x5000_0800, Some((Bus::Ports, 2))),
     ],
+    power: &power::G0,
+    lines: &lines::G0,
     rcc: &g0::LAYOUT,
     timers: &[
         (Kind::Wide, Bus::Apb1),
@@ -61,6 +67,8 @@ pub(crate) static G071: Model = Model {
     lsi_hz: 32_000,
     has_window: true,
     flash_registers: &[(0x00, 0x0004_0600)],
+    // RM0444, table of the wait states in range 1.
+    flash_hz: &[(1_700, 24_000_000)],
     debug_registers: &[(0x04, 0), (0x08, 0), (0x0C, 0)],
     wiring: Wiring {
         sides: &[LEFT],

@@ -1,6 +1,8 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
-use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, core_hz, divider};
+use super::{
+    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider,
+};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -9,8 +11,6 @@ const HSI_HZ: u64 = 8_000_000;
 const CFGR: u32 = 0x04;
 
 const HSION: u32 = 1 << 0;
-const HSEON: u32 = 1 << 16;
-const PLLON: u32 = 1 << 24;
 
 /// In CFGR: the PLL's input is HSE, and that is halved.
 const PLLSRC: u32 = 1 << 16;
@@ -43,7 +43,9 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | IWDGRSTF,
         PINRSTF,
         PINRSTF | SFTRSTF,
+        PINRSTF | PORRSTF,
     ],
+    security: Some(0x08),
     clocks,
 };
 

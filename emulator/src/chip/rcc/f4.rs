@@ -1,6 +1,8 @@
 //! RCC of the STM32F446 (RM0390, chapter 6).
 
-use super::{AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, core_hz, divider};
+use super::{
+    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider,
+};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -10,8 +12,6 @@ const PLLCFGR: u32 = 0x04;
 const CFGR: u32 = 0x08;
 
 const HSION: u32 = 1 << 0;
-const HSEON: u32 = 1 << 16;
-const PLLON: u32 = 1 << 24;
 
 /// Flags of CSR: what caused the reset.
 const RMVF: u32 = 1 << 24;
@@ -41,7 +41,9 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | IWDGRSTF,
         PINRSTF,
         PINRSTF | SFTRSTF,
+        PINRSTF | BORRSTF,
     ],
+    security: Some(0x0C),
     clocks,
 };
 

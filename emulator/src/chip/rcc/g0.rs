@@ -1,6 +1,6 @@
 //! RCC of the STM32G071 (RM0444, chapter 5).
 
-use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, Layout, Rcc, core_hz, divider};
+use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -13,8 +13,6 @@ const HSION: u32 = 1 << 8;
 const HSIRDY: u32 = 1 << 10;
 /// A divider of the internal oscillator.
 const HSIDIV: u32 = 7 << 11;
-const HSEON: u32 = 1 << 16;
-const PLLON: u32 = 1 << 24;
 
 /// In PLLCFGR: the output towards the core is on.
 const PLLREN: u32 = 1 << 28;
@@ -48,7 +46,9 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | IWDGRSTF,
         PINRSTF,
         PINRSTF | SFTRSTF,
+        PINRSTF | PWRRSTF,
     ],
+    security: None,
     clocks,
 };
 

@@ -10,7 +10,7 @@ use crate::chip::rcc::Bus::{Apb1, Apb2};
 use crate::chip::tests::Rig;
 use crate::chip::timers::Kind;
 use crate::chip::wiring::{ENABLES, HALLS, PWM, Pin, Request};
-use crate::chip::{dma, spi};
+use crate::chip::{SUPPLY_IRQ, dma, spi};
 
 const SPIS: [&str; 2] = ["SPI1", "SPI2"];
 const DMAS: [&str; 2] = ["DMA1", "DMA2"];
@@ -49,6 +49,8 @@ fn name(unit: Unit) -> &'static str {
         Unit::Remap => "AFIO",
         Unit::System => "SYSCFG",
         Unit::Debug => "DBGMCU",
+        Unit::Power => "PWR",
+        Unit::Lines => "EXTI",
     }
 }
 
@@ -105,9 +107,10 @@ fn every_unit_stands_where_the_chip_has_it_and_has_its_gate_and_reset() {
             _ => &found.rcc,
         };
         // The debug unit of the STM32G0 has a gate that the description does not know;
-        // flash and RCC run always.
+        // flash, RCC and EXTI run always.
         let (Some((bus, bit)), Some(rcc)) = (gate, rcc) else {
-            let may = matches!(unit, Unit::Rcc | Unit::Flash | Unit::Watchdog | Unit::Debug);
+            let always = matches!(unit, Unit::Rcc | Unit::Flash | Unit::Lines);
+            let may = always || matches!(unit, Unit::Watchdog | Unit::Debug);
             assert!(may, "{name}");
             continue;
         };
@@ -260,6 +263,9 @@ fn every_interrupt_has_its_number() {
     let wiring = &MODEL.wiring;
     let tick = interrupt(timer_name(wiring.tick), "UP");
     assert_eq!(tick, Some(wiring.tick_irq.into()));
+    let mut all = METADATA.interrupts.iter();
+    let supply = all.find(|interrupt| interrupt.name == "PVD");
+    assert_eq!(supply.map(|found| found.number), Some(SUPPLY_IRQ.into()));
     for side in wiring.sides {
         let first = u32::from(MODEL.dmas[side.dma] == dma::Version::Channels);
         let signal = format!("CH{}", side.rx.stream as u32 + first);

@@ -1,0 +1,73 @@
+//! What befalls supply and clocks from outside, and what the chip makes of it by itself.
+
+use super::{Chip, Fault, ResetCause};
+
+/// Bits of the wait states in the flash interface's first register.
+const LATENCY: u32 = 15;
+/// As option bytes have it: the highest brown-out level.
+const HIGHEST: u32 = 0;
+
+impl Chip {
+    /// The supply is so many mV from now on. Returns what holds the chip in reset.
+    ///
+    /// # Errors
+    /// [`Fault::Clock`] if the flash cannot keep up with the clock any more.
+    pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
+        self.power.supply_mv = supply_mv;
+        let held = self.power.holds_in_reset();
+        if held.is_none() {
+            self.compare_supply();
+            self.follow_clocks()?;
+        }
+        Ok(held)
+    }
+
+    /// Lets the voltage detector look.
+    pub(super) fn compare_supply(&mut self) {
+        if self.power.compare() {
+            self.exti.rise();
+        }
+    }
+
+    /// Has the option bytes set to the highest brown-out level; whether there is any.
+    pub(crate) fn set_brown_out(&mut self) -> bool {
+        self.power.set_brown_out(HIGHEST);
+        self.power.has_brown_out()
+    }
+
+    /// The clock from outside stops, or is there again. Returns whether the chip runs by it.
+    ///
+    /// # Errors
+    /// [`Fault::Clock`] if the core stands still for it.
+    pub(crate) fn stop_clock(&mut self, stopped: bool) -> Result<bool, Fault> {
+        let had = self.rcc.stop_outside(stopped);
+        self.follow_clocks()?;
+        Ok(had)
+    }
+
+    /// Whether the non-maskable interrupt is up.
+    pub(crate) fn has_nmi(&self) -> bool {
+        self.rcc.has_clock_failed()
+    }
+
+    /// Takes the clocks that the registers make, where the flash keeps up with them.
+    ///
+    /// # Errors
+    /// [`Fault::Clock`] if they make none, or it does not.
+    pub(super) fn follow_clocks(&mut self) -> Result<(), Fault> {
+        let clocks = self.rcc.clocks()?;
+        let wait_states = self.flash.read(0).unwrap_or(0) & LATENCY;
+        let supply_mv = self.power.supply_mv;
+        let mut steps = self.model.flash_hz.iter();
+        let step = steps.find(|(from_mv, _)| supply_mv >= *from_mv);
+        let (_, hz) = step.ok_or(Fault::Clock("the supply is below the chip's range"))?;
+        // A tick of the picosecond clock more than the period is rounded by.
+        if clocks.core * hz * u64::from(wait_states + 1) < 999_900_000_000 {
+            return Err(Fault::Clock(
+                "the flash has too few wait states for this clock and supply",
+            ));
+        }
+        self.clocks = clocks;
+        Ok(())
+    }
+}

@@ -1,0 +1,48 @@
+//! The supply of an STM32F4: its voltage detector and its brown-out level (RM0390, chapters
+//! 5.2 and 3.8.1).
+
+use stm32_metapac::{EXTI, FLASH, PWR, RCC};
+
+use crate::board::reset::settle;
+
+/// Threshold of the detector: 2.85 V or more as the supply falls, at most 3.10 V as it rises
+/// (PLS = 110; DS10693, reset and power control block). 160 MHz with five wait states need
+/// 2.7 V (RM0390, table 5), and the board has 3.3 V.
+const LEVEL: u8 = 6;
+
+/// What the option bytes call the only brown-out level above 2.7 V, 2.75 V or more.
+const BROWN_OUT_LEVEL_3: u8 = 0;
+
+/// Its line in EXTI.
+pub(crate) const LINE: usize = 16;
+
+/// Switches the detector on.
+pub(crate) fn start() {
+    RCC.apb1enr().modify(|w| w.set_pwren(true));
+    settle();
+    PWR.cr1().modify(|w| {
+        w.set_pls(LEVEL);
+        w.set_pvde(true);
+    });
+}
+
+/// Whether the supply is below the threshold.
+pub(crate) fn is_low() -> bool {
+    PWR.csr1().read().pvdo()
+}
+
+/// Whether it has fallen below it since [`forget`].
+pub(crate) fn has_fallen() -> bool {
+    EXTI.pr(0).read().line(LINE)
+}
+
+/// Forgets that it has fallen.
+pub(crate) fn forget() {
+    EXTI.pr(0).write(|w| w.set_line(LINE, true));
+}
+
+/// Whether a dip that the detector is too slow for may go below what the clock needs without
+/// a reset.
+pub(crate) fn brown_out_is_low() -> bool {
+    FLASH.optcr().read().bor_lev() != BROWN_OUT_LEVEL_3
+}
