@@ -1,4 +1,5 @@
-//! The checks of one chip: `MODEL` against the description in `metapac`.
+//! The checks of one chip: what `MODEL` does against the description in `metapac`. Its numbers
+//! are compared by `cargo xtask descriptions`.
 
 use super::MODEL;
 use super::metapac::metadata::ir::{BitOffset, IR, RegularBitOffset};
@@ -9,7 +10,7 @@ use crate::chip::map::Unit;
 use crate::chip::rcc::Bus::{Apb1, Apb2};
 use crate::chip::tests::Rig;
 use crate::chip::timers::Kind;
-use crate::chip::wiring::{ENABLES, HALLS, PWM, Pin, Request};
+use crate::chip::wiring::{ENABLES, HALLS, PWM, Pin};
 use crate::chip::{SUPPLY_IRQ, dma, spi};
 
 const SPIS: [&str; 2] = ["SPI1", "SPI2"];
@@ -72,27 +73,6 @@ fn place(of: &PeripheralRccRegister) -> (u32, u32) {
         panic!("{} is not in one place", of.field);
     };
     (base(Unit::Rcc) + register.unwrap().byte_offset, offset)
-}
-
-#[test]
-fn the_memories_are_the_chips() {
-    let find = |name: &str| {
-        let mut regions = METADATA.memory[0].iter();
-        let found = regions
-            .find(|region| region.name.starts_with(name))
-            .unwrap();
-        (found.address, found.size)
-    };
-    // The sizes of several banks that lie side by side add up.
-    let sum = |kind: &str| -> u32 {
-        let regions = METADATA.memory[0].iter();
-        let named = regions.filter(|region| region.name.starts_with(kind));
-        named.map(|region| region.size).sum()
-    };
-    assert_eq!(find("BANK_1").0, crate::memory::FLASH);
-    assert_eq!(sum("BANK_1"), MODEL.flash);
-    assert_eq!((find("SRAM").0, sum("SRAM")), (0x2000_0000, MODEL.ram));
-    assert_eq!(METADATA.nvic_priority_bits, Some(MODEL.priority_bits));
 }
 
 #[test]
@@ -172,44 +152,6 @@ fn timers_and_spis_have_their_kind_and_their_bus() {
     }
 }
 
-/// Whether a peripheral has `signal` on `pin` by that alternate function; by that place of
-/// its pins without remapping, where there are no functions.
-fn has_pin(name: &str, signal: &str, Pin { port, number }: Pin, function: u32) -> bool {
-    let pin = format!("P{}{number}", ["A", "B", "C"][port]);
-    let peripheral = peripheral(name);
-    let mut pins = peripheral.pins.iter();
-    let found = pins.any(|at| {
-        let by_function = at.af.is_none_or(|af| u32::from(af) == function);
-        at.pin == pin && at.signal == signal && by_function
-    });
-    let in_place = peripheral.afio.as_ref().is_none_or(|afio| {
-        let place = afio.values.iter().find(|place| place.value == 0).unwrap();
-        place.pins.contains(&pin.as_str())
-    });
-    found && in_place
-}
-
-#[test]
-fn every_pin_has_its_peripheral_by_its_function() {
-    let wiring = &MODEL.wiring;
-    for (side, spi) in wiring.sides.iter().zip(SPIS) {
-        for (pin, signal) in side.spi.into_iter().zip(["SCK", "MISO", "MOSI"]) {
-            let function = wiring.spi_function;
-            assert!(has_pin(spi, signal, pin, function), "{spi} {pin:?}");
-        }
-        let timer = timer_name(side.encoder_timer);
-        for (pin, signal) in side.encoder.into_iter().zip(["CH1", "CH2"]) {
-            let function = side.encoder_function;
-            assert!(has_pin(timer, signal, pin, function), "{timer} {pin:?}");
-        }
-    }
-    assert_eq!(timer_name(wiring.pwm_timer), "TIM1");
-    for (pin, signal) in PWM.into_iter().zip(["CH1", "CH2", "CH3"]) {
-        let function = wiring.pwm_function;
-        assert!(has_pin("TIM1", signal, pin, function), "{pin:?}");
-    }
-}
-
 #[test]
 fn no_pin_is_used_twice() {
     let mut pins: Vec<Pin> = [PWM, ENABLES, HALLS].concat();
@@ -220,32 +162,6 @@ fn no_pin_is_used_twice() {
     }
     for (n, pin) in pins.iter().enumerate() {
         assert!(!pins[..n].contains(pin), "{pin:?}");
-    }
-}
-
-/// Whether a peripheral's `signal` can ask that stream or channel of a DMA controller.
-fn asks(name: &str, signal: &str, dma: usize, request: Request) -> bool {
-    let channel = match MODEL.dmas[dma] {
-        dma::Version::Streams => format!("{}_CH{}", DMAS[dma], request.stream),
-        // Channels are counted from 1.
-        dma::Version::Channels => format!("{}_CH{}", DMAS[dma], request.stream + 1),
-    };
-    let mut all = peripheral(name).dma_channels.iter();
-    all.any(|found| {
-        // By way of a DMAMUX every channel can be asked.
-        let reaches = found.channel.is_none_or(|found| found == channel);
-        // What is wired has no number.
-        let selected = found.request.map_or(0, u32::from);
-        found.signal == signal && reaches && selected == request.channel
-    })
-}
-
-#[test]
-fn every_request_reaches_its_stream() {
-    for (side, spi) in MODEL.wiring.sides.iter().zip(SPIS) {
-        assert!(asks(spi, "RX", side.dma, side.rx), "{spi}");
-        let timer = timer_name(side.byte_timer);
-        assert!(asks(timer, "UP", side.dma, side.tx), "{timer}");
     }
 }
 
