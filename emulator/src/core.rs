@@ -18,6 +18,8 @@ use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 use crate::chip::{CoreKind, Fault, Memory, Model, Ps};
 use crate::memory::{FLASH, Memories};
 
+/// The exception number in xPSR.
+pub(crate) const EXCEPTION: u32 = 0x1FF;
 /// CPUID of a Cortex-M0+, r0p1.
 const CPUID_M0_PLUS: u32 = 0x410C_C601;
 /// CCR.UNALIGN_TRP, which is always set on ARMv6-M.

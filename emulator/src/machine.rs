@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
-use crate::core::Core;
+use crate::core::{Core, EXCEPTION};
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
@@ -16,8 +16,6 @@ use crate::upset::{Planned, Upset};
 
 /// Interrupts are exceptions from this number on.
 const INTERRUPTS: u32 = 16;
-/// The exception number in xPSR.
-const EXCEPTION: u32 = 0x1FF;
 
 /// Why [`Machine::run`] came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

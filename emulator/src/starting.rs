@@ -1,13 +1,14 @@
 //! Starts that nobody asked for, and the button: is the motor off after them, and does the
 //! module say why?
 
-use std::iter;
 use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 
 use crate::chip::{Ps, ResetCause};
+use crate::debug_info::DebugInfo;
+use crate::program::Program;
 use crate::trouble::Trouble;
 use crate::upset::{MIDDLE, Upset};
 
@@ -18,14 +19,16 @@ const PINS_LOW: Ps = 20_000_000;
 /// Hard faults in succession, and how often they come, in hundredths of a second.
 const FAULTS: usize = 3;
 const FAULT_HUNDREDTHS: u32 = 75;
+/// Who writes a line of the log, where a core has atomic swaps.
+const LOGGER_OWNER: &str = "RTT_ENCODER.owner.v.value";
 /// How far a whisker may run on without its motor, degrees.
 const RUN_ON_DEG: f64 = 60.0;
 
 /// Has the watchdog reset the chip while the whiskers of the scene in `path` whisk; presses
-/// the user button, for long and as it should be; crashes the core every 0.75 s; overflows its
-/// stack; and resets
-/// the chip three times in a minute. The motors must be off after each but the press, and
-/// the log must say why. Returns the lines of the log.
+/// the user button, for long and as it should be; crashes the core every 0.75 s; resets the chip
+/// three times in a minute; and, each on a board of its own that whisks, overflows the stack and
+/// has the logger panic. The motors must be off after each but the press, and the log must say
+/// why. Returns the lines of the log.
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
@@ -33,7 +36,6 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let loaded = Loaded::new(path)?;
     let mut trouble = Trouble::new(&loaded.scene, program)?;
     trouble.run.module_mut().bears_resets = true;
-    let period = 1_000_000_000_000 / Ps::from(loaded.scene.tick_hz);
     let hundredth = loaded.scene.tick_hz / 100;
     let mut heard = Vec::new();
 
@@ -50,29 +52,55 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     whisks(&mut trouble, 100 * hundredth, "after a press")?;
     heard.push(trouble.hear("armed by the user button")?);
 
-    let crashes = iter::repeat_n((Upset::Astray, "fault 49"), FAULTS);
-    for (crash, said) in crashes.chain([(Upset::NoStack, "fault 54")]) {
-        trouble.log.clear();
-        let board = trouble.board_mut();
-        board.machine.upset_next_tick(MIDDLE, crash);
-        if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
-            return Err(Error::Work("driven in a hard fault".to_owned()));
-        }
-        rests(
-            &mut trouble,
-            FAULT_HUNDREDTHS * hundredth,
-            "after a hard fault",
-        )?;
-        trouble.hear(said)?;
-        trouble.hear(&format!("last {said}"))?;
-        heard.push(trouble.hear(&format!("not armed: {said}"))?);
+    // The first while it whisks, the others after it.
+    for _ in 0..FAULTS {
+        heard.push(crash(&mut trouble, Upset::Astray, "fault 49", hundredth)?);
     }
-
     trouble.log.clear();
     trouble.board_mut().reset_now(ResetCause::Pin)?;
     rests(&mut trouble, 10 * hundredth, "after many resets")?;
     heard.push(trouble.hear("not armed: fault 59")?);
+
+    let logger = logger(&Program::load(program)?)?;
+    for (upset, said) in [(Upset::NoStack, "fault 54"), (logger, "fault 48")] {
+        let mut trouble = Trouble::new(&loaded.scene, program)?;
+        trouble.run.module_mut().bears_resets = true;
+        whisks(&mut trouble, 100 * hundredth, "after power-up")?;
+        heard.push(crash(&mut trouble, upset, said, hundredth)?);
+    }
     Ok(heard)
+}
+
+/// Where the logger panics: where a line ends that was not begun, or, on a core with atomic
+/// swaps, where one begins whose writer has begun one before.
+fn logger(program: &Program) -> Result<Upset, Error> {
+    let leaves = DebugInfo::new(program)?.leaves()?;
+    let owner = leaves.into_iter().find(|leaf| leaf.path == LOGGER_OWNER);
+    let function = program.symbol(match owner {
+        Some(_) => "_defmt_acquire",
+        None => "_defmt_release",
+    })?;
+    Ok(Upset::Logger {
+        // Without the bit that says Thumb.
+        function: function & !1,
+        owner: owner.map(|leaf| leaf.address),
+    })
+}
+
+/// Lets a fault of the program befall the core in the next tick. The pins must be low within
+/// [`PINS_LOW`] of its start, and stay so; the log must tell the fault at the next start.
+fn crash(trouble: &mut Trouble, upset: Upset, said: &str, hundredth: u32) -> Result<String, Error> {
+    trouble.log.clear();
+    let period = 10_000_000_000 / Ps::from(hundredth);
+    let board = trouble.board_mut();
+    board.machine.upset_next_tick(MIDDLE, upset);
+    if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
+        return Err(Error::Work(format!("driven in {said}")));
+    }
+    rests(trouble, FAULT_HUNDREDTHS * hundredth, "after a fault")?;
+    trouble.hear(said)?;
+    trouble.hear(&format!("last {said}"))?;
+    trouble.hear(&format!("not armed: {said}"))
 }
 
 /// Holds the button down for so many ticks, and lets it go before and after.

@@ -41,6 +41,10 @@ fn key(key: Key) {
 /// millisecond: a quarter of a second and more, for the probe to fetch the log.
 const LAST_FEEDS: u32 = 1_000;
 
+/// Cycles that a Cortex-M0+, M3 or M4 takes for each that the delay is told: its loop takes
+/// three, or four with a slow branch.
+const DELAY_CYCLES: u32 = 3;
+
 /// Gives the probe time to fetch the last line, then waits for the watchdog,
 /// started now if it was not: some ten milliseconds more if it runs, up to a
 /// second otherwise.
@@ -49,7 +53,7 @@ pub(crate) fn wait_for_reset() -> ! {
     for _ in 0..LAST_FEEDS {
         key(Key::RESET);
         // In time even at a tenth of the clock, should the PLL have failed.
-        cortex_m::asm::delay(CLOCKS.core_hz / 4_000);
+        cortex_m::asm::delay(CLOCKS.core_hz / 4_000 / DELAY_CYCLES);
     }
     key(Key::START);
     loop {
