@@ -11,6 +11,7 @@ use host_sim::trace::Row;
 use plan::NumberFormat;
 use scene::Numbers;
 
+use crate::counters::Started;
 use crate::emulate::start;
 use crate::program::Program;
 
@@ -19,15 +20,27 @@ use crate::program::Program;
 const PERIOD_ERROR: f64 = 3e-5;
 
 /// Who fetches the log from the board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Probe {
     /// A probe, all the time.
+    #[default]
     Attached,
     /// Nobody ever; the log's ring is full after half a second.
     Absent,
     /// A probe that has asked the program to wait for it where the ring is full, as
     /// probe-rs does, and was then pulled: after half a second, with the ring full.
     Pulled,
+}
+
+/// How a board is run.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Circumstances {
+    /// Who fetches its log.
+    pub probe: Probe,
+    /// Whether every counter that wraps starts just below its wrap, and must pass it.
+    pub wraps: bool,
+    /// How long the scene lasts, s, whatever it says itself.
+    pub duration_s: Option<f64>,
 }
 
 /// After what time of the scene the ring is full, s: early enough for short scenes, and
@@ -41,13 +54,20 @@ pub struct Agreement {
     pub ticks: u64,
     /// Decisions.
     pub decisions: u64,
+    /// Touches of the first whisker.
+    pub touches: u64,
     /// The most bytes that the board's stack has held.
     pub stack: u32,
+    /// Ticks that the board has missed.
+    pub missed: u32,
+    /// Counters that have wrapped.
+    pub wrapped: usize,
 }
 
 /// Runs the scene in `path` on the PC, in the board's number format, and on the
-/// board, with `probe` at its log; every number of every row of the trace and every decision
-/// must be the same, to the last bit. The board's ticks must come at the scene's rate.
+/// board under these circumstances; every number of every row of the trace and every decision
+/// must be the same, to the last bit, but that touches may be numbered from elsewhere. The
+/// board's ticks must come at the scene's rate.
 ///
 /// Contact is compared where the scene uses it: host-sim's trace shows it
 /// wherever there is an obstacle, the board computes it only for RCP, CIA or a
@@ -55,8 +75,20 @@ pub struct Agreement {
 ///
 /// # Errors
 /// [`Error::Work`] names the first tick and column that differ.
-pub fn compare(path: &Path, program: &Path, probe: Probe) -> Result<Agreement, Error> {
+pub fn compare(
+    path: &Path,
+    program: &Path,
+    circumstances: Circumstances,
+) -> Result<Agreement, Error> {
+    let Circumstances {
+        probe,
+        wraps,
+        duration_s,
+    } = circumstances;
     let mut loaded = Loaded::new(path)?;
+    if let Some(duration_s) = duration_s {
+        loaded.scene.duration_s = duration_s;
+    }
     let program = Program::load(program)?;
     let model = program.model()?;
     let format = plan::in_simulation(&loaded.scene);
@@ -76,8 +108,11 @@ pub fn compare(path: &Path, program: &Path, probe: Probe) -> Result<Agreement, E
     let mut host = Run::with_pwm(scene, classifier, model.pwm_counts)?;
     let mut target = start(scene, host.classes().to_vec(), &program)?;
 
+    let board = &mut target.module_mut().board;
+    let started = wraps.then(|| Started::new(&program, board, scene.tick_hz));
+    let mut started = started.transpose()?;
     if probe == Probe::Pulled {
-        target.module_mut().board.attach_reader()?;
+        board.attach_reader()?;
     }
     let gone_at = match probe {
         Probe::Attached => None,
@@ -99,13 +134,23 @@ pub fn compare(path: &Path, program: &Path, probe: Probe) -> Result<Agreement, E
         if scene.classifier.is_none() {
             expected.touch = [0; 2];
         }
+        agreement.touches = agreement.touches.max(expected.touch[0].into());
+        if let Some(started) = &mut started {
+            started.look(&target.module_mut().board)?;
+            expected.touch = expected.touch.map(|number| started.touch(number));
+        }
         if let Some(column) = difference(&expected, &found) {
             return Err(Error::Work(format!(
                 "{}: tick {n}: {column} on the PC, on the board\n  {expected:?}\n  {found:?}",
                 path.display()
             )));
         }
-        let expected: Vec<Decided> = host.decisions().collect();
+        let mut expected: Vec<Decided> = host.decisions().collect();
+        if let Some(started) = &started {
+            for decided in &mut expected {
+                decided.touch = started.touch(decided.touch);
+            }
+        }
         let found: Vec<Decided> = target.decisions().collect();
         if expected != found {
             return Err(Error::Work(format!(
@@ -125,6 +170,12 @@ pub fn compare(path: &Path, program: &Path, probe: Probe) -> Result<Agreement, E
         )));
     }
     agreement.stack = board.board.machine.stack_used()?;
+    agreement.missed = board.board.missed()?;
+    if let Some(started) = started {
+        let wrapped = started.wrapped();
+        let told = |left| Error::Work(format!("{}: {left}", path.display()));
+        agreement.wrapped = wrapped.map_err(told)?;
+    }
     Ok(agreement)
 }
 

@@ -14,6 +14,7 @@ use object::{Object, ObjectSection};
 use crate::chip::Fault;
 use crate::program::Program;
 
+pub(crate) use leaves::Leaf;
 pub(crate) use place::{Number, Place};
 
 type Reader = EndianRcSlice<LittleEndian>;

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
-use emulator::compare::Probe;
+use emulator::compare::{Circumstances, Probe};
+use emulator::endurance;
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
     starting, supply,
@@ -97,6 +98,18 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Runs a scene for hours and writes a row: on the PC, or, with a program, on a board whose
+    /// counters start just below their wraps
+    Endure(Endure),
+    /// Makes the page of the long runs from the files of all shards
+    Endurance {
+        /// The files
+        #[arg(required = true)]
+        shards: Vec<PathBuf>,
+        /// The page to write
+        #[arg(long, value_name = "FILE")]
+        out: PathBuf,
+    },
     /// Flips bits in the settings and in the model of a scene; fails if the motors are not
     /// switched off, or the log does not say why
     Damage(Flashed),
@@ -137,6 +150,39 @@ struct Campaign {
     /// The table of the shard: rows that it has are not run again
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+}
+
+/// A long run.
+#[derive(Args)]
+struct Endure {
+    /// The scene file
+    scene: PathBuf,
+    /// The program that was built for it; none: on the PC
+    #[arg(long, value_name = "ELF", requires = "subject")]
+    program: Option<PathBuf>,
+    /// What the row calls the board
+    #[arg(long)]
+    subject: Option<String>,
+    /// The seed in place of the scene's own, on the PC
+    #[arg(long, default_value_t = 1, conflicts_with = "program")]
+    seed: u64,
+    /// For how many simulated hours
+    #[arg(long)]
+    hours: f64,
+    /// The file of the shard
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+/// Makes the long run of a shard.
+fn endure(run: &Endure) -> Result<(), Error> {
+    let row = match (&run.program, &run.subject) {
+        (Some(program), Some(subject)) => {
+            endurance::on_board(&run.scene, program, subject, run.hours)?
+        }
+        _ => endurance::on_pc(&run.scene, run.seed, run.hours)?,
+    };
+    row.write(&run.out)
 }
 
 /// Who fetches the log from the board.
@@ -233,7 +279,14 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             flashed: Flashed { scene, program },
             probe,
         } => {
-            let agreed = compare::compare(&scene, &program, probe.into())?;
+            let agreed = compare::compare(
+                &scene,
+                &program,
+                Circumstances {
+                    probe: probe.into(),
+                    ..Circumstances::default()
+                },
+            )?;
             report::say(format_args!(
                 "{}: PC and board agree to the last bit in {} ticks, {} decisions; {} bytes of stack",
                 scene.display(),
@@ -258,6 +311,12 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             }
         }
         Command::Campaign(campaign) => inject(campaign)?,
+        Command::Endure(run) => endure(&run)?,
+        Command::Endurance { shards, out } => {
+            let rows: Result<Vec<_>, _> =
+                shards.iter().map(|shard| endurance::row(shard)).collect();
+            write_whole(&out, endurance::page(&rows?).as_bytes())?;
+        }
         Command::Reliability { tables, out } => reliability(&tables, out.as_deref())?,
         Command::Facts { board: None } => report::say(registers::page().trim_end()),
         Command::Facts { board: Some(board) } => report::say(registers::table(&board)?.trim_end()),

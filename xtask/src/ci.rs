@@ -8,8 +8,8 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
 use crate::{
-    arrows, cost, count, dependencies, descriptions, docs, emulate, faults, fuzz, panics, readme,
-    size,
+    arrows, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
+    panics, readme, size,
 };
 
 /// What a warning becomes.
@@ -38,6 +38,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated boards, one side and two", board)?;
     steps.run("injected faults, a thousand", faults::short)?;
+    steps.run("endurance, in short", endurance::short)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
     steps.end()

@@ -9,6 +9,7 @@ mod descriptions;
 mod docs;
 mod elf;
 mod emulate;
+mod endurance;
 mod faults;
 mod figures;
 mod firmware;
@@ -59,6 +60,9 @@ enum Command {
     /// Injects faults at random into every scene, on the PC and on the emulated boards, and
     /// writes docs/measured/reliability.md; fails if one was harmful
     Faults(faults::Choice),
+    /// Runs scenes for hours: a week on the PC, and a day as the boards' own programs with every
+    /// counter started just below its wrap; writes docs/measured/endurance.md
+    Endurance(endurance::Choice),
     /// Draws what both sides do in scenes with obstacles, on an emulated NUCLEO-F446RE
     Picture {
         /// The scenes, from above
@@ -247,6 +251,7 @@ fn main() -> ExitCode {
             .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),
         Command::Faults(choice) => faults::all(&choice),
+        Command::Endurance(choice) => endurance::all(&choice),
         Command::Picture { scenes, out } => firmware::Board::named("nucleo-f446re")
             .and_then(|board| emulate::picture(board, &scenes, &out)),
         Command::Cost {

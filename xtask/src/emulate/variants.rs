@@ -1,5 +1,6 @@
 //! Scenes made from others for the emulated board: one with a single whisker a side,
-//! which is what a board carries; one in fixed point; one with both sides.
+//! which is what a board carries; one in fixed point; one with both sides; one with another
+//! seed.
 
 use std::path::{Path, PathBuf};
 
@@ -46,6 +47,17 @@ pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault
 pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     set(&mut table, "whisking", "numbers", "fixed".into());
+    write(path, &scene, table, folder)
+}
+
+/// Writes `path` as a scene with another seed into `folder` and returns its path.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(crate) fn with_seed(path: &Path, seed: u64, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    let seed = i64::try_from(seed).map_err(|error| error.to_string())?;
+    table.insert("seed".to_owned(), seed.into());
     write(path, &scene, table, folder)
 }
 

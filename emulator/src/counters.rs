@@ -1,0 +1,171 @@
+//! The counters of a board's program that wrap around after hours or weeks, each started
+//! just below its wrap.
+//!
+//! Not here: counts that stop at their limit (ticks missed, events dropped, starts, repeats of
+//! a reading, ticks of guards), and what wraps in every run anyway (the tick timer, `SysTick`'s
+//! 24 bits, the log's ring, blocks of the touch detector).
+
+mod started;
+
+pub(crate) use started::Started;
+
+/// Where a counter is.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// In RAM: how the names end that lead to it.
+    Ram(&'static str),
+    /// The count of the timer to which a word in RAM points.
+    TimerOf(&'static str),
+    /// The count of the F446's TIM5, by which it measures its ticks.
+    Tim5,
+}
+
+/// Offset of a timer's count.
+const CNT: u32 = 0x24;
+/// TIM5 of the F446, which has no variable; on the other boards one stands for it.
+const TIM5: u32 = 0x4000_0C00;
+
+/// A counter that wraps, or what has to begin in step with one.
+struct Counter {
+    /// What it counts.
+    what: &'static str,
+    place: Place,
+    /// Where the wrap is to be seen in RAM; nothing: it is another counter's.
+    seen: Option<&'static str>,
+    /// Bits.
+    width: u32,
+    /// Whether it wraps from the largest number with a sign.
+    is_signed: bool,
+    /// Where it starts, counts after its wrap, at so many ticks a second.
+    start: fn(i64) -> i64,
+}
+
+impl Counter {
+    /// One in RAM without a sign.
+    const fn in_ram(
+        what: &'static str,
+        path: &'static str,
+        width: u32,
+        start: fn(i64) -> i64,
+    ) -> Self {
+        Self {
+            what,
+            place: Place::Ram(path),
+            seen: Some(path),
+            width,
+            is_signed: false,
+            start,
+        }
+    }
+
+    /// What begins in step with another.
+    const fn in_step(path: &'static str, width: u32, start: fn(i64) -> i64) -> Self {
+        Self {
+            seen: None,
+            ..Self::in_ram("", path, width, start)
+        }
+    }
+
+    /// A part of the encoder's total, in step with it.
+    const fn of_total(path: &'static str) -> Self {
+        Self {
+            is_signed: true,
+            ..Self::in_step(path, 32, TOTAL)
+        }
+    }
+
+    const fn mask(&self) -> u32 {
+        u32::MAX >> (32 - self.width)
+    }
+
+    const fn wrap(&self) -> u32 {
+        if self.is_signed {
+            1 << (self.width - 1)
+        } else {
+            0
+        }
+    }
+
+    fn first(&self, tick_hz: u32) -> u32 {
+        let after = (self.start)(tick_hz.into()) as u32;
+        self.wrap().wrapping_add(after) & self.mask()
+    }
+
+    /// Whether a count is beyond the wrap, and not before it.
+    const fn is_beyond(&self, count: u32) -> bool {
+        count.wrapping_sub(self.wrap()) & self.mask() <= self.mask() / 2
+    }
+}
+
+const TOUCHES: &str = "touches";
+
+/// Three quarters of a second before the wrap.
+const TICKS: fn(i64) -> i64 = |tick_hz| -(tick_hz * 3 / 4);
+/// Half a second of a clock of 80 MHz before it.
+const CLOCK: fn(i64) -> i64 = |_| -40_000_000;
+/// Where a whisker that protracts soon goes.
+const ENCODER: fn(i64) -> i64 = |_| -50;
+const TOTAL: fn(i64) -> i64 = |_| -100;
+
+const COUNTERS: [Counter; 16] = [
+    Counter::in_ram("ticks", "TICKS.__0.v.value", 32, TICKS),
+    Counter::in_step("idle.__0.value.value.value.__0.fed", 32, TICKS),
+    Counter::in_step("idle.__0.value.value.value.__0.logged", 32, TICKS),
+    // The next full second.
+    Counter::in_step("value.__0.second", 32, |tick_hz| tick_hz / 4),
+    Counter::in_ram("events put in", "queue.__0.value.put", 32, |_| -3),
+    Counter::in_ram("events taken out", "queue.__0.value.taken", 32, |_| -3),
+    Counter::in_ram(TOUCHES, "touches.last", 16, |_| -4),
+    Counter {
+        what: "the clock that measures the ticks",
+        place: Place::Tim5,
+        seen: Some("inner.timing.begun.Some.__0"),
+        width: 32,
+        is_signed: false,
+        start: CLOCK,
+    },
+    Counter::in_step("inner.clock.now", 32, CLOCK),
+    Counter {
+        what: "the encoder's timer",
+        place: Place::TimerOf("servos.angle.timer.ptr"),
+        seen: Some("servos.angle.last"),
+        width: 16,
+        is_signed: false,
+        start: ENCODER,
+    },
+    Counter::in_step("servos.angle.last", 16, ENCODER),
+    Counter {
+        what: "the encoder's total",
+        seen: Some("servos.angle.counts"),
+        ..Counter::of_total("servos.angle.counts")
+    },
+    Counter::of_total("servos.counts"),
+    // Where rest is.
+    Counter::of_total("servos.home.first"),
+    Counter::of_total("servos.home.second"),
+    Counter::of_total("servos.home.third"),
+];
+
+/// What each counts, its bits, and how many counts before its wrap it starts, at 2,000 ticks
+/// a second.
+pub(crate) fn described() -> impl Iterator<Item = (&'static str, u32, i64)> {
+    let wrap = COUNTERS.iter().filter(|counter| counter.seen.is_some());
+    wrap.map(|counter| (counter.what, counter.width, -(counter.start)(2_000)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::COUNTERS;
+
+    #[test]
+    fn each_starts_before_its_wrap_and_is_beyond_after_it() {
+        for counter in COUNTERS.iter().filter(|counter| counter.seen.is_some()) {
+            let first = counter.first(2_000);
+            let left = -(counter.start)(2_000) as u32;
+            let at = |count: u32| first.wrapping_add(count) & counter.mask();
+            assert!(!counter.is_beyond(first), "{}", counter.what);
+            assert!(!counter.is_beyond(at(left - 1)), "{}", counter.what);
+            assert!(counter.is_beyond(at(left)), "{}", counter.what);
+        }
+    }
+}

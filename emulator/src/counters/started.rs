@@ -1,0 +1,148 @@
+//! A board whose counters start just below their wraps.
+
+use super::{CNT, COUNTERS, Counter, Place, TIM5, TOUCHES};
+use crate::board::Board;
+use crate::chip::Fault;
+use crate::debug_info::{DebugInfo, Leaf};
+use crate::program::Program;
+
+/// A word in which a wrap is to be seen.
+struct Seen {
+    counter: &'static Counter,
+    leaf: Leaf,
+    is_beyond: bool,
+}
+
+/// The counters of a program that were started below their wraps.
+pub(crate) struct Started {
+    seen: Vec<Seen>,
+    /// Touches that the program takes for told before the first.
+    touches: u32,
+}
+
+/// A path without its indices.
+fn bare(path: &str) -> String {
+    let parts = path.split('[');
+    let parts = parts.map(|part| part.split_once(']').map_or(part, |(_, rest)| rest));
+    parts.collect()
+}
+
+fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
+    let mut word = [0; 4];
+    let size = word.len().min(leaf.size as usize);
+    board
+        .machine
+        .memories
+        .read(leaf.address, &mut word[..size])?;
+    Ok(u32::from_le_bytes(word))
+}
+
+impl Started {
+    /// Starts every counter that `program` has, before the first tick of `board`.
+    pub(crate) fn new(program: &Program, board: &mut Board, tick_hz: u32) -> Result<Self, Fault> {
+        let leaves = DebugInfo::new(program)?.leaves()?;
+        let named: Vec<(String, Leaf)> = leaves
+            .into_iter()
+            .map(|leaf| (bare(&leaf.path), leaf))
+            .collect();
+        let all = |end: &'static str| {
+            let ends = named.iter().filter(move |(path, _)| path.ends_with(end));
+            ends.map(|(_, leaf)| leaf.clone())
+        };
+        let has_variable = all("inner.clock.now").next().is_some();
+        let mut started = Self {
+            seen: Vec::new(),
+            touches: 0,
+        };
+        for counter in &COUNTERS {
+            let first = counter.first(tick_hz);
+            match counter.place {
+                Place::Ram(path) => {
+                    for leaf in all(path) {
+                        let size = leaf.size.min(4) as usize;
+                        let bytes = first.to_le_bytes();
+                        board.machine.memories.write(leaf.address, &bytes[..size])?;
+                    }
+                }
+                Place::TimerOf(path) => {
+                    for leaf in all(path) {
+                        let timer = read(board, &leaf)?;
+                        board
+                            .machine
+                            .with_chip(|chip| chip.write(timer + CNT, first, u32::MAX))?;
+                    }
+                }
+                Place::Tim5 if has_variable => {}
+                Place::Tim5 => {
+                    board
+                        .machine
+                        .with_chip(|chip| chip.write(TIM5 + CNT, first, u32::MAX))?;
+                }
+            }
+            for leaf in counter.seen.into_iter().flat_map(all) {
+                if counter.what == TOUCHES {
+                    started.touches = first;
+                }
+                started.seen.push(Seen {
+                    counter,
+                    leaf,
+                    is_beyond: false,
+                });
+            }
+        }
+        Ok(started)
+    }
+
+    /// Sees which have wrapped, after a tick.
+    pub(crate) fn look(&mut self, board: &Board) -> Result<(), Fault> {
+        for seen in self.seen.iter_mut().filter(|seen| !seen.is_beyond) {
+            let count = read(board, &seen.leaf)?;
+            seen.is_beyond = seen.counter.is_beyond(count);
+        }
+        Ok(())
+    }
+
+    /// How many have wrapped.
+    ///
+    /// # Errors
+    /// What those count that have not.
+    pub(crate) fn wrapped(&self) -> Result<usize, String> {
+        let left = self.seen.iter().filter(|seen| !seen.is_beyond);
+        let left: Vec<&str> = left.map(|seen| seen.counter.what).collect();
+        if left.is_empty() {
+            return Ok(self.seen.len());
+        }
+        Err(format!("not wrapped: {}", left.join(", ")))
+    }
+
+    /// The number that the program gives to a touch of this number by a module that has
+    /// started at zero; the air stays 0, and after 65535 comes 1.
+    pub(crate) fn touch(&self, number: u16) -> u16 {
+        let Some(before) = number.checked_sub(1) else {
+            return 0;
+        };
+        let shifted = (u32::from(before) + self.touches) % u32::from(u16::MAX);
+        shifted as u16 + 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Started, bare};
+
+    #[test]
+    fn touches_are_numbered_across_the_wrap() {
+        let started = Started {
+            seen: Vec::new(),
+            touches: 65_532,
+        };
+        let found = [0, 1, 2, 3, 4, 5].map(|number| started.touch(number));
+        assert_eq!(found, [0, 65_533, 65_534, 65_535, 1, 2]);
+    }
+
+    #[test]
+    fn paths_are_compared_without_indices() {
+        assert_eq!(bare("a.touches[0][1].last"), "a.touches.last");
+        assert_eq!(bare("TICKS.__0.v.value"), "TICKS.__0.v.value");
+    }
+}

@@ -1,0 +1,239 @@
+//! Scenes for hours: a week on the PC, and a day as the boards' own programs with every
+//! counter started just below its wrap, in shards.
+
+use std::fs;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::thread;
+
+use clap::Args;
+use scene::Scene;
+
+use crate::emulate::{self, variants};
+use crate::firmware::{self, Board};
+use crate::run::{Fault, cargo, listing, read_bytes, run, target, top, write};
+
+/// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
+/// long as the others.
+const SHARD_H: [f64; 2] = [6.0, 0.1];
+const PAGE: &str = "docs/measured/endurance.md";
+
+/// How many shards run at once in CI and at night.
+const AT_ONCE: NonZero<usize> = NonZero::<usize>::MIN.saturating_add(1);
+
+/// How much is run.
+#[derive(Args)]
+pub(crate) struct Choice {
+    /// Simulated hours on the PC, of all scenes together
+    #[arg(long, default_value_t = 168.0)]
+    hours: f64,
+    /// Simulated hours on the emulated boards, of all of them together
+    #[arg(long, default_value_t = 24.0)]
+    board_hours: f64,
+    /// How many shards run at once
+    #[arg(long, default_value = "2")]
+    shards: NonZero<usize>,
+    /// Keep the shards that are there
+    #[arg(long)]
+    resume: bool,
+}
+
+/// A scene with a seed for some hours.
+struct Shard {
+    scene: PathBuf,
+    seed: u64,
+    hours: f64,
+    board: Option<(Board, PathBuf)>,
+}
+
+fn folder() -> PathBuf {
+    target().join("endurance")
+}
+
+/// How many shards of the same length `hours` are cut into, at least `least` where there are
+/// any, and how long each is.
+fn cut(hours: f64, longest: f64, least: usize) -> (usize, f64) {
+    if hours <= 0.0 {
+        return (0, 0.0);
+    }
+    let count = ((hours / longest).ceil() as usize).max(least);
+    (count, hours / count.max(1) as f64)
+}
+
+impl Shard {
+    /// Where its row is kept.
+    fn file(&self) -> PathBuf {
+        let board = self.board.as_ref();
+        let subject = board.map_or("host-sim", |(board, _)| board.name);
+        let scene = self.scene.file_stem().unwrap_or_default().to_string_lossy();
+        let (seed, hours) = (self.seed, self.hours);
+        folder().join(format!("{subject}-{scene}-{seed}-{hours:.4}h.csv"))
+    }
+
+    fn command(&self) -> Command {
+        let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "endure"]);
+        command.arg(&self.scene);
+        match &self.board {
+            Some((board, program)) => command
+                .args(["--subject", board.name, "--program"])
+                .arg(program),
+            None => command.args(["--seed", &self.seed.to_string()]),
+        };
+        command.args(["--hours", &self.hours.to_string()]);
+        command.arg("--out").arg(self.file());
+        command
+    }
+}
+
+/// Shards of every scene on the PC.
+fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
+    let (count, hours) = cut(hours, SHARD_H[0], scenes.len());
+    let shard = |(n, scene): (usize, &PathBuf)| Shard {
+        scene: scene.clone(),
+        seed: 1 + (n / scenes.len()) as u64,
+        hours,
+        board: None,
+    };
+    let scenes_again = scenes.iter().cycle().take(count);
+    scenes_again.enumerate().map(shard).collect()
+}
+
+/// Whether every counter counts in a scene: whiskers move, and decide by touches.
+fn counts_all(scene: &Path) -> Result<bool, Fault> {
+    let scene = Scene::load(scene).map_err(|problems| problems.to_string())?;
+    Ok(scene.motor.is_some() && scene.classifier.is_some() && scene.plant.obstacle.is_some())
+}
+
+/// Shards of those of `scenes` that the boards take and that [`counts_all`], with their
+/// programs, which are built now.
+fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Shard>, Fault> {
+    let mut taken = Vec::new();
+    let wanted = if hours > 0.0 { scenes } else { &[] };
+    for scene in wanted {
+        for &board in boards {
+            let single = variants::single(scene, &folder().join("single"))?;
+            let scene = single.unwrap_or_else(|| scene.clone());
+            if counts_all(&scene)? && firmware::try_build(board, &scene)?.is_ok() {
+                taken.push((board, scene));
+            }
+        }
+    }
+    let (count, hours) = cut(hours, SHARD_H[1], taken.len());
+    let mut shards = Vec::new();
+    for (n, (board, scene)) in taken.iter().cycle().take(count).enumerate() {
+        let seed = 1 + (n / taken.len()) as u64;
+        let kept = folder().join(format!("{}-{seed}", board.name));
+        let scene = variants::with_seed(scene, seed, &kept)?;
+        let program = scene.with_extension("elf");
+        let shard = Shard {
+            scene,
+            seed,
+            hours,
+            board: Some((*board, program.clone())),
+        };
+        if !shard.file().exists() {
+            // The next build takes the place of the last.
+            write(
+                &program,
+                read_bytes(&firmware::build(*board, &shard.scene)?)?,
+            )?;
+        }
+        shards.push(shard);
+    }
+    Ok(shards)
+}
+
+/// Runs those shards that have left no row yet, so many at once.
+fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
+    // Built once, before they all want to.
+    run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
+    let left = shards.iter().filter(|shard| !shard.file().exists());
+    let left = Mutex::new(left);
+    let faults = Mutex::new(Vec::new());
+    let next = || left.lock().ok()?.next();
+    let work = || {
+        while let Some(shard) = next() {
+            if let (Err(fault), Ok(mut faults)) = (run(&mut shard.command()), faults.lock()) {
+                faults.push(fault);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..at_once.get() {
+            scope.spawn(work);
+        }
+    });
+    let faults = faults.into_inner().unwrap_or_default();
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.join("\n"))
+    }
+}
+
+fn begin(resume: bool) -> Result<(), Fault> {
+    if !resume && folder().exists() {
+        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
+    }
+    Ok(())
+}
+
+/// All hours of `choice`, and docs/measured/endurance.md from them.
+///
+/// # Errors
+/// Shards that did not end well, and what cannot be built.
+pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
+    begin(choice.resume)?;
+    let scenes = listing(&top().join("scenes"), "toml")?;
+    let mut shards = on_pc(&scenes, choice.hours);
+    shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
+    run_all(&shards, choice.shards)?;
+    let mut page = cargo(&["run", "--quiet", "-p", "emulator", "--", "endurance"]);
+    page.args(shards.iter().map(Shard::file));
+    run(page.arg("--out").arg(top().join(PAGE)))
+}
+
+/// The form of the night: the week on the PC, and an hour on the boards, where a day takes
+/// more than one.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn nightly() -> Result<(), Fault> {
+    begin(false)?;
+    let scenes = listing(&top().join("scenes"), "toml")?;
+    let mut shards = on_pc(&scenes, 168.0);
+    shards.extend(on_boards(&Board::ALL, &scenes, 1.0)?);
+    run_all(&shards, AT_ONCE)
+}
+
+/// The short form of CI: minutes of every scene on the PC, and the wraps of all counters on
+/// one board.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn short() -> Result<(), Fault> {
+    begin(false)?;
+    let scenes = listing(&top().join("scenes"), "toml")?;
+    let mut shards = on_pc(&scenes, SHORT_H[0]);
+    let full = [top().join(emulate::FULL)];
+    shards.extend(on_boards(&Board::ALL[..1], &full, SHORT_H[1])?);
+    run_all(&shards, AT_ONCE)
+}
+
+/// Hours of the short form, on the PC and on the board, where touches are told after a second
+/// and the fourth wraps.
+const SHORT_H: [f64; 2] = [0.65, 0.0015];
+
+#[cfg(test)]
+mod tests {
+    use super::cut;
+
+    #[test]
+    fn hours_are_cut_into_equal_shards() {
+        assert_eq!(cut(168.0, 6.0, 13), (28, 6.0));
+        assert_eq!(cut(6.5, 6.0, 13), (13, 0.5));
+        assert_eq!(cut(0.0, 6.0, 13), (0, 0.0));
+    }
+}
