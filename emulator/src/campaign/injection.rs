@@ -244,7 +244,7 @@ impl Injection {
             Kind::CoreBit if begins => subject.flip_core(self.detail),
             Kind::RegisterBit if begins => subject.flip_register(self.detail)?,
             Kind::DmaStopped if begins => subject.stop_dma()?,
-            Kind::ClockStopped if begins => subject.stop_clock(),
+            Kind::ClockStopped if begins => subject.stop_clock()?,
             Kind::Late if begins => subject.hold(self.detail),
             _ => {}
         }

@@ -106,7 +106,12 @@ impl Judge {
             self.reset = true;
             self.whiskers.fill(Whisker::default());
         }
-        self.late_for = if seen.is_late { self.late_for + 1 } else { 0 };
+        // A core that is reset again and again is not hung: it is off, and says why.
+        self.late_for = if seen.is_late && seen.reset.is_none() {
+            self.late_for + 1
+        } else {
+            0
+        };
         if f64::from(self.late_for) > HUNG_S * self.tick_hz {
             return Some(Harm::LockedUp);
         }

@@ -152,6 +152,12 @@ impl Subject for OnBoard<'_> {
         Ok(())
     }
 
+    fn stop_clock(&mut self) -> Result<(), Fault> {
+        let machine = &mut self.run.module_mut().board.machine;
+        machine.disturb(|chip| chip.stop_clock(true))?;
+        Ok(())
+    }
+
     fn hold(&mut self, detail: u64) {
         // From a tenth of a tick to ten ticks, which the watchdog bears.
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);

@@ -88,7 +88,12 @@ pub(super) trait Subject {
     }
 
     /// Stops the clock that the chip is fed with.
-    fn stop_clock(&mut self) {}
+    ///
+    /// # Errors
+    /// [`Fault`] where its core stands still for it.
+    fn stop_clock(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// Holds the core within the next tick.
     fn hold(&mut self, _detail: u64) {}
