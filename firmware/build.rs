@@ -26,7 +26,7 @@ mod board {
 use board::timing::{Clocks, TICK_MIN_HZ};
 use databake::quote;
 use plan::NumberFormat;
-use scene::{Driver, MotorSection, Scene};
+use scene::{Driver, MotorSection, Scene, SensorMode};
 use whisking::Fix;
 
 /// What the build must know of a board.
@@ -181,7 +181,10 @@ fn fits(scene: &Scene, board: &Board) -> Result<(), String> {
             board.name
         ));
     }
-    let clocks = &board.clocks;
+    let clocks = match scene.sensor.mode {
+        SensorMode::Fast => board.clocks,
+        SensorMode::Slow => board.clocks.halved(),
+    };
     if scene.tick_hz < TICK_MIN_HZ || clocks.slot_ns(scene.tick_hz).is_none() {
         return Err(format!(
             "tick_hz: found {}; allowed on the {}: {TICK_MIN_HZ} to {}, because a sensor frame \

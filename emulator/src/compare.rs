@@ -12,7 +12,7 @@ use plan::NumberFormat;
 use scene::Numbers;
 
 use crate::counters::Started;
-use crate::emulate::start;
+use crate::emulate::{pwm_counts, start};
 use crate::program::Program;
 
 /// By how much the mean period of the ticks may be off: the tick rates that no
@@ -105,7 +105,7 @@ pub fn compare(
     let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
     let listens = matches!(least, Ok(Some(_)));
     let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
-    let mut host = Run::with_pwm(scene, classifier, model.pwm_counts)?;
+    let mut host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
     let mut target = start(scene, host.classes().to_vec(), &program)?;
 
     let board = &mut target.module_mut().board;

@@ -10,16 +10,25 @@ use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use host_sim::world::World;
-use scene::Scene;
+use scene::{Scene, SensorMode};
 
 use crate::board::{Board, Emulated};
-use crate::chip::Fault;
+use crate::chip::{Chip, Fault, Model};
 use crate::program::Program;
 use crate::rtt::LogDecoder;
 
 impl From<Fault> for Error {
     fn from(fault: Fault) -> Self {
         Self::Work(format!("emulated board: {fault}"))
+    }
+}
+
+/// Counts of a period of the motors' PWM: half as many where the core's clock is halved for
+/// slow sensors.
+pub(crate) fn pwm_counts(scene: &Scene, model: &Model) -> u16 {
+    match scene.sensor.mode {
+        SensorMode::Fast => model.pwm_counts,
+        SensorMode::Slow => model.pwm_counts / 2,
     }
 }
 
@@ -31,7 +40,7 @@ pub(crate) fn start(
     program: &Program,
 ) -> Result<Run<Emulated>, Error> {
     let model = program.model()?;
-    let (world, pins) = World::wired(scene, model.pwm_counts)?;
+    let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
     if scene.head.whiskers_per_side != 1 {
         return Err(Error::Work(
             "the board carries one whisker a side".to_owned(),
@@ -46,7 +55,10 @@ pub(crate) fn start(
     if scene.head.sides.count() > sides {
         return Err(Error::Work(format!("the board carries {sides} side")));
     }
-    let board = Board::new(program, scene.head.sides.count(), pins)?;
+    let mut board = Board::new(program, scene.head.sides.count(), pins)?;
+    if scene.sensor.mode == SensorMode::Slow {
+        board.machine.with_chip(Chip::slow_sensors);
+    }
     Ok(Run::of(
         scene,
         Box::new(Emulated::new(board)),

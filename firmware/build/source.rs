@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use scene::{Arm, Deciding, Driver, Rule, Scene, Sides};
+use scene::{Arm, Deciding, Driver, Rule, Scene, SensorMode, Sides};
 use tactile::{Model, ModelBuf};
 use whisking::{Real, Source, Start};
 
@@ -19,6 +19,7 @@ pub(crate) fn source<R: Real>(
 ) -> Result<String, Box<dyn Error>> {
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
     let (frozen_s, jump_per_s) = (scene.sensor.frozen_s, scene.sensor.jump_per_s);
+    let sensors_are_slow = scene.sensor.mode == SensorMode::Slow;
     let touch = model.and_then(Model::touch_rule);
     let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate))?;
     let contact = Source::optional(
@@ -39,6 +40,7 @@ pub(crate) fn source<R: Real>(
     let items = [
         quote! { pub(crate) const NAME: &str = #name; },
         quote! { pub(crate) const TICK_HZ: u32 = #tick_hz; },
+        quote! { pub(crate) const SENSORS_ARE_SLOW: bool = #sensors_are_slow; },
         quote! {
             pub(crate) const SIDES: [&super::wiring::Side; #count] = [&crate::here::#sides];
         },

@@ -105,6 +105,7 @@ fn board() -> Result<(), Fault> {
     let both_sides = [Task::Deadlines(0.05), Task::SensorLoss];
     do_all(board, &emulate::noisiest()?, &both_sides)?;
     emulate::compare_in_fixed_point(board)?;
+    emulate::compare_with_slow_sensors(board)?;
     let in_short = [Task::Compare(Probe::Pulled), Task::SensorLoss];
     small
         .into_iter()

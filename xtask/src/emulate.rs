@@ -124,7 +124,7 @@ pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
     if board.has_fpu {
         compare_in_fixed_point(board)?;
     }
-    Ok(())
+    compare_with_slow_sensors(board)
 }
 
 /// Everything that one side can run at once; [`noisiest`] gives it to both.
@@ -145,6 +145,16 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
         emulate(board, &fixed, &Task::Compare(Probe::Attached))?;
     }
     Ok(())
+}
+
+/// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at
+/// half its clock for them.
+///
+/// # Errors
+/// If it differs or cannot be built.
+pub(crate) fn compare_with_slow_sensors(board: Board) -> Result<(), Fault> {
+    let slow = variants::with_slow_sensors(&top().join(FULL), &target().join("slow"))?;
+    emulate(board, &slow, &Task::Compare(Probe::Attached))
 }
 
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.

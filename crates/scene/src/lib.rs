@@ -55,7 +55,7 @@ pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, HeadSection, MotorSection, Numbers,
-    Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorSection,
-    ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
+    Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorMode,
+    SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
 };
 pub use whisking::{GateSettings, Integrator};

@@ -22,7 +22,7 @@ pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
 pub use scene::Scene;
-pub use sensor::SensorSection;
+pub use sensor::{SensorMode, SensorSection};
 pub use shaft::{ShaftName, ShaftNumbers};
 pub use whisking::{Numbers, WhiskingSection};
 
@@ -64,9 +64,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, two of the sensor and of the plant, one of the head, of
+        // Nineteen of the motor, three of the sensor, two of the plant, one of the head, of
         // whisking and of the classifier.
-        assert_eq!(defaults, 26);
+        assert_eq!(defaults, 27);
     }
 
     #[test]

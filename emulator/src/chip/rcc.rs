@@ -295,7 +295,14 @@ impl Rcc {
 
 /// A clock that does not run.
 const STOPPED: Fault = Fault::Clock("the system clock does not run");
-const AHB_DIVIDED: Fault = Fault::Clock("an AHB divider is not modelled");
+/// What divides the clock of the core, by the four bits of its setting.
+fn ahb_divider(bits: u32) -> Result<u64, Fault> {
+    match bits & 0xF {
+        0..=7 => Ok(1),
+        8 => Ok(2),
+        _ => Err(Fault::Clock("an AHB divider above 2 is not modelled")),
+    }
+}
 const BUS_TOO_FAST: Fault = Fault::Clock("a peripheral bus runs too fast");
 
 /// The core's clock, Hz: of the internal oscillator, the external one and the PLL, whose

@@ -7,7 +7,10 @@
 //! master cannot have taken for good. (What it needs between good frames is not
 //! known.)
 
-use mlx90333::timing::{BYTE_GAP_FAST_NS, CLOCK_MAX_HZ, SS_HIGH_US, START_UP_US};
+use mlx90333::timing::{
+    BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_HIGH_US,
+    SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS, START_UP_US,
+};
 use mlx90333::{Decoder, FRAME_LEN};
 
 use super::fault::Fault;
@@ -26,11 +29,40 @@ const fn ps(nanoseconds: u32) -> Ps {
     nanoseconds as Ps * 1_000
 }
 
-#[derive(Debug, Clone, Default)]
+/// What a sensor needs in one of its modes.
+#[derive(Debug, Clone)]
+struct Needs {
+    clock_max_hz: u32,
+    /// Between two bytes.
+    gap: Ps,
+    /// From /SS low to the first byte, and from the last to /SS high.
+    lead: Ps,
+    lag: Ps,
+}
+
+impl Needs {
+    const FAST: Self = Self {
+        clock_max_hz: CLOCK_MAX_HZ,
+        gap: ps(BYTE_GAP_FAST_NS),
+        lead: 0,
+        lag: 0,
+    };
+    const SLOW: Self = Self {
+        clock_max_hz: CLOCK_SLOW_MAX_HZ,
+        gap: ps(BYTE_GAP_SAFE_NS),
+        lead: ps(SS_LEAD_SLOW_NS),
+        lag: ps(SS_LAG_SLOW_NS),
+    };
+}
+
+#[derive(Debug, Clone)]
 pub(super) struct SensorLines {
+    needs: Needs,
     /// What messages call the side.
     side: &'static str,
     selected: bool,
+    /// When /SS fell.
+    fell: Ps,
     /// No byte has been clocked since /SS fell.
     fresh: bool,
     /// When the last byte ended.
@@ -41,29 +73,56 @@ pub(super) struct SensorLines {
     read: Vec<u8>,
     /// When /SS rose after a frame that was not good.
     bad: Option<Ps>,
-    /// /SS fell too soon after that.
-    early: bool,
+    /// What /SS has done wrong: told with the next byte.
+    wrong: Option<&'static str>,
 }
+
+/// It fell too soon after it rose.
+const EARLY: &str = "a frame too soon after one that was not good";
+/// It rose too soon after the last byte.
+const CUT: &str = "/SS high too soon after the last byte";
 
 impl SensorLines {
     pub(super) fn new(side: &'static str) -> Self {
         Self {
+            needs: Needs::FAST,
             side,
-            ..Self::default()
+            selected: false,
+            fell: 0,
+            fresh: false,
+            ended: None,
+            told: None,
+            read: Vec::new(),
+            bad: None,
+            wrong: None,
         }
+    }
+
+    /// The sensor is in its slow mode from now on.
+    pub(super) fn slow_down(&mut self) {
+        self.needs = Needs::SLOW;
     }
 
     /// /SS is at this level from `now` on.
     pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
+            self.fell = now;
             self.fresh = true;
             self.ended = None;
             self.read.clear();
             let high = self.bad.map(|bad| now.saturating_sub(bad));
-            self.early = high.is_some_and(|high| high < ps(SS_HIGH_US * 1_000));
+            if high.is_some_and(|high| high < ps(SS_HIGH_US * 1_000)) {
+                self.wrong = Some(EARLY);
+            } else if self.wrong == Some(EARLY) {
+                self.wrong = None;
+            }
         } else if !low && self.selected {
             let bytes = <[u8; FRAME_LEN]>::try_from(self.read.as_slice());
             let is_good = bytes.is_ok_and(|bytes| Decoder::new().decode(&bytes).is_ok());
+            let lag = self.ended.map(|ended| now.saturating_sub(ended));
+            if is_good && lag.is_some_and(|lag| lag < self.needs.lag) {
+                self.wrong = Some(CUT);
+            }
             self.bad = (!is_good).then_some(now);
         }
         self.selected = low;
@@ -85,17 +144,20 @@ impl SensorLines {
         self.told = Some(began);
         let side = self.side;
         let wrong = |what| Err(Fault::Wires { side, what });
-        if bit * Ps::from(CLOCK_MAX_HZ) < 1_000_000_000_000 {
+        if bit * Ps::from(self.needs.clock_max_hz) < 1_000_000_000_000 {
             return wrong("the clock is too fast");
         }
         if began < ps(START_UP_US * 1_000) {
             return wrong("a frame within the sensor's start-up");
         }
-        if self.early {
-            return wrong("a frame too soon after one that was not good");
+        if let Some(what) = self.wrong {
+            return wrong(what);
+        }
+        if self.fresh && began.saturating_sub(self.fell) < self.needs.lead {
+            return wrong("a byte too soon after /SS low");
         }
         let gap = self.ended.map(|ended| began.saturating_sub(ended));
-        if gap.is_some_and(|gap| gap < ps(BYTE_GAP_FAST_NS)) {
+        if gap.is_some_and(|gap| gap < self.needs.gap) {
             return wrong("the gap between two bytes is too short");
         }
         if self.fresh {

@@ -1,5 +1,6 @@
 //! What befalls supply and clocks from outside, and what the chip makes of it by itself.
 
+use super::sensor_lines::SensorLines;
 use super::{Chip, Fault, ResetCause};
 
 /// Bits of the wait states in the flash interface's first register.
@@ -33,6 +34,11 @@ impl Chip {
     pub(crate) fn set_brown_out(&mut self) -> bool {
         self.power.set_brown_out(HIGHEST);
         self.power.has_brown_out()
+    }
+
+    /// The sensors are in their slow mode, and need what they need there.
+    pub(crate) fn slow_sensors(&mut self) {
+        self.lines.iter_mut().for_each(SensorLines::slow_down);
     }
 
     /// The clock from outside stops, or is there again. Returns whether the chip runs by it.

@@ -14,10 +14,10 @@ use firmware::{NotArmed, Place, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
+use super::CLOCKS;
 use super::counters::TICKS;
 use super::reset::ClockError;
 use super::scene::{HEARS_SEVERAL, NAME, TICK_HZ};
-use crate::here::CLOCKS;
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {

@@ -44,3 +44,12 @@ pub(crate) mod timing;
 pub(crate) mod user_button;
 pub(crate) mod watchdog;
 pub(crate) mod wiring;
+
+use timing::Clocks;
+
+/// The clocks of this board as the scene's sensors need them.
+pub(crate) const CLOCKS: Clocks = if scene::SENSORS_ARE_SLOW {
+    crate::here::CLOCKS.halved()
+} else {
+    crate::here::CLOCKS
+};

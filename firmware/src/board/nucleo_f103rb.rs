@@ -43,7 +43,7 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 .checked();
 
 // 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
-const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_647);
+const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_649);
 
 #[cfg(target_os = "none")]
 #[path = "dma_channels.rs"]
@@ -67,7 +67,7 @@ mod chip {
     use firmware::StartCause;
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
-    use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
+    use stm32_metapac::rcc::vals::{Hpre, Pllmul, Pllsrc, Ppre, Sw};
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
@@ -161,6 +161,12 @@ mod chip {
 
         RCC.apb1enr().modify(|w| w.set_tim3en(true));
         Ok(())
+    }
+
+    /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
+    /// comes to the buses.
+    pub(crate) fn halve_clocks() {
+        RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
     }
 
     /// Whether the clock security system has raised the non-maskable interrupt: CSSF in

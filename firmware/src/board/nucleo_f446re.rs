@@ -76,7 +76,7 @@ mod chip {
     use cortex_m::peripheral::SCB;
     use firmware::{Clock, StartCause};
     use stm32_metapac::flash::vals::Latency;
-    use stm32_metapac::rcc::vals::{Pllp, Pllsrc, Ppre, Sw};
+    use stm32_metapac::rcc::vals::{Hpre, Pllp, Pllsrc, Ppre, Sw};
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
@@ -252,6 +252,12 @@ mod chip {
         });
         settle();
         Ok(())
+    }
+
+    /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
+    /// comes to the buses.
+    pub(crate) fn halve_clocks() {
+        RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
     }
 
     /// Whether the clock security system has raised the non-maskable interrupt: CSSF in

@@ -67,7 +67,7 @@ pub(crate) use chip::*;
 mod chip {
     use firmware::StartCause;
     use stm32_metapac::flash::vals::Latency;
-    use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
+    use stm32_metapac::rcc::vals::{Hpre, Pllm, Plln, Pllr, Pllsrc, Sw};
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::TimGp16;
@@ -172,6 +172,12 @@ mod chip {
         RCC.apbenr1().modify(|w| w.set_tim3en(true));
         settle();
         Ok(())
+    }
+
+    /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
+    /// comes to the buses.
+    pub(crate) fn halve_clocks() {
+        RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
     }
 
     /// Whether the non-maskable interrupt is that of a clock: this one runs by its own

@@ -22,7 +22,8 @@ use super::sensor::Frames;
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
 use super::{faults, log, outputs, retained, supply};
-use crate::here::{self, CLOCKS, Counter};
+use crate::board::CLOCKS;
+use crate::here::{self, Counter};
 
 type Inner =
     firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, { SIDES.len() }, 1>;
@@ -82,6 +83,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     supply::start();
     if let Err(error) = here::start_clocks() {
         faults::die(number::NO_CLOCK, || log::clock(error));
+    }
+    if scene::SENSORS_ARE_SLOW {
+        here::halve_clocks();
     }
     here::clock_sensors();
     let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
@@ -246,7 +250,7 @@ macro_rules! program {
             use $crate::board::program::{self, Idle, Module, Place};
             use $crate::board::scene::TICK_HZ;
             use $crate::board::tick_timer::TickTimer;
-            use $crate::here::CLOCKS;
+            use $crate::board::CLOCKS;
 
             #[shared]
             struct Shared {

@@ -12,8 +12,8 @@ use stm32_metapac::common::{RW, Reg};
 use stm32_metapac::timer::regs::Ccr1ch;
 use stm32_metapac::timer::vals::{Ossi, Ossr};
 
+use super::CLOCKS;
 use super::wiring::Output;
-use crate::here::CLOCKS;
 
 const COUNTS: u16 = CLOCKS.pwm_counts();
 /// PWM mode 1: high while the count is below the compare value. As a number,

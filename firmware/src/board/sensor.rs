@@ -21,8 +21,10 @@ use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
 use stm32_metapac::spi::vals::{Cpha, Mstr};
 
+use super::CLOCKS;
 use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
+use super::scene::SENSORS_ARE_SLOW;
 use super::wiring::SensorPort;
 use crate::here::{dma::Transfers, reset_spi, spi};
 
@@ -89,6 +91,9 @@ impl Frames {
         if !self.transfers.has_ended() {
             // The interrupt came late, after `start` had begun another frame.
             return;
+        }
+        if SENSORS_ARE_SLOW {
+            cortex_m::asm::delay(const { CLOCKS.lag_cycles() });
         }
         self.stop();
         // The flags stay for `take`; only the interrupt has been served.

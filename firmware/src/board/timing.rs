@@ -5,7 +5,10 @@
 //! The build script reads this file too, to refuse scenes that a board cannot
 //! keep up with; so it holds constants and functions of constants only.
 
-use mlx90333::timing::{BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, START_UP_WAIT_US};
+use mlx90333::timing::{
+    BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_LAG_SLOW_NS,
+    SS_LEAD_SLOW_NS, START_UP_WAIT_US,
+};
 
 /// The clocks of a board, Hz.
 #[allow(clippy::struct_field_names, reason = "a unit, not a common name")]
@@ -53,8 +56,17 @@ impl Clocks {
     /// range. For constants: does not compile otherwise.
     pub(crate) const fn checked(self) -> Self {
         assert!(self.spi_hz <= CLOCK_MAX_HZ);
-        assert!(SLOT_FAST_NS >= self.byte_ns() + BYTE_GAP_FAST_NS);
-        assert!(self.tick_max_hz() >= 2_000);
+        assert!(self.has_fast_slot() && self.tick_max_hz() >= 2_000);
+        let halved = self.halved();
+        assert!(halved.spi_hz >= 100_000 && halved.spi_hz <= CLOCK_SLOW_MAX_HZ);
+        assert!(halved.slot_safe_ns() >= SS_LEAD_SLOW_NS && halved.tick_max_hz() >= 500);
+        self.in_range();
+        halved.in_range();
+        self
+    }
+
+    /// What holds with the core's clock halved or not.
+    const fn in_range(&self) {
         assert!(self.slot_counts(TICK_MIN_HZ) > 0);
         assert!(self.pwm_hz / PWM_HZ < u16::MAX as u32);
         // The motor drivers rest one tick at a reversal, which must cover a PWM period.
@@ -65,12 +77,30 @@ impl Clocks {
             self.watchdog_counts() as u32 * WATCHDOG_DIVIDER * 1_000 / self.watchdog_hz[2];
         assert!(bites_ms >= 2 * 1_000 / TICK_MIN_HZ + 2);
         assert!(TickPeriod::new(TICK_MIN_HZ, self.tick_timer_hz).counts() > 0);
-        self
     }
 
-    /// One byte on the wire, ns.
+    /// With the core's clock halved, and so all but the watchdog's: for sensors in their slow
+    /// mode, as the SPIs have no divider left.
+    pub(crate) const fn halved(&self) -> Self {
+        Self {
+            core_hz: self.core_hz / 2,
+            spi_hz: self.spi_hz / 2,
+            byte_timer_hz: self.byte_timer_hz / 2,
+            tick_timer_hz: self.tick_timer_hz / 2,
+            counter_hz: self.counter_hz / 2,
+            pwm_hz: self.pwm_hz / 2,
+            watchdog_hz: self.watchdog_hz,
+        }
+    }
+
+    /// Whether bytes are short enough for the fast slot.
+    const fn has_fast_slot(&self) -> bool {
+        self.byte_ns() + BYTE_GAP_FAST_NS <= SLOT_FAST_NS
+    }
+
+    /// One byte on the wire, ns, rounded up.
     pub(crate) const fn byte_ns(&self) -> u32 {
-        (8_000_000_000_u64 / self.spi_hz as u64) as u32
+        8_000_000_000_u64.div_ceil(self.spi_hz as u64) as u32
     }
 
     /// From the start of a byte to that of the next with the gap that is safe
@@ -87,7 +117,11 @@ impl Clocks {
 
     /// The shortest frame, ns.
     pub(crate) const fn frame_least_ns(&self) -> u32 {
-        self.frame_ns(SLOT_FAST_NS)
+        if self.has_fast_slot() {
+            self.frame_ns(SLOT_FAST_NS)
+        } else {
+            self.frame_ns(self.slot_safe_ns())
+        }
     }
 
     /// The highest tick rate that a frame fits into, Hz.
@@ -101,20 +135,20 @@ impl Clocks {
         let tick_ns = 1_000_000_000 / tick_hz;
         if self.frame_ns(self.slot_safe_ns()) + REST_NS <= tick_ns {
             Some(self.slot_safe_ns())
-        } else if self.frame_least_ns() + REST_NS <= tick_ns {
+        } else if self.has_fast_slot() && self.frame_least_ns() + REST_NS <= tick_ns {
             Some(SLOT_FAST_NS)
         } else {
             None
         }
     }
 
-    /// Counts of the byte timer in the slot for a tick rate. For constants: does not
+    /// Counts of the byte timer in the slot for a tick rate, rounded up. For constants: does not
     /// compile for a rate that the build script refuses.
     pub(crate) const fn slot_counts(&self, tick_hz: u32) -> u16 {
         let Some(slot_ns) = self.slot_ns(tick_hz) else {
             panic!("the tick is shorter than a sensor frame");
         };
-        let counts = slot_ns as u64 * (self.byte_timer_hz / 1_000_000) as u64 / 1_000;
+        let counts = (slot_ns as u64 * (self.byte_timer_hz / 1_000_000) as u64).div_ceil(1_000);
         assert!(counts <= u16::MAX as u64);
         counts as u16
     }
@@ -140,6 +174,11 @@ impl Clocks {
     /// oscillator, does no harm: a stall is tolerated for 200 ms.
     pub(crate) const fn watchdog_counts(&self) -> u16 {
         (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
+    }
+
+    /// Cycles of the core from the last byte to /SS high in the sensor's slow mode.
+    pub(crate) const fn lag_cycles(&self) -> u32 {
+        self.core_hz / 1_000_000 * SS_LAG_SLOW_NS / 1_000
     }
 
     /// Cycles of the core to wait for the sensor after power-up, with /SS high.

@@ -4,7 +4,7 @@
 use stm32_metapac::IWDG;
 use stm32_metapac::iwdg::vals::{Key, Pr};
 
-use crate::here::CLOCKS;
+use super::CLOCKS;
 
 /// The running watchdog.
 pub(crate) struct Watchdog(());

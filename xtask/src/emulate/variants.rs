@@ -1,6 +1,6 @@
 //! Scenes made from others for the emulated board: one with a single whisker a side,
-//! which is what a board carries; one in fixed point; one with both sides; one with another
-//! seed.
+//! which is what a board carries; one in fixed point; one with slow sensors; one with both
+//! sides; one with another seed.
 
 use std::path::{Path, PathBuf};
 
@@ -8,6 +8,9 @@ use scene::Scene;
 use toml::{Table, Value};
 
 use crate::run::{self, Fault, absolute};
+
+/// As often as sensors in their slow mode compute a value, about, Hz.
+const SLOW_HZ: i64 = 500;
 
 /// Writes the first whisker of each side of `path` as a scene of its own into
 /// `folder` and returns its path; `None` if the scene has no more than that.
@@ -47,6 +50,20 @@ pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault
 pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     set(&mut table, "whisking", "numbers", "fixed".into());
+    write(path, &scene, table, folder)
+}
+
+/// Writes `path` as a scene whose sensors are in their slow mode into `folder` and returns its
+/// path. It classifies nothing: models are of another rate.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    table.insert("tick_hz".to_owned(), SLOW_HZ.into());
+    let mode = Table::from_iter([("mode".to_owned(), Value::from("slow"))]);
+    table.insert("sensor".to_owned(), mode.into());
+    table.remove("classifier");
     write(path, &scene, table, folder)
 }
 

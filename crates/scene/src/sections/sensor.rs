@@ -1,12 +1,29 @@
 //! `[sensor]`: what the readings of a whisker's sensor cannot do.
 
-use crate::key::{number, positive};
+use crate::choice::choice;
+use crate::key::{number, positive, word};
 use crate::keys::keys;
+
+choice! {
+    /// How fast a sensor computes, which is set in its EEPROM, and is read.
+    pub enum SensorMode {
+        /// A value every 350 us, read at up to 320 kHz.
+        Fast = "fast",
+        /// A value every 1.5 ms, read at up to 240 kHz.
+        Slow = "slow",
+    }
+}
 
 keys! {
     /// What a sensor's readings cannot do.
     #[derive(Copy)]
     pub struct SensorSection {
+        /// The sensor's own mode. In the slow one a board reads at half its clock, 125 to
+        /// 156 kHz, with 50 us between bytes, and a tick takes at least 1.03 ms; take 500 Hz,
+        /// as values are computed no faster. Times from drivers in the field and a sister
+        /// part: not confirmed.
+        mode: SensorMode = word().default("\"fast\""),
+
         /// Longest time for which both words may repeat to the bit; longer: a fault. Nothing
         /// is decided by a reading that has repeated for 7.5 ms.
         frozen_s: f64 = number(0.02..=30.0).unit("s").default("0.25"),

@@ -4,7 +4,8 @@ use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture, WhiskingSection,
+    Scene, SensorMode, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture,
+    WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -33,6 +34,7 @@ fn every_key_reaches_its_field() {
             sides: Sides::Both,
         },
         sensor: SensorSection {
+            mode: SensorMode::Fast,
             frozen_s: 0.25,
             jump_per_s: 1500.0,
         },

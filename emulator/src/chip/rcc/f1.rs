@@ -1,7 +1,7 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
 use super::{
-    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider,
+    BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider,
 };
 use crate::chip::fault::Fault;
 
@@ -51,10 +51,8 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
 
 fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
     let cfgr = rcc.kept(CFGR);
-    let core_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    if cfgr & 0xF0 != 0 {
-        return Err(AHB_DIVIDED);
-    }
+    let system_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
+    let core_hz = system_hz / ahb_divider(cfgr >> 4)?;
     if core_hz > 72_000_000 {
         return Err(Fault::Clock("the core runs above 72 MHz"));
     }

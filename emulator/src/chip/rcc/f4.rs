@@ -1,7 +1,7 @@
 //! RCC of the STM32F446 (RM0390, chapter 6).
 
 use super::{
-    AHB_DIVIDED, BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider,
+    BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider,
 };
 use crate::chip::fault::Fault;
 
@@ -49,10 +49,8 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
 
 fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
     let cfgr = rcc.kept(CFGR);
-    let core_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    if cfgr & 0xF0 != 0 {
-        return Err(AHB_DIVIDED);
-    }
+    let system_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
+    let core_hz = system_hz / ahb_divider(cfgr >> 4)?;
     if core_hz > 180_000_000 {
         return Err(Fault::Clock("the core runs above 180 MHz"));
     }

@@ -1,6 +1,6 @@
 //! RCC of the STM32G071 (RM0444, chapter 5).
 
-use super::{AHB_DIVIDED, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, core_hz, divider};
+use super::{Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider};
 use crate::chip::fault::Fault;
 
 /// The internal oscillator, Hz.
@@ -57,10 +57,8 @@ fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
     if rcc.kept(CR) & HSIDIV != 0 {
         return Err(Fault::Clock("a divider of HSI is not modelled"));
     }
-    let core_hz = core_hz(rcc, cfgr & 7, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    if cfgr & 0xF00 != 0 {
-        return Err(AHB_DIVIDED);
-    }
+    let system_hz = core_hz(rcc, cfgr & 7, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
+    let core_hz = system_hz / ahb_divider(cfgr >> 8)?;
     if core_hz > 64_000_000 {
         return Err(Fault::Clock("the core runs above 64 MHz"));
     }

@@ -99,6 +99,29 @@ fn bytes_that_come_too_close_or_too_fast_or_too_early_are_told() {
     }
 }
 
+/// The right side's SPI can be as slow as that without a halved clock.
+#[test]
+fn a_slow_sensor_asks_for_more() {
+    let begun = |divider, slot| {
+        let mut rig = RIGHT.rig(divider);
+        rig.chip.slow_sensors();
+        RIGHT.begin(&mut rig, slot);
+        rig.try_pass(MS).map(drop)
+    };
+    let slow = RIGHT.divider + 1;
+    let why = |fault: Result<(), Fault>| match fault {
+        Err(Fault::Wires { what, .. }) => what,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(why(begun(RIGHT.divider, 102 * US)), "the clock is too fast");
+    assert_eq!(why(begun(slow, 49 * US)), "a byte too soon after /SS low");
+    assert_eq!(
+        why(begun(slow, 101 * US)),
+        "the gap between two bytes is too short"
+    );
+    assert!(begun(slow, 102 * US).is_ok());
+}
+
 /// Neither eight bytes that are no frame, as these answers are none, nor a part of one.
 #[test]
 fn after_a_bad_frame_the_sensor_asks_for_its_rest() {
