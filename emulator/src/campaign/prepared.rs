@@ -31,6 +31,9 @@ const COMPARED_S: f64 = 0.5;
 const SAME_DEG: f64 = 1.0;
 /// What happens once, and in so long, s, changes nothing that can be seen, is taken for masked.
 const SETTLED_S: f64 = 0.75;
+/// A run that is one of many of its kind ends so long, s, after a program has ended itself with
+/// a fault: its wait for the reset is a loop, and costs more than all the rest of the run.
+const GIVEN_UP_S: f64 = 0.05;
 /// A whisker that ranges over less than this share of what it should is parked.
 const PARKED: f64 = 0.5;
 /// After what time a fault that was taken away is to be recovered from, s: a rest of 1 s,
@@ -93,7 +96,8 @@ impl Prepared {
         let mut random = draw::random(number);
         let injection = draw::injection(plan, number, self.has, &mut random);
         let settled = (SETTLED_S * f64::from(self.has.tick_hz)) as u64;
-        let mut same_for = 0;
+        let given_up = (GIVEN_UP_S * f64::from(self.has.tick_hz)) as u64;
+        let [mut same_for, mut late_for] = [0, 0];
         let mut subject = self.subject()?;
         let mut judge = Judge::new(&self.loaded.scene, self.has.motors);
         let mut findings = Findings::default();
@@ -130,7 +134,11 @@ impl Prepared {
             let undisturbed = self.undisturbed.get(disturbed.len());
             let is_same = undisturbed.is_some_and(|undisturbed| seen.is_same(undisturbed));
             same_for = if is_same { same_for + 1 } else { 0 };
+            late_for = if seen.is_late { late_for + 1 } else { 0 };
             disturbed.push(seen);
+            if plan == Plan::Words && findings.told.is_some() && late_for >= given_up {
+                break;
+            }
             if injection.kind.is_momentary()
                 && findings.told.is_none()
                 && same_for >= settled
