@@ -12,8 +12,7 @@ const OFF_TICKS: u32 = 2;
 /// For how long a whisker may be further from its setpoint than the scene allows, and be
 /// driven, s.
 const AWAY_S: f64 = 0.05;
-/// For how long the core may not come to the end of a tick, s: a fault's handler waits for a
-/// probe, and the start after it for the sensor.
+/// For how long the core may come to the end of no tick, s.
 const HUNG_S: f64 = 0.75;
 /// Steps of a PWM by which a duty may be rounded.
 const ROUNDING: f64 = 1e-3;
@@ -100,14 +99,22 @@ impl Judge {
         }
     }
 
-    /// One tick; what must not be, if it is.
-    pub(super) fn look(&mut self, tick: u64, seen: &Seen, injection: &Injection) -> Option<Harm> {
+    /// One tick; what must not be, if it is. `told` says whether a fault has been told of.
+    pub(super) fn look(
+        &mut self,
+        tick: u64,
+        seen: &Seen,
+        told: bool,
+        injection: &Injection,
+    ) -> Option<Harm> {
         if seen.reset.is_some() {
             self.reset = true;
             self.whiskers.fill(Whisker::default());
         }
-        // A core that is reset again and again is not hung: it is off, and says why.
-        self.late_for = if seen.is_late && seen.reset.is_none() {
+        // A core that has told of a fault, and is reset again and again or waits for a probe
+        // with its motors off, is not hung.
+        let waits = told && seen.effort.iter().all(|effort| *effort == 0.0);
+        self.late_for = if seen.is_late && seen.reset.is_none() && !waits {
             self.late_for + 1
         } else {
             0

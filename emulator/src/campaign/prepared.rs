@@ -127,7 +127,7 @@ impl Prepared {
                 let said = first_told(&seen, &complaints);
                 findings.told = said.map(|said| (tick, said));
             }
-            if let Some(harm) = judge.look(tick, &seen, &injection) {
+            if let Some(harm) = judge.look(tick, &seen, findings.told.is_some(), &injection) {
                 findings.harm = Some((tick, harm));
                 break;
             }
