@@ -144,7 +144,7 @@ const ON_PC: &str = "\
 In every tick every number is one, and no sensor and no motor has a fault; memory does not grow.
 The last hour is as the first (the last quarter as the first, where a shard has less than four
 hours): whiskers range within 5 degrees of the same, decisions are as many and as right, but for
-5 standard deviations of chance and 1 %.
+5 standard deviations of chance and 1 %. A decision for unknown counts as one that is not right.
 
 | scene | shards | hours | decisions | an hour, first | last | right, %, first | last | touches | wraps of their number |
 |---|---|---|---|---|---|---|---|---|---|
