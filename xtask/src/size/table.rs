@@ -24,7 +24,7 @@ pub(crate) const TABLE: Table = Table {
 /// that and what else a motor near fingers needs may take 48. A passive scene took less than 8
 /// until readings were held for plausible, starts were recorded and counted, settings were
 /// summed in idle, and every fault, of the program too, had its line.
-const PASSIVE_FLASH: u64 = 16 * 1024;
+const PASSIVE_FLASH: u64 = 12 * 1024;
 const ACTIVE_FLASH: u64 = 48 * 1024;
 const RAM: u64 = 10 * 1024;
 const STACK: u64 = 2048;
@@ -183,6 +183,6 @@ mod tests {
         assert_eq!(fault.matches("goal").count(), 1, "a classifier more");
         big.is_active = false;
         let fault = compare(&[big.figure()], &[big], true).unwrap_err();
-        assert!(fault.contains("goal 16384"));
+        assert!(fault.contains("goal 12288"));
     }
 }
