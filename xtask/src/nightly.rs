@@ -51,8 +51,9 @@ fn lints() -> Result<(), Fault> {
     Ok(())
 }
 
-/// PC and board agree, with a probe at the log and without, over ten minutes no tick is missed, and ticks that are too long
-/// and a sensor that is lost are noticed; no start that nobody asked for drives a motor.
+/// PC and board agree, with a probe at the log and without, over ten minutes no tick is missed,
+/// and ticks that are too long and a sensor that is lost are noticed; no start that nobody asked
+/// for drives a motor.
 fn boards() -> Result<(), Fault> {
     for board in Board::ALL {
         emulate::compare_all(board)?;
