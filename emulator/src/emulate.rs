@@ -6,7 +6,7 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::{Loaded, play};
 use host_sim::motor::Pins;
-use host_sim::output::write_whole;
+use host_sim::output::Output;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use host_sim::world::World;
@@ -85,6 +85,7 @@ pub fn emulate(
     let program = Program::load(program)?;
     let mut decoder = LogDecoder::new(&program)?;
     let run = start(&loaded.scene, classes, &program)?;
+    let written = Output::create(&out.join("log.txt"))?;
     let mut log = String::new();
     let done = play(run, &loaded.scene, out, verbosity, |run, _| {
         let board = run.module_mut();
@@ -95,6 +96,6 @@ pub fn emulate(
         Ok(board.check()?)
     });
     // Where something went wrong the log tells what led to it.
-    write_whole(&out.join("log.txt"), log.as_bytes())?;
+    written.whole(log.as_bytes())?;
     done.map(|played| played.summary())
 }

@@ -12,7 +12,7 @@ use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
     starting, supply,
 };
-use host_sim::output::write_whole;
+use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
 
@@ -176,6 +176,7 @@ struct Endure {
 
 /// Makes the long run of a shard.
 fn endure(run: &Endure) -> Result<(), Error> {
+    output::check(&run.out)?;
     let row = match (&run.program, &run.subject) {
         (Some(program), Some(subject)) => {
             endurance::on_board(&run.scene, program, subject, run.hours)?
@@ -271,6 +272,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             program,
             out,
         } => {
+            output::check(&out)?;
             let flashed = scenes.iter().zip(&program);
             let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
             write_whole(&out, picture::picture(&flashed)?.as_bytes())?;
@@ -349,5 +351,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    report::exit("emulator", work(Arguments::parse()))
+    report::program("emulator", || work(Arguments::parse()))
 }

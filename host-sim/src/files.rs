@@ -20,24 +20,32 @@ pub fn read_recording(path: &Path, channels: [&str; 2]) -> Result<Vec<Stream>, E
     recording::read(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
 }
 
-/// Writes a recording, completely or not at all.
+/// Writes a recording, and finishes.
 ///
 /// # Errors
-/// [`Error::Write`].
-pub fn write_recording(path: &Path, streams: &[Stream]) -> Result<(), Error> {
-    write(path, |output| recording::write(output, streams))
+/// As [`Output::finish`].
+pub fn write_recording(output: Output, streams: &[Stream]) -> Result<(), Error> {
+    write(output, |output| recording::write(output, streams))
 }
 
-/// Writes `decisions.csv`, completely or not at all.
+/// Writes `decisions.csv`, and finishes.
 ///
 /// # Errors
-/// [`Error::Write`].
-pub fn write_decisions(path: &Path, decisions: &[Decided], columns: Columns) -> Result<(), Error> {
-    write(path, |output| decisions::write(output, decisions, columns))
+/// As [`Output::finish`].
+pub fn write_decisions(
+    output: Output,
+    decisions: &[Decided],
+    columns: Columns,
+) -> Result<(), Error> {
+    write(output, |output| {
+        decisions::write(output, decisions, columns)
+    })
 }
 
-fn write(path: &Path, fill: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<(), Error> {
-    let mut output = Output::create(path)?;
+fn write(
+    mut output: Output,
+    fill: impl FnOnce(&mut Output) -> io::Result<()>,
+) -> Result<(), Error> {
     fill(&mut output).map_err(|source| output.failed(source))?;
     output.finish()
 }

@@ -8,6 +8,7 @@ use host_sim::Error;
 use host_sim::commands::{
     channels, classify, evaluate, main_job, picture, record, run, score, train,
 };
+use host_sim::output::is_stdout;
 use host_sim::progress::Verbosity;
 use host_sim::report;
 use scene::Rule;
@@ -49,7 +50,7 @@ enum Command {
     Record {
         /// The scene file
         scene: PathBuf,
-        /// Where to write the recording
+        /// Where to write the recording; - is standard output
         #[arg(long, value_name = "FILE.csv")]
         out: PathBuf,
         /// Another seed than the scene's
@@ -89,10 +90,20 @@ enum Command {
         /// Window: decide after this many samples, a multiple of the model's block
         #[arg(long, value_name = "N", required_if_eq("rule", "window"))]
         window: Option<u32>,
-        /// Where to write the decisions
+        /// Where to write the decisions; - is standard output
         #[arg(long, value_name = "FILE.csv")]
         out: PathBuf,
     },
+}
+
+impl Command {
+    /// Whether its table goes to standard output.
+    fn is_piped(&self) -> bool {
+        match self {
+            Self::Record { out, .. } | Self::Classify { out, .. } => is_stdout(out),
+            _ => false,
+        }
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -117,6 +128,8 @@ fn rule(name: RuleName, threshold: Option<f64>, window: Option<u32>) -> Result<R
 
 fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
+    // Where a table goes to standard output, nothing else does.
+    let piped = arguments.command.as_ref().is_some_and(Command::is_piped);
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
         Some(Command::Run { scene, out, plot }) => {
@@ -148,12 +161,14 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             )?)
         }
     };
-    if let Some(summary) = summary {
-        report::say(summary);
+    match summary {
+        Some(summary) if piped => report::warn(summary),
+        Some(summary) => report::say(summary),
+        None => {}
     }
     Ok(())
 }
 
 fn main() -> ExitCode {
-    report::exit("host-sim", work(Arguments::parse()))
+    report::program("host-sim", || work(Arguments::parse()))
 }

@@ -1,27 +1,48 @@
 //! Files that are written completely or not at all: to a temporary file in the
 //! same folder, which is renamed when it is complete.
+//!
+//! Only regular files are written. A rename would put one in the place of a device, a
+//! pipe or a link, so that such a path is refused before any work begins.
 
-use std::fs::{self, File};
+mod partial;
+
+use std::fs::{self, File, FileType};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
+use partial::Partial;
+pub use partial::remove_on_interrupt;
+
+/// What stands for standard output where a file is asked for.
+const STDOUT: &str = "-";
+
+/// Whether `path` means standard output.
+pub fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == STDOUT
+}
 
 /// A file being written. Dropped before [`Output::finish`], it leaves nothing behind.
 #[derive(Debug)]
 pub struct Output {
     target: PathBuf,
-    partial: PathBuf,
-    writer: Option<BufWriter<File>>,
+    sink: Sink,
+}
+
+/// Where bytes go.
+#[derive(Debug)]
+enum Sink {
+    File(BufWriter<File>, Partial),
+    Stdout(BufWriter<io::Stdout>),
 }
 
 impl Output {
     /// Opens a file for `path`, and creates its folder if necessary.
     ///
     /// # Errors
-    /// [`Error::Input`] if `path` cannot name a file: it is a folder, or
-    /// one of its parents is a file. [`Error::Write`] if the folder or the file
-    /// cannot be created for another reason.
+    /// [`Error::Input`] if `path` cannot name a file: see [`check`]; or if one of its parents
+    /// is a file. [`Error::Write`] if the folder or the file cannot be created for another
+    /// reason.
     pub fn create(path: &Path) -> Result<Self, Error> {
         use io::ErrorKind::{AlreadyExists, InvalidFilename, NotADirectory};
         let wrong = |source: io::Error| match source.kind() {
@@ -31,50 +52,62 @@ impl Output {
             InvalidFilename => Error::file(path, source),
             _ => Error::write(path, source),
         };
-        let name = path
-            .file_name()
-            .ok_or_else(|| Error::file(path, "not a file name"))?;
-        if path.is_dir() {
-            return Err(Error::file(path, "is a folder, not a file"));
-        }
+        check(path)?;
         if let Some(folder) = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty())
         {
             fs::create_dir_all(folder).map_err(wrong)?;
         }
-        let mut partial_name = name.to_owned();
-        partial_name.push(format!(".{}.partial", std::process::id()));
-        let partial = path.with_file_name(partial_name);
-        let file = File::create(&partial).map_err(wrong)?;
+        let (file, partial) = Partial::create(path).map_err(wrong)?;
         Ok(Self {
             target: path.to_owned(),
-            partial,
-            writer: Some(BufWriter::new(file)),
+            sink: Sink::File(BufWriter::new(file), partial),
+        })
+    }
+
+    /// The same, but that `-` is standard output: for tables, which a pipe may take. It has
+    /// them as they come, so that nothing takes them back.
+    ///
+    /// # Errors
+    /// As [`Output::create`].
+    pub fn create_or_stdout(path: &Path) -> Result<Self, Error> {
+        if !is_stdout(path) {
+            return Self::create(path);
+        }
+        Ok(Self {
+            target: PathBuf::from("standard output"),
+            sink: Sink::Stdout(BufWriter::new(io::stdout())),
         })
     }
 
     /// Renames the complete file to its path.
     ///
     /// # Errors
-    /// [`Error::Write`] if what was written did not reach the disk.
-    pub fn finish(mut self) -> Result<(), Error> {
-        let written = match self.writer.take() {
-            Some(writer) => writer
-                .into_inner()
-                .map_err(io::IntoInnerError::into_error)
-                .map(drop),
-            None => Ok(()),
+    /// [`Error::Write`] if what was written did not reach the disk, [`Error::Input`] if
+    /// something else than a file has come to its path meanwhile.
+    pub fn finish(self) -> Result<(), Error> {
+        let Self { target, sink } = self;
+        let written = match sink {
+            Sink::Stdout(mut writer) => match writer.flush() {
+                // Whoever read it has read enough.
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                flushed => flushed,
+            },
+            Sink::File(writer, partial) => {
+                check(&target)?;
+                let written = writer.into_inner().map_err(io::IntoInnerError::into_error);
+                // Closed before it is renamed.
+                written.map(drop).and_then(|()| partial.rename(&target))
+            }
         };
-        written
-            .and_then(|()| fs::rename(&self.partial, &self.target))
-            .map_err(|source| Error::write(&self.target, source))
+        written.map_err(|source| Error::write(&target, source))
     }
 
     /// Writes all there is to write, and finishes.
     ///
     /// # Errors
-    /// [`Error::Write`].
+    /// As [`Output::finish`].
     pub fn whole(mut self, bytes: &[u8]) -> Result<(), Error> {
         let written = self.write_all(bytes);
         written.map_err(|source| self.failed(source))?;
@@ -89,30 +122,87 @@ impl Output {
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.writer {
-            Some(writer) => writer.write(bytes),
-            None => Err(io::ErrorKind::BrokenPipe.into()),
+        match &mut self.sink {
+            Sink::File(writer, _) => writer.write(bytes),
+            Sink::Stdout(writer) => match writer.write(bytes) {
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
+                written => written,
+            },
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.as_mut().map_or(Ok(()), Write::flush)
+        match &mut self.sink {
+            Sink::File(writer, _) => writer.flush(),
+            Sink::Stdout(writer) => writer.flush(),
+        }
     }
 }
 
-impl Drop for Output {
-    fn drop(&mut self) {
-        // After a successful rename there is nothing to remove; nothing can be
-        // done here about a temporary file that cannot be removed.
-        drop(self.writer.take());
-        let _ = fs::remove_file(&self.partial);
+/// Whether `path` can name a regular file to write: there is none yet, or a regular one.
+/// To be asked before work that ends with [`write_whole`].
+///
+/// # Errors
+/// [`Error::Input`] says what is there instead: a folder, a link, a device, a pipe; or that
+/// standard output is not to be had here.
+pub fn check(path: &Path) -> Result<(), Error> {
+    if is_stdout(path) {
+        let fault = "standard output is not for this; name a file (./- for one of that name)";
+        return Err(Error::file(path, fault));
     }
+    if path.file_name().is_none() {
+        return Err(Error::file(path, "not a file name"));
+    }
+    // What cannot be looked at is told when it is created.
+    if let Ok(found) = fs::symlink_metadata(path)
+        && !found.is_file()
+    {
+        let what = kind(found.file_type());
+        let fault = format!("is {what}, not a regular file; name one, or a new one");
+        return Err(Error::file(path, fault));
+    }
+    let mut folders = path.ancestors().skip(1);
+    match folders.find_map(|folder| fs::metadata(folder).ok()) {
+        Some(found) if !found.is_dir() => {
+            Err(Error::file(path, "a file is where its folder would be"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The same where `-` is standard output: before [`Output::create_or_stdout`].
+///
+/// # Errors
+/// As [`check`], but for standard output.
+pub fn check_or_stdout(path: &Path) -> Result<(), Error> {
+    if is_stdout(path) { Ok(()) } else { check(path) }
+}
+
+/// What a path that is not a regular file leads to.
+fn kind(of: FileType) -> &'static str {
+    if of.is_dir() {
+        return "a folder";
+    }
+    if of.is_symlink() {
+        return "a symbolic link";
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if of.is_fifo() {
+            return "a pipe (FIFO)";
+        }
+        if of.is_socket() {
+            return "a socket";
+        }
+    }
+    "a device"
 }
 
 /// Writes `bytes` to `path`, completely or not at all.
 ///
 /// # Errors
-/// [`Error::Write`].
+/// As [`Output::create`] and [`Output::finish`].
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     Output::create(path)?.whole(bytes)
 }

@@ -14,6 +14,7 @@ use firmware::faults::name;
 
 use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
+use crate::output::remove_on_interrupt;
 pub use evaluation::{Doubts, Figures, Thresholds};
 pub use runs::{OverRuns, SeedRange};
 pub use training::TrainingReport;
@@ -29,9 +30,12 @@ pub fn warn(line: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
-/// How a program ends: its exit status, and on standard error what went wrong.
-pub fn exit(program: &str, done: Result<(), Error>) -> ExitCode {
-    match done {
+/// A program from start to end: an interrupt leaves no half-written file; returns its exit
+/// status, and says on standard error what went wrong.
+pub fn program(program: &str, work: impl FnOnce() -> Result<(), Error>) -> ExitCode {
+    let ready = remove_on_interrupt();
+    let ready = ready.map_err(|error| Error::Work(format!("interrupts: {error}")));
+    match ready.and_then(|()| work()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             warn(format_args!("{program}: {error}"));

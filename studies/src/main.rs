@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use host_sim::Error;
 use host_sim::progress::Verbosity;
-use host_sim::report::{exit, say};
+use host_sim::report::{program, say};
 use studies::accuracy::LongRun;
 use studies::commands::experiment::{self, Options};
 use studies::commands::{decisions, report};
@@ -135,5 +135,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    exit("studies", work(Arguments::parse()))
+    program("studies", || work(Arguments::parse()))
 }

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use host_sim::Error;
+use host_sim::output;
 
 use super::outcome::RunRow;
 
@@ -22,6 +23,7 @@ impl ShardTable {
     /// # Errors
     /// [`Error::Input`] if what it has is not such a table, [`Error::Write`].
     pub fn open(path: &Path) -> Result<Self, Error> {
+        output::check(path)?;
         let done = if path.exists() {
             rows(path)?.into_iter().map(|row| row.run).collect()
         } else {

@@ -8,12 +8,13 @@ use crate::Error;
 use crate::classifier::Fault;
 use crate::decisions::{Columns, Score};
 use crate::files;
+use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::replay::Replay;
 use crate::report::Summary;
 
 /// Streams the columns `channels` of the recording `data` through the classifier of `model` and writes
-/// its decisions to `out`. Returns their score.
+/// its decisions to `out`, `-` being standard output. Returns their score.
 ///
 /// # Errors
 /// [`Error::Input`] for a model, recording or rule that is wrong, [`Error::Write`].
@@ -25,6 +26,7 @@ pub fn classify(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
+    check_or_stdout(out)?;
     let (path, model) = files::load_model(model)?;
     let option = match rule {
         Rule::Sequential { threshold } => format!("--threshold {threshold}"),
@@ -43,7 +45,11 @@ pub fn classify(
         progress.set(n as u64);
     }
     drop(progress);
-    files::write_decisions(out, &decided, Columns::OfRecording)?;
+    files::write_decisions(
+        Output::create_or_stdout(out)?,
+        &decided,
+        Columns::OfRecording,
+    )?;
     let score = Score::new(replay.classes(), &decided);
     Ok(Summary(&score, None).to_string())
 }

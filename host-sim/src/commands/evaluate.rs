@@ -9,7 +9,7 @@ use crate::Error;
 use crate::classifier::{self, Fault};
 use crate::evaluation::{self, Candidate, Evaluation, THRESHOLDS};
 use crate::files;
-use crate::output::write_whole;
+use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
 use crate::report::{Doubts, Figures, Thresholds};
@@ -65,6 +65,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     if *rate == 0 {
         return Err(Error::Input("--rate: found 0, allowed: above 0".to_owned()));
     }
+    plot.as_deref().map_or(Ok(()), output::check)?;
     let tick_hz = f64::from(*rate);
     let (path, model) = files::load_model(&arguments.model)?;
     let streams = files::read_recording(data, channels.each_ref().map(String::as_str))?;

@@ -9,7 +9,7 @@ use super::run::{self, Played};
 use super::train::{How, Tables};
 use crate::classifier::Classifier;
 use crate::files;
-use crate::output::write_whole;
+use crate::output::Output;
 use crate::plot::{self, Film};
 use crate::progress::Verbosity;
 use crate::recording::Stream;
@@ -29,14 +29,18 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     let scene = Scene::from_str("scenes/textures.toml", SCENE)?;
     let out = Path::new(OUT);
 
+    let create = |name| Output::create(&out.join(name));
+    let (recording, trained) = (create("training.csv")?, create("textures.model")?);
+    let drawn = create("textures.svg")?;
+
     report::say(format_args!(
         "training: {} s of whisking against each texture in turn",
         scene.duration_s
     ));
     let streams = record(&scene, verbosity)?;
-    files::write_recording(&out.join("training.csv"), &streams)?;
+    files::write_recording(recording, &streams)?;
     let model = train(&scene, streams)?;
-    write_whole(&out.join("textures.model"), model.as_bytes())?;
+    trained.whole(model.as_bytes())?;
 
     report::say(format_args!(
         "deciding: {} s of another run, decisions as they are made",
@@ -45,10 +49,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
     let (played, film) = decide(&scene, model, out, verbosity)?;
     let title = "left whisker: four textures, RCP";
     let picture = film.picture(title, &played.classes, &played.decided);
-    write_whole(
-        &out.join("textures.svg"),
-        plot::left_whisker(&picture)?.as_bytes(),
-    )?;
+    drawn.whole(plot::left_whisker(&picture)?.as_bytes())?;
     let summary = played.summary().unwrap_or_default();
     report::say(format_args!(
         "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg"

@@ -6,13 +6,14 @@ use scene::Scene;
 
 use crate::Error;
 use crate::files;
+use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
 
 /// Runs the scene in `path` and writes what its whiskers feel that are heard to `out`:
 /// a recording for `host-sim train`, the air included. Its classifier, if any, is not
-/// used. `seed` takes the place of the scene's.
+/// used. `seed` takes the place of the scene's. `out` may be `-`, standard output.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene that is wrong, [`Error::Write`].
@@ -22,11 +23,13 @@ pub fn record(
     seed: Option<u64>,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
+    check_or_stdout(out)?;
     let mut scene = Scene::load(path)?;
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     scene.seed = seed.unwrap_or(scene.seed);
+    let output = Output::create_or_stdout(out)?;
     let streams = streams(&scene, verbosity)?;
-    files::write_recording(out, &streams)?;
+    files::write_recording(output, &streams)?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
     Ok(format!(
         "{}: {samples} samples in {} streams",

@@ -9,7 +9,7 @@ use crate::bench::{self, Bench};
 use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
-use crate::output::Output;
+use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
@@ -27,6 +27,10 @@ pub fn run(
     plot: Option<&Path>,
     verbosity: Verbosity,
 ) -> Result<Option<String>, Error> {
+    if is_stdout(out) {
+        return Err(Error::file(out, "a run has several files; name a folder"));
+    }
+    plot.map_or(Ok(()), output::check)?;
     let loaded = Loaded::new(path)?;
     let run = Run::new(&loaded.scene, loaded.classifier()?)?;
     let mut picture = plot.map(Output::create).transpose()?;
@@ -149,6 +153,9 @@ pub fn play<B: Bench + ?Sized>(
 ) -> Result<Played, Error> {
     let hears_right = bench::heard(scene) > scene.head.whiskers_per_side;
     let mut trace = TraceFile::create(&out.join("trace.csv"), hears_right)?;
+    let table = scene.classifier.as_ref();
+    let table = table.map(|_| Output::create(&out.join("decisions.csv")));
+    let table = table.transpose()?;
     let mut decided: Vec<Decided> = Vec::new();
     let mut progress = Progress::new(verbosity, "simulating", run.ticks());
     for n in 0..run.ticks() {
@@ -164,13 +171,13 @@ pub fn play<B: Bench + ?Sized>(
     }
     drop(progress);
 
-    let classifies = scene.classifier.is_some();
-    if classifies {
+    let classifies = table.is_some();
+    if let Some(table) = table {
         let columns = match bench::heard(scene) {
             1 => Columns::OfScene,
             _ => Columns::OfSeveral,
         };
-        files::write_decisions(&out.join("decisions.csv"), &decided, columns)?;
+        files::write_decisions(table, &decided, columns)?;
     }
     trace.finish()?;
     Ok(Played {

@@ -11,7 +11,7 @@ use super::{channels, picture};
 use crate::Error;
 use crate::decisions::UNKNOWN;
 use crate::files;
-use crate::output::{Output, write_whole};
+use crate::output::{self, Output, write_whole};
 use crate::plot;
 use crate::recording::{GATE, Stream};
 use crate::report::TrainingReport;
@@ -211,6 +211,8 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         let fault = "--plot: single tables have no report; see host-sim evaluate --plot";
         return Err(Error::Input(fault.to_owned()));
     }
+    output::check(out)?;
+    plot.as_deref().map_or(Ok(()), output::check)?;
     let mut recordings = read(data, channels)?;
     if let Some(label) = unknown {
         leave_out(&mut recordings, label)?;

@@ -2,6 +2,7 @@
 
 use host_sim::commands::main_job;
 use host_sim::files;
+use host_sim::output::Output;
 use host_sim::progress::Verbosity;
 use scene::Scene;
 
@@ -13,7 +14,8 @@ fn classifying() -> Place {
     let streams = main_job::record(&scene, Verbosity::Quiet).unwrap();
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
-    files::write_recording(&place.path("recorded.csv"), &streams).unwrap();
+    let recorded = Output::create(&place.path("recorded.csv")).unwrap();
+    files::write_recording(recorded, &streams).unwrap();
     place.done("train --tables single --data recorded.csv --out scenes/the.model");
     place
 }

@@ -8,6 +8,7 @@ mod library;
 mod main_job;
 mod meaning;
 mod mutations;
+mod outputs;
 mod refuses_arguments;
 mod refuses_models;
 mod refuses_recordings;

@@ -1,0 +1,171 @@
+//! Where it writes: regular files alone, whole or not at all.
+#![cfg(unix)]
+
+use std::os::unix::fs::{FileTypeExt, symlink};
+use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
+
+/// Every command that writes, up to the name of its output.
+const COMMANDS: [&str; 5] = [
+    "record s.toml --out",
+    "train --tables single --data r.csv --out",
+    "train --data r.csv --out m --plot",
+    "classify --model m --data r.csv --rule window --window 20 --out",
+    "evaluate --model m --data r.csv --plot",
+];
+
+fn place() -> Place {
+    let place = Place::with(&[("s.toml", IDEAL), ("r.csv", RECORDING)]);
+    place.write("m", model(2, 20, true));
+    place
+}
+
+fn fifo(place: &Place, name: &str) -> PathBuf {
+    let path = place.path(name);
+    let made = Command::new("mkfifo").arg(&path).status().unwrap();
+    assert!(made.success());
+    path
+}
+
+/// Refused with these words, and the names in the folder stay what they are. (A pipe must
+/// not be read, as [`Place::refuses`] reads all.)
+#[track_caller]
+fn refused(place: &Place, line: &str, naming: &str) {
+    let ran = place.run(line);
+    assert_eq!(ran.status, Some(2), "{line}: {ran:?}");
+    assert!(ran.stderr.contains(naming), "{line}: {ran:?}");
+}
+
+#[test]
+fn pipes_links_and_folders_are_refused_and_stay_what_they_are() {
+    let place = place();
+    let pipe = fifo(&place, "pipe.svg");
+    symlink(place.path("r.csv"), place.path("link.svg")).unwrap();
+    symlink(place.path("nowhere"), place.path("dangling.svg")).unwrap();
+    std::fs::create_dir(place.path("folder.svg")).unwrap();
+    for command in COMMANDS {
+        for (name, naming) in [
+            ("pipe.svg", "pipe.svg: is a pipe"),
+            ("link.svg", "link.svg: is a symbolic link"),
+            ("dangling.svg", "dangling.svg: is a symbolic link"),
+            ("folder.svg", "folder.svg: is a folder"),
+        ] {
+            refused(&place, &format!("{command} {name}"), naming);
+        }
+    }
+    assert!(
+        std::fs::symlink_metadata(pipe)
+            .unwrap()
+            .file_type()
+            .is_fifo()
+    );
+    for link in ["link.svg", "dangling.svg"] {
+        let found = std::fs::symlink_metadata(place.path(link)).unwrap();
+        assert!(found.file_type().is_symlink());
+    }
+    assert!(!place.path("nowhere").exists());
+    assert_eq!(place.text("r.csv"), RECORDING);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_device_is_refused_and_stays_one() {
+    let place = place();
+    for device in ["/dev/full", "/dev/null"] {
+        for command in COMMANDS
+            .into_iter()
+            .filter(|command| !command.ends_with("--plot"))
+        {
+            let naming = format!("{device}: is a device");
+            refused(&place, &format!("{command} {device}"), &naming);
+        }
+        let run = format!("run s.toml --out {device}");
+        refused(&place, &run, "a file is where its folder would be");
+        let found = std::fs::symlink_metadata(device).unwrap();
+        assert!(found.file_type().is_char_device());
+    }
+}
+
+#[test]
+fn files_of_a_run_are_refused_before_it() {
+    let place = place();
+    // Would take hours.
+    let long = format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
+    place.write("s.toml", long);
+    place.write("the.model", model(2, 20, true));
+    for name in ["trace.csv", "decisions.csv"] {
+        let folder = name.replace(".csv", "");
+        std::fs::create_dir(place.path(&folder)).unwrap();
+        fifo(&place, &format!("{folder}/{name}"));
+        let naming = format!("{folder}/{name}: is a pipe");
+        refused(&place, &format!("run s.toml --out {folder}"), &naming);
+        let left = std::fs::read_dir(place.path(&folder)).unwrap();
+        assert_eq!(left.count(), 1);
+    }
+    refused(&place, "run s.toml --out -", "-: a run has several files");
+}
+
+#[test]
+fn standard_output_has_a_table_and_nothing_else() {
+    let place = place();
+    place.done("record s.toml --out recorded.csv");
+    let ran = place.run("record s.toml --out -");
+    assert_eq!(ran.status, Some(0));
+    assert_eq!(ran.stdout, place.text("recorded.csv"));
+    assert!(ran.stderr.contains("200 samples"), "{ran:?}");
+    place.done("train --tables single --data r.csv --block 2 --out two");
+    let classify = "classify --model two --data r.csv --rule window --window 2 --out";
+    let ran = place.run(&format!("{classify} -"));
+    assert_eq!(decisions(&ran.stdout).len(), 4);
+    assert!(ran.stderr.contains("4 decisions"), "{ran:?}");
+    assert!(!place.path("-").exists());
+    // A file of that name is a file.
+    place.done(&format!("{classify} ./-"));
+    assert_eq!(place.text("-"), ran.stdout);
+    std::fs::remove_file(place.path("-")).unwrap();
+    let train = "train --tables single --data r.csv --out -";
+    place.refuses(train, &["-: standard output is not for this"]);
+}
+
+/// Those in a folder that are not complete, with their sizes.
+fn partial(place: &Place) -> Vec<(PathBuf, u64)> {
+    let entries = std::fs::read_dir(place.path("out")).into_iter().flatten();
+    let files = entries.map(|entry| entry.unwrap());
+    let partial = files.filter(|file| file.file_name().to_string_lossy().ends_with(".partial"));
+    // One may go while it is looked at.
+    let sized = partial.filter_map(|file| Some((file.path(), file.metadata().ok()?.len())));
+    sized.collect()
+}
+
+#[test]
+fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
+    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+        let long =
+            format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
+        let place = Place::with(&[("s.toml", &long), ("out/trace.csv", "older")]);
+        place.write("the.model", model(2, 20, true));
+        let before = place.content();
+        let mut command = place.command("run s.toml --out out --quiet");
+        let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+        // In mid-run: some of the trace is on the disk.
+        let since = Instant::now();
+        while !partial(&place).iter().any(|(_, size)| *size > 1_000_000) {
+            assert!(
+                since.elapsed() < Duration::from_mins(1),
+                "nothing is written"
+            );
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        let id = child.id().to_string();
+        let killed = Command::new("kill").args(["-s", signal, &id]).status();
+        assert!(killed.unwrap().success());
+        let ended = child.wait().unwrap();
+        assert_eq!(ended.signal(), Some(number), "{ended:?}");
+        assert_eq!(partial(&place), []);
+        assert!(place.content() == before, "{signal}");
+    }
+}
