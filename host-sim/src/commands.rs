@@ -1,11 +1,13 @@
 //! The commands of the command line, one file for each.
 
+pub mod choice;
 pub mod classify;
 pub mod evaluate;
 pub mod main_job;
 pub mod record;
 pub mod run;
 pub mod score;
+pub mod sweep;
 pub mod train;
 
 use std::path::PathBuf;

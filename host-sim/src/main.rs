@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
+use host_sim::commands::choice::{SceneChoice, seed};
 use host_sim::commands::{
-    channels, classify, evaluate, main_job, picture, record, run, score, train,
+    channels, classify, evaluate, main_job, record, run, score, sweep, train,
 };
 use host_sim::output::is_stdout;
 use host_sim::progress::Verbosity;
@@ -36,25 +37,18 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Runs one scene: writes DIR/trace.csv, and DIR/decisions.csv where the scene classifies
-    Run {
-        /// The scene file (docs/scenes.md lists its keys)
-        scene: PathBuf,
-        /// Where to write
-        #[arg(long, value_name = "DIR")]
-        out: PathBuf,
-        /// Where to write a picture of the left whisker's first ten seconds
-        #[arg(long, value_name = "FILE.svg", value_parser = picture)]
-        plot: Option<PathBuf>,
-    },
+    #[command(allow_negative_numbers = true)]
+    Run(run::Arguments),
     /// Runs one scene and records what its first whisker feels, or each that decides, to train on
+    #[command(allow_negative_numbers = true)]
     Record {
-        /// The scene file
-        scene: PathBuf,
+        #[command(flatten)]
+        scene: SceneChoice,
         /// Where to write the recording; - is standard output
         #[arg(long, value_name = "FILE.csv")]
         out: PathBuf,
         /// Another seed than the scene's
-        #[arg(long)]
+        #[arg(long, value_name = "N", value_parser = seed)]
         seed: Option<u64>,
     },
     /// Trains a likelihood model from a recording, and says what it is worth
@@ -68,6 +62,10 @@ enum Command {
     /// error, worst
     #[command(allow_negative_numbers = true)]
     Score(score::Arguments),
+    /// Runs a scene with every combination of other values of some keys, on all cores: a
+    /// table with decisions, decision time, touches, faults and errors of each run
+    #[command(allow_negative_numbers = true)]
+    Sweep(sweep::Arguments),
     /// Streams a recording through the fixed-point classifier, exactly the code
     /// that runs on the board
     #[command(allow_negative_numbers = true)]
@@ -101,6 +99,7 @@ impl Command {
     fn is_piped(&self) -> bool {
         match self {
             Self::Record { out, .. } | Self::Classify { out, .. } => is_stdout(out),
+            Self::Sweep(arguments) => is_stdout(&arguments.out),
             _ => false,
         }
     }
@@ -132,14 +131,13 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     let piped = arguments.command.as_ref().is_some_and(Command::is_piped);
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
-        Some(Command::Run { scene, out, plot }) => {
-            run::run(&scene, &out, plot.as_deref(), verbosity)?
-        }
+        Some(Command::Run(arguments)) => run::run(&arguments, verbosity)?,
         Some(Command::Record { scene, out, seed }) => {
             Some(record::record(&scene, &out, seed, verbosity)?)
         }
         Some(Command::Train(arguments)) => Some(train::train(&arguments)?),
         Some(Command::Evaluate(arguments)) => Some(evaluate::evaluate(&arguments, verbosity)?),
+        Some(Command::Sweep(arguments)) => Some(sweep::sweep(&arguments, verbosity)?),
         Some(Command::Score(arguments)) => Some(score::score(&arguments, verbosity)?),
         Some(Command::Classify {
             model,

@@ -1,5 +1,7 @@
 //! Progress on standard error, for work that takes more than a second.
 
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -84,6 +86,40 @@ impl Drop for Progress {
     fn drop(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// Progress of runs on all cores.
+#[derive(Debug)]
+pub struct SharedProgress {
+    bar: Mutex<Progress>,
+    done: AtomicU64,
+}
+
+impl SharedProgress {
+    /// Steps that a run counts before it tells them.
+    const TOLD: u64 = 1024;
+
+    /// Work of `total` steps in all runs together.
+    pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
+        Self {
+            bar: Mutex::new(Progress::new(verbosity, message, total)),
+            done: AtomicU64::new(0),
+        }
+    }
+
+    /// Of one run what is to be called after each step.
+    pub fn counter(&self) -> impl FnMut() + '_ {
+        let mut steps = 0;
+        move || {
+            steps += 1;
+            if steps % Self::TOLD == 0 {
+                let done = self.done.fetch_add(Self::TOLD, Ordering::Relaxed) + Self::TOLD;
+                if let Ok(mut bar) = self.bar.lock() {
+                    bar.set(done);
+                }
+            }
         }
     }
 }

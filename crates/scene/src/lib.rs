@@ -38,6 +38,8 @@ mod key;
 mod keys;
 mod kind;
 mod load;
+mod overriding;
+mod places;
 mod presence;
 mod problem;
 mod read;
@@ -51,6 +53,8 @@ mod text;
 mod value;
 mod values;
 
+pub use overriding::Override;
+pub use places::Places;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{

@@ -4,10 +4,13 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
+use crate::overriding::Override;
+use crate::places::Places;
 use crate::problem::{Problem, Problems};
 use crate::sections::{Scene, TOP};
 use crate::table::Keys;
 use crate::text::Text;
+use crate::values::Values;
 use crate::{presence, read, rules};
 
 /// How the TOML parser words a key or table that is given twice: the one fault
@@ -23,33 +26,35 @@ impl Scene {
     /// syntax is broken, only that is reported (once a line): keys read past a
     /// broken line might not be what was meant.
     pub fn from_str(file: &str, text: &str) -> Result<Self, Problems> {
-        let (document, faults) = DeTable::parse_recoverable(text);
-        let mut text = Text::new(file, text);
-        let mut last_line = None;
-        let mut is_broken = false;
-        for fault in faults {
-            let is_duplicate = fault.message() == DUPLICATE;
-            is_broken |= !is_duplicate;
-            let span = fault.span().unwrap_or(usize::MAX..usize::MAX);
-            let line = text.line(span.start);
-            if last_line.replace(line) == Some(line) {
-                continue;
+        Self::from_str_with(file, text, &[]).map(|(scene, _)| scene)
+    }
+
+    /// The same with keys that are given beside the file, of which the last counts, and
+    /// where all keys stand.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::from_str`].
+    pub fn from_str_with(
+        file: &str,
+        text: &str,
+        overrides: &[Override],
+    ) -> Result<(Self, Places), Problems> {
+        let mut text = Text::new(file, text, overrides);
+        let mut values = Values::default();
+        for (n, document) in text.documents().iter().enumerate() {
+            let (parsed, faults) = DeTable::parse_recoverable(document);
+            if report_syntax(&faults, document.len(), &mut text) {
+                return Err(text.into_problems());
             }
-            let found = format!("found {}", text.line_at(span.start));
-            let (key, allowed) = if is_duplicate {
-                (
-                    text.excerpt(span.clone()),
-                    "given twice; allowed: once".to_owned(),
-                )
+            let read = read::read(parsed.get_ref(), &mut text);
+            if n == 0 {
+                values = read;
             } else {
-                ("TOML syntax".to_owned(), fault.message().replace('\n', " "))
-            };
-            text.report(span.start, key, found, allowed);
+                values.override_with(read);
+            }
         }
-        if is_broken {
-            return Err(text.into_problems());
-        }
-        let mut values = read::read(document.get_ref(), &mut text);
+        read::add_defaults(&mut values);
         presence::check(&values, &mut text);
         rules::apply(&values, &mut text);
         if !text.is_clean() {
@@ -57,13 +62,18 @@ impl Scene {
         }
         presence::settle(&mut values);
         let scene = <Self as Keys>::read(values.part(TOP.name));
-        scene.ok_or_else(|| {
+        let Some(scene) = scene else {
             // Only a field whose key may be left out leads here: that key must
             // be optional, or the field one of an `Option` of some keys.
             let found = "the catalogue lets a key be left out that a field needs".to_owned();
             text.report(0, "scene".to_owned(), found, String::new());
-            text.into_problems()
-        })
+            return Err(text.into_problems());
+        };
+        let mut places = Places::new(file);
+        for (key, offset) in values.offsets() {
+            places.add(key, text.place_in_words(offset));
+        }
+        Ok((scene, places))
     }
 
     /// Reads a scene file.
@@ -72,10 +82,23 @@ impl Scene {
     ///
     /// A file that cannot be read, named; else as [`Scene::from_str`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Problems> {
+        Self::load_with(path, &[]).map(|(scene, _)| scene)
+    }
+
+    /// The same with keys that are given beside the file, of which the last counts, and
+    /// where all keys stand.
+    ///
+    /// # Errors
+    ///
+    /// As [`Scene::load`].
+    pub fn load_with(
+        path: impl AsRef<Path>,
+        overrides: &[Override],
+    ) -> Result<(Self, Places), Problems> {
         let path = path.as_ref();
         let file = path.display().to_string();
         match std::fs::read_to_string(path) {
-            Ok(text) => Self::from_str(&file, &text),
+            Ok(text) => Self::from_str_with(&file, &text, overrides),
             Err(error) => Err(Problems::new(vec![Problem {
                 file,
                 line: None,
@@ -85,4 +108,31 @@ impl Scene {
             }])),
         }
     }
+}
+
+/// Reports faults of syntax, one a line; `end`: where its document ends. Returns whether what was read past them might not
+/// be what was meant.
+fn report_syntax(faults: &[toml::de::Error], end: usize, text: &mut Text<'_>) -> bool {
+    let mut last_line = None;
+    let mut is_broken = false;
+    for fault in faults {
+        let is_duplicate = fault.message() == DUPLICATE;
+        is_broken |= !is_duplicate;
+        let span = fault.span().unwrap_or(end..end);
+        let line = text.line(span.start);
+        if last_line.replace(line) == Some(line) {
+            continue;
+        }
+        let found = format!("found {}", text.line_at(span.start));
+        let (key, allowed) = if is_duplicate {
+            (
+                text.excerpt(span.clone()),
+                "given twice; allowed: once".to_owned(),
+            )
+        } else {
+            ("TOML syntax".to_owned(), fault.message().replace('\n', " "))
+        };
+        text.report(span.start, key, found, allowed);
+    }
+    is_broken
 }

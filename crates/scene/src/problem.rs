@@ -7,9 +7,9 @@ use std::fmt;
 /// It prints on one line as `file:line: key: what was found; what is allowed`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// The file, as the caller named it.
+    /// The file, as the caller named it, or what was given beside it.
     pub file: String,
-    /// Line, counted from 1; `None` when the file could not be read at all.
+    /// Line, counted from 1; `None` when the file could not be read at all, and beside it.
     pub line: Option<usize>,
     /// The key with its section (`head.sides`), a section (`[head]`), or
     /// `TOML syntax`; empty when the file could not be read.

@@ -17,7 +17,7 @@ use crate::values::{Entry, Given, Values};
 
 type Item<'t, 'i> = (&'t Spanned<DeString<'i>>, &'t Spanned<DeValue<'i>>);
 
-/// Reads all sections and keys of a document, noting problems in `text`.
+/// Reads all sections and keys of a document, noting problems in `text`; no defaults.
 pub(crate) fn read(document: &DeTable<'_>, text: &mut Text<'_>) -> Values {
     let mut values = Values::default();
     let top = Given {
@@ -37,7 +37,6 @@ pub(crate) fn read(document: &DeTable<'_>, text: &mut Text<'_>) -> Values {
             (None, None) => {}
         }
     }
-    add_defaults(&mut values);
     values
 }
 
@@ -141,8 +140,8 @@ fn resolve(
     meant
 }
 
-/// Fills in the defaults of keys that are not in the file.
-fn add_defaults(values: &mut Values) {
+/// Fills in the defaults of keys that are not given.
+pub(crate) fn add_defaults(values: &mut Values) {
     for section in sections() {
         for key in section.keys() {
             if let Need::Default(toml) = key.need {

@@ -3,25 +3,37 @@
 
 use std::ops::Range;
 
+use crate::overriding::Override;
 use crate::problem::{Problem, Problems};
 
 /// Longest excerpt of the file that a message quotes, in characters.
 const LONGEST_EXCERPT: usize = 60;
 
-/// A file's name and text, with the problems found in it so far.
+/// A file's name and text, with the problems found in it so far. What is given beside the
+/// file follows it, so that an offset says where in either something stands.
 pub(crate) struct Text<'a> {
     file: &'a str,
-    /// The whole file.
-    content: &'a str,
+    /// The whole file, then a line for each key beside it.
+    content: String,
+    /// Where each of these begins, and what messages call it.
+    beside: Vec<(usize, &'a str)>,
     /// Problems with the byte offset they stand at.
     problems: Vec<(usize, Problem)>,
 }
 
 impl<'a> Text<'a> {
-    pub(crate) fn new(file: &'a str, content: &'a str) -> Self {
+    pub(crate) fn new(file: &'a str, content: &str, overrides: &'a [Override]) -> Self {
+        let mut content = content.to_owned();
+        let mut beside = Vec::with_capacity(overrides.len());
+        for one in overrides {
+            content.push('\n');
+            beside.push((content.len(), one.source()));
+            content.push_str(&one.toml());
+        }
         Self {
             file,
             content,
+            beside,
             problems: Vec::new(),
         }
     }
@@ -30,6 +42,23 @@ impl<'a> Text<'a> {
     pub(crate) fn line(&self, offset: usize) -> usize {
         let before = self.content.bytes().take(offset);
         1 + before.filter(|byte| *byte == b'\n').count()
+    }
+
+    /// What stands at `offset`: the file, with the line, or what is beside it.
+    fn place(&self, offset: usize) -> (&'a str, Option<usize>) {
+        let mut beside = self.beside.iter().rev();
+        match beside.find(|(start, _)| *start <= offset) {
+            Some((_, name)) => (name, None),
+            None => (self.file, Some(self.line(offset))),
+        }
+    }
+
+    /// The place of `offset` in words.
+    pub(crate) fn place_in_words(&self, offset: usize) -> String {
+        match self.place(offset) {
+            (name, Some(line)) => format!("{name}:{line}"),
+            (name, None) => name.to_owned(),
+        }
     }
 
     /// The text of a span on one line, shortened and without control characters.
@@ -45,9 +74,10 @@ impl<'a> Text<'a> {
 
     /// Notes a problem at a byte offset.
     pub(crate) fn report(&mut self, offset: usize, key: String, found: String, allowed: String) {
+        let (file, line) = self.place(offset);
         let problem = Problem {
-            file: self.file.to_owned(),
-            line: Some(self.line(offset)),
+            file: file.to_owned(),
+            line,
             key,
             found,
             allowed,
@@ -65,8 +95,28 @@ impl<'a> Text<'a> {
         self.problems.sort_by_key(|(offset, _)| *offset);
         Problems::new(self.problems.into_iter().map(|(_, p)| p).collect())
     }
-}
 
+    /// How much of the text is the file, bytes.
+    fn in_file(&self) -> usize {
+        let first = self.beside.first();
+        first.map_or(self.content.len(), |(start, _)| start - 1)
+    }
+
+    /// The documents to be parsed, each preceded by as many spaces as put its bytes where
+    /// they are in the whole text: the file, then what is beside it.
+    pub(crate) fn documents(&self) -> Vec<String> {
+        let file = self.in_file();
+        let ends = self.beside.iter().skip(1).map(|(start, _)| start - 1);
+        let ends = ends.chain([self.content.len()]);
+        let beside = self.beside.iter().zip(ends);
+        let beside = beside.map(|((start, _), end)| {
+            let line = self.content.get(*start..end).unwrap_or_default();
+            format!("{:start$}{line}", "")
+        });
+        let file = self.content.get(..file).unwrap_or_default();
+        std::iter::once(file.to_owned()).chain(beside).collect()
+    }
+}
 /// Control characters become spaces, runs of space one; long text is cut.
 fn one_line(text: &str) -> String {
     let plain: String = text

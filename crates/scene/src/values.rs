@@ -41,6 +41,28 @@ impl Values {
         self.keys.entry((section, key)).or_insert(entry);
     }
 
+    /// Puts all keys of others in the place of these, or beside them.
+    pub(crate) fn override_with(&mut self, others: Self) {
+        for (section, given) in others.sections {
+            self.add_section(section, given);
+        }
+        self.keys.extend(others.keys);
+    }
+
+    /// Each section and each key that is given, and where.
+    pub(crate) fn offsets(&self) -> impl Iterator<Item = (String, usize)> + '_ {
+        let sections = self.sections.iter();
+        let sections = sections.map(|(name, given)| ((*name).to_owned(), given.offset));
+        let keys = self.keys.iter().filter_map(|((section, key), entry)| {
+            let path = match *section {
+                "" => (*key).to_owned(),
+                section => format!("{section}.{key}"),
+            };
+            Some((path, entry.offset?))
+        });
+        sections.chain(keys)
+    }
+
     /// Puts another value in the key's place, or none.
     pub(crate) fn replace(
         &mut self,

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use scene::Scene;
 
+use super::choice::SceneChoice;
 use crate::Error;
 use crate::files;
 use crate::output::{Output, check_or_stdout};
@@ -11,20 +12,21 @@ use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
 
-/// Runs the scene in `path` and writes what its whiskers feel that are heard to `out`:
+/// Runs a scene and writes what its whiskers feel that are heard to `out`:
 /// a recording for `host-sim train`, the air included. Its classifier, if any, is not
 /// used. `seed` takes the place of the scene's. `out` may be `-`, standard output.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene that is wrong, [`Error::Write`].
 pub fn record(
-    path: &Path,
+    scene: &SceneChoice,
     out: &Path,
     seed: Option<u64>,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
     check_or_stdout(out)?;
-    let mut scene = Scene::load(path)?;
+    let SceneChoice { file: path, set } = scene;
+    let (mut scene, _) = Scene::load_with(path, set)?;
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     scene.seed = seed.unwrap_or(scene.seed);
     let output = Output::create_or_stdout(out)?;

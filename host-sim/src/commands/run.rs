@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use scene::{Rule, Scene, Texture};
+use clap::Args;
+use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
+use super::choice::{SceneChoice, seed};
+use super::picture;
 use crate::bench::{self, Bench};
 use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
@@ -15,23 +18,50 @@ use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
 use crate::{Error, report};
 
-/// Runs the scene in `path`; writes `out/trace.csv`, `out/decisions.csv` where the scene
-/// classifies, and a picture of the left whisker to `plot`. Returns the score of the
-/// decisions, where there are any to score.
+/// What to run, and where to write.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Which scene
+    #[command(flatten)]
+    pub scene: SceneChoice,
+    /// Another seed than the scene's
+    #[arg(long, value_name = "N", value_parser = seed)]
+    pub seed: Option<u64>,
+    /// Where to write
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Where to write a picture of the left whisker's first ten seconds
+    #[arg(long, value_name = "FILE.svg", value_parser = picture)]
+    pub plot: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// A scene as its file has it, its files going to `out`.
+    pub fn of(scene: &Path, out: &Path) -> Self {
+        Self {
+            scene: scene.to_owned().into(),
+            seed: None,
+            out: out.to_owned(),
+            plot: None,
+        }
+    }
+}
+
+/// Runs a scene; writes `trace.csv`, `decisions.csv` where the scene classifies, and a
+/// picture of the left whisker. Returns the score of the decisions, where there are any to
+/// score.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene or model that is wrong, [`Error::Write`].
-pub fn run(
-    path: &Path,
-    out: &Path,
-    plot: Option<&Path>,
-    verbosity: Verbosity,
-) -> Result<Option<String>, Error> {
+pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<Option<String>, Error> {
+    let Arguments { out, .. } = arguments;
+    let plot = arguments.plot.as_deref();
     if is_stdout(out) {
         return Err(Error::file(out, "a run has several files; name a folder"));
     }
     plot.map_or(Ok(()), output::check)?;
-    let loaded = Loaded::new(path)?;
+    let mut loaded = Loaded::with(&arguments.scene)?;
+    loaded.scene.seed = arguments.seed.unwrap_or(loaded.scene.seed);
     let run = Run::new(&loaded.scene, loaded.classifier()?)?;
     let mut picture = plot.map(Output::create).transpose()?;
     let mut film = Film::default();
@@ -55,6 +85,7 @@ pub struct Loaded {
     /// The scene.
     pub scene: Scene,
     path: PathBuf,
+    places: Places,
     model: Option<(PathBuf, ModelBuf)>,
 }
 
@@ -64,19 +95,41 @@ impl Loaded {
     /// # Errors
     /// [`Error::Input`] for a scene or model that is wrong.
     pub fn new(path: &Path) -> Result<Self, Error> {
-        let scene = Scene::load(path)?;
-        plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
-        if let Some(caution) = plan::cautions(&scene) {
-            report::warn(Error::file(path, caution));
+        Self::with(&path.to_owned().into())
+    }
+
+    /// The same with keys in place of the file's.
+    ///
+    /// # Errors
+    /// As [`Loaded::new`].
+    pub fn with(SceneChoice { file, set }: &SceneChoice) -> Result<Self, Error> {
+        let loaded = Self::checked(file, set)?;
+        if let Some(caution) = loaded.caution() {
+            report::warn(caution);
         }
+        Ok(loaded)
+    }
+
+    /// What its user should know of the scene, though nothing is wrong with it.
+    pub(super) fn caution(&self) -> Option<String> {
+        let caution = plan::cautions(&self.scene)?;
+        Some(Error::file(&self.path, caution).to_string())
+    }
+
+    /// The same without its cautions.
+    pub(super) fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
+        let (scene, places) = Scene::load_with(path, set)?;
+        plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let model = scene
             .model_path(folder)
             .map(|path| files::load_model(&path))
-            .transpose()?;
+            .transpose()
+            .map_err(|fault| Error::Input(places.fault("classifier.model", fault)))?;
         Ok(Self {
             scene,
             path: path.to_owned(),
+            places,
             model,
         })
     }
@@ -86,24 +139,30 @@ impl Loaded {
     /// # Errors
     /// [`Error::Input`] if scene and model do not fit each other.
     pub fn classifier(&self) -> Result<Option<Classifier>, Error> {
-        let path = &self.path;
+        let refused = |key: &str, fault: String| Error::Input(self.places.fault(key, fault));
         let (Some(classifier), Some((model_path, model))) = (&self.scene.classifier, &self.model)
         else {
             return Ok(None);
         };
         let key = match classifier.rule {
-            Rule::Sequential { .. } => "threshold",
-            Rule::Window { .. } => "window",
+            Rule::Sequential { .. } => "classifier.threshold",
+            Rule::Window { .. } => "classifier.window",
         };
         let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
         let classifier = classifier.map_err(|fault| match fault {
-            Fault::Model(fault) => Error::file(model_path, fault),
-            Fault::Rule(fault) => Error::file(path, format!("classifier.{key}: {fault}")),
+            Fault::Model(fault) => {
+                let fault = Error::file(model_path, fault).to_string();
+                refused("classifier.model", fault)
+            }
+            Fault::Rule(fault) => refused(key, fault),
         })?;
         let gate = classifier.touch_rule().map(|touch| touch.gate);
-        plan::contact_min(&self.scene, gate).map_err(|fault| Error::file(path, fault))?;
+        plan::contact_min(&self.scene, gate).map_err(|fault| {
+            let place = self.places.of("classifier.contact_min");
+            Error::Input(format!("{place}: {fault}"))
+        })?;
         knows_a_texture(&self.scene, classifier.classes())
-            .map_err(|fault| Error::file(path, fault))?;
+            .map_err(|fault| refused("classifier.model", fault))?;
         Ok(Some(classifier))
     }
 
@@ -212,7 +271,7 @@ fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
         .map(|texture| texture.name())
         .collect();
     Err(format!(
-        "classifier.model: found the classes {}; the scene presents {}",
+        "found the classes {}; the scene presents {}",
         classes.join(", "),
         presented.join(", ")
     ))

@@ -1,19 +1,17 @@
 //! `host-sim score`: a scene over many seeds.
 
 use std::ops::Range;
-use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use clap::Args;
 use rayon::prelude::*;
 use scene::{Deciding, Rule, Scene};
 
 use crate::classifier::{Classifier, Fault};
+use crate::commands::choice::SceneChoice;
 use crate::commands::record;
 use crate::commands::train::{How, TrainedModel};
 use crate::evaluation::{Evaluation, Shown};
-use crate::progress::{Progress, Verbosity};
+use crate::progress::{SharedProgress, Verbosity};
 use crate::report::{OverRuns, SeedRange};
 use crate::scoring::{self, Scored};
 use crate::{Error, report};
@@ -21,8 +19,8 @@ use crate::{Error, report};
 /// What to score, and by which seeds.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The scene file
-    scene: PathBuf,
+    #[command(flatten)]
+    scene: SceneChoice,
     /// The seeds to score: from A to below B
     #[arg(long, value_name = "A..B", value_parser = seeds)]
     seeds: Range<u64>,
@@ -45,10 +43,9 @@ pub struct Arguments {
 /// [`Error::Input`] for a scene or option that is wrong, [`Error::Work`] if the runs
 /// do not fit the module.
 pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
-    let Arguments {
-        scene: path, seeds, ..
-    } = arguments;
-    let mut scene = Scene::load(path)?;
+    let Arguments { scene, seeds, .. } = arguments;
+    let SceneChoice { file: path, set } = scene;
+    let (mut scene, _) = Scene::load_with(path, set)?;
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     if let Some(caution) = plan::cautions(&scene) {
         report::warn(Error::file(path, caution));
@@ -141,33 +138,21 @@ fn runs(
     classifier: &Classifier,
     verbosity: Verbosity,
 ) -> Result<Vec<Scored>, Error> {
-    /// Ticks that a run counts before it tells them.
-    const TOLD: u64 = 1024;
     let all = scene.ticks().saturating_mul(seeds.end - seeds.start);
-    let progress = Mutex::new(Progress::new(verbosity, "scoring", all));
-    let done = AtomicU64::new(0);
+    let progress = SharedProgress::new(verbosity, "scoring", all);
     let seeds: Vec<u64> = seeds.clone().collect();
     let scored = |seed: &u64| {
         let scene = Scene {
             seed: *seed,
             ..scene.clone()
         };
-        let mut ticks = 0;
-        scoring::run(&scene, classifier.clone(), || {
-            ticks += 1;
-            if ticks % TOLD == 0 {
-                let done = done.fetch_add(TOLD, Ordering::Relaxed) + TOLD;
-                if let Ok(mut progress) = progress.lock() {
-                    progress.set(done);
-                }
-            }
-        })
+        scoring::run(&scene, classifier.clone(), progress.counter())
     };
     seeds.par_iter().map(scored).collect()
 }
 
 /// A range of seeds, A..B, with at least one in it and no more than a million.
-fn seeds(text: &str) -> Result<Range<u64>, String> {
+pub(super) fn seeds(text: &str) -> Result<Range<u64>, String> {
     let ends = text.split_once("..");
     let ends = ends.and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
     let (first, end) = ends.ok_or("allowed: A..B, two whole numbers")?;

@@ -230,11 +230,12 @@ fn record_writes_what_the_classifier_would_get() {
 fn help_names_every_command_and_option() {
     let place = Place::new();
     let help = |line: &str| place.done(line).stdout;
-    for word in "run record train classify evaluate score --quiet status".split(' ') {
+    for word in "run record train classify evaluate score sweep --quiet status".split(' ') {
         assert!(help("--help").contains(word), "{word}");
     }
     for (command, options) in [
-        ("run", "<SCENE> --out --plot"),
+        ("run", "<SCENE> --set --seed --out --plot"),
+        ("sweep", "<SCENE> --set --key --seeds --out"),
         (
             "train",
             "--data --out --rate --unknown --plot --tables --bins --smooth --block --gate --gap \

@@ -189,7 +189,7 @@ fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
         "other.toml",
         text.replace("contact_min = 0.2", "contact_min = 0.05"),
     );
-    let naming = ["other.toml: classifier.contact_min", "found 0.05", "0.2"];
+    let naming = ["other.toml:29: classifier.contact_min", "found 0.05", "0.2"];
     place.refuses_to_write("run other.toml", &naming);
 
     // Without a word the scene's classifier takes the model's; `score` trains by the scene's.

@@ -13,3 +13,4 @@ mod refuses_arguments;
 mod refuses_models;
 mod refuses_recordings;
 mod refuses_scenes;
+mod settings;

@@ -29,7 +29,10 @@ fn a_valid_model_is_taken() {
 #[test]
 fn files_that_are_no_model() {
     let place = place();
-    place.refuses_to_write("run s.toml", &["the.model: "]);
+    let naming = ["s.toml:27: classifier.model: the.model: "];
+    place.refuses_to_write("run s.toml", &naming);
+    let other = ["--set classifier.model=other: classifier.model: other: "];
+    place.refuses_to_write("run s.toml --set classifier.model=other", &other);
     place.refuses_to_write(CLASSIFY, &["the.model: "]);
     refused_by_both(b"", "cut short");
     refused_by_both(RECORDING.as_bytes(), "not a likelihood model");
@@ -71,7 +74,10 @@ fn models_for_something_else() {
     let other = TEXTURED.replace("[\"smooth\", \"carpet\"]", "[\"p600\", \"p240\"]");
     place.write("s.toml", format!("{other}{SEQUENTIAL}"));
     place.write("the.model", model(2, 20, true));
-    let naming = ["s.toml: classifier.model", "smooth, carpet", "p600, p240"];
+    let naming = [
+        "s.toml:27: classifier.model: found the classes smooth, carpet",
+        "p600, p240",
+    ];
     place.refuses_to_write("run s.toml", &naming);
     // Trained on real numbers: good for recordings of such, not for a sensor.
     let place = self::place();

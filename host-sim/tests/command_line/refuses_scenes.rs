@@ -75,7 +75,7 @@ fn classifiers_that_cannot_be() {
     // The file allows it, but it is nearer to 1 than evidence is counted.
     refuses(
         scene.replace("threshold = 0.9", "threshold = 0.9999999999999"),
-        &["s.toml: classifier.threshold", "1 - 1e-12"],
+        &["s.toml:28: classifier.threshold", "1 - 1e-12"],
     );
 
     let window = |samples: &str| {
@@ -86,7 +86,7 @@ fn classifiers_that_cannot_be() {
     refuses(window("0"), &["classifier.window: found 0"]);
     refuses(
         window("30"),
-        &["s.toml: classifier.window", "30", "block of 20"],
+        &["s.toml:28: classifier.window", "30", "block of 20"],
     );
     refuses(scene.replace("sequential", "window"), &["window"]);
 }

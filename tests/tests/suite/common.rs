@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use acceptance::claims::read_trace;
 use acceptance::reference::{Row, Settings};
-use host_sim::commands;
+use host_sim::commands::run::{self, Arguments};
 use host_sim::progress::Verbosity;
 
 /// The scene file that says the same as `settings`.
@@ -59,7 +59,8 @@ fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, scene).unwrap();
-    commands::run::run(&path, folder.path(), None, Verbosity::Quiet).unwrap();
+    let arguments = Arguments::of(&path, folder.path());
+    run::run(&arguments, Verbosity::Quiet).unwrap();
     let text = std::fs::read_to_string(folder.path().join("trace.csv")).unwrap();
     read_trace(&text).unwrap()
 }

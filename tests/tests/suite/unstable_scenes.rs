@@ -6,7 +6,7 @@ use crate::common;
 use std::path::Path;
 
 use acceptance::reference::Settings;
-use host_sim::commands;
+use host_sim::commands::run::{self, Arguments};
 use host_sim::progress::Verbosity;
 
 /// Runs the reference scene at other rates; the refusal, if there is one.
@@ -21,7 +21,7 @@ fn refusal(frequency_hz: f64, tick_hz: f64, integrator: &str) -> Option<(u8, Str
     std::fs::write(&path, common::scene(&settings, integrator, 0.1)).unwrap();
     let out = folder.path().join("out");
     std::fs::create_dir(&out).unwrap();
-    let error = commands::run::run(&path, &out, None, Verbosity::Quiet).err()?;
+    let error = run::run(&Arguments::of(&path, &out), Verbosity::Quiet).err()?;
     assert!(is_empty(&out), "nothing is written");
     let name = path.display().to_string();
     let said = error.to_string();

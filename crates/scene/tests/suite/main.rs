@@ -3,6 +3,7 @@
 mod accepts;
 mod common;
 mod hardening;
+mod overrides;
 mod reference;
 mod refuses;
 mod relations;

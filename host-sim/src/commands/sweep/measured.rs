@@ -1,0 +1,122 @@
+//! What is measured of each run of a sweep, and its table.
+
+use firmware::Event;
+use scene::Scene;
+
+use crate::Error;
+use crate::bench::HostModule;
+use crate::decisions::{Decided, Score, Verdict};
+use crate::output::Output;
+use crate::run::Run;
+
+/// The figures of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Measured {
+    /// Decisions that are right, wrong and refused.
+    verdicts: [u64; 3],
+    /// Mean time of contact of a decision that was not refused, s; none without one.
+    decision_s: Option<f64>,
+    touches: u64,
+    faults: u64,
+    /// Root mean square of measured angle less setpoint, first whisker of each side, degrees;
+    /// none where nothing whisks.
+    tracking_deg: Option<f64>,
+}
+
+impl Measured {
+    /// Runs a scene to its end; `tick` is called after each.
+    pub(super) fn of(mut run: Run<dyn HostModule>, scene: &Scene, mut tick: impl FnMut()) -> Self {
+        let mut decided: Vec<Decided> = Vec::new();
+        let (mut touches, mut faults) = (0, 0);
+        let (mut squares, mut count) = (0.0, 0_u64);
+        for _ in 0..run.ticks() {
+            let row = run.tick();
+            decided.extend(run.decisions());
+            for event in run.events() {
+                match event {
+                    Event::Touch { .. } => touches += 1,
+                    Event::SensorLost(..) | Event::MotorFault(..) => faults += 1,
+                    _ => {}
+                }
+            }
+            let errors = row.theta_deg.into_iter().zip(row.angle_deg);
+            for (theta, angle) in errors.filter(|(theta, _)| !theta.is_nan()) {
+                squares += (angle - theta).powi(2);
+                count += 1;
+            }
+            tick();
+        }
+        let classes = run.classes();
+        let counted = |verdict| {
+            let is_it = |decided: &&Decided| decided.verdict(classes) == verdict;
+            decided.iter().filter(is_it).count() as u64
+        };
+        let samples = Score::new(classes, &decided).mean_samples();
+        Self {
+            verdicts: [Verdict::Right, Verdict::Wrong, Verdict::Refused].map(counted),
+            decision_s: samples.map(|samples| samples / f64::from(scene.tick_hz)),
+            touches,
+            faults,
+            tracking_deg: scene
+                .whisking
+                .is_some()
+                .then(|| (squares / count.max(1) as f64).sqrt()),
+        }
+    }
+
+    /// Share of wrong decisions among those that were not refused.
+    fn error_rate(&self) -> Option<f64> {
+        let [right, wrong, _] = self.verdicts;
+        let all = right + wrong;
+        (all > 0).then(|| wrong as f64 / all as f64)
+    }
+
+    /// In the order of [`COLUMNS`].
+    fn cells(&self) -> [String; 8] {
+        let [right, wrong, refused] = self.verdicts.map(|count| count.to_string());
+        let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:.6}"));
+        [
+            right,
+            wrong,
+            refused,
+            number(self.error_rate()),
+            number(self.decision_s),
+            self.touches.to_string(),
+            self.faults.to_string(),
+            number(self.tracking_deg),
+        ]
+    }
+}
+
+/// The columns after those of the keys and the seed.
+const COLUMNS: [&str; 8] = [
+    "right",
+    "wrong",
+    "refused",
+    "error_rate",
+    "decision_time_s",
+    "touches",
+    "faults",
+    "tracking_rms_deg",
+];
+
+/// Writes the table: of each run the values of the keys, its seed and its figures.
+pub(super) fn write<'r>(
+    output: Output,
+    keys: impl Iterator<Item = &'r str>,
+    rows: impl Iterator<Item = (&'r [String], u64, &'r Measured)>,
+) -> Result<(), Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let failed = |error: csv::Error| Error::Work(error.to_string());
+    let header = keys.chain(["seed"]).chain(COLUMNS);
+    table.write_record(header).map_err(failed)?;
+    for (values, seed, measured) in rows {
+        let values = values.iter().cloned();
+        let cells = values.chain([seed.to_string()]).chain(measured.cells());
+        table.write_record(cells).map_err(failed)?;
+    }
+    let bytes = table
+        .into_inner()
+        .map_err(|error| Error::Work(error.to_string()))?;
+    output.whole(&bytes)
+}

@@ -1,0 +1,170 @@
+//! Keys and seeds in place of the scene file's: `--set`, `--seed`, and `sweep` over them.
+
+use crate::common::{IDEAL, Place, SEQUENTIAL, TEXTURED, cells, decisions, model};
+
+fn classifying() -> Place {
+    let place = Place::with(&[("s.toml", &format!("{TEXTURED}{SEQUENTIAL}"))]);
+    place.write("the.model", model(2, 20, true));
+    place
+}
+
+#[test]
+fn a_run_is_as_if_the_file_said_so() {
+    let place = classifying();
+    let scene = place.text("s.toml");
+    let changed = scene
+        .replace("seed = 1", "seed = 7")
+        .replace("[80.0]", "[75.0]")
+        .replace("threshold = 0.9", "threshold = 0.8");
+    place.write("changed.toml", changed);
+    place.done("run changed.toml --out expected");
+    let set = "--set plant.obstacle_deg=[75.0] --set classifier.threshold=0.8";
+    place.done(&format!("run s.toml {set} --seed 7 --out found"));
+    place.done(&format!("run s.toml {set} --set seed=7 --out again"));
+    place.done("run s.toml --out plain");
+    for file in ["trace.csv", "decisions.csv"] {
+        let bytes = |folder: &str| place.bytes(&format!("{folder}/{file}"));
+        assert!(bytes("found") == bytes("expected"), "{file}");
+        assert!(bytes("again") == bytes("expected"), "{file}");
+        assert!(bytes("plain") != bytes("expected"), "{file}");
+    }
+    place.done("record changed.toml --out expected.csv");
+    place.done(&format!("record s.toml {set} --seed 7 --out found.csv"));
+    assert_eq!(place.text("found.csv"), place.text("expected.csv"));
+}
+
+#[test]
+fn keys_are_checked_as_in_the_file() {
+    let place = Place::with(&[("s.toml", IDEAL)]);
+    for (set, naming) in [
+        (
+            "--set rcp.gian=0.5",
+            &["--set rcp.gian=0.5: rcp.gian: unknown key", "`gain`"][..],
+        ),
+        ("--set wisking.noise=0.5", &["did you mean `whisking`?"]),
+        ("--set tick_hz=199", &["tick_hz: found 199", "from 200 to"]),
+        (
+            "--set whisking.integrator=eular",
+            &["did you mean \"euler\"?"],
+        ),
+        ("--set plant.kind=textured", &["plant.textures: missing"]),
+        ("--set rcp.gain", &["KEY=VALUE"]),
+        ("--set =1", &["KEY=VALUE"]),
+        ("--set seed=-1", &["seed: found -1"]),
+        ("--seed -1", &["--seed"]),
+        ("--seed 9223372036854775808", &["--seed", "whole number"]),
+        ("--seed 1.5", &["--seed"]),
+    ] {
+        place.refuses_to_write(&format!("run s.toml {set}"), naming);
+    }
+    // What the file says wrongly is told with its line beside it.
+    place.write("wrong.toml", IDEAL.replace("= 0.7", "= -0.7"));
+    let naming = ["wrong.toml:15: rcp.gain", "--set seed=-1: seed"];
+    place.refuses_to_write("run wrong.toml --set seed=-1", &naming);
+}
+
+#[test]
+fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
+    let place = classifying();
+    let axes = "--key plant.obstacle_deg=[75.0],[80.0] --key classifier.threshold=0.8,0.9";
+    let ran = place.run(&format!("sweep s.toml {axes} --seeds 3..5 --out sweep.csv"));
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(
+        ran.stderr
+            .contains("4 settings, 8 runs, 4 s of simulated time"),
+        "{ran:?}"
+    );
+    assert!(
+        ran.stdout.contains("sweep.csv: 8 runs of 4 settings"),
+        "{ran:?}"
+    );
+    let text = place.text("sweep.csv");
+    let rows = cells(&text);
+    assert_eq!(
+        rows[0].join(","),
+        "plant.obstacle_deg,classifier.threshold,seed,right,wrong,refused,error_rate,\
+         decision_time_s,touches,faults,tracking_rms_deg"
+    );
+    assert_eq!(rows.len(), 1 + 8);
+    let mut n = 0;
+    for obstacle in ["[75.0]", "[80.0]"] {
+        for threshold in ["0.8", "0.9"] {
+            for seed in ["3", "4"] {
+                n += 1;
+                let row = &rows[n];
+                assert_eq!(row[..3], [obstacle, threshold, seed]);
+                let set = format!(
+                    "--set plant.obstacle_deg={obstacle} --set classifier.threshold={threshold}"
+                );
+                place.done(&format!("run s.toml {set} --seed {seed} --out one"));
+                let decided = decisions(&place.text("one/decisions.csv"));
+                let right = decided.iter().filter(|d| d.is_right()).count();
+                assert_eq!(row[3], right.to_string());
+                assert_eq!(row[4], (decided.len() - right).to_string());
+                let samples: u32 = decided.iter().map(|d| d.samples).sum();
+                let mean = f64::from(samples) / decided.len() as f64 / 2000.0;
+                let found: f64 = row[7].parse().unwrap();
+                assert!((found - mean).abs() < 1e-6, "{found} {mean}");
+                assert_eq!(row[9], "0");
+                let tracking = tracking_rms_deg(&place.text("one/trace.csv"));
+                let found: f64 = row[10].parse().unwrap();
+                assert!((found - tracking).abs() < 2e-6, "{found} {tracking}");
+            }
+        }
+    }
+    assert!(rows[1..].iter().any(|row| row[3] != rows[1][3]), "{text}");
+
+    let piped = place.run(&format!("sweep s.toml {axes} --seeds 3..5 --quiet --out -"));
+    assert_eq!(piped.stdout, text);
+    place.run("sweep s.toml --out own.csv");
+    assert_eq!(
+        cells(&place.text("own.csv"))[1][0],
+        "1",
+        "the scene's own seed"
+    );
+}
+
+/// Of the left side, from the columns of a trace.
+fn tracking_rms_deg(trace: &str) -> f64 {
+    let rows = cells(trace);
+    let column = |name: &str| rows[0].iter().position(|title| *title == name).unwrap();
+    let (theta, angle) = (column("theta_left_deg"), column("angle_left_deg"));
+    let number = |cell: &str| cell.parse::<f64>().unwrap();
+    let errors = rows[1..]
+        .iter()
+        .map(|row| number(row[angle]) - number(row[theta]));
+    let squares: f64 = errors.map(|error| error * error).sum();
+    (squares / (rows.len() - 1) as f64).sqrt()
+}
+
+#[test]
+fn sweeps_that_cannot_be() {
+    let place = Place::with(&[("s.toml", IDEAL)]);
+    for (line, naming) in [
+        (
+            "--key rcp.gian=1,2",
+            &["--key rcp.gian=1: rcp.gian", "`gain`"][..],
+        ),
+        (
+            "--key rcp.gain=0.5,-1",
+            &["--key rcp.gain=-1: rcp.gain: found -1"],
+        ),
+        ("--key rcp.gain=1,,2", &["KEY=VALUE"]),
+        (
+            "--key rcp.gain=1 --key rcp.gain=2",
+            &["rcp.gain is given twice"],
+        ),
+        ("--key seed=1,2 --seeds 3..5", &["seed is given twice"]),
+        (
+            "--key rcp.gain=0.5,0.6 --seeds 0..600000",
+            &["more than 1000000"],
+        ),
+        ("--seeds 5", &["--seeds", "A..B"]),
+    ] {
+        place.refuses_to_write(&format!("sweep s.toml {line}"), naming);
+    }
+    place.refuses_to_write(
+        "sweep none.toml --key rcp.gain=1",
+        &["none.toml: cannot be read"],
+    );
+}
