@@ -1,0 +1,269 @@
+//! Reads and writes over an embedded-hal `SpiDevice`, one frame a transaction.
+
+use core::fmt;
+
+use embedded_hal::spi::SpiDevice;
+
+use crate::{
+    ChannelPair, Command, Config, ConversionStatus, DataType, FRAME_LEN, Field, OperatingMode,
+    Register, Reply, ReplyError, StatusFaults, SystemConfig, Temperature, Version, check,
+};
+
+/// Why there is no reading. `E` is the bus's own error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Error<E> {
+    /// The SPI peripheral or its chip select failed.
+    Bus(E),
+    /// Four bytes came, but not a reading.
+    Frame(ReplyError),
+    /// A setting was sent and does not read back. Likely cause: noise on SDI, or the sensor
+    /// restarted meanwhile.
+    NotWritten(Register),
+}
+
+impl<E> From<ReplyError> for Error<E> {
+    fn from(error: ReplyError) -> Error<E> {
+        Error::Frame(error)
+    }
+}
+
+// Bus errors are `Debug` by embedded-hal's contract and seldom more.
+impl<E: fmt::Debug> fmt::Display for Error<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Bus(error) => write!(f, "SPI bus: {error:?}"),
+            Error::Frame(error) => error.fmt(f),
+            Error::NotWritten(register) => write!(f, "{register:?} does not read back"),
+        }
+    }
+}
+
+impl<E: fmt::Debug> core::error::Error for Error<E> {}
+
+/// A sensor on an SPI bus set to [`SPI_MODE`](crate::SPI_MODE), clocked at no more than
+/// [`CLOCK_MAX_HZ`](crate::timing::CLOCK_MAX_HZ).
+///
+/// Before the first frame wait
+/// [`START_UP_WAIT_US`](crate::timing::START_UP_WAIT_US) after power-up.
+#[derive(Debug)]
+pub struct Tmag5170<SPI> {
+    spi: SPI,
+    /// What it was told last.
+    system: SystemConfig,
+}
+
+impl<SPI> Tmag5170<SPI> {
+    /// Takes the bus; sends nothing.
+    pub fn new(spi: SPI) -> Tmag5170<SPI> {
+        Tmag5170 {
+            spi,
+            system: SystemConfig::default(),
+        }
+    }
+
+    /// The bus, for a simulation that has the sensor behind it.
+    pub const fn spi_mut(&mut self) -> &mut SPI {
+        &mut self.spi
+    }
+
+    /// Gives the bus back.
+    pub fn release(self) -> SPI {
+        self.spi
+    }
+}
+
+impl<SPI: SpiDevice> Tmag5170<SPI> {
+    /// Sends a command and returns the four bytes that came meanwhile, without decoding them.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`] only.
+    pub fn exchange(&mut self, command: Command) -> Result<[u8; FRAME_LEN], Error<SPI::Error>> {
+        let mut bytes = command.bytes();
+        self.spi.transfer_in_place(&mut bytes).map_err(Error::Bus)?;
+        Ok(bytes)
+    }
+
+    /// Reads a register, whatever the status says; for replies that carry registers.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
+    pub fn read(&mut self, register: Register) -> Result<Reply, Error<SPI::Error>> {
+        let bytes = self.exchange(Command::read(register))?;
+        Ok(Reply::decode(&bytes)?)
+    }
+
+    /// Writes a register. Four check bits let one garbled reply in 16 pass: what matters is
+    /// to be read back, as [`configure`](Tmag5170::configure) does.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole;
+    /// [`ReplyError::Rejected`] if the sensor has not written it.
+    pub fn write(&mut self, register: Register, value: u16) -> Result<(), Error<SPI::Error>> {
+        let bytes = self.exchange(Command::write(register, value))?;
+        Ok(check(&bytes)?)
+    }
+
+    /// Writes all settings, and reads each back. Leaves the sensor as `config` has it: in its
+    /// operating mode, with replies of its data type. Returns what the sensor reported before;
+    /// after power-up that is [`StatusFaults::RESTARTED`].
+    ///
+    /// Wait [`START_MEASURING_US`](crate::timing::START_MEASURING_US) and a set of
+    /// conversions before the first reading.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], [`Error::Frame`], or [`Error::NotWritten`] with the first setting that
+    /// is not what it should be. The sensor is then in configuration mode or as it was.
+    pub fn configure(&mut self, config: Config) -> Result<StatusFaults, Error<SPI::Error>> {
+        // Its replies may be of any type, if the master has restarted and it has not.
+        self.write(Register::SystemConfig, SystemConfig::default().bits())?;
+        self.system = SystemConfig::default();
+        let before = self.faults()?;
+        let mut idle = config.device;
+        idle.mode = OperatingMode::Configuration;
+        let [x, y, z] = config.thresholds;
+        let settings = [
+            (Register::DeviceConfig, idle.bits()),
+            (Register::SensorConfig, config.sensor.bits()),
+            (Register::AlertConfig, config.alert.bits()),
+            (Register::XThresholds, x.bits()),
+            (Register::YThresholds, y.bits()),
+            (Register::ZThresholds, z.bits()),
+            // Last what makes it measure.
+            (Register::DeviceConfig, config.device.bits()),
+        ];
+        for (register, value) in settings {
+            self.set(register, value)?;
+        }
+        self.set_system(config.system)?;
+        Ok(before)
+    }
+
+    /// Writes a setting and reads it back.
+    fn set(&mut self, register: Register, value: u16) -> Result<(), Error<SPI::Error>> {
+        self.write(register, value)?;
+        if self.read(register)?.value == value {
+            Ok(())
+        } else {
+            Err(Error::NotWritten(register))
+        }
+    }
+
+    /// Writes the system's settings while replies carry registers. A new data type shows in
+    /// the second reply from now; its status tells it.
+    fn set_system(&mut self, system: SystemConfig) -> Result<(), Error<SPI::Error>> {
+        let register = Register::SystemConfig;
+        if system.data_type == DataType::Register {
+            self.set(register, system.bits())?;
+        } else {
+            self.write(register, system.bits())?;
+            let ask = Command::read(Register::DeviceConfig).and_tell_type();
+            check(&self.exchange(ask)?)?;
+            let told = ChannelPair::decode(&self.exchange(ask)?)?.status.count();
+            if told != system.data_type as u16 {
+                return Err(Error::NotWritten(register));
+            }
+        }
+        self.system = system;
+        Ok(())
+    }
+
+    /// The fields along X, Y and Z, in three frames; for replies that carry registers. An
+    /// axis that is not measured reads as 0.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::Restarted`] and
+    /// [`ReplyError::Sensor`].
+    pub fn fields(&mut self) -> Result<[Field; 3], Error<SPI::Error>> {
+        let mut axis = |register| -> Result<Field, Error<SPI::Error>> {
+            Ok(Field::new(self.read(register)?.trusted()?))
+        };
+        Ok([axis(Register::X)?, axis(Register::Y)?, axis(Register::Z)?])
+    }
+
+    /// Two channels in one frame, as the data type of the last
+    /// [`configure`](Tmag5170::configure) has them.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::OtherType`], which is what a
+    /// sensor that restarted gives, and [`ReplyError::Sensor`].
+    pub fn pair(&mut self) -> Result<ChannelPair, Error<SPI::Error>> {
+        let ask = Command::read(Register::DeviceConfig).and_tell_type();
+        let bytes = self.exchange(ask)?;
+        Ok(ChannelPair::decode(&bytes)?.trusted(self.system.data_type)?)
+    }
+
+    /// The temperature of the die; for replies that carry registers.
+    ///
+    /// # Errors
+    ///
+    /// As for [`fields`](Tmag5170::fields).
+    pub fn temperature(&mut self) -> Result<Temperature, Error<SPI::Error>> {
+        let reply = self.read(Register::Temperature)?;
+        Ok(Temperature::new(reply.trusted()?))
+    }
+
+    /// The sensor's word on its results, whatever its status; for replies that carry
+    /// registers.
+    ///
+    /// # Errors
+    ///
+    /// As for [`read`](Tmag5170::read).
+    pub fn conversion_status(&mut self) -> Result<ConversionStatus, Error<SPI::Error>> {
+        let reply = self.read(Register::ConversionStatus)?;
+        Ok(ConversionStatus::new(reply.value))
+    }
+
+    /// Starts a conversion, in the modes that wait for one and with
+    /// [`Trigger::Command`](crate::Trigger::Command).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
+    pub fn convert(&mut self) -> Result<(), Error<SPI::Error>> {
+        let mut command = Command::read(Register::DeviceConfig).and_convert();
+        command.tell_type = self.system.data_type != DataType::Register;
+        Ok(check(&self.exchange(command)?)?)
+    }
+
+    /// What the sensor reports about itself; [`StatusFaults::RESTARTED`] is cleared by that. With
+    /// replies that carry pairs it takes five frames more, and readings are let out
+    /// meanwhile.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Bus`], [`Error::Frame`] if a reply did not arrive whole, or
+    /// [`Error::NotWritten`] if replies carry registers still.
+    pub fn faults(&mut self) -> Result<StatusFaults, Error<SPI::Error>> {
+        let system = self.system;
+        if system.data_type != DataType::Register {
+            let registers = SystemConfig {
+                data_type: DataType::Register,
+                ..system
+            };
+            self.write(Register::SystemConfig, registers.bits())?;
+        }
+        let afe_status = self.read(Register::AfeStatus)?.value;
+        let sys_status = self.read(Register::SysStatus)?.value;
+        if system.data_type != DataType::Register {
+            self.set_system(system)?;
+        }
+        Ok(StatusFaults::new(afe_status, sys_status))
+    }
+
+    /// Which of the two parts it is; for replies that carry registers. `None` for a version
+    /// that is in no source.
+    ///
+    /// # Errors
+    ///
+    /// As for [`read`](Tmag5170::read).
+    pub fn version(&mut self) -> Result<Option<Version>, Error<SPI::Error>> {
+        Ok(Version::of(self.read(Register::TestConfig)?.value))
+    }
+}

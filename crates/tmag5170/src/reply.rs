@@ -1,0 +1,276 @@
+//! What comes back: status bits and a register, or two channels at once.
+//!
+//! | bits | 31..28 | 27..24 | 23..20 | 19..16 | 15..12 | 11..8 | 7..4 | 3..0 |
+//! |---|---|---|---|---|---|---|---|---|
+//! | register | S11..S8 | S7..S4 | value 15..12 | 11..8 | 7..4 | 3..0 | S3..S0 | CRC |
+//! | pair | S3..S0 | second 11..8 | second 7..4 | first 11..8 | first 7..4 | second 3..0 | first 3..0 | CRC |
+//!
+//! Certainty: every source agrees on the first row. The second is what TI's example code
+//! (2022) reads and what TI's forum confirms as the part's behaviour; the figure in data
+//! sheets up to 2021, which older drivers follow, has S3..S0 after the channels.
+
+use core::fmt;
+
+use crate::FRAME_LEN;
+use crate::config::DataType;
+use crate::crc::{self, crc4};
+use crate::value::Field;
+
+/// The status bits of a reply: twelve with a register, the lowest four with a pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Status(u16);
+
+impl Status {
+    /// S11: the command before this one came with wrong check bits.
+    pub const PREVIOUS_CRC: Status = Status(0x800);
+    /// S10: the sensor has restarted, and AFE_STATUS has not been read since.
+    pub const RESTARTED: Status = Status(0x400);
+    /// S9: a bit of SYS_STATUS is set. TI's forum and Kharim234's decoder; light655's library
+    /// has S9 and S8 the other way round.
+    pub const SYSTEM: Status = Status(0x200);
+    /// S8: a bit of AFE_STATUS is set, other than the one of a restart.
+    pub const AFE: Status = Status(0x100);
+    /// S3: some fault.
+    pub const ERROR: Status = Status(0x008);
+
+    /// From its bits, of which the upper four do not count. Bits 7 to 4 tell of X, Y, Z and
+    /// the temperature; sources disagree on what (new in this conversion, or beyond a
+    /// threshold), and nothing here uses them.
+    #[inline]
+    pub const fn new(bits: u16) -> Status {
+        Status(bits & 0x0FFF)
+    }
+
+    /// Its bits.
+    #[inline]
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+
+    /// Whether every bit of `other` is set.
+    #[inline]
+    pub const fn contains(self, other: Status) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// S2..S0, 0..=7: how many sets have been converted, or the [`DataType`], as the command
+    /// before asked.
+    #[inline]
+    pub const fn count(self) -> u16 {
+        self.0 & 0x007
+    }
+}
+
+/// Why a reply is no reading. In the order in which they are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ReplyError {
+    /// All bits one. Likely cause: no sensor, no supply, or a cut wire, on a line with a
+    /// pull-up.
+    NoSensor,
+    /// All bits zero. Likely cause: the same on a line without one, or SDO shorted.
+    LineLow,
+    /// The last bit alone is wrong: the sensor has found wrong check bits in the command,
+    /// and has not obeyed it. Likely cause: noise on SDI or SCK, a clock too fast.
+    Rejected,
+    /// The check bits are wrong. Likely cause: noise on SDO or SCK, a clock too fast.
+    BadCrc {
+        /// What the frame wants.
+        expected: u8,
+        /// What it has.
+        found: u8,
+    },
+    /// The sensor has restarted: its settings are gone. Likely cause: a supply that broke
+    /// down. Configure it again.
+    Restarted,
+    /// The sensor reports a fault; [`Tmag5170::faults`](crate::Tmag5170::faults) has which.
+    Sensor(Status),
+    /// A pair of another data type than the one asked for; 0 is a register. Likely cause:
+    /// the sensor has restarted, or was never configured.
+    OtherType(u16),
+}
+
+impl fmt::Display for ReplyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ReplyError::NoSensor => f.write_str("no sensor: all bits one"),
+            ReplyError::LineLow => f.write_str("data line stuck low: all bits zero"),
+            ReplyError::Rejected => f.write_str("the sensor found a wrong CRC in the command"),
+            ReplyError::BadCrc { expected, found } => {
+                write!(f, "bad CRC: {found:#03x}, expected {expected:#03x}")
+            }
+            ReplyError::Restarted => f.write_str("the sensor has restarted"),
+            ReplyError::Sensor(status) => {
+                write!(
+                    f,
+                    "the sensor reports a fault: status {:#05x}",
+                    status.bits()
+                )
+            }
+            ReplyError::OtherType(found) => write!(f, "data of another type: {found}"),
+        }
+    }
+}
+
+impl core::error::Error for ReplyError {}
+
+/// Whether a reply arrived whole, of whatever layout.
+///
+/// A single wrong bit that the check bits place as the last one reads as
+/// [`ReplyError::Rejected`] instead of [`ReplyError::BadCrc`]: three of the 32 do.
+///
+/// # Errors
+/// The first four of [`ReplyError`], in their order.
+#[inline]
+pub const fn check(bytes: &[u8; FRAME_LEN]) -> Result<(), ReplyError> {
+    match u32::from_be_bytes(*bytes) {
+        u32::MAX => return Err(ReplyError::NoSensor),
+        0 => return Err(ReplyError::LineLow),
+        _ => {}
+    }
+    let [expected, found] = [crc4(bytes), crc::found(*bytes)];
+    match expected ^ found {
+        0 => Ok(()),
+        1 => Err(ReplyError::Rejected),
+        _ => Err(ReplyError::BadCrc { expected, found }),
+    }
+}
+
+/// A reply that carries a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Reply {
+    /// All twelve status bits.
+    pub status: Status,
+    /// What the register holds; 0 where the command wrote one.
+    pub value: u16,
+}
+
+impl Reply {
+    /// Decodes a reply, whatever its status says. Any four bytes give an answer.
+    ///
+    /// # Errors
+    /// As [`check`].
+    #[inline]
+    pub const fn decode(bytes: &[u8; FRAME_LEN]) -> Result<Reply, ReplyError> {
+        if let Err(error) = check(bytes) {
+            return Err(error);
+        }
+        let [first, high, low, last] = *bytes;
+        Ok(Reply {
+            status: Status::new(((first as u16) << 4) | (last >> 4) as u16),
+            value: u16::from_be_bytes([high, low]),
+        })
+    }
+
+    /// The value, if the status has no fault.
+    ///
+    /// # Errors
+    /// [`ReplyError::Restarted`] or [`ReplyError::Sensor`]. That an earlier command was
+    /// rejected is none: it was told then.
+    #[inline]
+    pub const fn trusted(self) -> Result<u16, ReplyError> {
+        if self.status.contains(Status::RESTARTED) {
+            Err(ReplyError::Restarted)
+        } else if self.status.contains(Status::ERROR) {
+            Err(ReplyError::Sensor(self.status))
+        } else {
+            Ok(self.value)
+        }
+    }
+}
+
+/// A reply that carries two channels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ChannelPair {
+    /// The lowest four status bits.
+    pub status: Status,
+    /// The first channel of the [`DataType`], twelve bits.
+    pub first: u16,
+    /// The second.
+    pub second: u16,
+}
+
+impl ChannelPair {
+    /// Decodes a reply, whatever its status says. Any four bytes give an answer; a register
+    /// in the other layout is not told from a pair.
+    ///
+    /// # Errors
+    /// As [`check`].
+    #[inline]
+    pub const fn decode(bytes: &[u8; FRAME_LEN]) -> Result<ChannelPair, ReplyError> {
+        if let Err(error) = check(bytes) {
+            return Err(error);
+        }
+        let [b0, b1, b2, b3] = [
+            bytes[0] as u16,
+            bytes[1] as u16,
+            bytes[2] as u16,
+            bytes[3] as u16,
+        ];
+        Ok(ChannelPair {
+            status: Status::new(b0 >> 4),
+            first: ((b1 & 0x0F) << 8) | (b2 & 0xF0) | (b3 >> 4),
+            second: ((b0 & 0x0F) << 8) | (b1 & 0xF0) | (b2 & 0x0F),
+        })
+    }
+
+    /// The same, if it is of the type that its status tells and the status has no fault.
+    ///
+    /// A sensor that restarted sends registers again, with a status that reads as a type of
+    /// four or more: so [`DataType::Xy`], [`DataType::Xz`] and [`DataType::Zy`] are never
+    /// taken for it.
+    ///
+    /// # Errors
+    /// [`ReplyError::OtherType`] or [`ReplyError::Sensor`].
+    #[inline]
+    pub const fn trusted(self, expected: DataType) -> Result<ChannelPair, ReplyError> {
+        if self.status.count() != expected as u16 {
+            Err(ReplyError::OtherType(self.status.count()))
+        } else if self.status.contains(Status::ERROR) {
+            Err(ReplyError::Sensor(self.status))
+        } else {
+            Ok(self)
+        }
+    }
+
+    /// Both channels as fields, for the types of two axes.
+    #[inline]
+    pub const fn fields(self) -> [Field; 2] {
+        [Field::from_12(self.first), Field::from_12(self.second)]
+    }
+}
+
+/// What [`ConversionStatus`](crate::Register::ConversionStatus) holds: the sensor's word on
+/// its results.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ConversionStatus(u16);
+
+impl ConversionStatus {
+    /// From the bits of the register.
+    pub const fn new(register: u16) -> ConversionStatus {
+        ConversionStatus(register)
+    }
+
+    /// RDY: a set of conversions is complete.
+    pub const fn ready(self) -> bool {
+        self.0 & 0x2000 != 0
+    }
+
+    /// X, Y and Z: the axis is of the newest set.
+    pub const fn new_axes(self) -> [bool; 3] {
+        [
+            self.0 & 0x0100 != 0,
+            self.0 & 0x0200 != 0,
+            self.0 & 0x0400 != 0,
+        ]
+    }
+
+    /// SET_COUNT: sets converted, modulo 8.
+    pub const fn count(self) -> u16 {
+        (self.0 & 0x0070) >> 4
+    }
+}

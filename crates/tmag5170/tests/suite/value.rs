@@ -1,0 +1,82 @@
+//! Results against values that others compute.
+
+use proptest::prelude::*;
+use tmag5170::{Angle, Field, Range, Temperature, Version};
+
+#[test]
+fn fields_of_kharims_tests() {
+    // Kharim234's decoder, test_convert_raw_magnetic_field_to_miliTeslas: ±150 mT.
+    for (code, mt) in [
+        (0_i16, 0.0),
+        (32767, 149.995_42),
+        (-32768, -150.0),
+        (16000, 73.242_19),
+        (-16000, -73.242_19),
+    ] {
+        let field = Field::new(code as u16);
+        assert_eq!(field.code(), code);
+        assert!((field.mt(150.0) - mt).abs() < 2e-5, "{code}");
+    }
+}
+
+#[test]
+fn temperatures_of_kharims_tests() {
+    for (code, celsius) in [
+        (0, -267.033_33),
+        (17522, 25.0),
+        (20522, 75.0),
+        (13622, -40.0),
+        (65535, 825.216_7),
+    ] {
+        let temperature = Temperature::new(code);
+        assert_eq!(temperature.code(), code);
+        assert!((temperature.celsius() - celsius).abs() < 1e-4, "{code}");
+    }
+    assert_eq!(Temperature::from_12(0x447), Temperature::new(0x4470));
+}
+
+#[test]
+fn angles_of_the_data_sheet() {
+    // SLYS035A's examples for the same format.
+    assert_eq!(Angle::new(0b0001_0110_0010_1000).degrees(), 354.5);
+    assert_eq!(Angle::new(0b0000_0001_0001_0100).degrees(), 17.25);
+    assert_eq!(Angle::new(0xE114), Angle::new(0x0114));
+    assert_eq!(Angle::from_12(0b1011_0001_0100).degrees(), 354.5);
+}
+
+#[test]
+fn ranges_of_both_parts() {
+    let a1 = [50.0, 25.0, 100.0];
+    for (range, mt) in Range::ALL.iter().zip(a1) {
+        assert_eq!(range.full_scale_mt(Version::A1), mt);
+        assert_eq!(range.full_scale_mt(Version::A2), 3.0 * mt);
+    }
+}
+
+#[test]
+fn a_field_beyond_the_range_is_limited() {
+    assert_eq!(Field::from_mt(30.0, 25.0).code(), i16::MAX);
+    assert_eq!(Field::from_mt(f32::NEG_INFINITY, 25.0).code(), i16::MIN);
+    assert_eq!(Field::from_mt(f32::NAN, 25.0).code(), 0);
+}
+
+proptest! {
+    #[test]
+    fn codes_come_back(code: i16) {
+        let field = Field::new(code as u16);
+        prop_assert_eq!(Field::from_mt(field.mt(25.0), 25.0), field);
+        prop_assert_eq!(Field::from_12((code as u16) >> 4).code(), code & !0xF);
+    }
+
+    #[test]
+    fn temperatures_come_back(code: u16) {
+        let temperature = Temperature::new(code);
+        prop_assert_eq!(Temperature::from_celsius(temperature.celsius()), temperature);
+    }
+
+    #[test]
+    fn a_field_is_met_within_half_a_code(mt in -25.0_f32..24.99) {
+        let met = Field::from_mt(mt, 25.0).mt(25.0);
+        prop_assert!((met - mt).abs() <= 0.5001 * 25.0 / 32_768.0);
+    }
+}
