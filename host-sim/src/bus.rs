@@ -16,19 +16,19 @@
 //! - *wire fault*: what happens to the frame on its way ([`WireFault`]).
 //!
 //! No time passes on this bus: delays are accepted and added up.
+//!
+//! The other sensor has its own: [`tmag5170`].
 
-use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
+pub mod tmag5170;
+mod wire;
+
+use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use mlx90333::{FRAME_LEN, Faults, Mode, SumRule, Word, encode};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
+use wire::{Injected, RELEASED};
 
-/// What a line reads when nobody pulls it low.
-const RELEASED: u8 = 0xFF;
-
-/// What the master sends where embedded-hal leaves it open (reads, and a
-/// transfer whose answer is longer than what it sends). Zero is the value that
-/// a driver for this sensor must not rely on.
-const FILLER: u8 = 0x00;
+pub use wire::{SimSpiError, Traffic};
 
 /// What happens to frames on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -58,17 +58,6 @@ pub enum WireFault {
     Frozen,
     /// Alpha arrives this far off, modulo 65,536, under a good sum.
     Shift(u16),
-}
-
-/// What has gone over a bus since its slave was made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Traffic {
-    /// Times that /SS went low, failed transactions included.
-    pub transactions: u64,
-    /// Bytes clocked.
-    pub bytes: u64,
-    /// Sum of the delays asked for inside transactions, nanoseconds.
-    pub delay_ns: u64,
 }
 
 /// Random disturbances, each drawn once a frame.
@@ -106,8 +95,7 @@ pub struct Slave {
     sent: [Word; 3],
     is_noisy: bool,
     error_word: Faults,
-    standing: Option<WireFault>,
-    passing: Option<(WireFault, u32)>,
+    injected: Injected<WireFault>,
     disturbance: Option<Disturbance>,
     traffic: Traffic,
 }
@@ -128,8 +116,7 @@ impl Slave {
             sent: [Word::MID; 3],
             is_noisy: true,
             error_word: Faults::NONE,
-            standing: None,
-            passing: None,
+            injected: Injected::NONE,
             disturbance: None,
             traffic: Traffic::default(),
         }
@@ -159,12 +146,12 @@ impl Slave {
     /// A wire fault in every frame from now on; `None` mends it. It takes
     /// precedence over [`Slave::inject`], and that over [`Slave::disturb`].
     pub const fn set_fault(&mut self, fault: Option<WireFault>) {
-        self.standing = fault;
+        self.injected.stand(fault);
     }
 
     /// A wire fault in the next `frames` frames; replaces what is left of the last.
     pub fn inject(&mut self, fault: WireFault, frames: u32) {
-        self.passing = (frames > 0).then_some((fault, frames));
+        self.injected.pass(fault, frames);
     }
 
     /// From now on each frame is lost with probability `lost`, else has one bit
@@ -214,11 +201,7 @@ impl Slave {
     fn latch(&mut self) -> ([u8; FRAME_LEN], Option<WireFault>) {
         self.traffic.transactions = self.traffic.transactions.saturating_add(1);
         let by_chance = self.disturbance.as_mut().and_then(Disturbance::draw);
-        let passing = self.passing.map(|(fault, _)| fault);
-        self.passing = self
-            .passing
-            .and_then(|(fault, left)| Some((fault, left.checked_sub(1).filter(|&n| n > 0)?)));
-        let fault = self.standing.or(passing).or(by_chance);
+        let fault = self.injected.next().or(by_chance);
         self.measure(fault);
         (self.frame(fault), fault)
     }
@@ -277,17 +260,6 @@ impl Default for Slave {
     }
 }
 
-/// The bus controller failed, as by [`WireFault::Bus`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("simulated bus error")]
-pub struct SimSpiError;
-
-impl embedded_hal::spi::Error for SimSpiError {
-    fn kind(&self) -> ErrorKind {
-        ErrorKind::Other
-    }
-}
-
 /// One transaction: the frame latched at its start, byte by byte.
 #[derive(Debug)]
 pub struct Exchange {
@@ -326,15 +298,6 @@ impl Exchange {
     pub const fn bytes(&self) -> u64 {
         self.bytes
     }
-
-    fn transfer(&mut self, read: &mut [u8], write: &[u8]) {
-        for i in 0..read.len().max(write.len()) {
-            let received = self.byte(write.get(i).copied().unwrap_or(FILLER));
-            if let Some(slot) = read.get_mut(i) {
-                *slot = received;
-            }
-        }
-    }
 }
 
 impl ErrorType for Slave {
@@ -348,23 +311,7 @@ impl SpiDevice for Slave {
             return Err(SimSpiError);
         }
         let mut exchange = Exchange::new(frame, fault);
-        let mut delay_ns = 0_u64;
-        for operation in operations {
-            match operation {
-                Operation::Read(buffer) => exchange.transfer(buffer, &[]),
-                Operation::Write(bytes) => exchange.transfer(&mut [], bytes),
-                Operation::Transfer(read, write) => exchange.transfer(read, write),
-                Operation::TransferInPlace(buffer) => {
-                    for byte in buffer.iter_mut() {
-                        *byte = exchange.byte(*byte);
-                    }
-                }
-                Operation::DelayNs(ns) => delay_ns = delay_ns.saturating_add(u64::from(*ns)),
-            }
-        }
-        let traffic = &mut self.traffic;
-        traffic.bytes = traffic.bytes.saturating_add(exchange.bytes);
-        traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
+        wire::clock(operations, &mut self.traffic, |sent| exchange.byte(sent));
         Ok(())
     }
 }

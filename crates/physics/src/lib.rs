@@ -45,6 +45,7 @@ mod beam;
 mod compliance;
 mod contact;
 mod error;
+mod magnet;
 mod modal;
 mod noise;
 mod pose;
@@ -60,6 +61,7 @@ mod whiskers;
 
 pub use beam::{BendingMode, Modes};
 pub use error::BadSetting;
+pub use magnet::Magnet;
 pub use noise::{Noise, box_muller};
 pub use pose::{Plate, Pose};
 pub use resonator::{Propagator, Resonator};

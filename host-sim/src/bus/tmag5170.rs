@@ -1,0 +1,405 @@
+//! A mock SPI bus with a TMAG5170 on it that speaks the wire format.
+//!
+//! Glossary:
+//!
+//! - *slave*: the sensor on the bus ([`TmagSlave`]), with its registers;
+//! - *conversion*: at the falling edge of /CS a sensor that measures takes the field of that
+//!   moment, if it is a new one; a frame never mixes two of them;
+//! - *report*: the status registers, from what stands ([`TmagSlave::set_report`]) and what
+//!   happened since they were read;
+//! - *line fault*: what happens to frames on their way ([`LineFault`]).
+//!
+//! As the part does, the slave checks the CRC of every command, obeys none that is wrong or
+//! has not 32 clocks, and inverts the last bit of its reply to a wrong one. The one difference
+//! on the wire: it judges the whole command before it sends that bit, where the part has not
+//! seen the last bit yet. No time passes here.
+
+use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
+use tmag5170::{
+    Access, Average, Channels, Command, DataType, FRAME_LEN, Field, OperatingMode, Range, Register,
+    Status, StatusFaults, Temperature, Trigger, Version, crc4, encode,
+};
+
+use super::wire::{self, Injected, RELEASED, SimSpiError, Traffic};
+
+/// What happens to frames on the wire.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum LineFault {
+    /// The sensor neither hears nor answers, on a line with a pull-up: all bytes 0xFF. A cut
+    /// wire, a lost /CS and a sensor without supply look alike.
+    Silent,
+    /// SDO is held low: all bytes 0x00. The sensor hears.
+    SdoLow,
+    /// SDI is held low: the sensor hears zeros.
+    SdiLow,
+    /// The bus controller reports an error; nothing is sent or read.
+    Bus,
+    /// One bit of the reply arrives inverted: 0 is the first on the wire, 31 the last. Others
+    /// change nothing.
+    FlipReply(u8),
+    /// One bit of the command arrives inverted, counted alike.
+    FlipCommand(u8),
+    /// The clocks of the last byte do not reach the sensor.
+    ShortFrame,
+    /// The sensor converts no more: its results stay those of the start of the fault.
+    Frozen,
+}
+
+/// A sensor, and the wire to it: an [`SpiDevice`].
+///
+/// A new one has just been powered up, in a field of zero at 25 °C and without fault.
+#[derive(Debug, Clone)]
+pub struct TmagSlave {
+    registers: [u16; Register::ALL.len()],
+    version: Version,
+    field_mt: [f64; 3],
+    celsius: f64,
+    /// Field, temperature or settings are new since the last conversion.
+    due: bool,
+    /// Sets converted.
+    sets: u16,
+    standing: StatusFaults,
+    happened: StatusFaults,
+    /// The command before was wrong.
+    refused: bool,
+    /// S2..S0 of the next reply tell the data type.
+    tell_type: bool,
+    injected: Injected<LineFault>,
+    traffic: Traffic,
+}
+
+impl TmagSlave {
+    /// A part of this version, just powered up.
+    pub fn new(version: Version) -> Self {
+        let mut slave = Self {
+            registers: [0; Register::ALL.len()],
+            version,
+            field_mt: [0.0; 3],
+            celsius: 25.0,
+            due: true,
+            sets: 0,
+            standing: StatusFaults::NONE,
+            happened: StatusFaults::NONE,
+            refused: false,
+            tell_type: false,
+            injected: Injected::NONE,
+            traffic: Traffic::default(),
+        };
+        slave.restart();
+        slave
+    }
+
+    /// A supply that breaks down and comes back: settings and results are gone.
+    pub fn restart(&mut self) {
+        self.registers = Register::ALL.map(Register::after_reset);
+        *self.at(Register::TestConfig) |= self.version.bits();
+        self.happened = StatusFaults::RESTARTED;
+        self.due = true;
+        self.sets = 0;
+        self.refused = false;
+        self.tell_type = false;
+    }
+
+    /// The field along X, Y and Z, mT; NaN reads as 0.
+    pub const fn set_field(&mut self, field_mt: [f64; 3]) {
+        self.field_mt = field_mt;
+        self.due = true;
+    }
+
+    /// The temperature of the die, °C.
+    pub const fn set_celsius(&mut self, celsius: f64) {
+        self.celsius = celsius;
+        self.due = true;
+    }
+
+    /// What the sensor reports about itself from now on.
+    pub const fn set_report(&mut self, faults: StatusFaults) {
+        self.standing = faults;
+    }
+
+    /// A line fault in every frame from now on; `None` mends it. It takes precedence over
+    /// [`TmagSlave::inject`].
+    pub const fn set_fault(&mut self, fault: Option<LineFault>) {
+        self.injected.stand(fault);
+    }
+
+    /// A line fault in the next `frames` frames; replaces what is left of the last.
+    pub fn inject(&mut self, fault: LineFault, frames: u32) {
+        self.injected.pass(fault, frames);
+    }
+
+    /// What a register holds, without reading it over the wire.
+    pub fn register(&self, register: Register) -> u16 {
+        match register {
+            Register::AfeStatus => self.report().afe_status(),
+            Register::SysStatus => self.report().sys_status(),
+            _ => self.registers[usize::from(register.address())],
+        }
+    }
+
+    /// What has gone over the bus so far.
+    pub const fn traffic(&self) -> Traffic {
+        self.traffic
+    }
+
+    fn at(&mut self, register: Register) -> &mut u16 {
+        &mut self.registers[usize::from(register.address())]
+    }
+
+    fn report(&self) -> StatusFaults {
+        self.standing | self.happened
+    }
+
+    fn data_type(&self) -> DataType {
+        DataType::of(self.register(Register::SystemConfig)).unwrap_or_default()
+    }
+
+    /// Measures, if there is something new to measure.
+    fn convert(&mut self) {
+        if !self.due {
+            return;
+        }
+        let [device, sensor] =
+            [Register::DeviceConfig, Register::SensorConfig].map(|config| self.register(config));
+        let channels = Channels::of(sensor).unwrap_or_default();
+        // One conversion alone has twelve bits.
+        let resolved = match Average::of(device) {
+            Some(Average::X1) => !0xF,
+            _ => !0,
+        };
+        let results = [Register::X, Register::Y, Register::Z];
+        for (axis, register) in results.into_iter().enumerate() {
+            if channels.axes()[axis] {
+                let range = Range::of(sensor >> (2 * axis)).unwrap_or_default();
+                let full_scale = range.full_scale_mt(self.version);
+                let field = Field::from_mt(self.field_mt[axis] as f32, full_scale);
+                *self.at(register) = field.code() as u16 & resolved;
+                self.check_limits(axis, field);
+            }
+        }
+        if device & 0x0008 != 0 {
+            let temperature = Temperature::from_celsius(self.celsius as f32);
+            *self.at(Register::Temperature) = temperature.code();
+        }
+        self.sets = (self.sets + 1) % 8;
+        let axes = channels.axes().map(u16::from);
+        *self.at(Register::ConversionStatus) =
+            0x2000 | (axes[0] << 8) | (axes[1] << 9) | (axes[2] << 10) | (self.sets << 4);
+        self.due = false;
+    }
+
+    /// Notes a field beyond its thresholds, where they are watched.
+    fn check_limits(&mut self, axis: usize, field: Field) {
+        let beyond = [
+            StatusFaults::LIMIT_X,
+            StatusFaults::LIMIT_Y,
+            StatusFaults::LIMIT_Z,
+        ][axis];
+        let watched = self.register(Register::SystemConfig) & beyond.sys_status() != 0;
+        let thresholds = [
+            Register::XThresholds,
+            Register::YThresholds,
+            Register::ZThresholds,
+        ][axis];
+        let [high, low] = self
+            .register(thresholds)
+            .to_be_bytes()
+            .map(|byte| byte as i8);
+        let eighth = (field.code() >> 8) as i8;
+        if watched && (eighth > high || eighth < low) {
+            self.happened = self.happened | beyond;
+        }
+    }
+
+    /// The status bits of this moment.
+    fn status(&self) -> Status {
+        let report = self.report();
+        let afe = report.without(StatusFaults::RESTARTED).afe_status() != 0;
+        let sys = report.sys_status() != 0;
+        let bit = |set: bool, bit: Status| if set { bit.bits() } else { 0 };
+        let told = if self.tell_type {
+            self.data_type() as u16
+        } else {
+            self.sets
+        };
+        let bits = bit(self.refused, Status::PREVIOUS_CRC)
+            | bit(report.contains(StatusFaults::RESTARTED), Status::RESTARTED)
+            | bit(sys, Status::SYSTEM)
+            | bit(afe, Status::AFE)
+            | bit(afe || sys, Status::ERROR)
+            | told;
+        Status::new(bits)
+    }
+
+    /// The reply to a command, of which `heard` bytes have come; what depends on others is
+    /// not to be sent yet.
+    fn reply(&self, command: [u8; FRAME_LEN], heard: usize) -> [u8; FRAME_LEN] {
+        let status = self.status();
+        let of = |first, second: Register| {
+            let code = |register| self.register(register) >> 4;
+            encode::pair(status, code(first), code(second))
+        };
+        let reply = match self.data_type() {
+            DataType::Register => {
+                let [first, ..] = command;
+                let asked = Register::at(first & 0x7F).filter(|_| first & 0x80 != 0);
+                let value = asked.map_or(0, |register| self.register(register));
+                encode::register(status, value)
+            }
+            DataType::Xy => of(Register::X, Register::Y),
+            DataType::Xz => of(Register::X, Register::Z),
+            DataType::Zy => of(Register::Z, Register::Y),
+            DataType::Xt => of(Register::X, Register::Temperature),
+            DataType::Yt => of(Register::Y, Register::Temperature),
+            DataType::Zt => of(Register::Z, Register::Temperature),
+            DataType::AngleMagnitude => {
+                let [angle, magnitude] =
+                    [Register::Angle, Register::Magnitude].map(|result| self.register(result));
+                encode::pair(status, angle >> 1, magnitude >> 1)
+            }
+        };
+        if heard == FRAME_LEN && self.is_wrong(command) {
+            encode::rejecting(reply)
+        } else {
+            reply
+        }
+    }
+
+    /// Whether the check bits of a command are wrong, and are looked at.
+    fn is_wrong(&self, command: [u8; FRAME_LEN]) -> bool {
+        let [.., last] = command;
+        let checked = self.register(Register::TestConfig) & 0x0004 == 0;
+        checked && crc4(&command) != last & 0x0F
+    }
+
+    /// The rising edge of /CS after `clocked` bytes: the command, if it is one.
+    fn obey(&mut self, command: [u8; FRAME_LEN], clocked: usize) {
+        self.refused = false;
+        if clocked != FRAME_LEN {
+            self.happened = self.happened | StatusFaults::FRAME_LENGTH;
+            return;
+        }
+        if self.is_wrong(command) {
+            self.happened = self.happened | StatusFaults::FRAME_CRC;
+            self.refused = true;
+            return;
+        }
+        // Where the check bits are not looked at, they may be wrong.
+        let [b0, b1, b2, b3] = command;
+        let Ok(command) = Command::decode(&[b0, b1, b2, (b3 & 0xF0) | crc4(&command)]) else {
+            return;
+        };
+        self.tell_type = command.tell_type;
+        let replied_a_register = self.data_type() == DataType::Register;
+        match command.access {
+            Access::Write(register, value) => self.write(register, value),
+            Access::Read(register) if replied_a_register => self.clear(register),
+            Access::Read(_) => {}
+        }
+        let trigger = Trigger::of(self.register(Register::SystemConfig));
+        let waits = matches!(
+            OperatingMode::of(self.register(Register::DeviceConfig)),
+            Some(OperatingMode::Configuration | OperatingMode::Standby | OperatingMode::Triggered)
+        );
+        if command.convert && trigger == Some(Trigger::Command) && waits {
+            self.due = true;
+            self.convert();
+        }
+    }
+
+    /// Reading a status register forgets what happened.
+    fn clear(&mut self, register: Register) {
+        let read = match register {
+            Register::AfeStatus => StatusFaults::new(u16::MAX, 0),
+            Register::SysStatus => StatusFaults::new(0, u16::MAX),
+            _ => StatusFaults::NONE,
+        };
+        self.happened = self.happened.without(read);
+    }
+
+    fn write(&mut self, register: Register, value: u16) {
+        if register == Register::TestConfig {
+            let fixed = self.register(register) & !0x0007;
+            *self.at(register) = fixed | (value & 0x0007);
+        } else if register.is_setting() {
+            *self.at(register) = value;
+        }
+        self.due = true;
+    }
+}
+
+/// One transaction, byte by byte.
+struct Frame {
+    /// What the sensor has heard.
+    command: [u8; FRAME_LEN],
+    heard: usize,
+    clocked: usize,
+    fault: Option<LineFault>,
+}
+
+impl Frame {
+    /// Eight clocks: what the master reads while it sends a byte.
+    fn byte(&mut self, slave: &TmagSlave, sent: u8) -> u8 {
+        let at = self.clocked;
+        self.clocked += 1;
+        let inverted = |bit: u8| {
+            let here = usize::from(bit / 8) == at;
+            if here { 0x80 >> (bit % 8) } else { 0 }
+        };
+        match self.fault {
+            Some(LineFault::Silent) => return RELEASED,
+            Some(LineFault::ShortFrame) if at + 1 == FRAME_LEN => return RELEASED,
+            _ => {}
+        }
+        let heard = match self.fault {
+            Some(LineFault::SdiLow) => 0,
+            Some(LineFault::FlipCommand(bit)) => sent ^ inverted(bit),
+            _ => sent,
+        };
+        self.heard += 1;
+        let Some(slot) = self.command.get_mut(at) else {
+            return RELEASED;
+        };
+        *slot = heard;
+        let answer = slave.reply(self.command, self.heard)[at];
+        match self.fault {
+            Some(LineFault::SdoLow) => 0,
+            Some(LineFault::FlipReply(bit)) => answer ^ inverted(bit),
+            _ => answer,
+        }
+    }
+}
+
+impl ErrorType for TmagSlave {
+    type Error = SimSpiError;
+}
+
+impl SpiDevice for TmagSlave {
+    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), SimSpiError> {
+        self.traffic.transactions = self.traffic.transactions.saturating_add(1);
+        let fault = self.injected.next();
+        if fault == Some(LineFault::Bus) {
+            return Err(SimSpiError);
+        }
+        let mode = OperatingMode::of(self.register(Register::DeviceConfig));
+        if mode == Some(OperatingMode::Active) && fault != Some(LineFault::Frozen) {
+            self.convert();
+        }
+        let mut frame = Frame {
+            command: [0; FRAME_LEN],
+            heard: 0,
+            clocked: 0,
+            fault,
+        };
+        let mut traffic = self.traffic;
+        wire::clock(operations, &mut traffic, |sent| frame.byte(self, sent));
+        self.traffic = traffic;
+        if frame.heard > 0 {
+            self.obey(frame.command, frame.heard);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;
