@@ -55,6 +55,17 @@ pub trait Bench {
 
     /// The sensor of whisker `n`, counted from 0, left side first.
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave>;
+
+    /// Contact π of whisker `n`, counted from 0, left side first; none: that of its side is
+    /// all that is known.
+    fn felt_by(&self, _n: usize) -> Option<f64> {
+        None
+    }
+
+    /// Whether its events tell of faults.
+    fn tells_faults(&self) -> bool {
+        true
+    }
 }
 
 /// The firmware's module on this machine.
@@ -139,6 +150,11 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
         let sensor = self.module.sensor_mut(n / N, n % N)?;
         Some(sensor.source_mut().sensor_mut().spi_mut())
+    }
+
+    fn felt_by(&self, n: usize) -> Option<f64> {
+        let felt = self.module.felt().as_flattened();
+        felt.get(n).map(|felt| felt.to_f64())
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod choice;
 pub mod classify;
+pub mod columns;
 pub mod evaluate;
 pub mod main_job;
 pub mod record;

@@ -7,6 +7,8 @@ use firmware::Place;
 use tactile::Decision;
 use tactile::score::{Confusion, Statistics};
 
+use crate::columns::{self, Column, column};
+
 /// What a decision says where what was felt is none of the model's classes.
 pub const UNKNOWN: &str = "unknown";
 
@@ -88,16 +90,40 @@ pub enum Columns {
 }
 
 /// The columns in order; those of a recording first, and of a scene.
-const COLUMNS: [&str; 9] = [
-    "label",
-    "trial",
-    "decision",
-    "samples",
-    "posterior",
-    "touch",
-    "t_s",
-    "side",
-    "whisker",
+pub const COLUMNS: [Column; 9] = [
+    column("label", "", "the truth: what was touched"),
+    column("trial", "", "which stream of that label"),
+    column("decision", "", "class decided for, or `unknown`"),
+    column(
+        "samples",
+        "samples",
+        "how many samples of contact the decision used",
+    ),
+    column(
+        "posterior",
+        "",
+        "posterior probability of the class decided for; of `unknown` that of the one that came nearest",
+    ),
+    column(
+        "touch",
+        "",
+        "number of the touch in which it fell, or of the last one; 0 before the first",
+    ),
+    column(
+        "t_s",
+        "s",
+        "when it fell, as in the trace; not of a recording, which has no clock",
+    ),
+    column(
+        "side",
+        "",
+        "`left` or `right`; only where several whiskers are heard",
+    ),
+    column(
+        "whisker",
+        "",
+        "number of the whisker on its side, from 1; likewise",
+    ),
 ];
 
 /// How many of them a recording has, and a scene with one whisker that is heard.
@@ -109,13 +135,13 @@ const OF_SCENE: usize = 7;
 /// # Errors
 /// Any error of the writer.
 pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
-    let columns = match columns {
+    let count = match columns {
         Columns::OfRecording => OF_RECORDING,
         Columns::OfScene => OF_SCENE,
         Columns::OfSeveral => COLUMNS.len(),
     };
     let mut table = csv::Writer::from_writer(table);
-    table.write_record(&COLUMNS[..columns])?;
+    table.write_record(columns::names(&COLUMNS[..count]))?;
     for d in decisions {
         let cells = [
             d.label.clone(),
@@ -130,7 +156,7 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
             d.place
                 .map_or_else(String::new, |place| (place.whisker + 1).to_string()),
         ];
-        table.write_record(&cells[..columns])?;
+        table.write_record(&cells[..count])?;
     }
     table.flush()
 }

@@ -9,7 +9,7 @@ use crate::Error;
 use crate::decisions::{self, Columns, Decided};
 use crate::output::Output;
 use crate::recording::{self, Stream};
-use crate::trace::{Row, TraceWriter};
+use crate::trace::{Told, TraceShape, TraceWriter};
 
 /// Reads a recording whose channels are the columns `channels`.
 ///
@@ -68,25 +68,24 @@ pub struct TraceFile {
 }
 
 impl TraceFile {
-    /// Opens a trace and writes its header; `hears_right`: whether whiskers of the right
-    /// side are heard.
+    /// Opens a trace and writes its header.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn create(path: &Path, hears_right: bool) -> Result<Self, Error> {
-        let trace = TraceWriter::new(Output::create(path)?, hears_right);
+    pub fn create(path: &Path, shape: TraceShape) -> Result<Self, Error> {
+        let trace = TraceWriter::new(Output::create(path)?, shape);
         Ok(Self {
             trace: trace.map_err(|source| Error::write(path, source))?,
             path: path.to_owned(),
         })
     }
 
-    /// One row, with the name of what a whisker of each side decided in its tick.
+    /// One row.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn row(&mut self, row: &Row, decisions: [Option<&str>; 2]) -> Result<(), Error> {
-        let written = self.trace.row(row, decisions);
+    pub fn row(&mut self, told: &Told<'_>) -> Result<(), Error> {
+        let written = self.trace.row(told);
         written.map_err(|source| Error::write(&self.path, source))
     }
 

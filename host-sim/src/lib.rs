@@ -48,6 +48,7 @@
 pub mod bench;
 pub mod bus;
 pub mod classifier;
+pub mod columns;
 pub mod decisions;
 pub mod drive;
 mod error;

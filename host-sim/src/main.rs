@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
 use host_sim::commands::choice::{SceneChoice, seed};
 use host_sim::commands::{
-    channels, classify, evaluate, main_job, record, run, score, sweep, train,
+    channels, classify, columns, evaluate, main_job, record, run, score, sweep, train,
 };
 use host_sim::output::is_stdout;
 use host_sim::progress::Verbosity;
@@ -66,6 +66,8 @@ enum Command {
     /// table with decisions, decision time, touches, faults and errors of each run
     #[command(allow_negative_numbers = true)]
     Sweep(sweep::Arguments),
+    /// What the columns of all these files are, as docs/files.md has it
+    Columns,
     /// Streams a recording through the fixed-point classifier, exactly the code
     /// that runs on the board
     #[command(allow_negative_numbers = true)]
@@ -132,6 +134,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
         Some(Command::Run(arguments)) => run::run(&arguments, verbosity)?,
+        Some(Command::Columns) => Some(columns::page().trim_end().to_owned()),
         Some(Command::Record { scene, out, seed }) => {
             Some(record::record(&scene, &out, seed, verbosity)?)
         }

@@ -267,6 +267,13 @@ impl SimMotor {
         self.stage.effort(&self.wires)
     }
 
+    /// The duty at its driver's pins, -1 to 1, positive towards protraction, whatever the
+    /// wires behind them do.
+    pub fn duty(&self) -> f64 {
+        self.stage
+            .duty(&self.settings, &self.wires, self.rotor.angle)
+    }
+
     /// The settings it was made with.
     pub const fn settings(&self) -> &MotorSettings {
         &self.settings

@@ -8,6 +8,7 @@ use std::io::{self, Read, Write};
 
 use crate::Error;
 pub use crate::classifier::GATE;
+use crate::columns::{self, Column, column};
 use crate::run::Run;
 
 /// Two channels under one label and trial, in time order.
@@ -24,6 +25,32 @@ pub struct Stream {
     /// Number of the touch of each sample, 0 in the air; none: the module did not say.
     pub touch: Option<Vec<u16>>,
 }
+
+/// The columns of a recording, in the order in which one is written.
+pub const COLUMNS: [Column; 6] = [
+    column("label", "", "what was touched: the name of a class"),
+    column(
+        "trial",
+        "",
+        "any token; rows of one label and trial that follow each other are one stream in time order",
+    ),
+    column(
+        "x",
+        "any",
+        "of a simulated sensor the 14-bit code of x; `--channels` takes other columns",
+    ),
+    column("y", "any", "the same of y"),
+    column(
+        "contact",
+        "",
+        "contact π as in the trace; may be left out: then every row is of contact",
+    ),
+    column(
+        "touch",
+        "",
+        "number of the touch, 0 in the air; may be left out: then contact says where one begins",
+    ),
+];
 
 /// The channels of a recording, unless said otherwise.
 pub const CHANNELS: [&str; 2] = ["x", "y"];
@@ -145,13 +172,12 @@ pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(table);
     let has_contact = streams.iter().any(|stream| stream.contact.is_some());
     let has_touch = streams.iter().any(|stream| stream.touch.is_some());
-    let header = ["label", "trial", "x", "y", "contact", "touch"];
-    let columns = match (has_contact, has_touch) {
+    let count = match (has_contact, has_touch) {
         (_, true) => 6,
         (true, false) => 5,
         (false, false) => 4,
     };
-    table.write_record(&header[..columns])?;
+    table.write_record(columns::names(&COLUMNS[..count]))?;
     for stream in streams {
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
@@ -161,7 +187,7 @@ pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
             let numbers = [x.to_string(), y.to_string(), contact.to_string(), touch];
             let numbers = numbers.iter().map(String::as_str);
             let cells = [stream.label.as_str(), &stream.trial];
-            table.write_record(cells.into_iter().chain(numbers).take(columns))?;
+            table.write_record(cells.into_iter().chain(numbers).take(count))?;
         }
     }
     table.flush()

@@ -1,8 +1,10 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
+mod presented;
+
 use firmware::{Command, Event, Sample};
 use mlx90333::Word;
-use scene::{Exchanged, PlantKind, Scene, Texture};
+use scene::Scene;
 use tactile::Posteriors;
 
 use crate::Error;
@@ -11,8 +13,9 @@ use crate::bus::Slave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
 use crate::motor::{PWM_COUNTS, SimMotor};
-use crate::trace::Row;
+use crate::trace::{Row, WhiskerRow};
 use crate::world::World;
+use presented::Presented;
 
 /// A running scene, with everything that it needs: module, classifier, motors
 /// and plant. `B` is the module: the firmware's on this machine, unless said
@@ -29,79 +32,11 @@ pub struct Run<B: ?Sized = dyn HostModule> {
     snapshot: Snapshot,
     row: Row,
     events: Vec<Event>,
+    /// What each whisker's sensor was given in the last tick.
+    deflections: Vec<[f64; 2]>,
+    /// The faults of each whisker's sensor and motor that have not ended; 0: none.
+    faults: Vec<[u8; 2]>,
     bench: Box<B>,
-}
-
-/// What is being touched: which texture, and how often it has been before.
-#[derive(Debug, Clone, PartialEq)]
-struct Presented {
-    /// What is touched before the first texture.
-    first: &'static str,
-    textures: Vec<Texture>,
-    /// Ticks a presentation.
-    length: u64,
-    /// Ticks without touch before a texture is exchanged; `None`: whatever it touches.
-    air: Option<u64>,
-    /// The last tick with touch.
-    touched: u64,
-    /// Presentations that have begun.
-    begun: u64,
-    label: &'static str,
-    trial: u64,
-}
-
-/// How long nothing may have been touched before a texture is exchanged, s: a period
-/// of the slowest vibration, lest it is done while the whisker bounces.
-const AIR_S: f64 = 0.02;
-
-impl Presented {
-    fn new(scene: &Scene) -> Self {
-        let label = match scene.plant.kind {
-            PlantKind::Ideal if scene.plant.obstacle.is_some() => "obstacle",
-            _ => "free",
-        };
-        let ticks = |seconds: f64| ((seconds * f64::from(scene.tick_hz)).round() as u64).max(1);
-        let textured = scene.plant.textured.as_ref();
-        let length = textured.map_or(u64::MAX, |textured| ticks(textured.present_s));
-        let textures = textured.map(|textured| textured.textures.clone());
-        let in_air = textured.is_some_and(|textured| textured.exchange == Exchanged::Air);
-        Self {
-            first: label,
-            textures: textures.unwrap_or_default(),
-            length,
-            air: in_air.then(|| ticks(AIR_S)),
-            touched: 0,
-            begun: 0,
-            label,
-            trial: 0,
-        }
-    }
-
-    fn restart(&mut self) {
-        self.label = self.first;
-        self.trial = 0;
-        self.touched = 0;
-        self.begun = 0;
-    }
-
-    /// The texture to put in place before tick `done + 1`, if it changes there;
-    /// `touches`: whether the present one is touched.
-    fn change(&mut self, done: u64, touches: bool) -> Option<Texture> {
-        if touches {
-            self.touched = done;
-        }
-        let count = done / self.length;
-        let may = |air| self.begun == 0 || done - self.touched >= air;
-        if count < self.begun || !self.air.is_none_or(may) {
-            return None;
-        }
-        self.begun = count + 1;
-        let among = self.textures.len() as u64;
-        let texture = *self.textures.get(count.checked_rem(among)? as usize)?;
-        self.label = texture.name();
-        self.trial = count / among;
-        Some(texture)
-    }
 }
 
 impl Run {
@@ -207,6 +142,11 @@ impl Run {
     }
 }
 
+/// What a sensor sends of a deflection: the 14-bit codes of x and y.
+fn codes(deflection: [f64; 2]) -> [f64; 2] {
+    deflection.map(|x| f64::from(Word::from_normalised(x as f32).code14()))
+}
+
 fn finite(name: &str, value: f64) -> Result<f64, Error> {
     if value.is_finite() {
         return Ok(value);
@@ -233,6 +173,8 @@ impl<B: Bench + ?Sized> Run<B> {
             snapshot: Snapshot::default(),
             row: Row::default(),
             events: Vec::new(),
+            deflections: vec![[0.0; 2]; sides * whiskers],
+            faults: vec![[0; 2]; sides * whiskers],
             bench,
         };
         run.rest();
@@ -264,6 +206,8 @@ impl<B: Bench + ?Sized> Run<B> {
             touch: [0; 2],
         };
         self.events.clear();
+        self.deflections.fill([0.0; 2]);
+        self.faults.fill([0; 2]);
     }
 
     /// How many ticks the scene lasts.
@@ -312,12 +256,15 @@ impl<B: Bench + ?Sized> Run<B> {
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {
                 let deflection = self.world.deflection(side, whisker);
-                if let Some(slave) = self.bench.slave_mut(side * self.whiskers + whisker) {
+                let n = side * self.whiskers + whisker;
+                if let Some(slave) = self.bench.slave_mut(n) {
                     slave.set(deflection);
                 }
+                if let Some(last) = self.deflections.get_mut(n) {
+                    *last = deflection;
+                }
                 if whisker == 0 {
-                    let code = |x| f64::from(Word::from_normalised(x as f32).code14());
-                    [self.row.x[side], self.row.y[side]] = deflection.map(code);
+                    [self.row.x[side], self.row.y[side]] = codes(deflection);
                 }
             }
         }
@@ -327,6 +274,7 @@ impl<B: Bench + ?Sized> Run<B> {
         self.world
             .advance(&self.snapshot.theta_deg, 1.0 / self.tick_hz);
 
+        self.keep_faults();
         self.done += 1;
         self.row.t_s = self.done as f64 / self.tick_hz;
         self.row.z = self.snapshot.z;
@@ -339,6 +287,48 @@ impl<B: Bench + ?Sized> Run<B> {
             self.row.angle_deg[side] = self.world.angles_deg()[first];
         }
         self.row
+    }
+
+    fn keep_faults(&mut self) {
+        for event in &self.events {
+            let (place, which, number) = match event {
+                Event::SensorLost(place, fault) => (place, 0, fault.code()),
+                Event::SensorBack(place) => (place, 0, 0),
+                Event::MotorFault(place, fault) => (place, 1, fault.code()),
+                Event::MotorRetry(place) => (place, 1, 0),
+                // Given up, a motor keeps its last fault.
+                _ => continue,
+            };
+            let n = usize::from(place.side) * self.whiskers + usize::from(place.whisker);
+            if let Some(faults) = self.faults.get_mut(n) {
+                faults[which] = number;
+            }
+        }
+    }
+
+    /// Every whisker after the last tick, left side first, into `rows`.
+    pub fn look_at_whiskers(&self, rows: &mut Vec<WhiskerRow>) {
+        let faults = self.faults.iter().zip(&self.deflections).enumerate();
+        let whisker = |(n, ([sensor, motor], deflection)): (usize, (&[u8; 2], &[f64; 2]))| {
+            let side = n / self.whiskers.max(1);
+            let of_side = || self.snapshot.contact.get(side).copied();
+            let fault = if *sensor == 0 { *motor } else { *sensor };
+            WhiskerRow {
+                theta_deg: self.snapshot.theta_deg.get(n).copied().unwrap_or(f64::NAN),
+                angle_deg: self.world.angles_deg().get(n).copied().unwrap_or(f64::NAN),
+                speed_deg_s: self.world.speed_deg_s(n),
+                duty: self.world.duty(n).unwrap_or(f64::NAN),
+                codes: codes(*deflection),
+                contact: self.bench.felt_by(n).or_else(of_side).unwrap_or(f64::NAN),
+                fault: if self.bench.tells_faults() {
+                    f64::from(fault)
+                } else {
+                    f64::NAN
+                },
+            }
+        };
+        rows.clear();
+        rows.extend(faults.map(whisker));
     }
 
     /// The row of the last tick.

@@ -1,8 +1,11 @@
 //! `trace.csv`: what a module did, one row for each tick.
 
 mod decimals;
+mod header;
 
 use std::io::{self, Write};
+
+pub use header::{FIRST, OF_RIGHT, OF_WHISKER, SECOND, TraceShape};
 
 /// One tick of a module. Values of a side that does not exist are NaN.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -43,50 +46,70 @@ impl Row {
     }
 }
 
-/// The columns in order. The first nine are fixed: other programs read them.
-pub const HEADER: &str = "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
-contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,y_left,y_right,touch,\
-decision";
+/// One whisker after a tick. What it does not have, or nobody knows, is NaN.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WhiskerRow {
+    /// Setpoint θ', degrees.
+    pub theta_deg: f64,
+    /// Angle as it is, degrees.
+    pub angle_deg: f64,
+    /// Speed as it is, degrees a second.
+    pub speed_deg_s: f64,
+    /// Duty at its driver's pins, -1 to 1.
+    pub duty: f64,
+    /// The 14-bit codes of x and y.
+    pub codes: [f64; 2],
+    /// Contact π.
+    pub contact: f64,
+    /// Number of the fault that holds it; 0: none.
+    pub fault: f64,
+}
 
-/// Further columns where whiskers of the right side are heard: `touch` and `decision` are
-/// then of the left side.
-pub const OF_RIGHT: &str = ",touch_right,decision_right";
+/// Everything that a trace tells of a tick.
+#[derive(Debug, Clone, Copy)]
+pub struct Told<'a> {
+    /// Of sides and their first whiskers.
+    pub row: &'a Row,
+    /// What a whisker of each side decided.
+    pub decisions: [Option<&'a str>; 2],
+    /// What is in place, and how often it has been before.
+    pub presented: (&'a str, u64),
+    /// Every whisker, left side first.
+    pub whiskers: &'a [WhiskerRow],
+}
 
 /// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
 pub struct TraceWriter<W> {
     table: W,
-    /// How many sides are heard.
-    sides: usize,
+    shape: TraceShape,
     line: Vec<u8>,
 }
 
 impl<W: Write> TraceWriter<W> {
-    /// Writes the header; `hears_right`: whether whiskers of the right side are heard.
+    /// Writes the header.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn new(mut table: W, hears_right: bool) -> io::Result<Self> {
-        let more = if hears_right { OF_RIGHT } else { "" };
-        writeln!(table, "{HEADER}{more}")?;
+    pub fn new(mut table: W, shape: TraceShape) -> io::Result<Self> {
+        writeln!(table, "{}", shape.header())?;
         Ok(Self {
             table,
-            sides: 1 + usize::from(hears_right),
+            shape,
             line: Vec::new(),
         })
     }
 
-    /// One row, with the name of what a whisker of each side decided in its tick. Nine
-    /// decimals show the error of the integrators; the cells of a side that does not exist
-    /// are empty, and so is that of a decision where none fell.
+    /// One row. Nine decimals show the error of the integrators; the cells of a side that
+    /// does not exist are empty, and so is that of a decision where none fell.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn row(&mut self, row: &Row, decisions: [Option<&str>; 2]) -> io::Result<()> {
-        let line = &mut self.line;
+    pub fn row(&mut self, told: &Told<'_>) -> io::Result<()> {
+        let (line, shape) = (&mut self.line, self.shape);
         line.clear();
-        decimals::append(line, row.t_s, 9);
-        let pairs = row.pairs();
+        decimals::append(line, told.row.t_s, 9);
+        let pairs = told.row.pairs();
         let (precise, codes) = pairs.as_flattened().split_at(10);
         for value in precise {
             cell(line, *value, 9);
@@ -94,11 +117,41 @@ impl<W: Write> TraceWriter<W> {
         for value in codes {
             cell(line, *value, 0);
         }
-        let sides = row.touch.into_iter().zip(decisions);
-        for (touch, decision) in sides.take(self.sides) {
+        let sides = told.row.touch.into_iter().zip(told.decisions);
+        for (touch, decision) in sides.take(1 + usize::from(shape.hears_right)) {
             cell(line, touch.into(), 0);
             line.push(b',');
             text(line, decision.unwrap_or_default());
+        }
+        line.push(b',');
+        text(line, told.presented.0);
+        cell(line, told.presented.1 as f64, 0);
+        let whisker = |n: usize| told.whiskers.get(n);
+        let first = [0, 1].map(|side| {
+            let is_there = side < shape.sides;
+            whisker(side * shape.whiskers_per_side).filter(|_| is_there)
+        });
+        let mut pair = |value: fn(&WhiskerRow) -> f64, decimals| {
+            for first in first {
+                cell(line, first.map_or(f64::NAN, value), decimals);
+            }
+        };
+        pair(|whisker| whisker.speed_deg_s, 3);
+        pair(|whisker| whisker.duty, 6);
+        pair(|whisker| whisker.fault, 0);
+        let further = shape.whiskers_per_side.saturating_sub(1);
+        for side in told.whiskers.chunks(shape.whiskers_per_side.max(1)) {
+            for whisker in side.iter().skip(1).take(further) {
+                cell(line, whisker.theta_deg, 6);
+                cell(line, whisker.angle_deg, 6);
+                cell(line, whisker.speed_deg_s, 3);
+                cell(line, whisker.duty, 6);
+                for code in whisker.codes {
+                    cell(line, code, 0);
+                }
+                cell(line, whisker.contact, 6);
+                cell(line, whisker.fault, 0);
+            }
         }
         line.push(b'\n');
         self.table.write_all(line)
@@ -130,11 +183,37 @@ fn text(line: &mut Vec<u8>, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::{HEADER, OF_RIGHT, Row, TraceWriter};
+    use super::{FIRST, OF_WHISKER, Row, SECOND, Told, TraceShape, TraceWriter, WhiskerRow};
+
+    const ALONE: TraceShape = TraceShape {
+        sides: 1,
+        whiskers_per_side: 1,
+        hears_right: false,
+    };
+
+    fn whisker(n: f64) -> WhiskerRow {
+        WhiskerRow {
+            theta_deg: 50.0 + n,
+            angle_deg: 60.0 + n,
+            speed_deg_s: -7.5,
+            duty: 0.25,
+            codes: [8192.0, 8190.0],
+            contact: 0.125,
+            fault: n,
+        }
+    }
+
+    fn written<'t>(shape: TraceShape, told: impl IntoIterator<Item = Told<'t>>) -> Vec<String> {
+        let mut table = TraceWriter::new(Vec::new(), shape).unwrap();
+        for told in told {
+            table.row(&told).unwrap();
+        }
+        let text = String::from_utf8(table.into_inner()).unwrap();
+        text.lines().map(str::to_owned).collect()
+    }
 
     #[test]
     fn rows_have_as_many_cells_as_the_header_and_the_fixed_ones_first() {
-        let mut table = TraceWriter::new(Vec::new(), false).unwrap();
         let row = Row {
             t_s: 0.0005,
             theta_deg: [50.0, f64::NAN],
@@ -146,37 +225,83 @@ mod tests {
             y: [8191.0, f64::NAN],
             touch: [7, 0],
         };
-        for decision in [None, Some("unknown"), Some("sand, \"wet\"")] {
-            table.row(&row, [decision, None]).unwrap();
-        }
-        let text = String::from_utf8(table.into_inner()).unwrap();
-        let lines: Vec<_> = text.lines().collect();
-        assert!(HEADER.starts_with(
-            "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
-             contact_left,contact_right"
-        ));
-        assert_eq!(lines[0], HEADER);
+        let whiskers = [whisker(3.0)];
+        let told = [None, Some("unknown"), Some("sand, \"wet\"")].map(|decision| Told {
+            row: &row,
+            decisions: [decision, None],
+            presented: ("sand", 2),
+            whiskers: &whiskers,
+        });
+        let lines = written(ALONE, told);
         assert_eq!(
-            lines[1],
-            "0.000500000,50.000000000,,0.250000000,,1.000000000,,0.000000000,,\
-             50.500000000,,8192,,8191,,7,"
+            lines[0],
+            "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
+             contact_left,contact_right,angle_left_deg,angle_right_deg,x_left,x_right,\
+             y_left,y_right,touch,decision,label,trial,speed_left_deg_s,speed_right_deg_s,\
+             duty_left,duty_right,fault_left,fault_right"
         );
-        assert!(lines[2].ends_with(",7,unknown"));
-        assert!(lines[3].ends_with(",7,\"sand, \"\"wet\"\"\""));
+        let fixed = "0.000500000,50.000000000,,0.250000000,,1.000000000,,0.000000000,,\
+                     50.500000000,,8192,,8191,,7,";
+        let more = "sand,2,-7.500,,0.250000,,3,";
+        assert_eq!(lines[1], format!("{fixed},{more}"));
+        assert_eq!(lines[2], format!("{fixed}unknown,{more}"));
+        assert_eq!(lines[3], format!("{fixed}\"sand, \"\"wet\"\"\",{more}"));
     }
 
     #[test]
-    fn the_right_side_has_cells_of_its_own_where_it_is_heard() {
-        let mut table = TraceWriter::new(Vec::new(), true).unwrap();
+    fn every_whisker_of_both_sides_has_cells_of_its_own() {
+        let shape = TraceShape {
+            sides: 2,
+            whiskers_per_side: 2,
+            hears_right: true,
+        };
         let row = Row {
             touch: [7, 9],
             ..Row::default()
         };
-        table.row(&row, [None, Some("ice")]).unwrap();
-        table.row(&row, [Some("loam"), None]).unwrap();
-        let text = String::from_utf8(table.into_inner()).unwrap();
-        let lines: Vec<_> = text.lines().collect();
-        assert_eq!(lines[0], format!("{HEADER}{OF_RIGHT}"));
-        assert!(lines[1].ends_with(",7,,9,ice") && lines[2].ends_with(",7,loam,9,"));
+        let whiskers = [0.0, 1.0, 2.0, 3.0].map(whisker);
+        let told = [[None, Some("ice")], [Some("loam"), None]].map(|decisions| Told {
+            row: &row,
+            decisions,
+            presented: ("free", 0),
+            whiskers: &whiskers,
+        });
+        let lines = written(shape, told);
+        let header: Vec<&str> = lines[0].split(',').collect();
+        let count = FIRST.len() + 2 + SECOND.len() + 2 * OF_WHISKER.len();
+        assert_eq!(header.len(), count);
+        assert_eq!(
+            header[15..19],
+            ["touch", "decision", "touch_right", "decision_right"]
+        );
+        assert_eq!(
+            header[27..],
+            [
+                "theta_left_2_deg",
+                "angle_left_2_deg",
+                "speed_left_2_deg_s",
+                "duty_left_2",
+                "x_left_2",
+                "y_left_2",
+                "contact_left_2",
+                "fault_left_2",
+                "theta_right_2_deg",
+                "angle_right_2_deg",
+                "speed_right_2_deg_s",
+                "duty_right_2",
+                "x_right_2",
+                "y_right_2",
+                "contact_right_2",
+                "fault_right_2",
+            ]
+        );
+        for (line, heard) in lines[1..].iter().zip([",7,,9,ice,", ",7,loam,9,,"]) {
+            assert_eq!(line.split(',').count(), count, "{line}");
+            assert!(line.contains(heard), "{line}");
+            let more = "free,0,-7.500,-7.500,0.250000,0.250000,0,2,\
+                        51.000000,61.000000,-7.500,0.250000,8192,8190,0.125000,1,\
+                        53.000000,63.000000,-7.500,0.250000,8192,8190,0.125000,3";
+            assert!(line.ends_with(more), "{line}");
+        }
     }
 }

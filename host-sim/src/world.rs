@@ -13,6 +13,8 @@ pub struct World {
     plant: Box<dyn Plant>,
     motors: Motors,
     angles_deg: Vec<f64>,
+    /// Of ideal motors, by their last step, degrees a second.
+    speeds_deg_s: Vec<f64>,
 }
 
 #[derive(Debug)]
@@ -57,6 +59,7 @@ impl World {
             plant,
             motors,
             angles_deg: vec![whisking::REST_DEG; scene.whiskers()],
+            speeds_deg_s: vec![0.0; scene.whiskers()],
         };
         Ok((world, pins))
     }
@@ -66,6 +69,7 @@ impl World {
     pub fn restart(&mut self, seed: u64) -> Vec<Pins> {
         self.plant.restart(seed);
         self.angles_deg.fill(whisking::REST_DEG);
+        self.speeds_deg_s.fill(0.0);
         match &mut self.motors {
             Motors::None => Vec::new(),
             Motors::Ideal(motors) => motors
@@ -99,6 +103,22 @@ impl World {
         &self.angles_deg
     }
 
+    /// The speed of whisker `n` now, degrees a second; 0 of one that is not there.
+    pub fn speed_deg_s(&self, n: usize) -> f64 {
+        match &self.motors {
+            Motors::Real(motors) => motors.get(n).map_or(0.0, SimMotor::speed_deg_s),
+            Motors::None | Motors::Ideal(_) => self.speeds_deg_s.get(n).copied().unwrap_or(0.0),
+        }
+    }
+
+    /// The duty at the driver of whisker `n`, -1 to 1; none where motors are ideal.
+    pub fn duty(&self, n: usize) -> Option<f64> {
+        match &self.motors {
+            Motors::Real(motors) => motors.get(n).map(SimMotor::duty),
+            Motors::None | Motors::Ideal(_) => None,
+        }
+    }
+
     /// The motor of whisker `n`; none where motors are ideal.
     pub fn motor_mut(&mut self, n: usize) -> Option<&mut SimMotor> {
         match &mut self.motors {
@@ -115,7 +135,11 @@ impl World {
                 for (motor, theta) in motors.iter().zip(theta_deg) {
                     motor.set_deg(*theta);
                 }
-                self.angles_deg.copy_from_slice(theta_deg);
+                let angles = self.angles_deg.iter_mut().zip(theta_deg);
+                for ((angle, theta), speed) in angles.zip(&mut self.speeds_deg_s) {
+                    *speed = (theta - *angle) / dt_s;
+                    *angle = *theta;
+                }
             }
             Motors::Real(motors) => {
                 for (motor, angle) in motors.iter_mut().zip(&mut self.angles_deg) {

@@ -16,7 +16,13 @@ use main_job::DECISIONS;
 pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
-    document("docs/harness.svg", harness::svg()?.as_bytes(), check)
+    document("docs/harness.svg", harness::svg()?.as_bytes(), check)?;
+    let columns = ["run", "--quiet", "-p", "host-sim", "--", "columns"];
+    document(
+        "docs/files.md",
+        output(&mut cargo(&columns))?.as_bytes(),
+        check,
+    )
 }
 
 /// Writes every generated document, or checks that they are up to date.

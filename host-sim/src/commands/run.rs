@@ -16,6 +16,7 @@ use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
+use crate::trace::{Told, TraceShape};
 use crate::{Error, report};
 
 /// What to run, and where to write.
@@ -210,19 +211,25 @@ pub fn play<B: Bench + ?Sized>(
     verbosity: Verbosity,
     mut after: impl FnMut(&mut Run<B>, &Progress) -> Result<(), Error>,
 ) -> Result<Played, Error> {
-    let hears_right = bench::heard(scene) > scene.head.whiskers_per_side;
-    let mut trace = TraceFile::create(&out.join("trace.csv"), hears_right)?;
+    let mut trace = TraceFile::create(&out.join("trace.csv"), TraceShape::of(scene))?;
     let table = scene.classifier.as_ref();
     let table = table.map(|_| Output::create(&out.join("decisions.csv")));
     let table = table.transpose()?;
     let mut decided: Vec<Decided> = Vec::new();
+    let mut whiskers = Vec::new();
     let mut progress = Progress::new(verbosity, "simulating", run.ticks());
     for n in 0..run.ticks() {
         let row = run.tick();
         after(&mut run, &progress)?;
         let first = decided.len();
         decided.extend(run.decisions());
-        trace.row(&row, by_side(decided.get(first..).unwrap_or_default()))?;
+        run.look_at_whiskers(&mut whiskers);
+        trace.row(&Told {
+            row: &row,
+            decisions: by_side(decided.get(first..).unwrap_or_default()),
+            presented: run.presented(),
+            whiskers: &whiskers,
+        })?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }

@@ -1,7 +1,7 @@
 //! `host-sim sweep`: a scene with other values of some keys, every combination of them.
 
 mod grid;
-mod measured;
+pub(crate) mod measured;
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -96,7 +96,7 @@ pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let rows = rows.map(|((setting, seed), measured)| (setting.values.as_slice(), *seed, measured));
     measured::write(output, names, rows)?;
     Ok(format!(
-        "{}: {runs} runs of {combinations} settings",
+        "{}: {runs} runs of {combinations} settings; columns: docs/files.md",
         out.display()
     ))
 }

@@ -122,6 +122,16 @@ impl Stage {
         }
     }
 
+    /// The same with the sign of the torque that they ask for at a rotor angle.
+    pub(super) fn duty(self, s: &MotorSettings, wires: &Wires, angle: f64) -> f64 {
+        let effort = self.effort(wires);
+        match self {
+            Self::Brushed if wires.is_high(0) => effort,
+            Self::Brushed => -effort,
+            Self::Brushless => effort.copysign(self.winding(s, wires, angle).drive_nm),
+        }
+    }
+
     /// Current into each terminal, A.
     pub(super) fn currents(self, s: &MotorSettings, wires: &Wires, rotor: &Rotor) -> [f64; 3] {
         let terminals = self.terminals(s, wires, rotor.angle);

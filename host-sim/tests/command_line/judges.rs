@@ -256,7 +256,8 @@ fn a_scene_shows_an_unknown_texture() {
     let rest = decided.iter().filter(|d| d.decision == "unknown").count() - noticed;
     line(&ran.stdout, &format!("{rest} more said \"unknown\""));
     let trace = place.text("out/trace.csv");
-    let fallen = trace.lines().filter(|row| row.ends_with(",unknown"));
+    let trace = cells(&trace);
+    let fallen = trace.iter().filter(|row| row[16] == "unknown");
     assert_eq!(fallen.count(), noticed + rest);
     // What is not known stands in the row of "unknown", under its name.
     let svg = place.text("out/p.svg");

@@ -1,6 +1,7 @@
 //! The command line from outside: what it writes and prints, what it refuses
 //! and how, and what its figures mean. The program runs as a user runs it.
 
+mod columns;
 mod common;
 mod does;
 mod judges;

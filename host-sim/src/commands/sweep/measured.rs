@@ -5,6 +5,7 @@ use scene::Scene;
 
 use crate::Error;
 use crate::bench::HostModule;
+use crate::columns::{self, Column, column};
 use crate::decisions::{Decided, Score, Verdict};
 use crate::output::Output;
 use crate::run::Run;
@@ -89,15 +90,39 @@ impl Measured {
 }
 
 /// The columns after those of the keys and the seed.
-const COLUMNS: [&str; 8] = [
-    "right",
-    "wrong",
-    "refused",
-    "error_rate",
-    "decision_time_s",
-    "touches",
-    "faults",
-    "tracking_rms_deg",
+pub(crate) const COLUMNS: [Column; 8] = [
+    column(
+        "right",
+        "",
+        "decisions that name what was touched, or say `unknown` of what the model does not know",
+    ),
+    column("wrong", "", "decisions that name something else"),
+    column(
+        "refused",
+        "",
+        "decisions that say `unknown` of what the model knows",
+    ),
+    column(
+        "error_rate",
+        "",
+        "share of `wrong` in `right` and `wrong`; empty without either",
+    ),
+    column(
+        "decision_time_s",
+        "s",
+        "mean time of contact of a right or wrong decision; empty without one",
+    ),
+    column(
+        "touches",
+        "",
+        "touches that began, of all whiskers that are heard",
+    ),
+    column("faults", "", "faults of sensors and motors that began"),
+    column(
+        "tracking_rms_deg",
+        "degrees",
+        "root mean square of angle less setpoint, first whisker of each side; empty without `[whisking]`",
+    ),
 ];
 
 /// Writes the table: of each run the values of the keys, its seed and its figures.
@@ -108,7 +133,7 @@ pub(super) fn write<'r>(
 ) -> Result<(), Error> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let failed = |error: csv::Error| Error::Work(error.to_string());
-    let header = keys.chain(["seed"]).chain(COLUMNS);
+    let header = keys.chain(["seed"]).chain(columns::names(&COLUMNS));
     table.write_record(header).map_err(failed)?;
     for (values, seed, measured) in rows {
         let values = values.iter().cloned();

@@ -1,0 +1,49 @@
+//! Columns of the files that a program reads: name, unit and meaning, from which both the
+//! headers and their page are written.
+
+/// A column of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Column {
+    /// Its name in the header.
+    pub name: &'static str,
+    /// The unit of its numbers; empty where there is none.
+    pub unit: &'static str,
+    /// What it has.
+    pub meaning: &'static str,
+}
+
+/// A column; const, so that tables of them are written in one line each.
+pub(crate) const fn column(
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+) -> Column {
+    Column {
+        name,
+        unit,
+        meaning,
+    }
+}
+
+/// The names of columns.
+pub(crate) fn names(columns: &[Column]) -> Vec<&'static str> {
+    columns.iter().map(|column| column.name).collect()
+}
+
+/// Columns as a table in Markdown.
+#[cfg(feature = "cli")]
+pub(crate) fn table(columns: &[Column]) -> String {
+    use std::fmt::Write as _;
+
+    let mut table = "| column | unit | meaning |\n|---|---|---|\n".to_owned();
+    for Column {
+        name,
+        unit,
+        meaning,
+    } in columns
+    {
+        // Writing to a string does not fail.
+        let _ = writeln!(table, "| `{name}` | {unit} | {meaning} |");
+    }
+    table
+}
