@@ -1,6 +1,9 @@
 //! What a tick reports. Events are small values; whoever drains the queue
 //! formats them.
 
+#[cfg(feature = "tmag5170")]
+mod tilt_fault;
+
 use core::fmt;
 
 use mlx90333::FrameError;
@@ -8,6 +11,8 @@ use tactile::Decision;
 use whisking::motor;
 
 use crate::faults::{name, number};
+#[cfg(feature = "tmag5170")]
+pub use tilt_fault::TiltFault;
 
 /// A whisker of the array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +44,9 @@ pub enum SensorFault {
     Bus,
     /// The frame was refused; the reason says more.
     Frame(FrameError),
+    /// A sensor that measures a magnet's tilt gives none; the reason says more.
+    #[cfg(feature = "tmag5170")]
+    Tilt(TiltFault),
     /// Its words repeat to the bit for longer than the noise of a sensor lets them.
     Frozen,
     /// Its words jump about farther than a whisker can move.
@@ -60,6 +68,8 @@ impl SensorFault {
             Self::Frame(FrameError::BadSum { .. }) => number::BAD_SUM,
             Self::Frame(FrameError::Sensor(_)) => number::SENSOR_REPORT,
             Self::Frame(FrameError::StuckWords) => number::STUCK_WORDS,
+            #[cfg(feature = "tmag5170")]
+            Self::Tilt(fault) => fault.code(),
             Self::Frozen => number::FROZEN,
             Self::Jump => number::JUMP,
             Self::Often(_) => number::OFTEN,
@@ -77,6 +87,8 @@ impl fmt::Display for SensorFault {
                 write!(f, ": {found:#04x} instead of {expected:#04x}")
             }
             Self::Frame(FrameError::Sensor(reported)) => write!(f, ": {reported}"),
+            #[cfg(feature = "tmag5170")]
+            Self::Tilt(fault) => write!(f, ": {fault}"),
             Self::Often(last) => write!(f, ", the last: {}", name(*last)),
             _ => Ok(()),
         }

@@ -1,7 +1,9 @@
 //! What the module asks of the hardware, and an adaptor for a blocking bus.
 
 use embedded_hal::spi::SpiDevice;
-use mlx90333::{FRAME_LEN, Mlx90333};
+use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
+
+use crate::SensorFault;
 
 /// The bus did not deliver: no transfer ran, or the controller reported an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +27,43 @@ pub trait FrameSource {
     /// Starts a frame. Nothing to do where [`take`](Self::take) itself reads one.
     #[inline]
     fn start(&mut self) {}
+}
+
+/// Where a whisker's words come from, whatever its sensor. Every [`FrameSource`] is one.
+pub trait WordSource {
+    /// The words of what was read last, without waiting: of frames by the `decoder`.
+    ///
+    /// # Errors
+    /// Why there are none.
+    fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault>;
+
+    /// Starts to read the next. Nothing to do where [`words`](Self::words) itself reads.
+    #[inline]
+    fn begin(&mut self) {}
+}
+
+#[inline]
+fn decode(
+    decoder: Decoder,
+    taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
+) -> Result<[Word; 2], SensorFault> {
+    let bytes = taken
+        .map_err(|_| SensorFault::Bus)?
+        .ok_or(SensorFault::NoFrame)?;
+    let frame = decoder.decode(&bytes).map_err(SensorFault::Frame)?;
+    Ok([frame.first(), frame.second()])
+}
+
+impl<F: FrameSource> WordSource for F {
+    #[inline]
+    fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
+        decode(decoder, self.take())
+    }
+
+    #[inline]
+    fn begin(&mut self) {
+        self.start();
+    }
 }
 
 /// Where the whisker is.

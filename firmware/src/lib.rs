@@ -17,8 +17,8 @@
 //!
 //! # Composition
 //!
-//! A module is generic over what it reads ([`FrameSource`]), how it moves
-//! ([`Motion`]: [`Passive`] or [`Active`]), what it decides ([`Perception`]:
+//! A module is generic over what it reads ([`WordSource`], mostly by [`FrameSource`]), how
+//! it moves ([`Motion`]: [`Passive`] or [`Active`]), what it decides ([`Perception`]:
 //! `()` or [`Classifying`]) and its [`Clock`]. Its constants are one [`Config`],
 //! which each tick reads. What a scene leaves out is a type without state and
 //! code. Between ticks a [`Command`] changes a whisker's gain or setpoint.
@@ -37,12 +37,16 @@ mod queue;
 mod record;
 mod sensing;
 mod servo;
+#[cfg(feature = "tmag5170")]
+mod tilt;
 mod timing;
 
 pub use active::{Active, ActiveConfig, StopAll};
 pub use button::{Button, ButtonLimits};
+#[cfg(feature = "tmag5170")]
+pub use event::TiltFault;
 pub use event::{Event, Place, SensorFault};
-pub use io::{AngleInput, BusError, Clock, FrameSource, Polled};
+pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Config, Module};
 pub use motion::{Command, Motion, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
@@ -53,4 +57,6 @@ pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
+#[cfg(feature = "tmag5170")]
+pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

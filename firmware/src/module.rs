@@ -5,8 +5,8 @@ use whisking::{Optional, Real, filter};
 
 use crate::sensing::{Reading, Sensor, SensorLimits};
 use crate::{
-    Clock, Command, Event, FrameSource, Motion, MotorControl, NoActiveWhisker, Perception, Place,
-    Timing,
+    Clock, Command, Event, Motion, MotorControl, NoActiveWhisker, Perception, Place, Timing,
+    WordSource,
 };
 
 /// The settings of a module: every constant that its tick reads. A board copies
@@ -44,7 +44,7 @@ pub struct Module<R, F, M, P, C, const S: usize, const N: usize> {
 impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
 where
     R: Real,
-    F: FrameSource,
+    F: WordSource,
     C: Clock,
 {
     /// A module that has not ticked yet, from its sensors (left side first),

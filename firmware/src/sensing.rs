@@ -3,9 +3,9 @@
 mod limits;
 mod plausible;
 
-use mlx90333::{Decoder, FRAME_LEN, Word};
+use mlx90333::{Decoder, Word};
 
-use crate::io::{BusError, FrameSource};
+use crate::io::WordSource;
 use crate::{Event, Place, SensorFault};
 pub use limits::{BAD_WEIGHT, SensorLimits};
 use plausible::Course;
@@ -73,19 +73,7 @@ pub struct Sensor<F> {
     why: SensorFault,
 }
 
-#[inline]
-fn decode(
-    decoder: Decoder,
-    taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
-) -> Result<[Word; 2], SensorFault> {
-    let bytes = taken
-        .map_err(|_| SensorFault::Bus)?
-        .ok_or(SensorFault::NoFrame)?;
-    let frame = decoder.decode(&bytes).map_err(SensorFault::Frame)?;
-    Ok([frame.first(), frame.second()])
-}
-
-impl<F: FrameSource> Sensor<F> {
+impl<F: WordSource> Sensor<F> {
     /// A sensor that has not been read yet.
     pub const fn new(source: F) -> Self {
         Self {
@@ -99,7 +87,7 @@ impl<F: FrameSource> Sensor<F> {
         }
     }
 
-    /// Where the frames come from.
+    /// Where the words come from.
     pub const fn source_mut(&mut self) -> &mut F {
         &mut self.source
     }
@@ -140,7 +128,7 @@ impl<F: FrameSource> Sensor<F> {
     fn next(&mut self, decoder: Decoder, resync: u16) -> Result<[Word; 2], SensorFault> {
         let mut read = Err(SensorFault::NoFrame);
         if self.rest == 0 {
-            read = decode(decoder, self.source.take());
+            read = self.source.words(decoder);
             if let Err(SensorFault::Bus | SensorFault::Frame(_)) = read {
                 self.rest = resync;
             }
@@ -148,7 +136,7 @@ impl<F: FrameSource> Sensor<F> {
             self.rest -= 1;
         }
         if self.rest == 0 {
-            self.source.start();
+            self.source.begin();
         }
         read
     }

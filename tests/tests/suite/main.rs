@@ -12,6 +12,7 @@ mod motion_faults;
 mod played;
 mod precision;
 mod reference_claims;
+mod second_sensor;
 mod sensing_faults;
 mod several;
 mod stability;

@@ -1,0 +1,291 @@
+//! A module's sensor that is a TMAG5170 below a magnet: what its words are, and what becomes
+//! of each fault of the part and of its wires.
+
+use firmware::{
+    Event, Place, Reading, Sensor, SensorFault, SensorHealth, SensorLimits, TiltFault, TiltScale,
+    TiltSource,
+};
+use host_sim::bus::tmag5170::{LineFault, TmagSlave};
+use mlx90333::{Decoder, Word};
+use physics::Magnet;
+use proptest::prelude::*;
+use tmag5170::{
+    Average, Channels, Config, DeviceConfig, OperatingMode, Range, ReplyError, SensorConfig,
+    StatusFaults, Tmag5170, Version,
+};
+
+/// Full scale of the words, as the tangent of the tilt.
+const FULL_SCALE: f32 = 0.15;
+
+const LIMITS: SensorLimits = SensorLimits {
+    hold: 4,
+    recover: 3,
+    resync: 0,
+    stale: 1000,
+    frozen: 2000,
+    jump: u16::MAX,
+    burst: 1000,
+};
+
+const PLACE: Place = Place::new(0, 0);
+
+fn config() -> Config {
+    Config {
+        device: DeviceConfig {
+            average: Average::X8,
+            mode: OperatingMode::Active,
+            ..DeviceConfig::default()
+        },
+        sensor: SensorConfig {
+            channels: Channels::Xyz,
+            ranges: [Range::Narrow, Range::Narrow, Range::Wide],
+            ..SensorConfig::default()
+        },
+        ..Config::default()
+    }
+}
+
+/// A whisker's sensor, the magnet above it, and what has happened.
+struct Whisker {
+    sensor: Sensor<TiltSource<TmagSlave>>,
+    magnet: Magnet,
+    events: Vec<Event>,
+}
+
+impl Whisker {
+    /// After the tick that configures it.
+    fn new(axial_mt: f64) -> Self {
+        let scale = TiltScale::new(&config(), FULL_SCALE).unwrap();
+        let sensor = Tmag5170::new(TmagSlave::new(Version::A1));
+        let mut whisker = Self {
+            sensor: Sensor::new(TiltSource::new(sensor, config(), scale)),
+            magnet: Magnet::of_field(axial_mt).unwrap(),
+            events: Vec::new(),
+        };
+        assert!(!whisker.tick([0.0; 2]).fresh);
+        whisker
+    }
+
+    fn slave(&mut self) -> &mut TmagSlave {
+        self.sensor.source_mut().sensor_mut().spi_mut()
+    }
+
+    /// One tick with the whisker's base turned by this, rad.
+    fn tick(&mut self, tilt_rad: [f64; 2]) -> Reading {
+        let field = self.magnet.field_mt(tilt_rad);
+        self.slave().set_field(field);
+        let events = &mut self.events;
+        let mut note = |event| events.push(event);
+        self.sensor.read(Decoder::new(), LIMITS, PLACE, &mut note)
+    }
+
+    fn is_trusted(&self) -> bool {
+        matches!(self.sensor.health(), SensorHealth::Ok { .. })
+    }
+}
+
+/// Ticks until the whisker is given up, and why.
+fn lost(whisker: &mut Whisker) -> SensorFault {
+    for tick in 0..LIMITS.hold + 2 {
+        whisker.tick([0.05, 0.0]);
+        if let Some(Event::SensorLost(PLACE, fault)) = whisker.events.pop() {
+            assert_eq!(tick, LIMITS.hold);
+            assert!(!whisker.is_trusted());
+            return fault;
+        }
+    }
+    panic!("not lost");
+}
+
+/// Ticks until it is trusted again.
+fn back(whisker: &mut Whisker) -> u16 {
+    for tick in 0..20 {
+        if whisker.tick([0.05, 0.0]).fresh {
+            assert_eq!(whisker.events.pop(), Some(Event::SensorBack(PLACE)));
+            return tick;
+        }
+    }
+    panic!("not back");
+}
+
+#[test]
+fn words_are_the_tilt_to_a_code() {
+    let mut whisker = Whisker::new(60.0);
+    // Half of a full scale of tan φ = 0.15, both ways; none; and more than all.
+    let tilts = [
+        (0.0, 0.0),
+        (0.074_859_8, 0.5),
+        (-0.074_859_8, -0.5),
+        (0.3, 1.0),
+    ];
+    for (tilt, expected) in tilts {
+        let near = |word: Word, expected: f64| {
+            let normalised = f64::from(word.normalised());
+            assert!(
+                (normalised - expected).abs() < 2.0 / 8191.0,
+                "{normalised} {expected}"
+            );
+        };
+        let along = whisker.tick([tilt, 0.0]);
+        assert!(along.fresh && along.valid);
+        near(along.x, expected);
+        near(along.y, 0.0);
+        let across = whisker.tick([0.0, -tilt]);
+        near(across.x, 0.0);
+        near(across.y, -expected);
+    }
+    assert!(whisker.events.is_empty());
+}
+
+#[test]
+fn a_bad_frame_is_bridged() {
+    let mut whisker = Whisker::new(60.0);
+    let before = whisker.tick([0.1, 0.0]);
+    whisker.slave().inject(LineFault::Silent, 3);
+    let held = whisker.tick([0.02, 0.0]);
+    assert_eq!((held.x, held.fresh, held.valid), (before.x, false, true));
+    let after = whisker.tick([0.02, 0.0]);
+    assert!(after.valid && whisker.events.is_empty());
+}
+
+#[test]
+fn each_line_fault_switches_the_whisker_off_until_it_is_mended() {
+    let reply = |error| SensorFault::Tilt(TiltFault::Reply(error));
+    let faults = [
+        (LineFault::Silent, reply(ReplyError::NoSensor), 18),
+        (LineFault::SdoLow, reply(ReplyError::LineLow), 19),
+        (LineFault::SdiLow, reply(ReplyError::Rejected), 21),
+        (LineFault::FlipCommand(9), reply(ReplyError::Rejected), 21),
+        (LineFault::Bus, SensorFault::Bus, 17),
+    ];
+    for (fault, expected, number) in faults {
+        let mut whisker = Whisker::new(60.0);
+        whisker.tick([0.05, 0.0]);
+        whisker.slave().set_fault(Some(fault));
+        let told = lost(&mut whisker);
+        assert_eq!((told, told.code()), (expected, number), "{fault:?}");
+        whisker.slave().set_fault(None);
+        // One more where what the sensor noticed is read first.
+        let ticks = back(&mut whisker);
+        assert!(
+            (LIMITS.recover - 1..=LIMITS.recover).contains(&ticks),
+            "{fault:?}: {ticks}"
+        );
+    }
+}
+
+#[test]
+fn each_fault_that_the_sensor_reports_is_told_by_name() {
+    for known in StatusFaults::KNOWN {
+        if known.bit == StatusFaults::RESTARTED {
+            continue;
+        }
+        let mut whisker = Whisker::new(60.0);
+        whisker.tick([0.05, 0.0]);
+        whisker.slave().set_report(known.bit);
+        let told = lost(&mut whisker);
+        assert_eq!(told, SensorFault::Tilt(TiltFault::Reported(known.bit)));
+        assert_eq!(
+            told.to_string(),
+            format!("the sensor reports an error: {}", known.name)
+        );
+        whisker.slave().set_report(StatusFaults::NONE);
+        assert_eq!(back(&mut whisker), LIMITS.recover - 1);
+    }
+}
+
+#[test]
+fn a_sensor_that_restarts_is_configured_again() {
+    let mut whisker = Whisker::new(60.0);
+    whisker.tick([0.1, 0.0]);
+    whisker.slave().restart();
+    // The restart is seen, the sensor set up, and read.
+    assert!(!whisker.tick([0.1, 0.0]).fresh);
+    assert!(!whisker.tick([0.1, 0.0]).fresh);
+    assert!(whisker.tick([0.1, 0.0]).fresh);
+    assert!(whisker.events.is_empty() && whisker.is_trusted());
+}
+
+#[test]
+fn a_magnet_that_is_gone_or_upside_down_is_a_fault() {
+    for axial_mt in [0.0, -60.0] {
+        let mut whisker = Whisker::new(60.0);
+        whisker.tick([0.0; 2]);
+        let mut fault = None;
+        for _ in 0..=LIMITS.hold {
+            whisker.slave().set_field([0.0, 0.0, axial_mt]);
+            let events = &mut whisker.events;
+            let mut note = |event| events.push(event);
+            whisker
+                .sensor
+                .read(Decoder::new(), LIMITS, PLACE, &mut note);
+            fault = whisker.events.pop();
+        }
+        let expected = SensorFault::Tilt(TiltFault::NoMagnet);
+        assert_eq!(fault, Some(Event::SensorLost(PLACE, expected)));
+    }
+}
+
+#[test]
+fn a_sensor_that_stands_still_is_a_fault() {
+    let mut whisker = Whisker::new(60.0);
+    whisker.slave().set_fault(Some(LineFault::Frozen));
+    let frozen = (0..=LIMITS.frozen + 2).any(|tick| {
+        whisker.tick([0.1 / f64::from(tick + 1), 0.0]);
+        whisker.events.last() == Some(&Event::SensorLost(PLACE, SensorFault::Frozen))
+    });
+    assert!(frozen);
+}
+
+#[test]
+fn ranges_that_do_not_fit_are_refused() {
+    assert!(TiltScale::new(&config(), 0.06).is_none());
+    assert!(TiltScale::new(&config(), 0.07).is_some());
+    let mut equal = config();
+    equal.sensor.ranges = [Range::Wide; 3];
+    assert!(TiltScale::new(&equal, 0.24).is_none());
+    assert!(TiltScale::new(&equal, 0.26).is_some());
+    for full_scale in [0.0, -0.1, f32::NAN, f32::INFINITY] {
+        assert!(TiltScale::new(&config(), full_scale).is_none());
+    }
+}
+
+proptest! {
+    /// Whatever the magnet's strength, within its range.
+    #[test]
+    fn the_strength_of_the_magnet_does_not_matter(
+        axial_mt in 20.0_f64..95.0, x in -0.14_f64..0.14, y in -0.14_f64..0.14,
+    ) {
+        let mut whisker = Whisker::new(axial_mt);
+        let reading = whisker.tick([x, y]);
+        let tan = f64::hypot(x, y).tan() / f64::hypot(x, y).max(1e-9);
+        for (word, tilt) in [(reading.x, x), (reading.y, y)] {
+            let expected = (tilt * tan / f64::from(FULL_SCALE)).clamp(-1.0, 1.0);
+            // A code of the word, and half a code of each field, of which Z counts least.
+            let tolerance = 1.0 / 8191.0 + 1.2 * (12.5 / 32_768.0) / (0.5 * axial_mt * 0.15)
+                + 50.0 / 32_768.0 / axial_mt;
+            let normalised = f64::from(word.normalised());
+            prop_assert!((normalised - expected).abs() < tolerance, "{normalised} {expected}");
+        }
+    }
+
+    /// Any bytes that a bus may give have an answer.
+    #[test]
+    fn any_bit_flipped_anywhere_is_bridged_or_a_fault(
+        flips in prop::collection::vec((0_u8..32, any::<bool>()), 1..40),
+    ) {
+        let mut whisker = Whisker::new(60.0);
+        whisker.tick([0.1, 0.0]);
+        let before = whisker.tick([0.1, 0.0]);
+        for (bit, command) in flips {
+            let fault = if command {
+                LineFault::FlipCommand(bit)
+            } else {
+                LineFault::FlipReply(bit)
+            };
+            whisker.slave().inject(fault, 1);
+            let reading = whisker.tick([0.1, 0.0]);
+            prop_assert!(!reading.fresh || reading.x == before.x);
+        }
+    }
+}
