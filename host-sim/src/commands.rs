@@ -11,7 +11,7 @@ pub mod score;
 pub mod sweep;
 pub mod train;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The names of two columns, A,B, as an option has them.
 ///
@@ -32,8 +32,28 @@ pub fn channels(text: &str) -> Result<[String; 2], String> {
 /// What is allowed instead.
 pub fn picture(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match path.extension() {
-        Some(extension) if extension.eq_ignore_ascii_case("svg") => Ok(path),
-        _ => Err("allowed: a name that ends in .svg".to_owned()),
+    if ends_in(&path, "svg") {
+        Ok(path)
+    } else {
+        Err("allowed: a name that ends in .svg".to_owned())
     }
+}
+
+/// The same of one that may be of pixels.
+///
+/// # Errors
+/// What is allowed instead.
+pub fn any_picture(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if ends_in(&path, "svg") || ends_in(&path, "png") {
+        Ok(path)
+    } else {
+        Err("allowed: a name that ends in .svg or .png".to_owned())
+    }
+}
+
+/// Whether a path has this extension.
+fn ends_in(path: &Path, extension: &str) -> bool {
+    let found = path.extension();
+    found.is_some_and(|found| found.eq_ignore_ascii_case(extension))
 }

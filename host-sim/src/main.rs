@@ -36,7 +36,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Runs one scene: writes DIR/trace.csv, and DIR/decisions.csv where the scene classifies
+    /// Runs one scene: writes DIR/trace.csv, DIR/decisions.csv where the scene classifies, and
+    /// a picture of them
     #[command(allow_negative_numbers = true)]
     Run(run::Arguments),
     /// Runs one scene and records what its first whisker feels, or each that decides, to train on
@@ -133,7 +134,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     let piped = arguments.command.as_ref().is_some_and(Command::is_piped);
     let summary = match arguments.command {
         None => return main_job::main_job(verbosity),
-        Some(Command::Run(arguments)) => run::run(&arguments, verbosity)?,
+        Some(Command::Run(arguments)) => Some(run::run(&arguments, verbosity)?),
         Some(Command::Columns) => Some(columns::page().trim_end().to_owned()),
         Some(Command::Record { scene, out, seed }) => {
             Some(record::record(&scene, &out, seed, verbosity)?)

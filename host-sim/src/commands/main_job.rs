@@ -31,7 +31,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
 
     let create = |name| Output::create(&out.join(name));
     let (recording, trained) = (create("training.csv")?, create("textures.model")?);
-    let drawn = create("textures.svg")?;
+    let (drawn, pixels) = (create("textures.svg")?, create("textures.png")?);
 
     report::say(format_args!(
         "training: {} s of whisking against each texture in turn",
@@ -47,12 +47,13 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         scene.duration_s
     ));
     let (played, film) = decide(&scene, model, out, verbosity)?;
-    let title = "left whisker: four textures, RCP";
-    let picture = film.picture(title, &played.classes, &played.decided);
-    drawn.whole(plot::left_whisker(&picture)?.as_bytes())?;
+    let title = plot::title("left whisker: four textures, RCP", scene.duration_s);
+    let picture = film.picture(&title, &played.classes, &played.decided);
+    drawn.whole(picture.svg()?.as_bytes())?;
+    pixels.whole(&picture.png()?)?;
     let summary = played.summary().unwrap_or_default();
     report::say(format_args!(
-        "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg"
+        "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg, textures.png"
     ));
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! `host-sim run`: one scene to its files.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -7,7 +8,7 @@ use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
 use super::choice::{SceneChoice, seed};
-use super::picture;
+use super::{any_picture, ends_in};
 use crate::bench::{self, Bench};
 use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
@@ -31,31 +32,36 @@ pub struct Arguments {
     /// Where to write
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Where to write a picture of the left whisker's first ten seconds
-    #[arg(long, value_name = "FILE.svg", value_parser = picture)]
+    /// Where else to write the picture of the first ten seconds, besides DIR/trace.svg and
+    /// DIR/trace.png
+    #[arg(long, value_name = "FILE.svg|FILE.png", value_parser = any_picture)]
     pub plot: Option<PathBuf>,
+    /// Draws no picture
+    #[arg(long, conflicts_with = "plot")]
+    pub no_plot: bool,
 }
 
 impl Arguments {
-    /// A scene as its file has it, its files going to `out`.
+    /// A scene as its file has it, its tables going to `out`; no picture.
     pub fn of(scene: &Path, out: &Path) -> Self {
         Self {
             scene: scene.to_owned().into(),
             seed: None,
             out: out.to_owned(),
             plot: None,
+            no_plot: true,
         }
     }
 }
 
-/// Runs a scene; writes `trace.csv`, `decisions.csv` where the scene classifies, and a
-/// picture of the left whisker. Returns the score of the decisions, where there are any to
-/// score.
+/// Runs a scene; writes `trace.csv`, `decisions.csv` where the scene classifies, and
+/// pictures of the first ten seconds. Returns what was done: the score of the decisions,
+/// where there are any to score, and where all of it is.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene or model that is wrong, [`Error::Write`].
-pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<Option<String>, Error> {
-    let Arguments { out, .. } = arguments;
+pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
+    let Arguments { out, no_plot, .. } = arguments;
     let plot = arguments.plot.as_deref();
     if is_stdout(out) {
         return Err(Error::file(out, "a run has several files; name a folder"));
@@ -63,21 +69,68 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<Option<String>
     plot.map_or(Ok(()), output::check)?;
     let mut loaded = Loaded::with(&arguments.scene)?;
     loaded.scene.seed = arguments.seed.unwrap_or(loaded.scene.seed);
-    let run = Run::new(&loaded.scene, loaded.classifier()?)?;
-    let mut picture = plot.map(Output::create).transpose()?;
+    let scene = &loaded.scene;
+    let run = Run::new(scene, loaded.classifier()?)?;
+    let beside = ["trace.svg", "trace.png"].map(|name| out.join(name));
+    let pictures = beside.iter().filter(|_| !no_plot).map(PathBuf::as_path);
+    let pictures: Vec<&Path> = pictures.chain(plot).collect();
+    let drawn = pictures.iter().map(|path| Output::create(path));
+    let drawn: Vec<Output> = drawn.collect::<Result<_, Error>>()?;
+    if verbosity == Verbosity::Normal {
+        tell_size(scene);
+    }
     let mut film = Film::default();
-    let played = play(run, &loaded.scene, out, verbosity, |run, _| {
-        if plot.is_some() {
+    let played = play(run, scene, out, verbosity, |run, _| {
+        if !pictures.is_empty() {
             film.take(run);
         }
         Ok(())
     })?;
-    if let Some(picture) = picture.take() {
-        let title = format!("{}: the left whisker", loaded.scene.name);
-        let svg = plot::left_whisker(&film.picture(&title, &played.classes, &played.decided));
-        picture.whole(svg?.as_bytes())?;
+    let title = plot::title(&scene.name, scene.duration_s);
+    let picture = film.picture(&title, &played.classes, &played.decided);
+    for (output, path) in drawn.into_iter().zip(&pictures) {
+        if ends_in(path, "png") {
+            output.whole(&picture.png()?)?;
+        } else {
+            output.whole(picture.svg()?.as_bytes())?;
+        }
     }
-    Ok(played.summary())
+    let mut told = played.summary().map_or(String::new(), |score| score + "\n");
+    // Writing to a string does not fail.
+    let _ = write!(
+        told,
+        "{}: {} s simulated, {} ticks, seed {}\nin {}: trace.csv",
+        scene.name,
+        scene.duration_s,
+        scene.ticks(),
+        scene.seed,
+        out.display()
+    );
+    if scene.classifier.is_some() {
+        told.push_str(", decisions.csv");
+    }
+    if !no_plot {
+        told.push_str(", trace.svg, trace.png");
+    }
+    if let Some(picture) = pictures.last() {
+        let _ = write!(told, "\nto look at next: {}", picture.display());
+        told.push_str("; what each column is: host-sim columns");
+    }
+    Ok(told)
+}
+
+/// Says how much a run is that is not short.
+fn tell_size(scene: &Scene) {
+    /// Ticks of a run that is done before anyone wonders.
+    const SHORT: u64 = 2_000_000;
+    let (ticks, duration_s) = (scene.ticks(), scene.duration_s);
+    if ticks > SHORT {
+        let megabytes = TraceShape::of(scene).row_bytes() * ticks / 1_000_000;
+        report::warn(format_args!(
+            "{}: {duration_s} s to simulate, {ticks} ticks; the trace will have about {megabytes} MB",
+            scene.name
+        ));
+    }
 }
 
 /// A scene that has been checked, and the model that it names.

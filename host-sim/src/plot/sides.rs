@@ -1,8 +1,10 @@
 //! A picture of what both sides do: a panel a run.
 
+use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::{Area, Curve, Fault, MEASURED, SETPOINT, curves, envelope};
+use super::curves::{Axes, Curve, curves, envelope};
+use super::{Fault, MEASURED, SETPOINT};
 use crate::Error;
 use crate::trace::Row;
 
@@ -46,7 +48,7 @@ fn drawn(panels: &[Panel]) -> Result<String, Fault> {
     Ok(svg)
 }
 
-fn draw(area: &Area<'_>, panel: &Panel) -> Result<(), Fault> {
+fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), Fault> {
     let rows = &panel.rows;
     let span = (0.0, rows.last().map_or(1.0, |row| row.t_s));
     let obstacle = |name, side: usize| -> Curve {
@@ -61,5 +63,11 @@ fn draw(area: &Area<'_>, panel: &Panel) -> Result<(), Fault> {
     ];
     let style = ("sans-serif", 18).into_font().color(&SETPOINT);
     let area = area.titled(&panel.title, style)?;
-    curves(&area, "degrees", span, (40.0, 150.0), shown)
+    let axes = Axes {
+        x: None,
+        y: "degrees",
+        room: (64, 6),
+        legend: true,
+    };
+    curves(&area, axes, span, (40.0, 150.0), shown)
 }

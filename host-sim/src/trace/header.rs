@@ -165,6 +165,13 @@ impl TraceShape {
         })
     }
 
+    /// About how many bytes a row has.
+    pub fn row_bytes(self) -> u64 {
+        /// A cell, as of the scenes of the project; of a side that is not there less.
+        const CELL: u64 = 7;
+        CELL * self.header().split(',').count() as u64
+    }
+
     /// The header.
     pub(super) fn header(self) -> String {
         let right: &[Column] = if self.hears_right { &OF_RIGHT } else { &[] };

@@ -10,6 +10,7 @@ mod main_job;
 mod meaning;
 mod mutations;
 mod outputs;
+mod pictures;
 mod refuses_arguments;
 mod refuses_models;
 mod refuses_recordings;

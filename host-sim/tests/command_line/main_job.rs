@@ -16,6 +16,7 @@ fn textures_are_told_apart_as_surely_as_is_said() {
     let expected = [
         "decisions.csv",
         "textures.model",
+        "textures.png",
         "textures.svg",
         "trace.csv",
         "training.csv",

@@ -97,8 +97,8 @@ fn files_of_a_run_are_refused_before_it() {
     let long = format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
     place.write("s.toml", long);
     place.write("the.model", model(2, 20, true));
-    for name in ["trace.csv", "decisions.csv"] {
-        let folder = name.replace(".csv", "");
+    for name in ["trace.csv", "decisions.csv", "trace.png", "trace.svg"] {
+        let folder = name.replace('.', "-");
         std::fs::create_dir(place.path(&folder)).unwrap();
         fifo(&place, &format!("{folder}/{name}"));
         let naming = format!("{folder}/{name}: is a pipe");
@@ -149,8 +149,9 @@ fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
         let place = Place::with(&[("s.toml", &long), ("out/trace.csv", "older")]);
         place.write("the.model", model(2, 20, true));
         let before = place.content();
-        let mut command = place.command("run s.toml --out out --quiet");
-        let mut child = command.stdout(Stdio::null()).spawn().unwrap();
+        let mut command = place.command("run s.toml --out out");
+        let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let child = command.spawn().unwrap();
         // In mid-run: some of the trace is on the disk.
         let since = Instant::now();
         while !partial(&place).iter().any(|(_, size)| *size > 1_000_000) {
@@ -163,8 +164,12 @@ fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
         let id = child.id().to_string();
         let killed = Command::new("kill").args(["-s", signal, &id]).status();
         assert!(killed.unwrap().success());
-        let ended = child.wait().unwrap();
-        assert_eq!(ended.signal(), Some(number), "{ended:?}");
+        let ended = child.wait_with_output().unwrap();
+        assert_eq!(ended.status.signal(), Some(number), "{ended:?}");
+        // How much it would have been was told beforehand.
+        let told = String::from_utf8(ended.stderr).unwrap();
+        let size = "textured: 100000 s to simulate, 200000000 ticks; the trace will have about ";
+        assert!(told.starts_with(size), "{told}");
         assert_eq!(partial(&place), []);
         assert!(place.content() == before, "{signal}");
     }

@@ -1,0 +1,140 @@
+//! Curves over time.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::{Fault, SIZE};
+use crate::trace::Row;
+
+/// Points of a curve: the lowest and highest value of each stretch of time, so
+/// that a vibration keeps its width however long the run.
+pub(super) fn envelope(rows: &[Row], value: impl Fn(&Row) -> f64) -> Vec<(f64, f64)> {
+    let stretch = rows.len().div_ceil(SIZE.0 as usize).max(1);
+    rows.chunks(stretch)
+        .flat_map(|rows| {
+            let t_s = rows.first().map_or(0.0, |row| row.t_s);
+            let values = || rows.iter().map(&value);
+            let low = values().fold(f64::INFINITY, f64::min);
+            let high = values().fold(f64::NEG_INFINITY, f64::max);
+            [(t_s, low), (t_s, high)]
+        })
+        .collect()
+}
+
+/// Name, colour and points of a curve.
+pub(super) type Curve = (&'static str, RGBColor, Vec<(f64, f64)>);
+
+/// What stands along the axes: quantity and unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Axes<'t> {
+    /// Below; none: where another panel below has it.
+    pub(super) x: Option<&'t str>,
+    /// On the left.
+    pub(super) y: &'t str,
+    /// Room on the left, and beyond the end of the axis below, pixels.
+    pub(super) room: (u32, u32),
+    /// Whether the names of the curves stand among them.
+    pub(super) legend: bool,
+}
+
+/// Width of a legend that stands beside a panel, pixels.
+const LEGEND: u32 = 170;
+
+/// What stands in a legend before a name.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Sign {
+    /// A line.
+    Line(RGBColor),
+    /// A square.
+    Square(RGBColor),
+    /// A dot, filled or a ring.
+    Dot(RGBColor, bool),
+}
+
+/// A panel in two: for what it shows, and for its legend, which is drawn.
+pub(super) fn with_legend<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    entries: &[(Sign, &str)],
+) -> Result<DrawingArea<DB, Shift>, Fault>
+where
+    DB::ErrorType: 'static,
+{
+    let width = area.dim_in_pixel().0.saturating_sub(LEGEND) as i32;
+    let (panel, legend) = area.split_horizontally(width);
+    for (y, (sign, name)) in (16..).step_by(18).zip(entries) {
+        match *sign {
+            Sign::Line(colour) => {
+                let line = vec![(4, y), (22, y)];
+                legend.draw(&PathElement::new(line, colour.stroke_width(2)))?;
+            }
+            Sign::Square(colour) => {
+                let corners = [(6, y - 6), (20, y + 6)];
+                legend.draw(&Rectangle::new(corners, colour.filled()))?;
+            }
+            Sign::Dot(colour, true) => legend.draw(&Circle::new((13, y), 4, colour.filled()))?,
+            Sign::Dot(colour, false) => {
+                legend.draw(&Circle::new((13, y), 4, colour.stroke_width(2)))?;
+            }
+        }
+        let style = ("sans-serif", 13).into_font().color(&BLACK);
+        let middle = Pos::new(HPos::Left, VPos::Center);
+        let style = style.pos(middle);
+        legend.draw(&Text::new((*name).to_owned(), (28, y), style))?;
+    }
+    Ok(panel)
+}
+
+/// From below the lowest point of the curves to above the highest, at least `least` apart,
+/// with some room.
+pub(super) fn range(curves: &[Curve], least: f64) -> (f64, f64) {
+    let points = || curves.iter().flat_map(|(_, _, points)| points);
+    let values = || points().map(|(_, y)| *y).filter(|y| y.is_finite());
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(f64::NEG_INFINITY, f64::max);
+    if low > high {
+        return (0.0, least);
+    }
+    let span = (high - low).max(least);
+    (low - 0.06 * span, low + 1.06 * span)
+}
+
+/// Draws curves in a panel, with axes and legend.
+pub(super) fn curves<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    axes: Axes<'_>,
+    (from, to): (f64, f64),
+    (low, high): (f64, f64),
+    curves: Vec<Curve>,
+) -> Result<(), Fault>
+where
+    DB::ErrorType: 'static,
+{
+    let mut chart = ChartBuilder::on(area)
+        .margin(6)
+        .x_label_area_size(if axes.x.is_some() { 40 } else { 24 })
+        .margin_right(axes.room.1)
+        .y_label_area_size(axes.room.0)
+        .build_cartesian_2d(from..to, low..high)?;
+    let mut mesh = chart.configure_mesh();
+    mesh.light_line_style(WHITE).y_desc(axes.y);
+    if let Some(x) = axes.x {
+        mesh.x_desc(x);
+    }
+    mesh.draw()?;
+    for (name, colour, points) in curves {
+        chart
+            .draw_series(LineSeries::new(points, colour.stroke_width(1)))?
+            .label(name)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
+    }
+    if !axes.legend {
+        return Ok(());
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE.mix(0.8))
+        .draw()?;
+    Ok(())
+}

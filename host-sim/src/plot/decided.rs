@@ -1,0 +1,104 @@
+//! What was presented, and what was decided.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::curves::{Sign, with_legend};
+use super::{Fault, MEASURED, Picture, Presented, RIGHT, SETPOINT, TRUTH, WRONG};
+use crate::decisions::{Decided, UNKNOWN, Verdict};
+
+/// Room on the left for the names of classes and the title beside them, pixels.
+pub(super) fn names_width(classes: &[String]) -> u32 {
+    /// A letter of their size takes no more.
+    const LETTER: usize = 8;
+    let names = classes.iter().map(String::as_str).chain([UNKNOWN]);
+    let longest = names.map(|name| name.chars().count()).max();
+    (longest.unwrap_or(0) * LETTER + 24).clamp(64, 300) as u32
+}
+
+/// A row for each class, and one of what was unknown: grey where it was presented, a dot
+/// for each decision, a ring for one of the right side.
+pub(super) fn decisions<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    picture: &Picture<'_>,
+    (from, to): (f64, f64),
+    room: (u32, u32),
+) -> Result<(), Fault>
+where
+    DB::ErrorType: 'static,
+{
+    let classes = picture.classes.iter().map(String::as_str);
+    let rows: Vec<&str> = classes.chain([UNKNOWN]).collect();
+    let count = rows.len();
+    let mut entries = vec![
+        (Sign::Square(TRUTH), "presented"),
+        (Sign::Dot(RIGHT, true), "decision: right"),
+        (Sign::Dot(WRONG, true), "wrong"),
+        (Sign::Dot(MEASURED, true), "refused"),
+    ];
+    if picture.decided.iter().any(is_right) {
+        entries.push((Sign::Dot(SETPOINT, false), "by the right side"));
+    }
+    let area = with_legend(area, &entries)?;
+    let mut chart = ChartBuilder::on(&area)
+        .margin(6)
+        .x_label_area_size(40)
+        .margin_right(room.1)
+        .y_label_area_size(room.0)
+        .build_cartesian_2d(from..to, -0.5..count as f64 - 0.5)?;
+    let name = |height: &f64| {
+        let class = height.round();
+        let on_row = (height - class).abs() < 1e-6 && class >= 0.0;
+        let name = rows.get(class as usize).filter(|_| on_row);
+        name.copied().unwrap_or_default().to_owned()
+    };
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .y_labels(count)
+        .y_label_formatter(&name)
+        .x_desc("time, s")
+        .y_desc("class")
+        .draw()?;
+    // What the model does not know stands where the right decision does.
+    let row = |label: &str| rows.iter().position(|row| *row == label);
+    for Presented {
+        span_s: (start, end),
+        label,
+    } in picture.presented
+    {
+        let height = row(label).unwrap_or(picture.classes.len()) as f64;
+        let corners = [(*start, height - 0.4), (end.min(to), height + 0.4)];
+        chart.draw_series([Rectangle::new(corners, TRUTH.filled())])?;
+        if row(label).is_none() {
+            let style = ("sans-serif", 13).into_font().color(&SETPOINT);
+            let place = (*start, height + 0.35);
+            chart.draw_series([Text::new(format!(" {label}"), place, style)])?;
+        }
+    }
+    for decided in picture.decided {
+        let (Some(t_s), Some(row)) = (decided.t_s, row(&decided.decision)) else {
+            continue;
+        };
+        if !(from..=to).contains(&t_s) {
+            continue;
+        }
+        let colour = match decided.verdict(picture.classes) {
+            Verdict::Right => RIGHT,
+            Verdict::Wrong => WRONG,
+            Verdict::Refused => MEASURED,
+        };
+        let style = if is_right(decided) {
+            colour.stroke_width(2)
+        } else {
+            colour.filled()
+        };
+        chart.draw_series([Circle::new((t_s, row as f64), 4, style)])?;
+    }
+    Ok(())
+}
+
+/// Whether a whisker of the right side decided.
+fn is_right(decided: &Decided) -> bool {
+    decided.place.is_some_and(|place| place.side != 0)
+}

@@ -1,0 +1,160 @@
+//! The first whiskers of a run: setpoint and measured angle, what the sensors felt, contact
+//! and suppression, and each decision against what was presented.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::curves::{Axes, Curve, Sign, curves, envelope, range, with_legend};
+use super::decided::{decisions, names_width};
+use super::pixels::Pixels;
+use super::{CONTACT, Fault, MEASURED, Picture, SETPOINT, SIZE};
+use crate::Error;
+use crate::trace::Row;
+
+/// Colours of the right side.
+const PALE: RGBColor = RGBColor(225, 190, 160);
+const VIOLET: RGBColor = RGBColor(120, 60, 140);
+
+impl Picture<'_> {
+    /// As an SVG document.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the drawing library fails.
+    pub fn svg(&self) -> Result<String, Error> {
+        let mut svg = String::new();
+        let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
+        self.drawn(&area).map_err(|fault| failed(&*fault))?;
+        drop(area);
+        Ok(svg)
+    }
+
+    /// As a PNG file.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the drawing library fails.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let mut pixels = Pixels::new(SIZE)?;
+        let area = (&mut pixels).into_drawing_area();
+        self.drawn(&area).map_err(|fault| failed(&*fault))?;
+        drop(area);
+        pixels.png()
+    }
+
+    fn drawn<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), Fault>
+    where
+        DB::ErrorType: 'static,
+    {
+        root.fill(&WHITE)?;
+        let root = root.titled(self.title, ("sans-serif", 20))?;
+        let classifies = !self.classes.is_empty();
+        let areas = root.split_evenly((3 + usize::from(classifies), 1));
+        let [angle, sensor, contact, classes @ ..] = areas.as_slice() else {
+            return Err("the drawing area does not split".into());
+        };
+        let rows = self.rows;
+        let span = (
+            rows.first().map_or(0.0, |row| row.t_s),
+            rows.last().map_or(1.0, |row| row.t_s),
+        );
+        let time = "time, s";
+        // As wide in all panels: time is above time.
+        let left = if classifies {
+            names_width(self.classes)
+        } else {
+            64
+        };
+        let room = (left, 16);
+        for (area, y, x, least, shown) in [
+            (angle, "angle θ′, degrees", None, 20.0, ANGLES),
+            (sensor, "sensor, codes", None, 400.0, SENSORS),
+            (
+                contact,
+                "contact π, z",
+                Some(time).filter(|_| !classifies),
+                1.0,
+                CONTACTS,
+            ),
+        ] {
+            let shown = of_sides(rows, &shown);
+            let entries = shown
+                .iter()
+                .map(|(name, colour, _)| (Sign::Line(*colour), *name));
+            let area = with_legend(area, &entries.collect::<Vec<_>>())?;
+            let axes = Axes {
+                x,
+                y,
+                room,
+                legend: false,
+            };
+            curves(&area, axes, span, range(&shown, least), shown)?;
+        }
+        if let [classes] = classes {
+            decisions(classes, self, span, room)?;
+        }
+        root.present()?;
+        Ok(())
+    }
+}
+
+fn failed(fault: &dyn std::error::Error) -> Error {
+    Error::Work(format!("plot: {fault}"))
+}
+
+/// A quantity of each side: its names, its colours and where it is in a row.
+struct Quantity {
+    names: [&'static str; 2],
+    colours: [RGBColor; 2],
+    of: fn(&Row) -> [f64; 2],
+}
+
+const ANGLES: [Quantity; 2] = [
+    Quantity {
+        names: ["setpoint", "setpoint, right"],
+        colours: [SETPOINT, PALE],
+        of: |row| row.theta_deg,
+    },
+    Quantity {
+        names: ["measured", "measured, right"],
+        colours: [MEASURED, CONTACT],
+        of: |row| row.angle_deg,
+    },
+];
+
+const SENSORS: [Quantity; 2] = [
+    Quantity {
+        names: ["y", "y, right"],
+        colours: [SETPOINT, PALE],
+        of: |row| row.y,
+    },
+    Quantity {
+        names: ["x", "x, right"],
+        colours: [MEASURED, CONTACT],
+        of: |row| row.x,
+    },
+];
+
+const CONTACTS: [Quantity; 2] = [
+    Quantity {
+        names: ["contact π", "contact π, right"],
+        colours: [CONTACT, VIOLET],
+        of: |row| row.contact,
+    },
+    Quantity {
+        names: ["suppression z", "suppression z, right"],
+        colours: [SETPOINT, PALE],
+        of: |row| row.z,
+    },
+];
+
+/// The curves of the left side, and in front of them those of the right one, if there is one.
+fn of_sides(rows: &[Row], quantities: &[Quantity]) -> Vec<Curve> {
+    let has_right = rows.first().is_some_and(|row| !row.angle_deg[1].is_nan());
+    let sides = 0..1 + usize::from(has_right);
+    let curve = |side: usize| {
+        quantities.iter().map(move |quantity| {
+            let points = envelope(rows, |row| (quantity.of)(row)[side]);
+            (quantity.names[side], quantity.colours[side], points)
+        })
+    };
+    sides.flat_map(curve).collect()
+}
