@@ -139,25 +139,38 @@ pub fn presentations(
     streams.iter().map(presentation).collect()
 }
 
-/// Of the samples that count, the share that lies outside of the model's range in one of
-/// the channels.
-pub fn outside(model: &ModelBuf, streams: &[Stream]) -> f64 {
+/// What lies outside of a model's range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outside {
+    /// Its share of the samples that count.
+    pub share: f64,
+    /// The first such sample, counted from 0 over all streams, and its channel.
+    pub first: Option<(usize, usize)>,
+}
+
+/// Of the samples that count those that lie outside of the model's range in one of the
+/// channels.
+pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
     let gate = model.touch_rule().map_or(GATE, |touch| touch.gate.into());
-    let (mut outside, mut all) = (0_u64, 0_u64);
-    for stream in streams {
-        let samples = stream.samples.iter().zip(stream.counts(gate));
-        for (sample, _) in samples.filter(|(_, counts)| *counts) {
-            let is_outside = sample.iter().enumerate().any(|(channel, x)| {
-                let quantiser = model.quantiser(channel);
-                quantiser.is_some_and(|q| {
-                    q.low < q.high && !(q.low..=q.high).contains(&q.code_from_f64(*x))
-                })
-            });
-            outside += u64::from(is_outside);
-            all += 1;
-        }
+    let samples = streams.iter().flat_map(|stream| {
+        let counts = stream.counts(gate);
+        stream.samples.iter().zip(counts)
+    });
+    let (mut first, mut count, mut all) = (None, 0_u64, 0_u64);
+    for (n, (sample, _)) in samples.enumerate().filter(|(_, (_, counts))| *counts) {
+        let channel = sample.iter().enumerate().position(|(channel, x)| {
+            let quantiser = model.quantiser(channel);
+            quantiser
+                .is_some_and(|q| q.low < q.high && !(q.low..=q.high).contains(&q.code_from_f64(*x)))
+        });
+        first = first.or(channel.map(|channel| (n, channel)));
+        count += u64::from(channel.is_some());
+        all += 1;
     }
-    outside as f64 / all.max(1) as f64
+    Outside {
+        share: count as f64 / all.max(1) as f64,
+        first,
+    }
 }
 
 /// Thresholds among which one is suggested, rising.

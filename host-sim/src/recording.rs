@@ -193,6 +193,26 @@ pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
     table.flush()
 }
 
+/// The line of each sample of a table that [`read`] takes.
+#[cfg(feature = "cli")]
+pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
+    let mut reader = csv::Reader::from_reader(table);
+    let (mut line, mut last) = (1, 0);
+    let records = reader.byte_records().map_while(Result::ok);
+    let of = |record: csv::ByteRecord| {
+        let begin = record.position().map_or(0, csv::Position::byte) as usize;
+        // Blank lines before a row belong to it.
+        let blank = table.iter().skip(begin);
+        let blank = blank.take_while(|byte| matches!(byte, b'\r' | b'\n'));
+        let begin = begin + blank.count();
+        let passed = table.get(last..begin).unwrap_or_default();
+        line += passed.split(|byte| *byte == b'\n').skip(1).count() as u64;
+        last = begin;
+        line
+    };
+    records.map(of).collect()
+}
+
 /// What is wrong with a table as a table.
 fn broken(error: &csv::Error) -> String {
     match error.kind() {

@@ -8,6 +8,7 @@ use crate::Error;
 use crate::classifier::Fault;
 use crate::decisions::{Columns, Score};
 use crate::files;
+use crate::misfit::misfits;
 use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::replay::Replay;
@@ -32,11 +33,12 @@ pub fn classify(
         Rule::Sequential { threshold } => format!("--threshold {threshold}"),
         Rule::Window { samples } => format!("--window {samples}"),
     };
+    let streams = files::read_recording(data, channels)?;
+    let misfits = misfits(data, channels, &model, &streams);
     let mut replay = Replay::new(model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("{option}: {fault}")),
     })?;
-    let streams = files::read_recording(data, channels)?;
     let mut progress = Progress::new(verbosity, "classifying", streams.len() as u64);
     let mut decided = Vec::new();
     for (n, stream) in streams.iter().enumerate() {
@@ -51,5 +53,7 @@ pub fn classify(
         Columns::OfRecording,
     )?;
     let score = Score::new(replay.classes(), &decided);
-    Ok(Summary(&score, None).to_string())
+    let mut told = vec![Summary(&score, None).to_string()];
+    told.extend(misfits);
+    Ok(told.join("\n"))
 }

@@ -9,6 +9,7 @@ use crate::Error;
 use crate::classifier::{self, Fault};
 use crate::evaluation::{self, Candidate, Evaluation, THRESHOLDS};
 use crate::files;
+use crate::misfit::misfits;
 use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
@@ -68,7 +69,8 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     plot.as_deref().map_or(Ok(()), output::check)?;
     let tick_hz = f64::from(*rate);
     let (path, model) = files::load_model(&arguments.model)?;
-    let streams = files::read_recording(data, channels.each_ref().map(String::as_str))?;
+    let channels = channels.each_ref().map(String::as_str);
+    let streams = files::read_recording(data, channels)?;
     let wrong = |fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("--threshold {threshold}: {fault}")),
@@ -85,7 +87,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     let doubts = Doubts {
         classes: &classes,
         evaluation: &evaluation,
-        outside: evaluation::outside(&model, &streams),
+        misfits: misfits(data, channels, &model, &streams),
     };
     let figures = Figures(&evaluation, tick_hz);
     let mut told = vec![format!("{figures}\n{doubts}")];

@@ -108,8 +108,8 @@ pub struct Doubts<'a> {
     pub classes: &'a [String],
     /// The figures.
     pub evaluation: &'a Evaluation,
-    /// Share of the samples with contact that lie outside of the model's range.
-    pub outside: f64,
+    /// Where the recording does not fit the model, a line each.
+    pub misfits: Vec<String>,
 }
 
 /// Presentations of a class below which a warning is due.
@@ -117,8 +117,6 @@ const FEW: usize = 3;
 /// Share of its decisions by which a class may be taken for another before they cannot
 /// be told.
 const MISTAKEN: f64 = 0.25;
-/// Share of samples that may lie outside; of the training itself it is below 1 %.
-const OUTSIDE: f64 = 0.05;
 
 impl fmt::Display for Doubts<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -130,7 +128,7 @@ impl fmt::Display for Doubts<'_> {
                     classes: known,
                     ..
                 },
-            outside,
+            misfits,
         } = self;
         if known.is_empty() {
             write!(
@@ -165,13 +163,8 @@ impl fmt::Display for Doubts<'_> {
                 )?;
             }
         }
-        if *outside > OUTSIDE {
-            write!(
-                f,
-                "\nwarning: {:.0} % of samples lie outside of the range that the model was trained \
-                 on: other units, another sensor, or another motion?",
-                100.0 * outside
-            )?;
+        for misfit in misfits {
+            write!(f, "\n{misfit}")?;
         }
         write!(f, "\nwarning: {}", Told(&Warning::OneRecording))
     }

@@ -8,6 +8,7 @@ mod judges;
 mod library;
 mod main_job;
 mod meaning;
+mod misfits;
 mod mutations;
 mod outputs;
 mod pictures;

@@ -1,0 +1,73 @@
+//! Where a recording does not fit a model: the file, the line and what is there.
+
+use std::path::Path;
+
+use tactile::ModelBuf;
+
+use crate::classifier;
+use crate::evaluation;
+use crate::recording::{self, Stream};
+
+/// Share of samples that may lie outside of a model's range; of the training itself it is
+/// below 1 %.
+const OUTSIDE: f64 = 0.05;
+
+/// What does not fit, a line each: samples outside of the model's range, if there are more
+/// than a few, and labels that are none of its classes. `path` has the recording of which
+/// `streams` were read, from the columns `channels`.
+pub fn misfits(
+    path: &Path,
+    channels: [&str; 2],
+    model: &ModelBuf,
+    streams: &[Stream],
+) -> Vec<String> {
+    let mut found = Vec::new();
+    let outside = evaluation::outside(model, streams);
+    if let Some((sample, channel)) = outside.first.filter(|_| outside.share > OUTSIDE) {
+        let value = streams
+            .iter()
+            .flat_map(|stream| &stream.samples)
+            .nth(sample);
+        let value = value.and_then(|values| values.get(channel));
+        let (low, high) = model.quantiser(channel).map_or((0.0, 0.0), |quantiser| {
+            let unit = f64::from(-quantiser.exponent).exp2();
+            let value = |code: i32| quantiser.origin + f64::from(code) * unit;
+            (value(quantiser.low), value(quantiser.high))
+        });
+        let said = format!(
+            "{} is {}; the model was trained on {low} to {high}. {:.0} % of samples lie outside of \
+             the range that the model was trained on: other units, another sensor, or another \
+             motion?",
+            channels.get(channel).unwrap_or(&""),
+            value.unwrap_or(&f64::NAN),
+            100.0 * outside.share
+        );
+        found.push((sample, "warning", said));
+    }
+    let classes = classifier::names(model);
+    let mut told: Vec<&str> = Vec::new();
+    let mut first = 0;
+    for stream in streams {
+        let label = stream.label.as_str();
+        if !classes.iter().any(|class| class == label) && !told.contains(&label) {
+            told.push(label);
+            let classes = classes.join(", ");
+            let said = format!("label {label:?} is none of the model's classes: {classes}");
+            found.push((first, "note", said));
+        }
+        first += stream.samples.len();
+    }
+    if found.is_empty() {
+        return Vec::new();
+    }
+    // Read again for its lines: few recordings need them.
+    let lines = std::fs::read(path).map(|bytes| recording::lines(&bytes));
+    let lines = lines.unwrap_or_default();
+    let place = |sample: usize| match lines.get(sample) {
+        Some(line) => format!("{}:{line}", path.display()),
+        None => path.display().to_string(),
+    };
+    let told = found.into_iter();
+    told.map(|(sample, kind, said)| format!("{kind}: {}: {said}", place(sample)))
+        .collect()
+}

@@ -1,0 +1,42 @@
+//! Recordings that do not fit the model: told with file and line, and done all the same.
+
+use crate::common::{Place, RECORDING};
+
+/// Blank lines and cells of two lines: a row's number is not its line.
+const OTHER: &str = "label,trial,x,y\n\nlow,\"a\nb\",100,8000\nlow,0,120,8100\n\n\
+    mud,0,9000,8000\nmud,0,9100,8100\nhigh,1,-0.5,8000\nhigh,1,0.5,8100\n";
+
+const CLASSIFY: &str = "classify --model m --rule window --window 2 --out d.csv --data";
+
+fn place() -> Place {
+    let place = Place::with(&[("r.csv", RECORDING), ("other.csv", OTHER)]);
+    place.done("train --tables single --data r.csv --out m --block 2");
+    place
+}
+
+#[test]
+fn what_does_not_fit_is_told_with_file_and_line() {
+    let place = place();
+    let evaluate = "evaluate --model m --data other.csv";
+    for line in [format!("{CLASSIFY} other.csv"), evaluate.to_owned()] {
+        let told = place.done(&line).stdout;
+        for naming in [
+            "\nwarning: other.csv:9: x is -0.5; the model was trained on ",
+            " 33 % of samples lie outside of the range",
+            "\nnote: other.csv:7: label \"mud\" is none of the model's classes: low, high",
+        ] {
+            assert!(told.contains(naming), "{line}: no {naming:?} in {told}");
+        }
+        assert_eq!(told.matches("other.csv:").count(), 2, "{told}");
+    }
+    // In the units of the samples.
+    let told = place.done(&format!("{CLASSIFY} other.csv")).stdout;
+    assert!(told.contains("trained on 100 to 9100."), "{told}");
+}
+
+#[test]
+fn of_what_fits_nothing_is_said() {
+    let place = place();
+    let told = place.done(&format!("{CLASSIFY} r.csv")).stdout;
+    assert!(!told.contains("r.csv"), "{told}");
+}
