@@ -70,6 +70,7 @@ fn main() {
     println!("cargo::rerun-if-changed=src/board");
     println!("cargo::rerun-if-env-changed=WHISKER_SCENE");
     println!("cargo::rustc-check-cfg=cfg(right_side)");
+    println!("cargo::rustc-check-cfg=cfg(telemetry)");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
@@ -150,6 +151,9 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     fs::write(output("scene.rs")?, source)?;
     if scene.head.sides.count() > 1 {
         println!("cargo::rustc-cfg=right_side");
+    }
+    if scene.telemetry.rtt {
+        println!("cargo::rustc-cfg=telemetry");
     }
     Ok(())
 }

@@ -17,6 +17,7 @@ use firmware::{AngleInput, Event, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{Pins, SimPwm};
+use wire::Packet;
 
 use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
@@ -190,23 +191,39 @@ impl Board {
 
     /// Asks the program to wait where the log's ring is full, as a probe does that attaches.
     pub(crate) fn attach_reader(&mut self) -> Result<(), Fault> {
-        let Machine { ring, memories, .. } = &self.machine;
-        ring.ask_to_wait(memories)
+        let Machine { rtt, memories, .. } = &self.machine;
+        rtt.log().ask_to_wait(memories)
     }
 
     /// From now on nobody fetches the log, and its ring is full.
     pub(crate) fn lose_reader(&mut self) -> Result<(), Fault> {
         self.has_reader = false;
-        let Machine { ring, memories, .. } = &self.machine;
-        ring.fill(memories)
+        let Machine { rtt, memories, .. } = &self.machine;
+        rtt.log().fill(memories)
+    }
+
+    /// Has a PC ask for something; whether there was room for it.
+    pub(crate) fn request(&mut self, bytes: &[u8]) -> Result<bool, Fault> {
+        let Machine { rtt, memories, .. } = &self.machine;
+        let ring = rtt.requests(memories)?;
+        let sent = ring.map_or(Ok(0), |ring| ring.send(memories, bytes))?;
+        Ok(sent == bytes.len())
+    }
+
+    /// Fetches what the program tells a PC.
+    pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
+        let Machine { rtt, memories, .. } = &self.machine;
+        let ring = rtt.packets(memories)?;
+        let bytes = ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))?;
+        Ok(bytes.as_chunks().0.iter().map(Packet::from_bytes).collect())
     }
 
     fn drain(&mut self) -> Result<(), Fault> {
         if !self.has_reader {
             return Ok(());
         }
-        let Machine { ring, memories, .. } = &self.machine;
-        self.log.extend(ring.drain(memories)?);
+        let Machine { rtt, memories, .. } = &self.machine;
+        self.log.extend(rtt.log().drain(memories)?);
         Ok(())
     }
 
@@ -310,8 +327,8 @@ impl Emulated {
         {
             return Err(Fault::Reset(cause));
         }
-        self.meter
-            .logged(board.machine.ring.writer(&board.machine.memories)?);
+        let Machine { rtt, memories, .. } = &board.machine;
+        self.meter.logged(rtt.log().writer(memories)?);
         for (place, said) in board.watch.said(&board.machine.memories)? {
             match said {
                 Said::Decision(decision) => events.push(Event::Decision(place, decision)),

@@ -11,6 +11,7 @@ use host_sim::trace::Row;
 use plan::NumberFormat;
 use scene::Numbers;
 
+use crate::board::Emulated;
 use crate::counters::Started;
 use crate::emulate::{pwm_counts, start};
 use crate::program::Program;
@@ -46,6 +47,42 @@ pub struct Circumstances {
 /// After what time of the scene the ring is full, s: early enough for short scenes, and
 /// after the lines of the start.
 const GONE_AFTER_S: f64 = 0.5;
+
+/// A scene on the PC, in the board's number format, and on the board.
+pub(crate) struct Pair {
+    pub(crate) host: Run,
+    pub(crate) target: Run<Emulated>,
+    /// Whether the scene uses contact.
+    pub(crate) feels: bool,
+}
+
+impl Pair {
+    /// Both before their first tick; the scene gets the board's number format.
+    pub(crate) fn new(loaded: &mut Loaded, program: &Program) -> Result<Self, Error> {
+        let model = program.model()?;
+        let format = plan::in_simulation(&loaded.scene);
+        if let Some(whisking) = &mut loaded.scene.whisking {
+            if !model.has_fpu() {
+                whisking.numbers = Numbers::Fixed;
+            } else if format == NumberFormat::Double {
+                whisking.numbers = Numbers::Single;
+            }
+        }
+        let scene = &loaded.scene;
+        let classifier = loaded.classifier()?;
+        let touch = classifier.as_ref().and_then(Classifier::touch_rule);
+        let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
+        let listens = matches!(least, Ok(Some(_)));
+        let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
+        let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
+        let target = start(scene, host.classes().to_vec(), program)?;
+        Ok(Self {
+            host,
+            target,
+            feels,
+        })
+    }
+}
 
 /// What was compared, and found equal to the last bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,23 +127,12 @@ pub fn compare(
         loaded.scene.duration_s = duration_s;
     }
     let program = Program::load(program)?;
-    let model = program.model()?;
-    let format = plan::in_simulation(&loaded.scene);
-    if let Some(whisking) = &mut loaded.scene.whisking {
-        if !model.has_fpu() {
-            whisking.numbers = Numbers::Fixed;
-        } else if format == NumberFormat::Double {
-            whisking.numbers = Numbers::Single;
-        }
-    }
+    let Pair {
+        mut host,
+        mut target,
+        feels,
+    } = Pair::new(&mut loaded, &program)?;
     let scene = &loaded.scene;
-    let classifier = loaded.classifier()?;
-    let touch = classifier.as_ref().and_then(Classifier::touch_rule);
-    let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
-    let listens = matches!(least, Ok(Some(_)));
-    let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
-    let mut host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
-    let mut target = start(scene, host.classes().to_vec(), &program)?;
 
     let board = &mut target.module_mut().board;
     let started = wraps.then(|| Started::new(&program, board, scene.tick_hz));

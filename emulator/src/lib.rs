@@ -38,6 +38,7 @@ mod rtt;
 pub mod sensor_loss;
 pub mod starting;
 pub mod supply;
+pub mod telemetry;
 mod trouble;
 mod upset;
 mod watch;

@@ -11,7 +11,7 @@ use crate::core::{Core, EXCEPTION};
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
-use crate::rtt::Ring;
+use crate::rtt::Rtt;
 use crate::upset::{Planned, Upset};
 
 /// Interrupts are exceptions from this number on.
@@ -65,7 +65,7 @@ pub(crate) struct Machine {
     frames: Vec<u32>,
     shared: Arc<Shared>,
     pub(crate) memories: Memories,
-    pub(crate) ring: Ring,
+    pub(crate) rtt: Rtt,
     stack: Stack,
     /// Time since power-up.
     pub(crate) now: Ps,
@@ -98,7 +98,7 @@ impl Machine {
             tick: exception(model.tick_irq()),
             frames: model.frame_irqs().map(exception).collect(),
             memories,
-            ring: Ring::new(program)?,
+            rtt: Rtt::new(program)?,
             stack: Stack::new(program)?,
             now: 0,
             due: None,

@@ -10,7 +10,7 @@ use emulator::compare::{Circumstances, Probe};
 use emulator::endurance;
 use emulator::{
     compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
-    starting, supply,
+    starting, supply, telemetry,
 };
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
@@ -116,6 +116,15 @@ enum Command {
     /// Lets the supply dip and the clock stop; fails if the motor pins are not low in time, or
     /// the next start does not say why
     Supply(Flashed),
+    /// Has a PC talk to the board; fails if an answer is wrong, a record not that of the same
+    /// module on the PC, or telemetry takes more instructions than it may
+    Telemetry {
+        #[command(flatten)]
+        flashed: Flashed,
+        /// The program of the same scene without telemetry
+        #[arg(long, value_name = "ELF")]
+        without: PathBuf,
+    },
     /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
     Overload(Flashed),
 }
@@ -331,6 +340,10 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Command::Starting(Flashed { scene, program }) => {
             report::say(starting::start_again(&scene, &program)?.join("\n"));
         }
+        Command::Telemetry {
+            flashed: Flashed { scene, program },
+            without,
+        } => report::say(telemetry::talk(&scene, &program, &without)?.join("\n")),
         Command::Supply(Flashed { scene, program }) => {
             report::say(supply::dip(&scene, &program)?.join("\n"));
         }

@@ -2,11 +2,13 @@
 
 use whisking::motor::{HomingConfig, MotorDriver};
 use whisking::{Absent, Optional, PatternGenerator, Real};
+use wire::{Flags, Status, q13};
 
 use crate::io::AngleInput;
 use crate::motion::{Command, Motion, MotorControl, NoActiveWhisker};
 use crate::sensing::Reading;
 use crate::servo::{Servo, ServoConfig};
+use crate::telemetry::Told;
 use crate::{Event, Place};
 
 /// A fault of any whisker switches every motor off until it is gone.
@@ -101,6 +103,41 @@ where
         let servo = self.servos.get(side).and_then(|side| side.get(whisker));
         servo.is_some_and(Servo::is_deaf)
     }
+
+    #[inline]
+    fn told(&self, config: &ActiveConfig<R, W, O, H>, side: usize, whisker: usize) -> Told {
+        let servo = self.servos.get(side).and_then(|side| side.get(whisker));
+        let state = self.state.whiskers.get(side).zip(self.state.z.get(side));
+        let whiskers = state.and_then(|(side, z)| side.get(whisker).zip(Some(z)));
+        let (Some(servo), Some((whisker, z))) = (servo, whiskers) else {
+            return Told::default();
+        };
+        Told {
+            z: q13(z.value.to_q24()),
+            flags: Flags::ARMED.when(self.is_armed) | servo.phase(),
+            ..servo.told(&config.servo, whisker.muscle.theta)
+        }
+    }
+
+    fn allows(
+        &self,
+        config: &ActiveConfig<R, W, O, H>,
+        command: &Command<R>,
+    ) -> Result<(), Status> {
+        let pd = &config.servo.pd;
+        let in_range = match *command {
+            Command::Gain(gain) => R::ZERO <= gain && gain <= R::TWO,
+            Command::Setpoint(Some(setpoint)) => pd.min <= setpoint && setpoint <= pd.max,
+            Command::Setpoint(None) | Command::Clear => true,
+            Command::Home if config.servo.homing.part().is_none() => return Err(Status::NotHere),
+            Command::Home => true,
+        };
+        if in_range {
+            Ok(())
+        } else {
+            Err(Status::OutOfRange)
+        }
+    }
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> MotorControl<R>
@@ -119,6 +156,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput, const S: usize, const N: usize> Mot
             Command::Gain(gain) => at(&mut self.state.whiskers, place)?.set_nominal(gain),
             Command::Setpoint(setpoint) => at(&mut self.servos, place)?.set_setpoint(setpoint),
             Command::Clear => at(&mut self.servos, place)?.clear(),
+            Command::Home => at(&mut self.servos, place)?.home(),
         }
         Ok(())
     }

@@ -14,6 +14,7 @@
 //! - *armed*: motors may be driven; a module that is not armed computes on.
 //! - *event*: what a tick reports; queued, and logged elsewhere.
 //! - *servo*: a whisker's motor, angle input and position control.
+//! - *link*: to a PC, by the records, requests and answers of the crate `wire`.
 //!
 //! # Composition
 //!
@@ -37,6 +38,7 @@ mod queue;
 mod record;
 mod sensing;
 mod servo;
+mod telemetry;
 #[cfg(feature = "tmag5170")]
 mod tilt;
 mod timing;
@@ -57,6 +59,7 @@ pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
+pub use telemetry::{About, Link, Notes, PacketSink, Told};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

@@ -139,6 +139,11 @@ where
         &self.felt
     }
 
+    /// The sensor of every whisker, left side first.
+    pub const fn sensors(&self) -> &[[Sensor<F>; N]; S] {
+        &self.sensors
+    }
+
     /// How it moves.
     pub const fn motion(&self) -> &M {
         &self.motion
@@ -160,6 +165,11 @@ where
     }
 
     /// Longest tick and missed deadlines.
+    pub const fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// The same, for who takes them.
     pub const fn timing_mut(&mut self) -> &mut Timing {
         &mut self.timing
     }

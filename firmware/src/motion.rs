@@ -1,6 +1,9 @@
 //! What moves the whiskers of a module, or does not.
 
+use wire::Status;
+
 use crate::sensing::Reading;
+use crate::telemetry::Told;
 use crate::{Event, Place};
 
 /// Moves the whiskers of a module by the constants `C`.
@@ -17,6 +20,13 @@ pub trait Motion<R, C, const S: usize, const N: usize> {
     /// Whether nothing that a whisker (its side and number) feels is of use: its motor rests
     /// after a fault, or is being homed.
     fn is_deaf(&self, side: usize, whisker: usize) -> bool;
+
+    /// What the last tick has done with a whisker (its side and number).
+    fn told(&self, config: &C, side: usize, whisker: usize) -> Told;
+
+    /// Whether the constants allow a command: its value is in range, and what it asks for is
+    /// there.
+    fn allows(&self, config: &C, command: &Command<R>) -> Result<(), Status>;
 }
 
 /// An intervention between two ticks, for one whisker.
@@ -30,6 +40,8 @@ pub enum Command<R> {
     Setpoint(Option<R>),
     /// Runs a motor that was given up, or that rests, again.
     Clear,
+    /// Finds rest anew, where it is found.
+    Home,
 }
 
 /// There is no such whisker, or it is passive.
@@ -70,6 +82,15 @@ impl<R, const S: usize, const N: usize> Motion<R, (), S, N> for Passive {
     fn is_deaf(&self, _side: usize, _whisker: usize) -> bool {
         false
     }
+
+    #[inline]
+    fn told(&self, (): &(), _side: usize, _whisker: usize) -> Told {
+        Told::default()
+    }
+
+    fn allows(&self, (): &(), _command: &Command<R>) -> Result<(), Status> {
+        Err(Status::NoWhisker)
+    }
 }
 
 impl<R> MotorControl<R> for Passive {
@@ -102,6 +123,19 @@ impl<R, C, M: Motion<R, C, S, N>, const S: usize, const N: usize> Motion<R, Opti
     fn is_deaf(&self, side: usize, whisker: usize) -> bool {
         let motion = self.as_ref();
         motion.is_some_and(|motion| motion.is_deaf(side, whisker))
+    }
+
+    fn told(&self, config: &Option<C>, side: usize, whisker: usize) -> Told {
+        let parts = self.as_ref().zip(config.as_ref());
+        parts.map_or_else(Told::default, |(motion, config)| {
+            motion.told(config, side, whisker)
+        })
+    }
+
+    fn allows(&self, config: &Option<C>, command: &Command<R>) -> Result<(), Status> {
+        let parts = self.as_ref().zip(config.as_ref());
+        let (motion, config) = parts.ok_or(Status::NoWhisker)?;
+        motion.allows(config, command)
     }
 }
 

@@ -92,6 +92,11 @@ impl<F: WordSource> Sensor<F> {
         &mut self.source
     }
 
+    /// What it read in the last tick.
+    pub const fn reading(&self) -> Reading {
+        self.last
+    }
+
     /// Its health after the last tick.
     pub const fn health(&self) -> SensorHealth {
         self.health

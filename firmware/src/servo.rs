@@ -8,8 +8,10 @@ use whisking::motor::{
     self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver,
 };
 use whisking::{Absent, Optional, Real, Voted, pd};
+use wire::{Flags, q13};
 
 use crate::io::AngleInput;
+use crate::telemetry::Told;
 use crate::{Event, Place};
 
 /// Constants of a servo; `H` says whether it has [`HomingConfig`].
@@ -154,6 +156,44 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// pattern generator's again.
     pub const fn set_setpoint(&mut self, setpoint: Option<R>) {
         self.setpoint = Voted::new(setpoint);
+    }
+
+    /// Finds rest anew with the next tick, where it is found; a motor that rests after a
+    /// fault rests on.
+    pub fn home(&mut self) {
+        self.off();
+        self.is_homed = false;
+    }
+
+    /// What it is doing, as flags.
+    #[inline]
+    pub const fn phase(&self) -> Flags {
+        match self.state {
+            ServoState::Off => Flags::from_bits(0),
+            ServoState::Homing(_) => Flags::HOMING,
+            ServoState::Running { .. } => Flags::RUNNING,
+            ServoState::Resting { .. } | ServoState::GivenUp => Flags::RESTING,
+        }
+    }
+
+    /// Where it should be after a tick towards protraction `theta`, where it is, and what
+    /// drives it.
+    #[inline]
+    pub fn told<H: Optional<HomingConfig>>(&self, config: &ServoConfig<R, H>, theta: R) -> Told {
+        let home = self.home.get().unwrap_or(self.counts);
+        let measured = config.pd.measured(self.counts.wrapping_sub(home));
+        let wanted = || config.pd.clamp(self.setpoint().unwrap_or(theta));
+        let (setpoint, duty) = match (&self.state, config.homing.part()) {
+            (ServoState::Running { pd, .. }, _) => (measured + pd.error, pd.duty()),
+            (ServoState::Homing(homing), Some(how)) => (measured, homing.duty(how)),
+            _ => (wanted(), Duty::ZERO),
+        };
+        Told {
+            setpoint: q13(setpoint.to_q24()),
+            measured: q13(measured.to_q24()),
+            duty: duty.q15(),
+            ..Told::default()
+        }
     }
 
     /// Switches the motor off until the next tick; a rest goes on.

@@ -1,6 +1,8 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
+mod line;
+
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
@@ -11,12 +13,14 @@ use plan::NumberFormat;
 use scene::{Arm, Deciding, PlantKind, Scene};
 use whisking::motor::{GuardSettings, HomingConfig, StallConfig};
 use whisking::{Fix, Real, Start, filter};
+use wire::{Packet, Request};
 
 use crate::Error;
 use crate::bus::Slave;
 use crate::classifier::{Classifier, GATE, Tap};
 use crate::drive::{self, AnyAngle, AnyMotor};
 use crate::motor::Pins;
+use line::Line;
 
 /// Time does not pass within a tick of the simulation.
 #[derive(Debug, Clone, Copy)]
@@ -90,6 +94,12 @@ pub trait HostModule: Bench + Send {
 
     /// Contact of each whisker, left side first.
     fn felt(&self) -> Vec<f64>;
+
+    /// Carries out `request` before the next tick.
+    fn request(&mut self, request: Request);
+
+    /// What it has sent since the last call.
+    fn take_packets(&mut self) -> Vec<Packet>;
 }
 
 type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
@@ -107,6 +117,7 @@ struct Shaped<R: Real, const S: usize, const N: usize> {
     config: HostConfig<R>,
     start: Option<Start<R, S, N>>,
     arms_at_start: bool,
+    line: Line,
 }
 
 impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
@@ -114,8 +125,11 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
         if let Some(perception) = self.module.perception_mut() {
             perception.classifier_mut().samples.fill(None);
         }
-        self.module
-            .tick(&self.config, &mut |event| events.push(event));
+        self.module.tick(&self.config, &mut |event| {
+            self.line.note(&event);
+            events.push(event);
+        });
+        self.line.tick_ends(&self.module, &self.config);
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
@@ -176,6 +190,7 @@ where
         let perception = perception.map(Classifying::restarted);
         self.module = Module::new(sensors()?, motors, perception, NoClock);
         self.module.arm(self.arms_at_start);
+        self.line.restart();
         Ok(())
     }
 
@@ -188,6 +203,7 @@ where
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
             Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
             Command::Clear => Command::Clear,
+            Command::Home => Command::Home,
         };
         self.module.command(place, command)
     }
@@ -203,6 +219,15 @@ where
     fn felt(&self) -> Vec<f64> {
         let felt = self.module.felt().as_flattened();
         felt.iter().map(|felt| felt.to_f64()).collect()
+    }
+
+    fn request(&mut self, request: Request) {
+        let (line, module) = (&mut self.line, &mut self.module);
+        line.carry_out(module, &self.config, request);
+    }
+
+    fn take_packets(&mut self) -> Vec<Packet> {
+        self.line.take()
     }
 }
 
@@ -359,6 +384,7 @@ where
         config,
         start,
         arms_at_start,
+        line: Line::new(scene),
     }))
 }
 

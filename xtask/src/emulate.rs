@@ -35,6 +35,8 @@ pub(crate) enum Task {
     Starting,
     /// Lets the supply dip and the clock stop.
     Supply,
+    /// Has a PC talk to it.
+    Telemetry,
     /// Flips bits in what nothing writes.
     Damage,
     /// Breaks the sensors' wires on purpose.
@@ -48,7 +50,7 @@ pub(crate) enum Task {
 /// # Errors
 /// If it cannot be built, or the emulated board says that something is wrong.
 pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fault> {
-    let program = firmware::build(board, scene)?;
+    let mut program = firmware::build(board, scene)?;
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
     let task_name = match task {
         Task::Run(_) => "run",
@@ -57,6 +59,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Overload => "overload",
         Task::Starting => "starting",
         Task::Supply => "supply",
+        Task::Telemetry => "telemetry",
         Task::Damage => "damage",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
@@ -67,6 +70,15 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Compare(Probe::Absent) => command.args(["--probe", "absent"]),
         Task::Compare(Probe::Pulled) => command.args(["--probe", "pulled"]),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
+        Task::Telemetry => {
+            let kept = target().join("telemetry/with.elf");
+            write(&kept, read_bytes(&program)?)?;
+            let without = variants::without_telemetry(scene, &target().join("telemetry"))?;
+            program = firmware::build(board, &without)?;
+            command
+                .arg("--without")
+                .arg(std::mem::replace(&mut program, kept))
+        }
         Task::Compare(Probe::Attached)
         | Task::Overload
         | Task::Starting

@@ -165,10 +165,6 @@ struct Build {
 }
 
 #[derive(clap::Args)]
-#[allow(
-    clippy::struct_excessive_bools,
-    reason = "each is a switch of the command line"
-)]
 struct Emulate {
     /// The scene to run
     #[arg(required_unless_present = "all")]
@@ -176,12 +172,8 @@ struct Emulate {
     /// The board to build for
     #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
     board: firmware::Board,
-    /// Where to write
-    #[arg(long, value_name = "DIR", required_unless_present_any = ["check", "deadlines", "overload", "sensor_loss", "latency", "starting", "supply", "damage"])]
-    out: Option<PathBuf>,
-    /// Write nothing; compare every tick with host-sim
-    #[arg(long, conflicts_with_all = ["out", "deadlines", "overload"])]
-    check: bool,
+    #[command(flatten)]
+    what: EmulateWhat,
     /// Who fetches the log meanwhile
     #[arg(long, requires = "check", conflicts_with = "all", value_enum)]
     #[arg(default_value_t = emulate::Probe::Attached)]
@@ -189,48 +181,66 @@ struct Emulate {
     /// Compare every scene in scenes/
     #[arg(long, requires = "check", conflicts_with = "scene")]
     all: bool,
-    /// Write nothing; measure latency and length of the ticks
-    #[arg(long, conflicts_with_all = ["out", "overload"])]
-    deadlines: bool,
     /// Over how many minutes of simulated time
     #[arg(long, requires = "deadlines", default_value_t = 10.0)]
     minutes: f64,
-    /// Write nothing; make ticks too long on purpose and see the deadline counter and
-    /// the watchdog act
-    #[arg(long, conflicts_with = "out")]
+}
+
+/// One of them is done; only the first writes files.
+#[derive(clap::Args)]
+#[group(required = true, multiple = false)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a switch of the command line"
+)]
+struct EmulateWhat {
+    /// Write the files of a run there
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Compare every tick with host-sim
+    #[arg(long)]
+    check: bool,
+    /// Measure latency and length of the ticks
+    #[arg(long)]
+    deadlines: bool,
+    /// Make ticks too long on purpose and see the deadline counter and the watchdog act
+    #[arg(long)]
     overload: bool,
-    /// Write nothing; break the sensors' wires, side by side, and see the motors of those
-    /// sides switched off
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload"])]
+    /// Break the sensors' wires, side by side, and see the motors of those sides switched off
+    #[arg(long)]
     sensor_loss: bool,
-    /// Write nothing; measure how long contact on one side takes to excite the other
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss"])]
+    /// Measure how long contact on one side takes to excite the other
+    #[arg(long)]
     latency: bool,
-    /// Write nothing; reset the chip in every way that nobody asked for, and see its motors
-    /// off until the user button is pressed
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency"])]
+    /// Reset the chip in every way that nobody asked for, and see its motors off until the
+    /// user button is pressed
+    #[arg(long)]
     starting: bool,
-    /// Write nothing; let the supply dip and the clock stop, and see the motor pins low in time
-    /// and the next start say why
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency", "starting"])]
+    /// Let the supply dip and the clock stop, and see the motor pins low in time and the next
+    /// start say why
+    #[arg(long)]
     supply: bool,
-    /// Write nothing; flip bits in the settings and in the model, and see the motors off and
-    /// the log say so
-    #[arg(long, conflicts_with_all = ["out", "check", "deadlines", "overload", "sensor_loss", "latency", "starting", "supply"])]
+    /// Flip bits in the settings and in the model, and see the motors off and the log say so
+    #[arg(long)]
     damage: bool,
+    /// Have a PC ask for records and carry out commands, and see what that costs
+    #[arg(long)]
+    telemetry: bool,
 }
 
 impl Emulate {
     fn run(self) -> Result<(), run::Fault> {
-        let task = match self.out {
-            _ if self.check => emulate::Task::Compare(self.probe),
-            _ if self.overload => emulate::Task::Overload,
-            _ if self.sensor_loss => emulate::Task::SensorLoss,
-            _ if self.latency => emulate::Task::Latency,
-            _ if self.starting => emulate::Task::Starting,
-            _ if self.supply => emulate::Task::Supply,
-            _ if self.damage => emulate::Task::Damage,
+        let what = self.what;
+        let task = match what.out {
             Some(out) => emulate::Task::Run(out),
+            None if what.check => emulate::Task::Compare(self.probe),
+            None if what.overload => emulate::Task::Overload,
+            None if what.sensor_loss => emulate::Task::SensorLoss,
+            None if what.latency => emulate::Task::Latency,
+            None if what.starting => emulate::Task::Starting,
+            None if what.supply => emulate::Task::Supply,
+            None if what.damage => emulate::Task::Damage,
+            None if what.telemetry => emulate::Task::Telemetry,
             None => emulate::Task::Deadlines(self.minutes),
         };
         match self.scene {

@@ -12,6 +12,7 @@ mod plant;
 mod scene;
 mod sensor;
 mod shaft;
+mod telemetry;
 mod whisking;
 
 pub(crate) use classifier::RuleName;
@@ -24,6 +25,7 @@ pub use plant::{
 pub use scene::Scene;
 pub use sensor::{SensorMode, SensorSection};
 pub use shaft::{ShaftName, ShaftNumbers};
+pub use telemetry::TelemetrySection;
 pub use whisking::{Numbers, WhiskingSection};
 
 use crate::section::{Presence, Section};
@@ -65,8 +67,8 @@ mod tests {
             }
         }
         // Nineteen of the motor, three of the sensor, two of the plant, one of the head, of
-        // whisking and of the classifier.
-        assert_eq!(defaults, 27);
+        // whisking, of telemetry and of the classifier.
+        assert_eq!(defaults, 28);
     }
 
     #[test]

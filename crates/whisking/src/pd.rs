@@ -107,6 +107,14 @@ impl Settings {
     }
 }
 
+impl<R> State<R> {
+    /// The duty after its limits.
+    #[inline]
+    pub const fn duty(&self) -> Duty {
+        Duty::from_q24(self.command)
+    }
+}
+
 impl<R: Real> Config<R> {
     /// The nearest setpoint within the range.
     #[inline]
@@ -151,7 +159,7 @@ impl<R: Real> Config<R> {
         let change = change.min(self.slew).max(-self.slew);
         // Last of all, so that it holds whatever bits the last command has.
         state.command = limited(state.command.wrapping_add(change));
-        Duty::from_q24(state.command)
+        state.duty()
     }
 }
 

@@ -88,6 +88,15 @@ pub(crate) fn armed() {
     defmt::info!("armed by the user button");
 }
 
+/// A PC asks for what a reader of the log should know of.
+pub(crate) fn requested(command: wire::Command) {
+    match command {
+        wire::Command::Arm => defmt::info!("to be armed, by command"),
+        wire::Command::Stop => defmt::info!("to be stopped, by command"),
+        _ => {}
+    }
+}
+
 macro_rules! texts {
     ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
         $reaction:ident, $recovery:ident;)*) => {

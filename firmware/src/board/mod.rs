@@ -6,8 +6,8 @@
 //! table by the types of [`wiring`]; and which of the drivers that exist in
 //! several versions (`gpio_*`, `spi_*`, `dma_*`, `power_*`) fit its chip. The scene's types
 //! and settings come from the build script into [`scene`]; nothing else depends
-//! on the scene but the `cfg` `right_side`, by which a board gives that side its
-//! clocks and its interrupt. See docs/boards.md for how to add a board.
+//! on the scene but the `cfg`s `right_side`, by which a board gives that side its
+//! clocks and its interrupt, and `telemetry`. See docs/boards.md for how to add a board.
 //!
 //! Register-level throughout: for time, safety and size, and because that is
 //! what the families share. All `unsafe` of the firmware is in here.
@@ -26,6 +26,7 @@ pub(crate) mod faults;
 pub(crate) mod gpio;
 pub(crate) mod integrity;
 pub(crate) mod log;
+pub(crate) mod logger;
 pub(crate) mod motion;
 pub(crate) mod motors;
 pub(crate) mod outputs;
@@ -35,10 +36,14 @@ pub mod program;
 pub(crate) mod pwm;
 pub(crate) mod reset;
 pub(crate) mod retained;
+pub(crate) mod rtt;
 pub(crate) mod scene;
 pub(crate) mod sensor;
 pub(crate) mod supply;
 pub(crate) mod systick;
+#[cfg_attr(telemetry, path = "telemetry/on.rs")]
+#[cfg_attr(not(telemetry), path = "telemetry/off.rs")]
+pub(crate) mod telemetry;
 pub(crate) mod tick_timer;
 pub(crate) mod timing;
 pub(crate) mod user_button;

@@ -19,19 +19,21 @@ use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::integrity::Integrity;
 use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
+use super::telemetry::{self, Telemetry};
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
 use super::{faults, log, outputs, retained, supply};
 use crate::board::CLOCKS;
 use crate::here::{self, Counter};
 
-type Inner =
+pub(crate) type Inner =
     firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, { SIDES.len() }, 1>;
 
 /// The module and its settings. A type of its own, because RTIC would make
 /// those inside public.
 pub struct Module {
     inner: Inner,
+    telemetry: Telemetry,
     /// In RAM, where they can be changed.
     settings: &'static Settings,
     /// The next full second, in [`TICKS`].
@@ -110,6 +112,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
     let module = Module {
         inner,
+        telemetry: Telemetry::new(),
         settings,
         second: TICK_HZ,
     };
@@ -123,16 +126,34 @@ pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(),
         module.inner.arm(true);
     }
     module.inner.tick(module.settings, &mut |event| {
+        telemetry::note(&event);
         if put(event).is_err() {
             DROPPED.increment();
         }
     });
     let now = TICKS.increment();
+    if telemetry::is_busy() {
+        tell(module);
+    }
     // Full, or further ahead than a second can be: a flipped bit.
     if module.second.wrapping_sub(now).wrapping_sub(1) >= TICK_HZ {
         module.second = now.wrapping_add(TICK_HZ);
         tell_timing(module);
     }
+}
+
+/// Records of this tick, and what was asked for.
+// Apart, so that a tick without it keeps its registers.
+#[cold]
+#[inline(never)]
+fn tell(module: &mut Module) {
+    let Module {
+        inner,
+        telemetry,
+        settings,
+        ..
+    } = module;
+    telemetry.work(inner, settings, TICKS.get());
 }
 
 /// Once a second: for [`Idle`], which has no access to the module, and for the next start.
@@ -213,6 +234,7 @@ impl Idle {
         self.fed = now;
         // A tick queues its events before it counts itself.
         core::iter::from_fn(take).for_each(write);
+        telemetry::hear();
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
@@ -244,7 +266,6 @@ macro_rules! program {
             reason = "RTIC's own, seen because of this macro"
         )]
         mod app {
-            use defmt_rtt as _;
             use firmware::Queue;
 
             use $crate::board::program::{self, Idle, Module, Place};

@@ -67,6 +67,17 @@ pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, F
     write(path, &scene, table, folder)
 }
 
+/// Writes `path` as a scene without telemetry into `folder` and returns its path.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn without_telemetry(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    let rtt = Table::from_iter([("rtt".to_owned(), Value::from(false))]);
+    table.insert("telemetry".to_owned(), rtt.into());
+    write(path, &scene, table, folder)
+}
+
 /// Writes `path` as a scene with another seed into `folder` and returns its path.
 ///
 /// # Errors

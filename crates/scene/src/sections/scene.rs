@@ -11,6 +11,7 @@ use super::head::HeadSection;
 use super::motor::MotorSection;
 use super::plant::PlantSection;
 use super::sensor::SensorSection;
+use super::telemetry::TelemetrySection;
 use super::whisking::WhiskingSection;
 use crate::key::{integer, name, positive};
 use crate::keys::keys;
@@ -64,6 +65,9 @@ keys! {
         [motor]: Option<MotorSection> = implied::<MotorSection>(
             "whisking", "where there is `[whisking]`, the defaults below hold"
         ),
+
+        /// What a PC is told of every tick, and what it may ask for.
+        [telemetry]: TelemetrySection = by_default::<TelemetrySection>("the default below holds"),
 
         /// What the whiskers meet.
         [plant]: PlantSection = required::<PlantSection>(),

@@ -144,9 +144,15 @@ impl Homing {
             Way::Back if is_still => return Err(Fault::Encoder),
             Way::Forward | Way::Back => {}
         }
-        Ok(Homed::Not(match self.way {
+        Ok(Homed::Not(self.duty(config)))
+    }
+
+    /// The duty with which it is driven.
+    #[inline]
+    pub const fn duty(&self, config: &HomingConfig) -> Duty {
+        match self.way {
             Way::Forward => config.duty,
             Way::Back => Duty::from_q15(-config.duty.q15()),
-        }))
+        }
     }
 }

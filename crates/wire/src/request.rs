@@ -1,0 +1,251 @@
+//! A request: a command with a tag and a sum.
+
+use crate::{halves, word};
+
+/// Words of a request.
+pub const REQUEST_WORDS: usize = 3;
+
+/// Bytes of a request.
+pub const REQUEST_BYTES: usize = REQUEST_WORDS * size_of::<u32>();
+
+/// A whisker of the array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Whisker {
+    /// 0 left, 1 right; below 16.
+    pub side: u8,
+    /// Counted from 0; below 16.
+    pub number: u8,
+}
+
+/// What a module can be told. Between two ticks it is carried out, or refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Command {
+    /// Says the rate of ticks, Hz, and how many whiskers there are.
+    Hello,
+    /// Says how many records were lost for want of room and how many ticks were missed since
+    /// the start.
+    Status,
+    /// Says eight letters of the scene's name from this one on, four in each value, the first
+    /// in its lowest byte; zeros follow the last.
+    Name(u8),
+    /// Sends records from now on, or no more.
+    Stream(bool),
+    /// Arms the motors. Whoever arms a motor that is off says that its whisker is at rest,
+    /// unless it is homed.
+    Arm,
+    /// Motors off, until they are armed.
+    Stop,
+    /// Runs a motor that rests after faults, or was given up, again.
+    Clear(Whisker),
+    /// Finds the whisker's rest anew, where the scene says that it is found.
+    Home(Whisker),
+    /// Sets the nominal gain g (BIOTACT eq. 12), Q24, 0 to 2.
+    Gain(Whisker, i32),
+    /// Sets a setpoint in place of the pattern generator's: protraction, Q24, within the
+    /// scene's range.
+    Setpoint(Whisker, i32),
+    /// Gives the setpoint back to the pattern generator.
+    Release(Whisker),
+}
+
+/// A command with its tag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Request {
+    /// Chosen by whoever asks; the answer has the same.
+    pub tag: u16,
+    /// What is to be done.
+    pub command: Command,
+}
+
+/// A command that this version does not know.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("unknown command {command}")]
+pub struct UnknownCommand {
+    /// That of the request.
+    pub tag: u16,
+    /// Its number.
+    pub command: u8,
+}
+
+impl Command {
+    /// Its number.
+    pub const fn number(self) -> u8 {
+        match self {
+            Self::Hello => 1,
+            Self::Status => 2,
+            Self::Name(_) => 3,
+            Self::Stream(_) => 4,
+            Self::Arm => 5,
+            Self::Stop => 6,
+            Self::Clear(_) => 7,
+            Self::Home(_) => 8,
+            Self::Gain(..) => 9,
+            Self::Setpoint(..) => 10,
+            Self::Release(_) => 11,
+        }
+    }
+
+    /// The whisker that it is for, the left side's first where it is for all, and its value.
+    const fn parts(self) -> (Whisker, i32) {
+        const ALL: Whisker = Whisker { side: 0, number: 0 };
+        match self {
+            Self::Hello | Self::Status | Self::Arm | Self::Stop => (ALL, 0),
+            Self::Name(from) => (ALL, from as i32),
+            Self::Stream(on) => (ALL, on as i32),
+            Self::Clear(whisker) | Self::Home(whisker) | Self::Release(whisker) => (whisker, 0),
+            Self::Gain(whisker, value) | Self::Setpoint(whisker, value) => (whisker, value),
+        }
+    }
+
+    /// The command of these parts.
+    const fn from_parts(number: u8, whisker: Whisker, value: i32) -> Option<Self> {
+        Some(match number {
+            1 => Self::Hello,
+            2 => Self::Status,
+            3 => Self::Name(value as u8),
+            4 => Self::Stream(value != 0),
+            5 => Self::Arm,
+            6 => Self::Stop,
+            7 => Self::Clear(whisker),
+            8 => Self::Home(whisker),
+            9 => Self::Gain(whisker, value),
+            10 => Self::Setpoint(whisker, value),
+            11 => Self::Release(whisker),
+            _ => return None,
+        })
+    }
+}
+
+impl Request {
+    /// As it is sent: tag, number and whisker; value; sum.
+    pub const fn words(&self) -> [u32; REQUEST_WORDS] {
+        let (whisker, value) = self.command.parts();
+        let place = (whisker.side & 15) << 4 | whisker.number & 15;
+        let first = word(self.tag, u16::from_le_bytes([self.command.number(), place]));
+        let value = value.cast_unsigned();
+        [first, value, sum(first, value)]
+    }
+
+    /// As it is sent, byte by byte.
+    pub fn bytes(&self) -> [u8; REQUEST_BYTES] {
+        let [a, b, c] = self.words().map(u32::to_le_bytes);
+        let mut bytes = [0; REQUEST_BYTES];
+        for (byte, from) in bytes.iter_mut().zip([a, b, c].as_flattened()) {
+            *byte = *from;
+        }
+        bytes
+    }
+
+    /// What two words say whose [sum](summed) was right.
+    ///
+    /// # Errors
+    /// [`UnknownCommand`].
+    pub fn from_words(words: [u32; 2]) -> Result<Self, UnknownCommand> {
+        let [first, value] = words;
+        let [tag, what] = halves(first);
+        let [command, place] = what.to_le_bytes();
+        let whisker = Whisker {
+            side: place >> 4,
+            number: place & 15,
+        };
+        let known = Command::from_parts(command, whisker, value.cast_signed());
+        known
+            .map(|command| Self { tag, command })
+            .ok_or(UnknownCommand { tag, command })
+    }
+}
+
+/// The words of a request but for their sum, if that is right; otherwise nobody has meant
+/// them, and there is nothing to answer.
+pub fn summed(bytes: &[u8; REQUEST_BYTES]) -> Option<[u32; 2]> {
+    let [first, value, found] = crate::words(bytes);
+    (found == sum(first, value)).then_some([first, value])
+}
+
+/// CRC-32 of both words, as in the model file. Zeros, and RAM as it comes, do not have it.
+const fn sum(first: u32, value: u32) -> u32 {
+    const CRC: crc::Crc<u32, crc::NoTable> =
+        crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
+    let [a, b, c, d] = first.to_le_bytes();
+    let [e, f, g, h] = value.to_le_bytes();
+    CRC.checksum(&[a, b, c, d, e, f, g, h])
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{Command, REQUEST_BYTES, Request, UnknownCommand, Whisker, summed};
+
+    fn commands() -> impl Strategy<Value = Command> {
+        let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| Whisker { side, number });
+        (0..11_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+            let name = value as u8;
+            match which {
+                0 => Command::Hello,
+                1 => Command::Status,
+                2 => Command::Name(name),
+                3 => Command::Stream(value > 0),
+                4 => Command::Arm,
+                5 => Command::Stop,
+                6 => Command::Clear(whisker),
+                7 => Command::Home(whisker),
+                8 => Command::Gain(whisker, value),
+                9 => Command::Setpoint(whisker, value),
+                _ => Command::Release(whisker),
+            }
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn a_request_is_read_as_it_was_meant(tag in any::<u16>(), command in commands()) {
+            let request = Request { tag, command };
+            let words = summed(&request.bytes()).expect("its own sum");
+            prop_assert_eq!(Request::from_words(words), Ok(request));
+        }
+
+        #[test]
+        fn a_request_with_a_flipped_bit_is_none(
+            tag in any::<u16>(),
+            command in commands(),
+            bit in 0..8 * REQUEST_BYTES,
+        ) {
+            let mut bytes = Request { tag, command }.bytes();
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            prop_assert_eq!(summed(&bytes), None);
+        }
+    }
+
+    #[test]
+    fn memory_that_was_never_written_is_no_request() {
+        for byte in [0, 0xFF, 0xCC] {
+            assert_eq!(summed(&[byte; REQUEST_BYTES]), None);
+        }
+    }
+
+    #[test]
+    fn a_command_of_a_later_version_is_told_by_its_tag() {
+        let found = Request::from_words([0x00FF_0007, 0]);
+        assert_eq!(
+            found,
+            Err(UnknownCommand {
+                tag: 7,
+                command: 255
+            })
+        );
+    }
+
+    #[test]
+    fn the_sum_is_that_of_other_programs() {
+        // python3 -c 'import zlib; print(hex(zlib.crc32(bytes([7,0,5,0,0,0,0,0]))))'
+        let request = Request {
+            tag: 7,
+            command: Command::Arm,
+        };
+        assert_eq!(request.words()[2], PYTHON);
+    }
+
+    /// See the test.
+    const PYTHON: u32 = 0x3F2A_47C3;
+}

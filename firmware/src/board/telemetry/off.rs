@@ -1,0 +1,30 @@
+//! Telemetry of a scene that leaves it out: nothing.
+
+use firmware::Event;
+
+use crate::board::program::Inner;
+use crate::board::scene::Settings;
+
+/// There is nothing to hear.
+pub(crate) fn hear() {}
+
+/// There is nothing to do.
+#[inline]
+pub(crate) fn is_busy() -> bool {
+    false
+}
+
+/// Nobody is told of an event.
+#[inline]
+pub(crate) fn note(_: &Event) {}
+
+/// Nothing is told.
+pub(crate) struct Telemetry;
+
+impl Telemetry {
+    pub(crate) const fn new() -> Self {
+        Self
+    }
+
+    pub(crate) fn work(&mut self, _: &mut Inner, _: &Settings, _: u32) {}
+}

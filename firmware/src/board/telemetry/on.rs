@@ -1,0 +1,182 @@
+//! Telemetry of a scene that has it: packets and requests through rings in RAM.
+
+use core::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
+
+use firmware::{About, Event, Link, Notes, PacketSink};
+use wire::{PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, Request};
+
+use crate::board::log;
+use crate::board::program::Inner;
+use crate::board::rtt::{DOWN, UP};
+use crate::board::scene::{NAME, Settings, TICK_HZ};
+
+/// Packets for which there is memory; one fewer fit. At 2 kHz and one whisker 64 ms pass
+/// until they are full, six times as long as a probe stays away.
+const PACKETS_COUNT: usize = 128;
+
+/// A packet in RAM.
+type Packet = [AtomicU32; PACKET_WORDS];
+
+/// The ring of packets.
+pub(crate) static PACKETS: [Packet; PACKETS_COUNT] =
+    [const { [const { AtomicU32::new(0) }; PACKET_WORDS] }; PACKETS_COUNT];
+
+/// The ring of requests: some, as only one is carried out a tick.
+pub(crate) static REQUESTS: [AtomicU8; 8 * REQUEST_BYTES] =
+    [const { AtomicU8::new(0) }; 8 * REQUEST_BYTES];
+
+const ABOUT: About<'static> = About {
+    name: NAME,
+    tick_hz: TICK_HZ,
+};
+
+/// A request from idle to the tick: its words but for the sum, which is right.
+static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+
+/// Whether one lies there. Idle sets it, the tick clears it; loads and stores will do, as idle
+/// cannot interrupt the tick.
+static IS_FULL: AtomicBool = AtomicBool::new(false);
+
+/// Whether the tick has anything to do for the link.
+static IS_BUSY: AtomicBool = AtomicBool::new(false);
+
+/// Takes the next request that a PC has written, unless the tick has yet to take the last;
+/// for idle.
+pub(crate) fn hear() {
+    if !IS_FULL.load(Ordering::Relaxed) && DOWN.waiting() as usize >= REQUEST_BYTES {
+        next();
+    }
+}
+
+/// The next request. Bytes that are none are passed over with all that was written by then:
+/// nobody knows where the next begins.
+#[cold]
+fn next() {
+    let mut at = DOWN.reader() as usize;
+    let mut bytes = [0; REQUEST_BYTES];
+    for byte in &mut bytes {
+        if let Some(place) = REQUESTS.get(at) {
+            // Erased, lest a flipped bit in an offset has it carried out again.
+            *byte = place.load(Ordering::Relaxed);
+            place.store(0, Ordering::Relaxed);
+        }
+        at = if at + 1 < REQUESTS.len() { at + 1 } else { 0 };
+    }
+    let Some(words) = wire::summed(&bytes) else {
+        DOWN.has_read(DOWN.writer());
+        return;
+    };
+    DOWN.has_read(at as u32);
+    if let Ok(request) = Request::from_words(words) {
+        log::requested(request.command);
+    }
+    for (place, word) in INBOX.iter().zip(words) {
+        place.store(word, Ordering::Relaxed);
+    }
+    IS_FULL.store(true, Ordering::Release);
+    IS_BUSY.store(true, Ordering::Release);
+}
+
+/// Whether there is something to be done after a tick.
+#[inline]
+pub(crate) fn is_busy() -> bool {
+    IS_BUSY.load(Ordering::Relaxed)
+}
+
+/// What the events of this tick say.
+static NOTES: Notes = Notes::new();
+
+/// Notes an event of this tick.
+// Apart, as there are many places with events, and few events.
+#[inline(never)]
+pub(crate) fn note(event: &Event) {
+    NOTES.note(event);
+}
+
+/// The module's end of the link.
+pub(crate) struct Telemetry {
+    link: Link,
+    packets: Packets,
+}
+
+impl Telemetry {
+    pub(crate) const fn new() -> Self {
+        Self {
+            link: Link::new(),
+            packets: Packets::new(),
+        }
+    }
+
+    /// Sends what is to be told after a tick, the `tick`-th since the start, and carries out
+    /// what was asked for.
+    pub(crate) fn work(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
+        let Self { link, packets } = self;
+        link.send(module, settings, tick, &NOTES, packets);
+        if !link.is_free() || IS_FULL.load(Ordering::Relaxed) {
+            self.talk(module, settings, tick);
+        }
+    }
+
+    /// Answers what was asked for, and carries out what is.
+    #[cold]
+    fn talk(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
+        let Self { link, packets } = self;
+        link.answer(packets);
+        if link.is_free() && IS_FULL.load(Ordering::Acquire) {
+            let [first, value] = &INBOX;
+            let words = [first, value].map(|word| word.load(Ordering::Relaxed));
+            IS_FULL.store(false, Ordering::Release);
+            match Request::from_words(words) {
+                Ok(request) => link.carry_out(module, settings, request, ABOUT, tick),
+                Err(unknown) => link.refuse(unknown, tick),
+            }
+            link.answer(packets);
+        }
+        let is_busy = link.is_busy() || IS_FULL.load(Ordering::Relaxed);
+        IS_BUSY.store(is_busy, Ordering::Relaxed);
+    }
+}
+
+/// The writer of the ring of packets.
+struct Packets {
+    /// The place of the next.
+    next: usize,
+    /// For how many there is room at least: the reader's offset is looked at when there is
+    /// none, and not for each.
+    room: u32,
+}
+
+impl Packets {
+    const fn new() -> Self {
+        Self { next: 0, room: 0 }
+    }
+}
+
+impl PacketSink for Packets {
+    #[inline]
+    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+        // A flipped bit has it begin anew.
+        let (next, packet) = match PACKETS.get(self.next) {
+            Some(packet) => (self.next, packet),
+            None => (0, &PACKETS[0]),
+        };
+        if self.room.wrapping_sub(1) >= PACKETS_COUNT as u32 - 1 {
+            let writer = next * PACKET_BYTES;
+            self.room = UP.room(writer as u32) / PACKET_BYTES as u32;
+            if self.room == 0 {
+                return false;
+            }
+        }
+        self.room -= 1;
+        for (place, word) in packet.iter().zip(make()) {
+            place.store(word, Ordering::Relaxed);
+        }
+        self.next = if next + 1 < PACKETS_COUNT {
+            next + 1
+        } else {
+            0
+        };
+        UP.has_written((self.next * PACKET_BYTES) as u32);
+        true
+    }
+}

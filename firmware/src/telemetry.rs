@@ -1,0 +1,334 @@
+//! The link to a PC: records of every tick, and requests that are carried out between two.
+//!
+//! Nothing waits here: a packet that finds no room is dropped whole and counted, and only an
+//! answer is kept until it has gone.
+
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use whisking::Real;
+use wire::{
+    Answer, Command as Said, Flags, PACKET_WORDS, Record, Request, Status, UnknownCommand, Whisker,
+    q13,
+};
+
+use crate::sensing::{Reading, Sensor};
+use crate::{Clock, Command, Config, Event, FrameSource, Module, Motion, MotorControl, Place};
+
+/// Where packets go.
+pub trait PacketSink {
+    /// Takes the packet that `make` makes, whole, or not at all and unmade; whether it has.
+    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool;
+}
+
+/// What the last tick has done with a whisker, in the formats of a [`Record`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Told {
+    /// Where it should be: protraction, Q13.
+    pub setpoint: i16,
+    /// Where it is: protraction, Q13.
+    pub measured: i16,
+    /// What drives it, Q15.
+    pub duty: i16,
+    /// z of its side, Q13.
+    pub z: i16,
+    /// [`Flags::ARMED`], and what its motor is doing.
+    pub flags: Flags,
+}
+
+/// What a module says of itself.
+#[derive(Debug, Clone, Copy)]
+pub struct About<'n> {
+    /// The name of its scene.
+    pub name: &'n str,
+    /// Ticks a second.
+    pub tick_hz: u32,
+}
+
+/// What the events of ticks say, for the next record. Shared, as whoever gets the events has
+/// nothing else of the link at hand.
+#[derive(Debug, Default)]
+pub struct Notes {
+    /// The whiskers that touch something, a bit each.
+    touching: AtomicU32,
+    /// Flags of the events since the last record.
+    said: AtomicU32,
+}
+
+impl Notes {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self {
+            touching: AtomicU32::new(0),
+            said: AtomicU32::new(0),
+        }
+    }
+
+    /// Notes an event. Loads and stores will do: only the tick has events.
+    pub fn note(&self, event: &Event) {
+        let add = |flags: Flags| {
+            let said = self.said.load(Ordering::Relaxed);
+            self.said
+                .store(said | u32::from(flags.bits()), Ordering::Relaxed);
+        };
+        let touching = self.touching.load(Ordering::Relaxed);
+        match event {
+            Event::Touch { place, .. } => {
+                self.touching
+                    .store(touching | bit(*place), Ordering::Relaxed);
+            }
+            Event::TouchEnd { place, .. } => {
+                self.touching
+                    .store(touching & !bit(*place), Ordering::Relaxed);
+            }
+            Event::Decision(..) => add(Flags::DECIDED),
+            Event::SensorLost(..) | Event::MotorFault(..) | Event::MotorGivenUp(_) => {
+                add(Flags::FAULT);
+            }
+            Event::SensorBack(_) | Event::MotorRetry(_) => {}
+        }
+    }
+
+    /// The flags since the last time, and who touches something.
+    fn take(&self) -> (Flags, u32) {
+        let said = self.said.load(Ordering::Relaxed);
+        self.said.store(0, Ordering::Relaxed);
+        let touching = self.touching.load(Ordering::Relaxed);
+        (Flags::from_bits(said as u16), touching)
+    }
+}
+
+/// The module's end of the link.
+#[derive(Debug, Default)]
+pub struct Link {
+    streams: bool,
+    /// Packets that found no room, since the start.
+    lost: u32,
+    /// The next record is the first after some that were lost.
+    has_gap: bool,
+    answer: Option<Answer>,
+}
+
+impl Link {
+    /// A link on which nothing was asked for yet.
+    pub const fn new() -> Self {
+        Self {
+            streams: false,
+            lost: 0,
+            has_gap: false,
+            answer: None,
+        }
+    }
+
+    /// Whether another request can be taken: its predecessor is answered.
+    pub const fn is_free(&self) -> bool {
+        self.answer.is_none()
+    }
+
+    /// Whether there is something to send after a tick: an answer, or records.
+    pub const fn is_busy(&self) -> bool {
+        self.streams || self.answer.is_some()
+    }
+}
+
+impl Link {
+    /// Carries out a request between two ticks.
+    pub fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+        &mut self,
+        module: &mut Module<R, F, M, P, C, S, N>,
+        config: &Config<MC, PC, H>,
+        request: Request,
+        about: About<'_>,
+        sequence: u32,
+    ) where
+        R: Real,
+        F: FrameSource,
+        M: Motion<R, MC, S, N> + MotorControl<R>,
+        C: Clock,
+    {
+        let mut values = [0; 2];
+        let mut done = |place: Whisker, command| {
+            let place = Place::new(place.side, place.number);
+            module.motion().allows(&config.motion, &command)?;
+            let found = module.command(place, command);
+            found.map_err(|_| Status::NoWhisker)
+        };
+        let done = match request.command {
+            Said::Hello => {
+                values = [about.tick_hz as i32, (S * N) as i32];
+                Ok(())
+            }
+            Said::Status => {
+                values = [self.lost, module.timing().missed()].map(u32::cast_signed);
+                Ok(())
+            }
+            Said::Name(from) => {
+                values = letters(about.name, from);
+                Ok(())
+            }
+            Said::Stream(on) => {
+                self.streams = on;
+                self.has_gap = false;
+                Ok(())
+            }
+            // What can be cleared can be armed: there is a motor.
+            Said::Arm | Said::Stop => {
+                let is_armed = request.command == Said::Arm;
+                let found = module.motion().allows(&config.motion, &Command::Clear);
+                found.map(|()| module.arm(is_armed))
+            }
+            Said::Clear(whisker) => done(whisker, Command::Clear),
+            Said::Home(whisker) => done(whisker, Command::Home),
+            Said::Gain(whisker, gain) => done(whisker, Command::Gain(R::from_q24(gain))),
+            Said::Setpoint(whisker, theta) => {
+                done(whisker, Command::Setpoint(Some(R::from_q24(theta))))
+            }
+            Said::Release(whisker) => done(whisker, Command::Setpoint(None)),
+        };
+        self.reply(Answer {
+            sequence,
+            tag: request.tag,
+            command: request.command.number(),
+            status: done.err().unwrap_or(Status::Done),
+            values,
+        });
+    }
+
+    /// Refuses a request whose command is unknown.
+    pub const fn refuse(&mut self, unknown: UnknownCommand, sequence: u32) {
+        self.reply(Answer {
+            sequence,
+            tag: unknown.tag,
+            command: unknown.command,
+            status: Status::Unknown,
+            values: [0; 2],
+        });
+    }
+
+    const fn reply(&mut self, answer: Answer) {
+        self.answer = Some(answer);
+    }
+
+    /// Sends the answer that there is, if it finds room.
+    pub fn answer(&mut self, sink: &mut impl PacketSink) {
+        if let Some(answer) = &self.answer
+            && sink.put(|| answer.words())
+        {
+            self.answer = None;
+        }
+    }
+
+    /// Sends the records of a tick, the `sequence`-th since the start, with what was noted in
+    /// it, if they were asked for.
+    pub fn send<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+        &mut self,
+        module: &Module<R, F, M, P, C, S, N>,
+        config: &Config<MC, PC, H>,
+        sequence: u32,
+        notes: &Notes,
+        sink: &mut impl PacketSink,
+    ) where
+        R: Real,
+        F: FrameSource,
+        M: Motion<R, MC, S, N>,
+        C: Clock,
+    {
+        if !self.streams {
+            return;
+        }
+        let (said, touching) = notes.take();
+        for side in 0..S {
+            for whisker in 0..N {
+                let place = Place::new(side as u8, whisker as u8);
+                let said = said
+                    | Flags::TOUCHING.when(touching & bit(place) != 0)
+                    | Flags::LOST.when(self.has_gap);
+                let is_sent = sink.put(|| module.packet(config, place, sequence, said));
+                if is_sent {
+                    self.has_gap = false;
+                } else {
+                    self.has_gap = true;
+                    self.lost = self.lost.wrapping_add(1);
+                }
+            }
+        }
+    }
+}
+
+/// A whisker's bit.
+const fn bit(place: Place) -> u32 {
+    1 << (place.side as u32 * 16 + place.whisker as u32) % u32::BITS
+}
+
+/// Eight letters of a name from one on; zeros follow the last.
+fn letters(name: &str, from: u8) -> [i32; 2] {
+    let rest = name.as_bytes().get(usize::from(from)..).unwrap_or_default();
+    [0, 4].map(|at| {
+        let mut word = [0; 4];
+        for (byte, letter) in word.iter_mut().zip(rest.iter().skip(at)) {
+            *byte = *letter;
+        }
+        i32::from_le_bytes(word)
+    })
+}
+
+impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
+where
+    R: Real,
+    F: FrameSource,
+    C: Clock,
+{
+    /// The words of a record.
+    // Apart: a loop over whiskers would load all of this before it looks for room.
+    #[inline(never)]
+    fn packet<MC, PC, H>(
+        &self,
+        config: &Config<MC, PC, H>,
+        place: Place,
+        sequence: u32,
+        said: Flags,
+    ) -> [u32; PACKET_WORDS]
+    where
+        M: Motion<R, MC, S, N>,
+    {
+        self.record(config, place, sequence, said).words()
+    }
+
+    /// The record of a whisker after a tick, the `sequence`-th since the start, of which
+    /// `said` is so too.
+    #[inline]
+    pub fn record<MC, PC, H>(
+        &self,
+        config: &Config<MC, PC, H>,
+        place: Place,
+        sequence: u32,
+        said: Flags,
+    ) -> Record
+    where
+        M: Motion<R, MC, S, N>,
+    {
+        let (side, whisker) = (usize::from(place.side), usize::from(place.whisker));
+        let sensors = self.sensors().get(side);
+        let reading = sensors.and_then(|sensors| sensors.get(whisker));
+        let reading = reading.map_or(Reading::REST, Sensor::reading);
+        let felt = self.felt().get(side).and_then(|side| side.get(whisker));
+        let told = self.motion().told(&config.motion, side, whisker);
+        Record {
+            sequence,
+            x: reading.x.raw(),
+            y: reading.y.raw(),
+            setpoint: told.setpoint,
+            measured: told.measured,
+            duty: told.duty,
+            z: told.z,
+            contact: q13(felt.map_or(0, |felt| felt.to_q24())),
+            flags: told.flags
+                | said
+                | Flags::RIGHT.when(side > 0)
+                | Flags::FRESH.when(reading.fresh)
+                | Flags::VALID.when(reading.valid),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

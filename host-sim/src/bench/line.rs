@@ -1,0 +1,98 @@
+//! The link of a simulated module to whoever runs it, which has room for every packet.
+
+use firmware::{
+    About, Clock, Config, Event, FrameSource, Link, Module, Motion, MotorControl, Notes, PacketSink,
+};
+use scene::Scene;
+use whisking::Real;
+use wire::{PACKET_WORDS, Packet, Request};
+
+/// A module's end of the link.
+pub(super) struct Line {
+    link: Link,
+    notes: Notes,
+    ticks: u32,
+    sent: Sent,
+    name: String,
+    tick_hz: u32,
+}
+
+/// Packets on their way.
+#[derive(Default)]
+struct Sent(Vec<Packet>);
+
+impl PacketSink for Sent {
+    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+        self.0.push(Packet::from_words(make()));
+        true
+    }
+}
+
+impl Line {
+    /// Before the first tick of `scene`.
+    pub(super) fn new(scene: &Scene) -> Self {
+        Self {
+            link: Link::new(),
+            notes: Notes::new(),
+            ticks: 0,
+            sent: Sent::default(),
+            name: scene.name.clone(),
+            tick_hz: scene.tick_hz,
+        }
+    }
+
+    /// Begins anew.
+    pub(super) fn restart(&mut self) {
+        self.link = Link::new();
+        self.notes = Notes::new();
+        self.ticks = 0;
+        self.sent.0.clear();
+    }
+
+    /// Notes an event of a tick.
+    pub(super) fn note(&self, event: &Event) {
+        self.notes.note(event);
+    }
+
+    /// A tick has ended.
+    pub(super) fn tick_ends<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+        &mut self,
+        module: &Module<R, F, M, P, C, S, N>,
+        config: &Config<MC, PC, H>,
+    ) where
+        R: Real,
+        F: FrameSource,
+        M: Motion<R, MC, S, N>,
+        C: Clock,
+    {
+        self.ticks = self.ticks.wrapping_add(1);
+        let (notes, sent) = (&self.notes, &mut self.sent);
+        self.link.send(module, config, self.ticks, notes, sent);
+        self.link.answer(sent);
+    }
+
+    /// Carries out a request.
+    pub(super) fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+        &mut self,
+        module: &mut Module<R, F, M, P, C, S, N>,
+        config: &Config<MC, PC, H>,
+        request: Request,
+    ) where
+        R: Real,
+        F: FrameSource,
+        M: Motion<R, MC, S, N> + MotorControl<R>,
+        C: Clock,
+    {
+        let about = About {
+            name: &self.name,
+            tick_hz: self.tick_hz,
+        };
+        let link = &mut self.link;
+        link.carry_out(module, config, request, about, self.ticks);
+    }
+
+    /// What was sent since the last call.
+    pub(super) fn take(&mut self) -> Vec<Packet> {
+        std::mem::take(&mut self.sent.0)
+    }
+}
