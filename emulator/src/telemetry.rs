@@ -5,6 +5,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
+use scene::{PlantKind, Scene};
 use wire::{Answer, Command, Flags, Packet, Record, Request, Status, Whisker};
 
 use crate::board::Board;
@@ -12,8 +13,9 @@ use crate::compare::Pair;
 use crate::emulate::start;
 use crate::program::Program;
 
-/// Most instructions of a tick for a record of each whisker, and where nobody asks for any.
-const STREAMING: f64 = 120.0;
+/// Most instructions of a tick for a record of each whisker where the core has an FPU, and
+/// where it has none; and where nobody asks for any.
+const STREAMING: [f64; 2] = [120.0, 300.0];
 const QUIET: f64 = 10.0;
 
 /// For how long each program is measured, and every part of the conversation, s.
@@ -39,11 +41,12 @@ pub fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, 
 }
 
 /// What a PC wants of the board, in this order, a part of the time each.
-fn script(whisks: bool) -> Vec<(Command, Status)> {
+fn script(scene: &Scene) -> Vec<(Command, Status)> {
+    let whisks = scene.whisking.is_some();
     let left = Whisker::default();
     let nowhere = Whisker { side: 5, number: 9 };
     let motor = |status| if whisks { status } else { Status::NoWhisker };
-    vec![
+    let mut script = vec![
         (Command::Hello, Status::Done),
         (Command::Stream(true), Status::Done),
         (Command::Gain(left, ONE / 2), motor(Status::Done)),
@@ -58,7 +61,17 @@ fn script(whisks: bool) -> Vec<(Command, Status)> {
         (Command::Clear(left), motor(Status::Done)),
         (Command::Stop, motor(Status::Done)),
         (Command::Arm, motor(Status::Done)),
-    ]
+    ];
+    if scene.plant.kind == PlantKind::Ideal {
+        // Ideal motors on the pins follow the pattern generator, as a debugger reads it,
+        // whatever drives them.
+        let moves = |command: &Command| {
+            *command == Command::Setpoint(left, ONE / 5)
+                || matches!(command, Command::Stop | Command::Arm)
+        };
+        script.retain(|(command, _)| !moves(command));
+    }
+    script
 }
 
 /// The board, and all it has sent.
@@ -70,7 +83,7 @@ struct Talk {
     packets: Vec<Packet>,
     tag: u16,
     asked: Vec<Request>,
-    was_stopped: bool,
+    is_apart: bool,
 }
 
 impl Talk {
@@ -78,8 +91,8 @@ impl Talk {
         &mut self.pair.target.module_mut().board
     }
 
-    /// Lets so many ticks pass. Until a motor was stopped, after which nobody knows where its
-    /// whisker rests, records must tell what is so in the world.
+    /// Lets so many ticks pass. Records must tell what is so in the world, until a motor was
+    /// stopped, after which nobody knows where its whisker rests, or nobody has read for long.
     fn pass(&mut self, ticks: u32) -> Result<(), Error> {
         for _ in 0..ticks {
             let before = self.pair.target.row().angle_deg;
@@ -89,7 +102,7 @@ impl Talk {
             let packets = self.board().packets()?;
             for packet in &packets {
                 if let Packet::Record(record) = packet
-                    && !self.was_stopped
+                    && !self.is_apart
                 {
                     same_as_world(record, before, row.x)?;
                 }
@@ -102,7 +115,7 @@ impl Talk {
     /// Asks for something, and lets a part of the time pass.
     fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         self.tag += 1;
-        self.was_stopped |= command == Command::Stop;
+        self.is_apart |= command == Command::Stop;
         let request = Request {
             tag: self.tag,
             command,
@@ -155,7 +168,7 @@ fn converse(path: &Path, program: &Program) -> Result<Vec<String>, Error> {
         packets: Vec::new(),
         tag: 0,
         asked: Vec::new(),
-        was_stopped: false,
+        is_apart: false,
     };
     talk.pass(talk.part)?;
     let wrong = |what: String| Err(Error::Work(what));
@@ -163,7 +176,7 @@ fn converse(path: &Path, program: &Program) -> Result<Vec<String>, Error> {
     // Bytes that are no request, and half of one: the next is understood all the same.
     talk.board().request(&[0xA5; 17])?;
     talk.pass(2)?;
-    for (command, status) in script(scene.whisking.is_some()) {
+    for (command, status) in script(scene) {
         let answer = talk.ask(command)?;
         if answer.status != status || answer.command != command.number() {
             return wrong(format!("{command:?}: {answer:?}"));
@@ -212,6 +225,7 @@ fn name(talk: &mut Talk) -> Result<String, Error> {
 /// count that of the gap, and the record after the gap say so.
 fn lose(talk: &mut Talk) -> Result<u32, Error> {
     let before = talk.ask(Command::Status)?.values[0];
+    talk.is_apart = true;
     for _ in 0..2 * talk.part {
         talk.pair.target.tick();
         talk.ticks += 1;
@@ -326,14 +340,17 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         }
         means.push(run.module_mut().meter.figures.tick.mean());
     }
+    let [with_fpu, without_fpu] = STREAMING;
+    let has_fpu = Program::load(program)?.model()?.has_fpu();
+    let streaming_most = records * if has_fpu { with_fpu } else { without_fpu };
     let [without, quiet, streaming, full] = means[..] else {
         return Err(Error::Work("four programs".to_owned()));
     };
     let mut said = Vec::new();
     for (what, mean, most) in [
         ("that nobody asks for", quiet, QUIET),
-        ("with a record a whisker", streaming, STREAMING * records),
-        ("with records that find no room", full, STREAMING * records),
+        ("with a record a whisker", streaming, streaming_most),
+        ("with records that find no room", full, streaming_most),
     ] {
         let more = mean - without;
         said.push(format!(

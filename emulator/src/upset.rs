@@ -1,7 +1,7 @@
 //! What befalls a core in the middle of a tick.
 
 use crate::chip::{Fault, Ps};
-use crate::core::{Core, EXCEPTION};
+use crate::core::Core;
 use crate::memory::{Memories, RAM};
 
 /// An instruction of every tick's handler that is neither its first nor its last.
@@ -26,10 +26,6 @@ pub(crate) enum Upset {
     Astray,
     /// Its stack is used up.
     NoStack,
-    /// It goes on where the log ends a line, without having begun one, or begins one within
-    /// another: the logger panics. On a core with atomic swaps the word at `owner` has the
-    /// exception that writes a line.
-    Logger { function: u32, owner: Option<u32> },
     /// Bits of a byte of RAM are inverted.
     Ram { address: u32, bits: u8 },
     /// Bits of a register, by its place in [`REGISTERS`], are inverted.
@@ -46,13 +42,6 @@ impl Upset {
             Self::Held(time) => return Ok(time),
             Self::Astray => core.set_pc(NOWHERE),
             Self::NoStack => core.set_reg(SP, RAM + 8),
-            Self::Logger { function, owner } => {
-                if let Some(owner) = owner {
-                    let exception = core.xpsr() & EXCEPTION;
-                    memories.write(owner, &exception.to_le_bytes())?;
-                }
-                core.set_pc(function);
-            }
             Self::Ram { address, bits } => memories.flip(address, bits)?,
             Self::Core { register, bits } if register < 16 => {
                 core.set_reg(register, core.reg(register) ^ bits);

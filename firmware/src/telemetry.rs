@@ -329,6 +329,3 @@ where
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -76,7 +76,7 @@ fn experiments() -> Result<(), Fault> {
 /// and in fixed point, with one side and with two; contact on one side excites the other
 /// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
 /// either side, are noticed, no start that nobody asked for drives a motor, and a
-/// supply that dips switches it off.
+/// supply that dips switches it off; a PC is told and asks, at its price.
 /// The boards that carry one side run its scene as the PC does, and notice a sensor that is
 /// lost; the rest is for the night. All but the first comparison are made without a probe.
 fn board() -> Result<(), Fault> {
@@ -93,6 +93,7 @@ fn board() -> Result<(), Fault> {
         Task::Overload,
         Task::Starting,
         Task::Supply,
+        Task::Telemetry,
         Task::Damage,
         Task::SensorLoss,
     ];
@@ -102,7 +103,7 @@ fn board() -> Result<(), Fault> {
         Path::new(emulate::CIA),
         &[Task::Compare(Probe::Absent), Task::Latency],
     )?;
-    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss];
+    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss, Task::Telemetry];
     do_all(board, &emulate::noisiest()?, &both_sides)?;
     emulate::compare_in_fixed_point(board)?;
     emulate::compare_with_slow_sensors(board)?;

@@ -72,6 +72,7 @@ fn boards() -> Result<(), Fault> {
                 Task::Overload,
                 Task::Starting,
                 Task::Supply,
+                Task::Telemetry,
                 Task::Damage,
                 Task::SensorLoss,
             ] {

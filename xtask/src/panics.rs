@@ -1,11 +1,10 @@
 //! That no panic can be reached, shown from the binary: from the interrupts of the tick
-//! and of the sensors' frames there is no way to one, through calls or through code that
-//! stands inside other functions, and none through a pointer; from the reset, and so from
-//! idle, there is none but the logger's own check.
+//! and of the sensors' frames, from the reset, and so from idle, and from the handlers of
+//! faults there is no way to one, through calls or through code that stands inside other
+//! functions, and none through a pointer.
 //!
-//! Two controls: the same walk finds the logger's panic from the handlers of faults,
-//! which write a last line; and it finds panics in the tick of a program that is built
-//! with checks of overflow.
+//! The control: the same walk finds panics in the tick of a program that is built with checks
+//! of overflow.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,14 +20,10 @@ const PANICS: [&str; 2] = ["core::panicking::", "rust_begin_unwind"];
 /// Ends that are meant: motor off, a last line, reset. An interrupt has none.
 const MEANT: &str = "board::faults::";
 
-/// The logger panics if a line is begun within a line, or ended without being begun. The
-/// macros of defmt do neither; only idle and the start write lines.
-const LOGGER: [&str; 2] = ["_defmt_acquire", "_defmt_release"];
-
 /// What stops the program if `main` returns, which it cannot.
 const START: &str = "Reset";
 
-/// The scene of the second control: all parts.
+/// The scene of the control: all parts.
 const CONTROL: &str = "scenes/full.toml";
 
 /// What the walk over a program has seen.
@@ -36,8 +31,9 @@ pub(crate) struct Proven {
     /// Functions of its interrupts, and how many of these there are.
     tick: usize,
     interrupts: usize,
-    /// Functions of the start and of idle.
+    /// Functions of the start and of idle, and of the handlers of faults.
     idle: usize,
+    handlers: usize,
 }
 
 /// Checks the scenes, or every one, on `board`, or on every one, and sees that a panic
@@ -57,10 +53,11 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
                         tick,
                         interrupts,
                         idle,
+                        handlers,
                     } = check(&elf).map_err(|fault| format!("{name}, {}: {fault}", board.name))?;
                     println!(
                         "{name}, {}: no way to a panic in {tick} functions of {interrupts} \
-                         interrupts; in {idle} of start and idle only the logger's",
+                         interrupts, {idle} of start and idle, {handlers} of handlers of faults",
                         board.name
                     );
                 }
@@ -72,28 +69,26 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
     Ok(())
 }
 
-/// Checks a program, and that the logger's panic is seen from its handlers of faults.
+/// Checks a program.
 ///
 /// # Errors
 /// Every way to a panic, or if the file cannot be read.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     let program = Program::of(elf)?;
     let tasks = program.calls.tasks()?;
-    let tick = program.walk(&tasks, &[])?;
-    let mut wrong = tick.ends.clone();
-    wrong.extend(tick.meant.iter().cloned());
-    let start = [program.calls.reset()?];
-    let idle = program.walk(&start, &LOGGER)?;
+    let tick = program.walk(&tasks)?;
+    let mut wrong = tick.ends;
+    wrong.extend(tick.meant);
+    let idle = program.walk(&[program.calls.reset()?])?;
     wrong.extend(idle.ends);
-    let handlers = program.calls.named(MEANT);
-    if program.walk(&handlers, &[])?.ends.is_empty() {
-        wrong.push("the logger's panic is not seen from the handlers of faults".to_owned());
-    }
+    let handlers = program.walk(&program.calls.named(MEANT))?;
+    wrong.extend(handlers.ends);
     if wrong.is_empty() {
         Ok(Proven {
             tick: tick.functions,
             interrupts: tasks.len(),
             idle: idle.functions,
+            handlers: handlers.functions,
         })
     } else {
         Err(wrong.join("\n"))
@@ -107,7 +102,7 @@ pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
 pub(crate) fn control(board: Board) -> Result<(), Fault> {
     let elf = firmware::build_checked(board, Path::new(CONTROL))?;
     let program = Program::of(&elf)?;
-    let ways = program.walk(&program.calls.tasks()?, &[])?.ends;
+    let ways = program.walk(&program.calls.tasks()?)?.ends;
     let [first, more @ ..] = ways.as_slice() else {
         return Err(format!("control, {}: no panic is found", board.name));
     };
@@ -144,9 +139,8 @@ impl Program {
         })
     }
 
-    /// Follows every call from the functions that begin at `from`; panics of the functions
-    /// named `but` do not count.
-    fn walk(&self, from: &[u64], but: &[&str]) -> Result<Walk, Fault> {
+    /// Follows every call from the functions that begin at `from`.
+    fn walk(&self, from: &[u64]) -> Result<Walk, Fault> {
         let mut walk = Walk::default();
         // Each function that was reached, and from where.
         let mut reached: BTreeMap<u64, Option<u64>> = BTreeMap::new();
@@ -159,10 +153,7 @@ impl Program {
             let function = self.calls.at(begin)?;
             let way = || self.way(&reached, begin);
             if is_panic(&function.name) {
-                let caller = caller.and_then(|caller| self.calls.at(caller).ok());
-                if !caller.is_some_and(|caller| but.contains(&caller.name.as_str())) {
-                    walk.ends.push(way());
-                }
+                walk.ends.push(way());
                 // Another caller's way to it must be seen, too.
                 reached.remove(&begin);
                 continue;
@@ -174,8 +165,7 @@ impl Program {
             walk.functions += 1;
             let range = &function.range;
             let is_inside = |[from, to]: &Piece| *from < range.end && range.start < *to;
-            let is_excused = but.contains(&function.name.as_str());
-            if self.inlined.iter().any(is_inside) && !is_excused {
+            if self.inlined.iter().any(is_inside) {
                 walk.ends.push(way() + " → a panic inside");
             }
             if function.is_open {
@@ -201,7 +191,7 @@ impl Program {
 
 #[cfg(test)]
 mod tests {
-    use super::{LOGGER, Program, Walk};
+    use super::{Program, Walk};
     use crate::elf::calls::{Calls, Function};
 
     fn function(name: &str, begin: u64, calls: &[u64]) -> Function {
@@ -218,7 +208,7 @@ mod tests {
     fn walk(functions: impl IntoIterator<Item = Function>, inlined: [u64; 2]) -> Walk {
         let calls = Calls::among(functions);
         let inlined = vec![inlined];
-        Program { calls, inlined }.walk(&[0], &LOGGER).unwrap()
+        Program { calls, inlined }.walk(&[0]).unwrap()
     }
 
     const NOWHERE: [u64; 2] = [800, 804];
@@ -252,14 +242,10 @@ mod tests {
     }
 
     #[test]
-    fn meant_ends_and_the_logger_are_told_apart() {
+    fn meant_ends_are_told_apart() {
         let panic = function("core::panicking::panic_fmt", 64, &[]);
-        let logger = function(LOGGER[0], 16, &[64]);
         let die = function("board::faults::die", 32, &[64]);
-        let found = walk(
-            [function("idle", 0, &[16, 32]), logger, die, panic],
-            [16, 20],
-        );
+        let found = walk([function("idle", 0, &[32]), die, panic], NOWHERE);
         assert_eq!(found.ends, [""; 0]);
         assert_eq!(found.meant, ["idle → board::faults::die"]);
     }

@@ -8,8 +8,8 @@ use crate::program::Program;
 pub(super) const STACK: &str = "stack";
 /// Bytes at the top of the stack, which a tick with a decision uses.
 const STACK_BYTES: u32 = 1024;
-/// The log's buffer is written by the program and read by a probe only.
-const LOG: [&str; 2] = ["_SEGGER_RTT", "BUFFER"];
+/// Rings of the log and of packets are written by the program and read by a probe only.
+const RINGS: [&str; 3] = ["_SEGGER_RTT", "BYTES", "PACKETS"];
 
 /// The words of a program's static RAM and of its stack.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl Words {
         let info = DebugInfo::new(program)?;
         let mut words = Vec::new();
         for leaf in info.leaves()? {
-            if LOG.iter().any(|log| leaf.path.starts_with(log)) {
+            if RINGS.iter().any(|ring| leaf.path.starts_with(ring)) {
                 continue;
             }
             let first = leaf.address / 4;

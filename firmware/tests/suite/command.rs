@@ -12,7 +12,7 @@ use crate::hardware::{AT_ONCE, Bent, NoClock, feeling};
 
 /// A motor that keeps what it is driven with.
 #[derive(Default)]
-struct Kept {
+pub(crate) struct Kept {
     duty: f64,
 }
 
@@ -30,7 +30,7 @@ impl MotorDriver for Kept {
 }
 
 /// A whisker that does not turn.
-struct Still;
+pub(crate) struct Still;
 
 impl AngleInput for Still {
     fn counts(&mut self) -> i32 {
@@ -62,10 +62,10 @@ const PD: pd::Settings = pd::Settings {
     degrees_per_count: 0.1,
 };
 
-type Settable<R> = Config<ActiveConfig<R>, (), Option<filter::Config<R>>>;
-type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1, 2>;
+pub(crate) type Settable<R> = Config<ActiveConfig<R>, (), Option<filter::Config<R>>>;
+pub(crate) type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1, 2>;
 
-fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
+pub(crate) fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
     let config = Config {
         decoder: Decoder::new(),
         sensor_limits: AT_ONCE,
@@ -95,7 +95,7 @@ fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
 const SECOND: Place = Place::new(0, 1);
 
 /// Duties of both motors after a tick.
-fn tick<R: Real>(module: &mut Whiskers<R>, config: &Settable<R>) -> [f64; 2] {
+pub(crate) fn tick<R: Real>(module: &mut Whiskers<R>, config: &Settable<R>) -> [f64; 2] {
     module.tick(config, &mut |event| panic!("{event:?}"));
     let [servos] = module.motion_mut().servos_mut();
     servos.each_mut().map(|servo| servo.parts_mut().0.duty)

@@ -4,3 +4,4 @@ mod command;
 mod contact;
 mod control_loop;
 mod hardware;
+mod link;

@@ -1,0 +1,254 @@
+//! The link to a PC: answers to requests, and records that find room or are counted.
+
+use firmware::{About, Link, Module, Notes, PacketSink, Passive};
+use wire::{
+    Answer, Command, Flags, PACKET_WORDS, Packet, Record, Request, Status, UnknownCommand, Whisker,
+};
+
+use crate::command::{Settable, Whiskers, module, tick};
+use crate::hardware::{Bent, NoClock, feeling};
+
+const ABOUT: About<'static> = About {
+    name: "a scene of bench",
+    tick_hz: 2000,
+};
+
+/// A PC that has room for so many packets.
+struct Reader {
+    room: usize,
+    packets: Vec<Packet>,
+}
+
+impl Reader {
+    const fn new(room: usize) -> Self {
+        Self {
+            room,
+            packets: Vec::new(),
+        }
+    }
+
+    fn records(&self) -> Vec<Record> {
+        let records = self.packets.iter().filter_map(|packet| match packet {
+            Packet::Record(record) => Some(*record),
+            Packet::Answer(_) => None,
+        });
+        records.collect()
+    }
+}
+
+impl PacketSink for Reader {
+    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+        let fits = self.packets.len() < self.room;
+        if fits {
+            self.packets.push(Packet::from_words(make()));
+        }
+        fits
+    }
+}
+
+/// What the module answers.
+fn ask(
+    link: &mut Link,
+    module: &mut Whiskers<f32>,
+    config: &Settable<f32>,
+    command: Command,
+) -> Answer {
+    let request = Request { tag: 9, command };
+    link.carry_out(module, config, request, ABOUT, 41);
+    let mut reader = Reader::new(1);
+    link.answer(&mut reader);
+    assert!(link.is_free());
+    let [Packet::Answer(answer)] = reader.packets[..] else {
+        panic!("{:?}", reader.packets);
+    };
+    assert_eq!((answer.tag, answer.sequence), (9, 41));
+    assert_eq!(answer.command, command.number());
+    answer
+}
+
+const fn q24(value: f64) -> i32 {
+    (value * 16_777_216.0) as i32
+}
+
+const SECOND: Whisker = Whisker { side: 0, number: 1 };
+
+#[test]
+fn what_is_out_of_range_or_not_there_is_refused_and_changes_nothing() {
+    let (mut module, config) = module::<f32>();
+    let mut link = Link::new();
+    let nowhere = Whisker { side: 1, number: 0 };
+    // Setpoints reach from 30 to 140 degrees, θ' being 100 θ + 50.
+    for (command, status) in [
+        (Command::Setpoint(SECOND, q24(0.3)), Status::Done),
+        (Command::Setpoint(SECOND, q24(0.91)), Status::OutOfRange),
+        (Command::Setpoint(SECOND, q24(-0.21)), Status::OutOfRange),
+        (Command::Setpoint(nowhere, q24(0.3)), Status::NoWhisker),
+        (Command::Gain(SECOND, q24(0.5)), Status::Done),
+        (Command::Gain(SECOND, q24(2.01)), Status::OutOfRange),
+        (Command::Gain(SECOND, -1), Status::OutOfRange),
+        (Command::Gain(SECOND, i32::MIN), Status::OutOfRange),
+        (Command::Clear(SECOND), Status::Done),
+        (Command::Home(SECOND), Status::NotHere),
+    ] {
+        let answer = ask(&mut link, &mut module, &config, command);
+        assert_eq!(answer.status, status, "{command:?}");
+        let servo = &module.motion().servos()[0][1];
+        assert!(
+            (servo.setpoint().unwrap() - 0.3).abs() < 1e-6,
+            "{command:?}"
+        );
+    }
+    assert_eq!(module.motion().state().whiskers[0][1].nominal(), 0.5);
+    ask(&mut link, &mut module, &config, Command::Release(SECOND));
+    assert_eq!(module.motion().servos()[0][1].setpoint(), None);
+}
+
+#[test]
+fn it_says_what_it_is() {
+    let (mut module, config) = module::<f32>();
+    let mut link = Link::new();
+    let mut ask = |command| ask(&mut link, &mut module, &config, command).values;
+    assert_eq!(ask(Command::Hello), [2000, 2]);
+    let letters = |values: [i32; 2]| values.map(i32::to_le_bytes).concat();
+    assert_eq!(letters(ask(Command::Name(0))), b"a scene ");
+    assert_eq!(letters(ask(Command::Name(8))), b"of bench");
+    assert_eq!(letters(ask(Command::Name(13))), b"nch\0\0\0\0\0");
+    assert_eq!(letters(ask(Command::Name(255))), [0; 8]);
+}
+
+#[test]
+fn a_motor_that_is_told_to_stop_is_off_in_the_next_tick_and_armed_only_when_told() {
+    let (mut module, config) = module::<f32>();
+    let mut link = Link::new();
+    let setpoint = Command::Setpoint(SECOND, q24(0.3));
+    ask(&mut link, &mut module, &config, setpoint);
+    let driven = |module: &mut Whiskers<f32>| {
+        for _ in 0..100 {
+            tick(module, &config);
+        }
+        tick(module, &config)[1]
+    };
+    assert!((driven(&mut module) - 0.3).abs() < 2e-4);
+    let mut told = |module: &mut Whiskers<f32>, command| {
+        let answer = ask(&mut link, module, &config, command);
+        assert_eq!(answer.status, Status::Done);
+    };
+    told(&mut module, Command::Stop);
+    assert_eq!(tick(&mut module, &config)[1], 0.0);
+    assert_eq!(driven(&mut module), 0.0);
+    told(&mut module, Command::Arm);
+    assert!((driven(&mut module) - 0.3).abs() < 2e-4);
+}
+
+#[test]
+fn records_tell_what_the_tick_has_done() {
+    let (mut module, config) = module::<f32>();
+    let (mut link, notes) = (Link::new(), Notes::new());
+    let setpoint = Command::Setpoint(SECOND, q24(0.3));
+    ask(&mut link, &mut module, &config, setpoint);
+    ask(&mut link, &mut module, &config, Command::Stream(true));
+    let mut reader = Reader::new(2);
+    for _ in 0..100 {
+        tick(&mut module, &config);
+    }
+    link.send(&module, &config, 101, &notes, &mut reader);
+    let [first, second] = reader.records()[..] else {
+        panic!("a record for each whisker: {:?}", reader.packets);
+    };
+    // The code 0xC000 is bent to the right by half; the whisker stands at rest.
+    assert_eq!(second.codes(), [0xC000 >> 2, 8192]);
+    assert_eq!((second.sequence, first.sequence), (101, 101));
+    assert!((wire::degrees(second.setpoint) - 80.0).abs() < 0.02);
+    assert!((wire::degrees(second.measured) - 50.0).abs() < 0.02);
+    assert!((f64::from(second.duty) / 32_767.0 - 0.3).abs() < 2e-4);
+    let felt = wire::unit(second.contact);
+    assert!((felt - module.felt()[0][1]).abs() < 2e-4, "{felt}");
+    let running = Flags::FRESH | Flags::VALID | Flags::ARMED | Flags::RUNNING;
+    assert_eq!(second.flags, running);
+
+    ask(&mut link, &mut module, &config, Command::Stop);
+    tick(&mut module, &config);
+    reader = Reader::new(2);
+    link.send(&module, &config, 102, &notes, &mut reader);
+    let second = reader.records()[1];
+    assert_eq!(second.duty, 0);
+    assert_eq!(second.flags, Flags::FRESH | Flags::VALID);
+}
+
+#[test]
+fn records_without_room_are_lost_whole_and_counted() {
+    let (mut module, config) = module::<f32>();
+    let (mut link, notes) = (Link::new(), Notes::new());
+    let mut full = Reader::new(0);
+    link.send(&module, &config, 1, &notes, &mut full);
+    assert!(!link.is_busy(), "nobody has asked");
+    ask(&mut link, &mut module, &config, Command::Stream(true));
+    for tick in 2..5 {
+        link.send(&module, &config, tick, &notes, &mut full);
+    }
+    let answer = ask(&mut link, &mut module, &config, Command::Status);
+    assert_eq!(answer.values, [6, 0]);
+    let mut reader = Reader::new(4);
+    for tick in 5..7 {
+        link.send(&module, &config, tick, &notes, &mut reader);
+    }
+    let lost: Vec<bool> = reader
+        .records()
+        .iter()
+        .map(|record| record.flags.contains(Flags::LOST))
+        .collect();
+    assert_eq!(lost, [true, false, false, false]);
+    ask(&mut link, &mut module, &config, Command::Stream(false));
+    assert!(!link.is_busy());
+}
+
+#[test]
+fn an_answer_waits_for_room_and_an_unknown_command_gets_one() {
+    let (module, config) = module::<f32>();
+    let (mut link, notes) = (Link::new(), Notes::new());
+    link.refuse(
+        UnknownCommand {
+            tag: 3,
+            command: 99,
+        },
+        7,
+    );
+    let mut full = Reader::new(0);
+    link.answer(&mut full);
+    link.send(&module, &config, 8, &notes, &mut full);
+    assert!(link.is_busy() && !link.is_free());
+    let mut reader = Reader::new(1);
+    link.answer(&mut reader);
+    let refused = Answer {
+        sequence: 7,
+        tag: 3,
+        command: 99,
+        status: Status::Unknown,
+        values: [0; 2],
+    };
+    assert_eq!(reader.packets, [Packet::Answer(refused)]);
+}
+
+#[test]
+fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
+    let config = feeling(whisking::Absent);
+    let mut module = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
+    let mut link = Link::new();
+    let left = Whisker::default();
+    for command in [
+        Command::Arm,
+        Command::Stop,
+        Command::Home(left),
+        Command::Gain(left, q24(1.0)),
+        Command::Setpoint(left, 0),
+    ] {
+        let request = Request { tag: 1, command };
+        link.carry_out(&mut module, &config, request, ABOUT, 0);
+        let mut reader = Reader::new(1);
+        link.answer(&mut reader);
+        let [Packet::Answer(answer)] = reader.packets[..] else {
+            panic!("{command:?}");
+        };
+        assert_eq!(answer.status, Status::NoWhisker, "{command:?}");
+    }
+}
