@@ -5,7 +5,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
-use scene::{PlantKind, Scene};
+use scene::{PlantKind, Scene, Sides};
 use wire::{Answer, Command, Flags, Packet, Record, Request, Status, Whisker};
 
 use crate::board::Board;
@@ -13,9 +13,13 @@ use crate::compare::Pair;
 use crate::emulate::start;
 use crate::program::Program;
 
-/// Most instructions of a tick for a record of each whisker where the core has an FPU, and
-/// where it has none; and where nobody asks for any.
-const STREAMING: [f64; 2] = [120.0, 300.0];
+/// Most instructions of a tick for the record of the only whisker, where the core has an FPU;
+/// for that of each of two; and for one where the core has no FPU.
+const STREAMING: f64 = 120.0;
+const STREAMING_OF_TWO: f64 = 150.0;
+const STREAMING_NO_FPU: f64 = 300.0;
+
+/// The same where nobody asks for any.
 const QUIET: f64 = 10.0;
 
 /// For how long each program is measured, and every part of the conversation, s.
@@ -315,7 +319,6 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
     let mut loaded = Loaded::new(path)?;
     loaded.scene.duration_s = MEASURED_S;
     let scene = &loaded.scene;
-    let records = scene.head.sides.count() as f64;
     let mut means = Vec::new();
     for (elf, streams, reads) in [
         (without, false, true),
@@ -340,9 +343,12 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         }
         means.push(run.module_mut().meter.figures.tick.mean());
     }
-    let [with_fpu, without_fpu] = STREAMING;
     let has_fpu = Program::load(program)?.model()?.has_fpu();
-    let streaming_most = records * if has_fpu { with_fpu } else { without_fpu };
+    let streaming_most = match scene.head.sides {
+        _ if !has_fpu => STREAMING_NO_FPU,
+        Sides::Left => STREAMING,
+        Sides::Both => 2.0 * STREAMING_OF_TWO,
+    };
     let [without, quiet, streaming, full] = means[..] else {
         return Err(Error::Work("four programs".to_owned()));
     };
