@@ -128,9 +128,8 @@ where
         let in_range = match *command {
             Command::Gain(gain) => R::ZERO <= gain && gain <= R::TWO,
             Command::Setpoint(Some(setpoint)) => pd.min <= setpoint && setpoint <= pd.max,
-            Command::Setpoint(None) | Command::Clear => true,
             Command::Home if config.servo.homing.part().is_none() => return Err(Status::NotHere),
-            Command::Home => true,
+            Command::Setpoint(None) | Command::Clear | Command::Home => true,
         };
         if in_range {
             Ok(())

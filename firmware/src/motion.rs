@@ -24,8 +24,11 @@ pub trait Motion<R, C, const S: usize, const N: usize> {
     /// What the last tick has done with a whisker (its side and number).
     fn told(&self, config: &C, side: usize, whisker: usize) -> Told;
 
-    /// Whether the constants allow a command: its value is in range, and what it asks for is
-    /// there.
+    /// Whether the constants allow a command.
+    ///
+    /// # Errors
+    /// [`Status::OutOfRange`] for a value that is, [`Status::NotHere`] for what was left out,
+    /// [`Status::NoWhisker`] where nothing moves.
     fn allows(&self, config: &C, command: &Command<R>) -> Result<(), Status>;
 }
 

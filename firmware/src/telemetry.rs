@@ -12,7 +12,7 @@ use wire::{
 };
 
 use crate::sensing::{Reading, Sensor};
-use crate::{Clock, Command, Config, Event, FrameSource, Module, Motion, MotorControl, Place};
+use crate::{Clock, Command, Config, Event, Module, Motion, MotorControl, Place, WordSource};
 
 /// Where packets go.
 pub trait PacketSink {
@@ -141,7 +141,7 @@ impl Link {
         sequence: u32,
     ) where
         R: Real,
-        F: FrameSource,
+        F: WordSource,
         M: Motion<R, MC, S, N> + MotorControl<R>,
         C: Clock,
     {
@@ -228,7 +228,7 @@ impl Link {
         sink: &mut impl PacketSink,
     ) where
         R: Real,
-        F: FrameSource,
+        F: WordSource,
         M: Motion<R, MC, S, N>,
         C: Clock,
     {
@@ -256,7 +256,7 @@ impl Link {
 
 /// A whisker's bit.
 const fn bit(place: Place) -> u32 {
-    1 << (place.side as u32 * 16 + place.whisker as u32) % u32::BITS
+    1 << ((place.side as u32 * 16 + place.whisker as u32) % u32::BITS)
 }
 
 /// Eight letters of a name from one on; zeros follow the last.
@@ -274,7 +274,7 @@ fn letters(name: &str, from: u8) -> [i32; 2] {
 impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
 where
     R: Real,
-    F: FrameSource,
+    F: WordSource,
     C: Clock,
 {
     /// The words of a record.

@@ -1,7 +1,7 @@
 //! The link of a simulated module to whoever runs it, which has room for every packet.
 
 use firmware::{
-    About, Clock, Config, Event, FrameSource, Link, Module, Motion, MotorControl, Notes, PacketSink,
+    About, Clock, Config, Event, Link, Module, Motion, MotorControl, Notes, PacketSink, WordSource,
 };
 use scene::Scene;
 use whisking::Real;
@@ -61,7 +61,7 @@ impl Line {
         config: &Config<MC, PC, H>,
     ) where
         R: Real,
-        F: FrameSource,
+        F: WordSource,
         M: Motion<R, MC, S, N>,
         C: Clock,
     {
@@ -79,7 +79,7 @@ impl Line {
         request: Request,
     ) where
         R: Real,
-        F: FrameSource,
+        F: WordSource,
         M: Motion<R, MC, S, N> + MotorControl<R>,
         C: Clock,
     {

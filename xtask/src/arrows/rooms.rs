@@ -17,7 +17,9 @@ pub(super) const ROWS: [&[&str]; 9] = [
     &["firmware"],
     &["plan"],
     &["scene"],
-    &["mlx90333", "physics", "tactile", "tmag5170", "whisking", "wire"],
+    &[
+        "mlx90333", "physics", "tactile", "tmag5170", "whisking", "wire",
+    ],
 ];
 
 /// A package of the workspace, as cargo describes it.

@@ -4,8 +4,8 @@ use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, SensorMode, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, Texture,
-    WhiskingSection,
+    Scene, SensorMode, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    TelemetrySection, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -38,6 +38,7 @@ fn every_key_reaches_its_field() {
             frozen_s: 0.25,
             jump_per_s: 1500.0,
         },
+        telemetry: TelemetrySection { rtt: true },
         whisking: Some(WhiskingSection {
             frequency_hz: 2.0,
             integrator: Integrator::Exact,
