@@ -156,7 +156,8 @@ proptest! {
             }
             prop_assert_eq!(together.posteriors(0), alone.posteriors());
         }
-        prop_assert!(decisions > 0);
+        // Tables that are all alike decide nothing; a test without decisions fails by its rejects.
+        prop_assume!(decisions > 0);
     }
 }
 
