@@ -6,7 +6,7 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use scene::{PlantKind, Scene, Sides};
-use wire::{Answer, Command, Flags, Packet, Record, Request, Status, Whisker};
+use wire::{Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::board::Board;
 use crate::compare::Pair;
@@ -45,26 +45,35 @@ pub fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, 
 }
 
 /// What a PC wants of the board, in this order, a part of the time each.
-fn script(scene: &Scene) -> Vec<(Command, Status)> {
+fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
     let whisks = scene.whisking.is_some();
-    let left = Whisker::default();
-    let nowhere = Whisker { side: 5, number: 9 };
-    let motor = |status| if whisks { status } else { Status::NoWhisker };
+    let left = WhiskerId::default();
+    let nowhere = WhiskerId { side: 5, number: 9 };
+    let motor = |status| {
+        if whisks {
+            status
+        } else {
+            CommandStatus::NoWhisker
+        }
+    };
     let mut script = vec![
-        (Command::Hello, Status::Done),
-        (Command::Stream(true), Status::Done),
-        (Command::Gain(left, ONE / 2), motor(Status::Done)),
+        (Command::Hello, CommandStatus::Done),
+        (Command::Stream(true), CommandStatus::Done),
+        (Command::Gain(left, ONE / 2), motor(CommandStatus::Done)),
         (
             Command::Gain(left, 2 * ONE + ONE / 100),
-            motor(Status::OutOfRange),
+            motor(CommandStatus::OutOfRange),
         ),
-        (Command::Gain(nowhere, ONE), Status::NoWhisker),
-        (Command::Setpoint(left, ONE / 5), motor(Status::Done)),
-        (Command::Setpoint(left, 3 * ONE), motor(Status::OutOfRange)),
-        (Command::Release(left), motor(Status::Done)),
-        (Command::Clear(left), motor(Status::Done)),
-        (Command::Stop, motor(Status::Done)),
-        (Command::Arm, motor(Status::Done)),
+        (Command::Gain(nowhere, ONE), CommandStatus::NoWhisker),
+        (Command::Setpoint(left, ONE / 5), motor(CommandStatus::Done)),
+        (
+            Command::Setpoint(left, 3 * ONE),
+            motor(CommandStatus::OutOfRange),
+        ),
+        (Command::Release(left), motor(CommandStatus::Done)),
+        (Command::Clear(left), motor(CommandStatus::Done)),
+        (Command::Stop, motor(CommandStatus::Done)),
+        (Command::Arm, motor(CommandStatus::Done)),
     ];
     if scene.plant.kind == PlantKind::Ideal {
         // Ideal motors on the pins follow the pattern generator, as a debugger reads it,
@@ -86,7 +95,7 @@ struct Talk {
     part: u32,
     packets: Vec<Packet>,
     tag: u16,
-    asked: Vec<Request>,
+    asked: Vec<TaggedCommand>,
     is_apart: bool,
 }
 
@@ -120,7 +129,7 @@ impl Talk {
     fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         self.tag += 1;
         self.is_apart |= command == Command::Stop;
-        let request = Request {
+        let request = TaggedCommand {
             tag: self.tag,
             command,
         };
@@ -149,7 +158,7 @@ impl Talk {
         }
     }
 
-    fn records(&self) -> impl Iterator<Item = &Record> {
+    fn records(&self) -> impl Iterator<Item = &TickRecord> {
         self.packets.iter().filter_map(|packet| match packet {
             Packet::Record(record) => Some(record),
             Packet::Answer(_) => None,
@@ -241,7 +250,7 @@ fn lose(talk: &mut Talk) -> Result<u32, Error> {
 
     let whiskers = talk.whiskers;
     let mut gap = 0;
-    let records: Vec<Record> = talk.packets[first..]
+    let records: Vec<TickRecord> = talk.packets[first..]
         .iter()
         .filter_map(|packet| match packet {
             Packet::Record(record) => Some(*record),
@@ -249,8 +258,8 @@ fn lose(talk: &mut Talk) -> Result<u32, Error> {
         })
         .collect();
     for pair in records.windows(2) {
-        let side = |record: &Record| u32::from(record.flags.contains(Flags::RIGHT));
-        let place = |record: &Record| record.sequence * whiskers + side(record);
+        let side = |record: &TickRecord| u32::from(record.flags.contains(Flags::RIGHT));
+        let place = |record: &TickRecord| record.sequence * whiskers + side(record);
         let missing = place(&pair[1]) - place(&pair[0]) - 1;
         if pair[1].flags.contains(Flags::LOST) != (missing > 0) {
             return Err(Error::Work(format!("{missing} lost before {:?}", pair[1])));
@@ -279,7 +288,7 @@ fn equal(talk: &mut Talk) -> Result<usize, Error> {
         expected.extend(talk.pair.host.module_mut().take_packets());
     }
     let feels = talk.pair.feels;
-    let plain = |record: &Record| Record {
+    let plain = |record: &TickRecord| TickRecord {
         x: record.codes()[0],
         y: record.codes()[1],
         contact: if feels { record.contact } else { 0 },
@@ -293,7 +302,7 @@ fn equal(talk: &mut Talk) -> Result<usize, Error> {
     let mut compared = 0;
     for record in talk.records().map(plain) {
         // Those before it were lost.
-        let place = |of: &Record| (of.sequence, of.flags.contains(Flags::RIGHT));
+        let place = |of: &TickRecord| (of.sequence, of.flags.contains(Flags::RIGHT));
         let on_pc = expected.find(|on_pc| place(on_pc) == place(&record));
         if on_pc != Some(record) {
             return Err(Error::Work(format!(
@@ -329,7 +338,7 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         let mut run = start(scene, Vec::new(), &Program::load(elf)?)?;
         if streams {
             let command = Command::Stream(true);
-            let bytes = Request { tag: 1, command }.bytes();
+            let bytes = TaggedCommand { tag: 1, command }.bytes();
             run.module_mut().board.request(&bytes)?;
         }
         for _ in 0..run.ticks() {
@@ -372,7 +381,7 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
 
 /// A record must tell the angle that the encoder has read in its tick, `before` the world
 /// moved on, and the code that its sensor has got.
-fn same_as_world(record: &Record, before: [f64; 2], x: [f64; 2]) -> Result<(), Error> {
+fn same_as_world(record: &TickRecord, before: [f64; 2], x: [f64; 2]) -> Result<(), Error> {
     let side = usize::from(record.flags.contains(Flags::RIGHT));
     let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
     let is_code = f64::from(record.codes()[0]) == x[side];

@@ -2,13 +2,12 @@
 
 use whisking::motor::{HomingConfig, MotorDriver};
 use whisking::{Absent, Optional, PatternGenerator, Real};
-use wire::{Flags, Status, q13};
+use wire::{CommandStatus, Flags, q13};
 
 use crate::io::AngleInput;
-use crate::motion::{Command, Motion, MotorControl, NoActiveWhisker};
+use crate::motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker};
 use crate::sensing::Reading;
 use crate::servo::{Servo, ServoConfig};
-use crate::telemetry::Told;
 use crate::{Event, Place};
 
 /// A fault of any whisker switches every motor off until it is gone.
@@ -105,14 +104,14 @@ where
     }
 
     #[inline]
-    fn told(&self, config: &ActiveConfig<R, W, O, H>, side: usize, whisker: usize) -> Told {
+    fn told(&self, config: &ActiveConfig<R, W, O, H>, side: usize, whisker: usize) -> MotionRecord {
         let servo = self.servos.get(side).and_then(|side| side.get(whisker));
         let state = self.state.whiskers.get(side).zip(self.state.z.get(side));
         let whiskers = state.and_then(|(side, z)| side.get(whisker).zip(Some(z)));
         let (Some(servo), Some((whisker, z))) = (servo, whiskers) else {
-            return Told::default();
+            return MotionRecord::default();
         };
-        Told {
+        MotionRecord {
             z: q13(z.value.to_q24()),
             flags: Flags::ARMED.when(self.is_armed) | servo.phase(),
             ..servo.told(&config.servo, whisker.muscle.theta)
@@ -123,18 +122,20 @@ where
         &self,
         config: &ActiveConfig<R, W, O, H>,
         command: &Command<R>,
-    ) -> Result<(), Status> {
+    ) -> Result<(), CommandStatus> {
         let pd = &config.servo.pd;
         let in_range = match *command {
             Command::Gain(gain) => R::ZERO <= gain && gain <= R::TWO,
             Command::Setpoint(Some(setpoint)) => pd.min <= setpoint && setpoint <= pd.max,
-            Command::Home if config.servo.homing.part().is_none() => return Err(Status::NotHere),
+            Command::Home if config.servo.homing.part().is_none() => {
+                return Err(CommandStatus::NotHere);
+            }
             Command::Setpoint(None) | Command::Clear | Command::Home => true,
         };
         if in_range {
             Ok(())
         } else {
-            Err(Status::OutOfRange)
+            Err(CommandStatus::OutOfRange)
         }
     }
 }

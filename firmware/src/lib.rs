@@ -50,7 +50,7 @@ pub use event::TiltFault;
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Config, Module};
-pub use motion::{Command, Motion, MotorControl, NoActiveWhisker, Passive};
+pub use motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
     Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, Sample, SampleClassifier,
     shifts,
@@ -59,7 +59,7 @@ pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
-pub use telemetry::{About, Link, Notes, PacketSink, Told};
+pub use telemetry::{About, Link, Notes, PacketSink};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

@@ -1,10 +1,24 @@
 //! What moves the whiskers of a module, or does not.
 
-use wire::Status;
+use wire::{CommandStatus, Flags};
 
 use crate::sensing::Reading;
-use crate::telemetry::Told;
 use crate::{Event, Place};
+
+/// What the last tick has done with a whisker, in the formats of a [`TickRecord`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MotionRecord {
+    /// Where it should be: protraction, Q13.
+    pub setpoint: i16,
+    /// Where it is: protraction, Q13.
+    pub measured: i16,
+    /// What drives it, Q15.
+    pub duty: i16,
+    /// z of its side, Q13.
+    pub z: i16,
+    /// [`Flags::ARMED`], and what its motor is doing.
+    pub flags: Flags,
+}
 
 /// Moves the whiskers of a module by the constants `C`.
 pub trait Motion<R, C, const S: usize, const N: usize> {
@@ -22,14 +36,14 @@ pub trait Motion<R, C, const S: usize, const N: usize> {
     fn is_deaf(&self, side: usize, whisker: usize) -> bool;
 
     /// What the last tick has done with a whisker (its side and number).
-    fn told(&self, config: &C, side: usize, whisker: usize) -> Told;
+    fn told(&self, config: &C, side: usize, whisker: usize) -> MotionRecord;
 
     /// Whether the constants allow a command.
     ///
     /// # Errors
-    /// [`Status::OutOfRange`] for a value that is, [`Status::NotHere`] for what was left out,
-    /// [`Status::NoWhisker`] where nothing moves.
-    fn allows(&self, config: &C, command: &Command<R>) -> Result<(), Status>;
+    /// [`CommandStatus::OutOfRange`] for a value that is, [`CommandStatus::NotHere`] for what was left out,
+    /// [`CommandStatus::NoWhisker`] where nothing moves.
+    fn allows(&self, config: &C, command: &Command<R>) -> Result<(), CommandStatus>;
 }
 
 /// An intervention between two ticks, for one whisker.
@@ -87,12 +101,12 @@ impl<R, const S: usize, const N: usize> Motion<R, (), S, N> for Passive {
     }
 
     #[inline]
-    fn told(&self, (): &(), _side: usize, _whisker: usize) -> Told {
-        Told::default()
+    fn told(&self, (): &(), _side: usize, _whisker: usize) -> MotionRecord {
+        MotionRecord::default()
     }
 
-    fn allows(&self, (): &(), _command: &Command<R>) -> Result<(), Status> {
-        Err(Status::NoWhisker)
+    fn allows(&self, (): &(), _command: &Command<R>) -> Result<(), CommandStatus> {
+        Err(CommandStatus::NoWhisker)
     }
 }
 
@@ -128,16 +142,16 @@ impl<R, C, M: Motion<R, C, S, N>, const S: usize, const N: usize> Motion<R, Opti
         motion.is_some_and(|motion| motion.is_deaf(side, whisker))
     }
 
-    fn told(&self, config: &Option<C>, side: usize, whisker: usize) -> Told {
+    fn told(&self, config: &Option<C>, side: usize, whisker: usize) -> MotionRecord {
         let parts = self.as_ref().zip(config.as_ref());
-        parts.map_or_else(Told::default, |(motion, config)| {
+        parts.map_or_else(MotionRecord::default, |(motion, config)| {
             motion.told(config, side, whisker)
         })
     }
 
-    fn allows(&self, config: &Option<C>, command: &Command<R>) -> Result<(), Status> {
+    fn allows(&self, config: &Option<C>, command: &Command<R>) -> Result<(), CommandStatus> {
         let parts = self.as_ref().zip(config.as_ref());
-        let (motion, config) = parts.ok_or(Status::NoWhisker)?;
+        let (motion, config) = parts.ok_or(CommandStatus::NoWhisker)?;
         motion.allows(config, command)
     }
 }

@@ -11,7 +11,7 @@ use whisking::{Absent, Optional, Real, Voted, pd};
 use wire::{Flags, q13};
 
 use crate::io::AngleInput;
-use crate::telemetry::Told;
+use crate::motion::MotionRecord;
 use crate::{Event, Place};
 
 /// Constants of a servo; `H` says whether it has [`HomingConfig`].
@@ -179,7 +179,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// Where it should be after a tick towards protraction `theta`, where it is, and what
     /// drives it.
     #[inline]
-    pub fn told<H: Optional<HomingConfig>>(&self, config: &ServoConfig<R, H>, theta: R) -> Told {
+    pub fn told<H: Optional<HomingConfig>>(
+        &self,
+        config: &ServoConfig<R, H>,
+        theta: R,
+    ) -> MotionRecord {
         let home = self.home.get().unwrap_or(self.counts);
         let measured = config.pd.measured(self.counts.wrapping_sub(home));
         let wanted = || config.pd.clamp(self.setpoint().unwrap_or(theta));
@@ -188,11 +192,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             (ServoState::Homing(homing), Some(how)) => (measured, homing.duty(how)),
             _ => (wanted(), Duty::ZERO),
         };
-        Told {
+        MotionRecord {
             setpoint: q13(setpoint.to_q24()),
             measured: q13(measured.to_q24()),
             duty: duty.q15(),
-            ..Told::default()
+            ..MotionRecord::default()
         }
     }
 

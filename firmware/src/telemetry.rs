@@ -7,8 +7,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use whisking::Real;
 use wire::{
-    Answer, Command as Said, Flags, PACKET_WORDS, Record, Request, Status, UnknownCommand, Whisker,
-    q13,
+    Answer, Command as Said, CommandStatus, Flags, PACKET_WORDS, TaggedCommand, TickRecord,
+    UnknownCommand, WhiskerId, q13,
 };
 
 use crate::sensing::{Reading, Sensor};
@@ -18,21 +18,6 @@ use crate::{Clock, Command, Config, Event, Module, Motion, MotorControl, Place, 
 pub trait PacketSink {
     /// Takes the packet that `make` makes, whole, or not at all and unmade; whether it has.
     fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool;
-}
-
-/// What the last tick has done with a whisker, in the formats of a [`Record`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Told {
-    /// Where it should be: protraction, Q13.
-    pub setpoint: i16,
-    /// Where it is: protraction, Q13.
-    pub measured: i16,
-    /// What drives it, Q15.
-    pub duty: i16,
-    /// z of its side, Q13.
-    pub z: i16,
-    /// [`Flags::ARMED`], and what its motor is doing.
-    pub flags: Flags,
 }
 
 /// What a module says of itself.
@@ -136,7 +121,7 @@ impl Link {
         &mut self,
         module: &mut Module<R, F, M, P, C, S, N>,
         config: &Config<MC, PC, H>,
-        request: Request,
+        request: TaggedCommand,
         about: About<'_>,
         sequence: u32,
     ) where
@@ -146,11 +131,11 @@ impl Link {
         C: Clock,
     {
         let mut values = [0; 2];
-        let mut done = |place: Whisker, command| {
+        let mut done = |place: WhiskerId, command| {
             let place = Place::new(place.side, place.number);
             module.motion().allows(&config.motion, &command)?;
             let found = module.command(place, command);
-            found.map_err(|_| Status::NoWhisker)
+            found.map_err(|_| CommandStatus::NoWhisker)
         };
         let done = match request.command {
             Said::Hello => {
@@ -188,7 +173,7 @@ impl Link {
             sequence,
             tag: request.tag,
             command: request.command.number(),
-            status: done.err().unwrap_or(Status::Done),
+            status: done.err().unwrap_or(CommandStatus::Done),
             values,
         });
     }
@@ -199,7 +184,7 @@ impl Link {
             sequence,
             tag: unknown.tag,
             command: unknown.command,
-            status: Status::Unknown,
+            status: CommandStatus::Unknown,
             values: [0; 2],
         });
     }
@@ -302,7 +287,7 @@ where
         place: Place,
         sequence: u32,
         said: Flags,
-    ) -> Record
+    ) -> TickRecord
     where
         M: Motion<R, MC, S, N>,
     {
@@ -312,7 +297,7 @@ where
         let reading = reading.map_or(Reading::REST, Sensor::reading);
         let felt = self.felt().get(side).and_then(|side| side.get(whisker));
         let told = self.motion().told(&config.motion, side, whisker);
-        Record {
+        TickRecord {
             sequence,
             x: reading.x.raw(),
             y: reading.y.raw(),

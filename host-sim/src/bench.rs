@@ -13,7 +13,7 @@ use plan::NumberFormat;
 use scene::{Arm, Deciding, PlantKind, Scene};
 use whisking::motor::{GuardSettings, HomingConfig, StallConfig};
 use whisking::{Fix, Real, Start, filter};
-use wire::{Packet, Request};
+use wire::{Packet, TaggedCommand};
 
 use crate::Error;
 use crate::bus::Slave;
@@ -96,7 +96,7 @@ pub trait HostModule: Bench + Send {
     fn felt(&self) -> Vec<f64>;
 
     /// Carries out `request` before the next tick.
-    fn request(&mut self, request: Request);
+    fn request(&mut self, request: TaggedCommand);
 
     /// What it has sent since the last call.
     fn take_packets(&mut self) -> Vec<Packet>;
@@ -221,7 +221,7 @@ where
         felt.iter().map(|felt| felt.to_f64()).collect()
     }
 
-    fn request(&mut self, request: Request) {
+    fn request(&mut self, request: TaggedCommand) {
         let (line, module) = (&mut self.line, &mut self.module);
         line.carry_out(module, &self.config, request);
     }

@@ -1,7 +1,7 @@
 //! An answer: what became of a request.
 
 use crate::flags::Flags;
-use crate::{PACKET_WORDS, halves, word};
+use crate::words::{PACKET_WORDS, halves, word};
 
 /// What became of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,14 +13,14 @@ pub struct Answer {
     /// The number of its command.
     pub command: u8,
     /// What became of it.
-    pub status: Status,
+    pub status: CommandStatus,
     /// What was asked for, if anything.
     pub values: [i32; 2],
 }
 
 /// What became of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Status {
+pub enum CommandStatus {
     /// It is done.
     #[error("done")]
     Done,
@@ -41,7 +41,7 @@ pub enum Status {
     Other(u8),
 }
 
-impl Status {
+impl CommandStatus {
     /// Its number.
     pub const fn code(self) -> u8 {
         match self {
@@ -88,7 +88,7 @@ impl Answer {
             sequence: words[0],
             tag,
             command,
-            status: Status::from_code(status),
+            status: CommandStatus::from_code(status),
             values: [words[2].cast_signed(), words[3].cast_signed()],
         }
     }

@@ -1,11 +1,11 @@
 //! A record: one whisker in one tick.
 
 use crate::flags::Flags;
-use crate::{PACKET_WORDS, halves, word};
+use crate::words::{PACKET_WORDS, halves, word};
 
 /// One whisker in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Record {
+pub struct TickRecord {
     /// Ticks since the module started, this one included.
     pub sequence: u32,
     /// Deflection along the direction of whisking: the sensor's word, see [`codes`](Self::codes).
@@ -26,7 +26,7 @@ pub struct Record {
     pub flags: Flags,
 }
 
-impl Record {
+impl TickRecord {
     /// As it is sent.
     #[inline]
     pub const fn words(&self) -> [u32; PACKET_WORDS] {

@@ -1,6 +1,6 @@
 //! A request: a command with a tag and a sum.
 
-use crate::{halves, word};
+use crate::words::{halves, word, words};
 
 /// Words of a request.
 pub const REQUEST_WORDS: usize = 3;
@@ -10,7 +10,7 @@ pub const REQUEST_BYTES: usize = REQUEST_WORDS * size_of::<u32>();
 
 /// A whisker of the array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Whisker {
+pub struct WhiskerId {
     /// 0 left, 1 right; below 16.
     pub side: u8,
     /// Counted from 0; below 16.
@@ -36,21 +36,21 @@ pub enum Command {
     /// Motors off, until they are armed.
     Stop,
     /// Runs a motor that rests after faults, or was given up, again.
-    Clear(Whisker),
+    Clear(WhiskerId),
     /// Finds the whisker's rest anew, where the scene says that it is found.
-    Home(Whisker),
+    Home(WhiskerId),
     /// Sets the nominal gain g (BIOTACT eq. 12), Q24, 0 to 2.
-    Gain(Whisker, i32),
+    Gain(WhiskerId, i32),
     /// Sets a setpoint in place of the pattern generator's: protraction, Q24, within the
     /// scene's range.
-    Setpoint(Whisker, i32),
+    Setpoint(WhiskerId, i32),
     /// Gives the setpoint back to the pattern generator.
-    Release(Whisker),
+    Release(WhiskerId),
 }
 
 /// A command with its tag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Request {
+pub struct TaggedCommand {
     /// Chosen by whoever asks; the answer has the same.
     pub tag: u16,
     /// What is to be done.
@@ -86,8 +86,8 @@ impl Command {
     }
 
     /// The whisker that it is for, the left side's first where it is for all, and its value.
-    const fn parts(self) -> (Whisker, i32) {
-        const ALL: Whisker = Whisker { side: 0, number: 0 };
+    const fn parts(self) -> (WhiskerId, i32) {
+        const ALL: WhiskerId = WhiskerId { side: 0, number: 0 };
         match self {
             Self::Hello | Self::Status | Self::Arm | Self::Stop => (ALL, 0),
             Self::Name(from) => (ALL, from as i32),
@@ -98,7 +98,7 @@ impl Command {
     }
 
     /// The command of these parts.
-    const fn from_parts(number: u8, whisker: Whisker, value: i32) -> Option<Self> {
+    const fn from_parts(number: u8, whisker: WhiskerId, value: i32) -> Option<Self> {
         Some(match number {
             1 => Self::Hello,
             2 => Self::Status,
@@ -116,7 +116,7 @@ impl Command {
     }
 }
 
-impl Request {
+impl TaggedCommand {
     /// As it is sent: tag, number and whisker; value; sum.
     pub const fn words(&self) -> [u32; REQUEST_WORDS] {
         let (whisker, value) = self.command.parts();
@@ -144,7 +144,7 @@ impl Request {
         let [first, value] = words;
         let [tag, what] = halves(first);
         let [command, place] = what.to_le_bytes();
-        let whisker = Whisker {
+        let whisker = WhiskerId {
             side: place >> 4,
             number: place & 15,
         };
@@ -158,7 +158,7 @@ impl Request {
 /// The words of a request but for their sum, if that is right; otherwise nobody has meant
 /// them, and there is nothing to answer.
 pub fn summed(bytes: &[u8; REQUEST_BYTES]) -> Option<[u32; 2]> {
-    let [first, value, found] = crate::words(bytes);
+    let [first, value, found] = words(bytes);
     (found == sum(first, value)).then_some([first, value])
 }
 
@@ -175,10 +175,10 @@ const fn sum(first: u32, value: u32) -> u32 {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{Command, REQUEST_BYTES, Request, UnknownCommand, Whisker, summed};
+    use super::{Command, REQUEST_BYTES, TaggedCommand, UnknownCommand, WhiskerId, summed};
 
     fn commands() -> impl Strategy<Value = Command> {
-        let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| Whisker { side, number });
+        let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
         (0..11_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
             match which {
@@ -200,9 +200,9 @@ mod tests {
     proptest! {
         #[test]
         fn a_request_is_read_as_it_was_meant(tag in any::<u16>(), command in commands()) {
-            let request = Request { tag, command };
+            let request = TaggedCommand { tag, command };
             let words = summed(&request.bytes()).expect("its own sum");
-            prop_assert_eq!(Request::from_words(words), Ok(request));
+            prop_assert_eq!(TaggedCommand::from_words(words), Ok(request));
         }
 
         #[test]
@@ -211,7 +211,7 @@ mod tests {
             command in commands(),
             bit in 0..8 * REQUEST_BYTES,
         ) {
-            let mut bytes = Request { tag, command }.bytes();
+            let mut bytes = TaggedCommand { tag, command }.bytes();
             bytes[bit / 8] ^= 1 << (bit % 8);
             prop_assert_eq!(summed(&bytes), None);
         }
@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn a_command_of_a_later_version_is_told_by_its_tag() {
-        let found = Request::from_words([0x00FF_0007, 0]);
+        let found = TaggedCommand::from_words([0x00FF_0007, 0]);
         assert_eq!(
             found,
             Err(UnknownCommand {
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn the_sum_is_that_of_other_programs() {
         // python3 -c 'import zlib; print(hex(zlib.crc32(bytes([7,0,5,0,0,0,0,0]))))'
-        let request = Request {
+        let request = TaggedCommand {
             tag: 7,
             command: Command::Arm,
         };

@@ -9,7 +9,7 @@ pub(super) const STACK: &str = "stack";
 /// Bytes at the top of the stack, which a tick with a decision uses.
 const STACK_BYTES: u32 = 1024;
 /// Rings of the log and of packets are written by the program and read by a probe only.
-const RINGS: [&str; 3] = ["_SEGGER_RTT", "BYTES", "PACKETS"];
+const RINGS: [&str; 3] = ["_SEGGER_RTT", "LOG_BYTES", "PACKETS"];
 
 /// The words of a program's static RAM and of its stack.
 #[derive(Debug)]

@@ -6,14 +6,11 @@
 //! finished, and theirs takes its place.
 
 use core::cell::UnsafeCell;
-use core::sync::atomic::{AtomicU8, Ordering};
+use core::sync::atomic::Ordering;
 
 use defmt::{Encoder, global_logger};
 
-use super::rtt::LOG;
-
-/// The log's ring: what idle writes within the 100 ms after which a probe comes by.
-pub(crate) static BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
+use super::rtt::{LOG, LOG_BYTES};
 
 /// A line that is being written.
 struct Line {
@@ -36,14 +33,14 @@ struct Staged {
 impl Staged {
     fn put(&mut self, bytes: &[u8]) {
         for &byte in bytes {
-            let place = BYTES.get(self.at).filter(|_| self.room > 0);
+            let place = LOG_BYTES.get(self.at).filter(|_| self.room > 0);
             let Some(place) = place else {
                 self.is_lost = true;
                 return;
             };
             place.store(byte, Ordering::Relaxed);
             self.room -= 1;
-            self.at = if self.at + 1 < BYTES.len() {
+            self.at = if self.at + 1 < LOG_BYTES.len() {
                 self.at + 1
             } else {
                 0

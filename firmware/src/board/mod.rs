@@ -24,6 +24,7 @@ pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;
 pub(crate) mod gpio;
+pub(crate) mod inner;
 pub(crate) mod integrity;
 pub(crate) mod log;
 pub(crate) mod logger;
@@ -41,8 +42,11 @@ pub(crate) mod scene;
 pub(crate) mod sensor;
 pub(crate) mod supply;
 pub(crate) mod systick;
-#[cfg_attr(telemetry, path = "telemetry/on.rs")]
-#[cfg_attr(not(telemetry), path = "telemetry/off.rs")]
+#[cfg(not(telemetry))]
+#[path = "telemetry/off.rs"]
+pub(crate) mod telemetry;
+#[cfg(telemetry)]
+#[path = "telemetry/on.rs"]
 pub(crate) mod telemetry;
 pub(crate) mod tick_timer;
 pub(crate) mod timing;

@@ -16,8 +16,9 @@ use firmware::Event;
 use firmware::faults::number;
 
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
+use super::inner::Inner;
 use super::integrity::Integrity;
-use super::scene::{self, Motion, Number, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
+use super::scene::{self, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::telemetry::{self, Telemetry};
 use super::user_button::{REQUEST, UserButton};
@@ -25,9 +26,6 @@ use super::watchdog::Watchdog;
 use super::{faults, log, outputs, retained, supply};
 use crate::board::CLOCKS;
 use crate::here::{self, Counter};
-
-pub(crate) type Inner =
-    firmware::Module<Number, Frames, Motion, &'static mut Perception, Counter, { SIDES.len() }, 1>;
 
 /// The module and its settings. A type of its own, because RTIC would make
 /// those inside public.

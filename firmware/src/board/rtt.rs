@@ -11,11 +11,28 @@
 //! | up 1 | packets of the crate `wire`, where the scene has telemetry |
 //! | down 0 | requests of the crate `wire`, there too |
 
-use core::sync::atomic::{AtomicU32, Ordering, compiler_fence};
+use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 
-use super::logger;
 #[cfg(telemetry)]
-use super::telemetry::{PACKETS, REQUESTS};
+use wire::{PACKET_WORDS, REQUEST_BYTES};
+
+/// The log's ring: what idle writes within the 100 ms after which a probe comes by.
+pub(crate) static LOG_BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
+
+/// Packets for which there is memory; one fewer fit. At 2 kHz and one whisker 63 ms pass
+/// until they are full, six times as long as a probe stays away.
+#[cfg(telemetry)]
+pub(crate) const PACKETS_COUNT: usize = 128;
+
+/// The ring of packets.
+#[cfg(telemetry)]
+pub(crate) static PACKETS: [[AtomicU32; PACKET_WORDS]; PACKETS_COUNT] =
+    [const { [const { AtomicU32::new(0) }; PACKET_WORDS] }; PACKETS_COUNT];
+
+/// The ring of requests: some, as only one is carried out a tick.
+#[cfg(telemetry)]
+pub(crate) static REQUESTS: [AtomicU8; 8 * REQUEST_BYTES] =
+    [const { AtomicU8::new(0) }; 8 * REQUEST_BYTES];
 
 /// A ring, as the probe knows it.
 #[repr(C)]
@@ -135,7 +152,7 @@ static BLOCK: Block = Block {
     ups_count: UPS as u32,
     downs_count: DOWNS as u32,
     ups: [
-        Ring::new(&LOG_NAME, &logger::BYTES),
+        Ring::new(&LOG_NAME, &LOG_BYTES),
         #[cfg(telemetry)]
         Ring::new(b"whisker\0", &PACKETS),
     ],

@@ -2,7 +2,8 @@
 
 use firmware::{About, Link, Module, Notes, PacketSink, Passive};
 use wire::{
-    Answer, Command, Flags, PACKET_WORDS, Packet, Record, Request, Status, UnknownCommand, Whisker,
+    Answer, Command, CommandStatus, Flags, PACKET_WORDS, Packet, TaggedCommand, TickRecord,
+    UnknownCommand, WhiskerId,
 };
 
 use crate::command::{Settable, Whiskers, module, tick};
@@ -27,7 +28,7 @@ impl Reader {
         }
     }
 
-    fn records(&self) -> Vec<Record> {
+    fn records(&self) -> Vec<TickRecord> {
         let records = self.packets.iter().filter_map(|packet| match packet {
             Packet::Record(record) => Some(*record),
             Packet::Answer(_) => None,
@@ -53,7 +54,7 @@ fn ask(
     config: &Settable<f32>,
     command: Command,
 ) -> Answer {
-    let request = Request { tag: 9, command };
+    let request = TaggedCommand { tag: 9, command };
     link.carry_out(module, config, request, ABOUT, 41);
     let mut reader = Reader::new(1);
     link.answer(&mut reader);
@@ -70,25 +71,34 @@ const fn q24(value: f64) -> i32 {
     (value * 16_777_216.0) as i32
 }
 
-const SECOND: Whisker = Whisker { side: 0, number: 1 };
+const SECOND: WhiskerId = WhiskerId { side: 0, number: 1 };
 
 #[test]
 fn what_is_out_of_range_or_not_there_is_refused_and_changes_nothing() {
     let (mut module, config) = module::<f32>();
     let mut link = Link::new();
-    let nowhere = Whisker { side: 1, number: 0 };
+    let nowhere = WhiskerId { side: 1, number: 0 };
     // Setpoints reach from 30 to 140 degrees, θ' being 100 θ + 50.
     for (command, status) in [
-        (Command::Setpoint(SECOND, q24(0.3)), Status::Done),
-        (Command::Setpoint(SECOND, q24(0.91)), Status::OutOfRange),
-        (Command::Setpoint(SECOND, q24(-0.21)), Status::OutOfRange),
-        (Command::Setpoint(nowhere, q24(0.3)), Status::NoWhisker),
-        (Command::Gain(SECOND, q24(0.5)), Status::Done),
-        (Command::Gain(SECOND, q24(2.01)), Status::OutOfRange),
-        (Command::Gain(SECOND, -1), Status::OutOfRange),
-        (Command::Gain(SECOND, i32::MIN), Status::OutOfRange),
-        (Command::Clear(SECOND), Status::Done),
-        (Command::Home(SECOND), Status::NotHere),
+        (Command::Setpoint(SECOND, q24(0.3)), CommandStatus::Done),
+        (
+            Command::Setpoint(SECOND, q24(0.91)),
+            CommandStatus::OutOfRange,
+        ),
+        (
+            Command::Setpoint(SECOND, q24(-0.21)),
+            CommandStatus::OutOfRange,
+        ),
+        (
+            Command::Setpoint(nowhere, q24(0.3)),
+            CommandStatus::NoWhisker,
+        ),
+        (Command::Gain(SECOND, q24(0.5)), CommandStatus::Done),
+        (Command::Gain(SECOND, q24(2.01)), CommandStatus::OutOfRange),
+        (Command::Gain(SECOND, -1), CommandStatus::OutOfRange),
+        (Command::Gain(SECOND, i32::MIN), CommandStatus::OutOfRange),
+        (Command::Clear(SECOND), CommandStatus::Done),
+        (Command::Home(SECOND), CommandStatus::NotHere),
     ] {
         let answer = ask(&mut link, &mut module, &config, command);
         assert_eq!(answer.status, status, "{command:?}");
@@ -131,7 +141,7 @@ fn a_motor_that_is_told_to_stop_is_off_in_the_next_tick_and_armed_only_when_told
     assert!((driven(&mut module) - 0.3).abs() < 2e-4);
     let mut told = |module: &mut Whiskers<f32>, command| {
         let answer = ask(&mut link, module, &config, command);
-        assert_eq!(answer.status, Status::Done);
+        assert_eq!(answer.status, CommandStatus::Done);
     };
     told(&mut module, Command::Stop);
     assert_eq!(tick(&mut module, &config)[1], 0.0);
@@ -223,7 +233,7 @@ fn an_answer_waits_for_room_and_an_unknown_command_gets_one() {
         sequence: 7,
         tag: 3,
         command: 99,
-        status: Status::Unknown,
+        status: CommandStatus::Unknown,
         values: [0; 2],
     };
     assert_eq!(reader.packets, [Packet::Answer(refused)]);
@@ -234,7 +244,7 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
     let config = feeling(whisking::Absent);
     let mut module = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
     let mut link = Link::new();
-    let left = Whisker::default();
+    let left = WhiskerId::default();
     for command in [
         Command::Arm,
         Command::Stop,
@@ -242,13 +252,13 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
         Command::Gain(left, q24(1.0)),
         Command::Setpoint(left, 0),
     ] {
-        let request = Request { tag: 1, command };
+        let request = TaggedCommand { tag: 1, command };
         link.carry_out(&mut module, &config, request, ABOUT, 0);
         let mut reader = Reader::new(1);
         link.answer(&mut reader);
         let [Packet::Answer(answer)] = reader.packets[..] else {
             panic!("{command:?}");
         };
-        assert_eq!(answer.status, Status::NoWhisker, "{command:?}");
+        assert_eq!(answer.status, CommandStatus::NoWhisker, "{command:?}");
     }
 }

@@ -5,7 +5,7 @@ use firmware::{
 };
 use scene::Scene;
 use whisking::Real;
-use wire::{PACKET_WORDS, Packet, Request};
+use wire::{PACKET_WORDS, Packet, TaggedCommand};
 
 /// A module's end of the link.
 pub(super) struct Line {
@@ -76,7 +76,7 @@ impl Line {
         &mut self,
         module: &mut Module<R, F, M, P, C, S, N>,
         config: &Config<MC, PC, H>,
-        request: Request,
+        request: TaggedCommand,
     ) where
         R: Real,
         F: WordSource,

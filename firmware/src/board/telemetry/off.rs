@@ -2,7 +2,7 @@
 
 use firmware::Event;
 
-use crate::board::program::Inner;
+use crate::board::inner::Inner;
 use crate::board::scene::Settings;
 
 /// There is nothing to hear.

@@ -1,29 +1,14 @@
 //! Telemetry of a scene that has it: packets and requests through rings in RAM.
 
-use core::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use firmware::{About, Event, Link, Notes, PacketSink};
-use wire::{PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, Request};
+use wire::{PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
 
+use crate::board::inner::Inner;
 use crate::board::log;
-use crate::board::program::Inner;
-use crate::board::rtt::{DOWN, UP};
+use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
 use crate::board::scene::{NAME, Settings, TICK_HZ};
-
-/// Packets for which there is memory; one fewer fit. At 2 kHz and one whisker 64 ms pass
-/// until they are full, six times as long as a probe stays away.
-const PACKETS_COUNT: usize = 128;
-
-/// A packet in RAM.
-type Packet = [AtomicU32; PACKET_WORDS];
-
-/// The ring of packets.
-pub(crate) static PACKETS: [Packet; PACKETS_COUNT] =
-    [const { [const { AtomicU32::new(0) }; PACKET_WORDS] }; PACKETS_COUNT];
-
-/// The ring of requests: some, as only one is carried out a tick.
-pub(crate) static REQUESTS: [AtomicU8; 8 * REQUEST_BYTES] =
-    [const { AtomicU8::new(0) }; 8 * REQUEST_BYTES];
 
 const ABOUT: About<'static> = About {
     name: NAME,
@@ -67,7 +52,7 @@ fn next() {
         return;
     };
     DOWN.has_read(at as u32);
-    if let Ok(request) = Request::from_words(words) {
+    if let Ok(request) = TaggedCommand::from_words(words) {
         log::requested(request.command);
     }
     for (place, word) in INBOX.iter().zip(words) {
@@ -126,7 +111,7 @@ impl Telemetry {
             let [first, value] = &INBOX;
             let words = [first, value].map(|word| word.load(Ordering::Relaxed));
             IS_FULL.store(false, Ordering::Release);
-            match Request::from_words(words) {
+            match TaggedCommand::from_words(words) {
                 Ok(request) => link.carry_out(module, settings, request, ABOUT, tick),
                 Err(unknown) => link.refuse(unknown, tick),
             }
