@@ -103,7 +103,7 @@ impl<SPI: SpiDevice> TiltSource<SPI> {
     fn report(&mut self) -> TiltFault {
         match self.sensor.faults() {
             Ok(faults) => TiltFault::Reported(faults),
-            Err(Error::Frame(error)) => TiltFault::CommandStatus(error),
+            Err(Error::Frame(error)) => TiltFault::Reply(error),
             Err(_) => TiltFault::Reported(StatusFaults::NONE),
         }
     }
@@ -133,7 +133,7 @@ impl<SPI: SpiDevice> WordSource for TiltSource<SPI> {
 fn fault<E>(error: &Error<E>) -> SensorFault {
     match *error {
         Error::Bus(_) => SensorFault::Bus,
-        Error::Frame(error) => SensorFault::Tilt(TiltFault::CommandStatus(error)),
+        Error::Frame(error) => SensorFault::Tilt(TiltFault::Reply(error)),
         Error::NotWritten(register) => SensorFault::Tilt(TiltFault::NotWritten(register)),
     }
 }
