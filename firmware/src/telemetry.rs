@@ -5,7 +5,7 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use whisking::Real;
+use whisking::{Optional, Real, filter};
 use wire::{
     Answer, Command as Said, CommandStatus, Flags, PACKET_WORDS, TaggedCommand, TickRecord,
     UnknownCommand, WhiskerId, q13,
@@ -216,6 +216,7 @@ impl Link {
         F: WordSource,
         M: Motion<R, MC, S, N>,
         C: Clock,
+        H: Optional<filter::Config<R>>,
     {
         if !self.streams {
             return;
@@ -274,6 +275,7 @@ where
     ) -> [u32; PACKET_WORDS]
     where
         M: Motion<R, MC, S, N>,
+        H: Optional<filter::Config<R>>,
     {
         self.record(config, place, sequence, said).words()
     }
@@ -290,12 +292,18 @@ where
     ) -> TickRecord
     where
         M: Motion<R, MC, S, N>,
+        H: Optional<filter::Config<R>>,
     {
         let (side, whisker) = (usize::from(place.side), usize::from(place.whisker));
         let sensors = self.sensors().get(side);
         let reading = sensors.and_then(|sensors| sensors.get(whisker));
         let reading = reading.map_or(Reading::REST, Sensor::reading);
         let felt = self.felt().get(side).and_then(|side| side.get(whisker));
+        // What the scene does not feel is left out of the program.
+        let contact = match (config.contact.part(), felt) {
+            (Some(_), Some(felt)) => q13(felt.to_q24()),
+            _ => 0,
+        };
         let told = self.motion().told(&config.motion, side, whisker);
         TickRecord {
             sequence,
@@ -305,7 +313,7 @@ where
             measured: told.measured,
             duty: told.duty,
             z: told.z,
-            contact: q13(felt.map_or(0, |felt| felt.to_q24())),
+            contact,
             flags: told.flags
                 | said
                 | Flags::RIGHT.when(side > 0)

@@ -4,7 +4,7 @@ use firmware::{
     About, Clock, Config, Event, Link, Module, Motion, MotorControl, Notes, PacketSink, WordSource,
 };
 use scene::Scene;
-use whisking::Real;
+use whisking::{Optional, Real, filter};
 use wire::{PACKET_WORDS, Packet, TaggedCommand};
 
 /// A module's end of the link.
@@ -64,6 +64,7 @@ impl Line {
         F: WordSource,
         M: Motion<R, MC, S, N>,
         C: Clock,
+        H: Optional<filter::Config<R>>,
     {
         self.ticks = self.ticks.wrapping_add(1);
         let (notes, sent) = (&self.notes, &mut self.sent);
