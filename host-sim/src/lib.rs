@@ -54,6 +54,7 @@ pub mod drive;
 mod error;
 pub mod evaluation;
 pub mod motor;
+pub mod origin;
 pub mod plant;
 pub mod recording;
 pub mod replay;

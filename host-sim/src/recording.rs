@@ -2,13 +2,14 @@
 //! follow each other are one stream in time order. A sample counts while contact is at
 //! least the model's gate; without the column each does. The number of the touch, 0 in
 //! the air, is what the module itself said: a whisker that bends by its own inertia has
-//! contact in the air.
+//! contact in the air. Lines that begin with `# ` may stand above the table.
 
 use std::io::{self, Read, Write};
 
 use crate::Error;
 pub use crate::classifier::GATE;
 use crate::columns::{self, Column, column};
+use crate::origin::{self, Origin};
 use crate::run::Run;
 
 /// Two channels under one label and trial, in time order.
@@ -160,8 +161,11 @@ fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Ce
 ///
 /// # Errors
 /// [`Error::Input`] names the line and what is wrong with it.
-pub fn read(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
-    parse(table, channels).map_err(Error::Input)
+pub fn read(mut table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
+    let mut file = Vec::new();
+    let read = table.read_to_end(&mut file);
+    read.map_err(|error| Error::Input(error.to_string()))?;
+    parse(&file, channels).map_err(Error::Input)
 }
 
 /// Writes a recording.
@@ -169,6 +173,15 @@ pub fn read(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error>
 /// # Errors
 /// Any error of the writer.
 pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
+    write_from(table, &Origin::default(), streams)
+}
+
+/// Writes a recording below where it comes from.
+///
+/// # Errors
+/// Any error of the writer.
+pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) -> io::Result<()> {
+    origin.write(&mut table)?;
     let mut table = csv::Writer::from_writer(table);
     let has_contact = streams.iter().any(|stream| stream.contact.is_some());
     let has_touch = streams.iter().any(|stream| stream.touch.is_some());
@@ -196,8 +209,9 @@ pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
 /// The line of each sample of a table that [`read`] takes.
 #[cfg(feature = "cli")]
 pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
+    let (_, above, table) = origin::split(table);
     let mut reader = csv::Reader::from_reader(table);
-    let (mut line, mut last) = (1, 0);
+    let (mut line, mut last) = (1 + above, 0);
     let records = reader.byte_records().map_while(Result::ok);
     let of = |record: csv::ByteRecord| {
         let begin = record.position().map_or(0, csv::Position::byte) as usize;
@@ -213,8 +227,8 @@ pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
     records.map(of).collect()
 }
 
-/// What is wrong with a table as a table.
-fn broken(error: &csv::Error) -> String {
+/// What is wrong with a table as a table, which `above` lines stand above.
+fn broken(error: &csv::Error, above: u64) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths {
             pos: Some(at),
@@ -222,29 +236,36 @@ fn broken(error: &csv::Error) -> String {
             len,
         } => format!(
             "line {}: {len} cells; the header has {expected_len}",
-            at.line()
+            above + at.line()
         ),
-        csv::ErrorKind::Utf8 { pos: Some(at), .. } => format!("line {}: not UTF-8", at.line()),
+        csv::ErrorKind::Utf8 { pos: Some(at), .. } => {
+            format!("line {}: not UTF-8", above + at.line())
+        }
         _ => error.to_string(),
     }
 }
 
-fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
+fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
+    let (_, above, table) = origin::split(file);
+    let broken = |error: csv::Error| broken(&error, above);
+    let first = above + 1;
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_reader(table);
-    let header = table.headers().map_err(|e| broken(&e))?.clone();
+    let header = table.headers().map_err(broken)?.clone();
     let optional = |name: &str| {
         let mut found = header.iter().enumerate().filter(|(_, cell)| *cell == name);
         match (found.next(), found.next()) {
             (place, None) => Ok(place.map(|(place, _)| place)),
-            (_, Some(_)) => Err(format!("line 1: two columns {name:?}")),
+            (_, Some(_)) => Err(format!("line {first}: two columns {name:?}")),
         }
     };
     let [x_name, y_name] = channels;
     let column = |name: &str| {
         optional(name)?.ok_or_else(|| {
-            format!("line 1: no column {name:?}; a recording has label,trial,{x_name},{y_name}")
+            format!(
+                "line {first}: no column {name:?}; a recording has label,trial,{x_name},{y_name}"
+            )
         })
     };
     let (label, trial, x, y) = (
@@ -258,8 +279,8 @@ fn parse(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, String> {
 
     let mut streams: Vec<Stream> = Vec::new();
     let mut record = csv::StringRecord::new();
-    while table.read_record(&mut record).map_err(|e| broken(&e))? {
-        let line = record.position().map_or(0, csv::Position::line);
+    while table.read_record(&mut record).map_err(broken)? {
+        let line = above + record.position().map_or(0, csv::Position::line);
         let cell = |place: usize| record.get(place).unwrap_or_default();
         let number = |name: &str, place: usize| -> Result<f64, String> {
             let text = cell(place);
@@ -338,6 +359,20 @@ mod tests {
         let mut written = Vec::new();
         super::write(&mut written, &streams).unwrap();
         assert_eq!(String::from_utf8(written).unwrap(), text);
+    }
+
+    #[test]
+    fn lines_above_the_table_are_counted_and_change_nothing() {
+        let table = "label,trial,x,y\n#1,1,2,3\n";
+        let below = format!("# scene = bench\n# a remark\n{table}");
+        assert_eq!(parse(below.as_bytes()), parse(table.as_bytes()));
+        assert_eq!(parse(table.as_bytes()).unwrap()[0].label, "#1");
+        let fault = |table: &str| parse(format!("# a remark\n{table}").as_bytes()).unwrap_err();
+        assert!(fault("label,trial,x\n").starts_with("line 2: no column"));
+        assert!(fault("label,trial,x,y\na,1,nan,3\n").starts_with("line 3: x is"));
+        assert!(fault("label,trial,x,y\na,1\n").starts_with("line 3: 2 cells"));
+        #[cfg(feature = "cli")]
+        assert_eq!(super::lines(below.as_bytes()), [4]);
     }
 
     #[test]

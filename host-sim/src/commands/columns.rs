@@ -40,7 +40,8 @@ pub fn page() -> String {
             "Recordings",
             "Samples with labels, to train on: `host-sim record` writes them; `train`, \
              `evaluate` and `classify` read them. The order of the columns is free, and more of \
-             them do no harm.",
+             them do no harm. Lines that begin with `# ` may stand above the header: what \
+             `whisker capture` writes says there which module it comes from.",
             &recording::COLUMNS,
         ),
         (

@@ -1,0 +1,87 @@
+//! Lines above a table that say where it comes from: `# key = value`, one each.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+
+/// What such a line begins with, before a space or its end: a column may be called `#`.
+const MARK: &str = "#";
+
+/// Where a table comes from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Origin(Vec<(String, String)>);
+
+impl Origin {
+    /// Says one thing more. An end of a line becomes a space.
+    #[must_use]
+    pub fn with(mut self, key: &str, value: impl Display) -> Self {
+        let value = format!("{value}").replace(['\n', '\r'], " ");
+        self.0.push((key.to_owned(), value));
+        self
+    }
+
+    /// What it says of `key`; the first, if it says it twice.
+    pub fn get(&self, key: &str) -> Option<&str> {
+        let (_, value) = self.0.iter().find(|(of, _)| of == key)?;
+        Some(value)
+    }
+
+    /// Writes its lines.
+    ///
+    /// # Errors
+    /// Any of the writer.
+    pub fn write(&self, mut to: impl Write) -> io::Result<()> {
+        for (key, value) in &self.0 {
+            writeln!(to, "{MARK} {key} = {value}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Takes the lines that begin with `# ` from the top of a file. Returns what they say, how many
+/// there are, and the table below them. A line without `=` is a remark, which says nothing.
+pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
+    let (mut origin, mut lines, mut rest) = (Origin::default(), 0, file);
+    loop {
+        let end = rest.iter().position(|byte| *byte == b'\n');
+        let (line, below) = rest.split_at(end.map_or(rest.len(), |end| end + 1));
+        let line = String::from_utf8_lossy(line);
+        let Some(said) = line.strip_prefix(MARK) else {
+            break;
+        };
+        if !said.starts_with(' ') && !said.trim_end().is_empty() {
+            break;
+        }
+        if let Some((key, value)) = said.split_once('=') {
+            origin = origin.with(key.trim(), value.trim());
+        }
+        (lines, rest) = (lines + 1, below);
+    }
+    (origin, lines, rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Origin, split};
+
+    #[test]
+    fn what_is_written_is_read() {
+        let origin = Origin::default()
+            .with("scene", "my = scene")
+            .with("tick_hz", 2000);
+        let mut file = Vec::new();
+        origin.write(&mut file).unwrap();
+        file.extend(b"a,b\n#1,2\n");
+        let (read, lines, table) = split(&file);
+        assert_eq!((read, lines, table), (origin, 2, &b"a,b\n#1,2\n"[..]));
+    }
+
+    #[test]
+    fn remarks_and_a_file_of_nothing_else_are_taken() {
+        let (origin, lines, table) = split(b"# recorded on Monday\n# tick_hz=100\r\n#");
+        assert_eq!(origin.get("tick_hz"), Some("100"));
+        assert_eq!((lines, table), (3, &b""[..]));
+        for table in [&b"a\n"[..], b"#,label\n1,a\n", b""] {
+            assert_eq!(split(table), (Origin::default(), 0, table));
+        }
+    }
+}
