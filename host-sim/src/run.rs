@@ -4,7 +4,7 @@ mod presented;
 
 use firmware::{Command, Event, Sample};
 use mlx90333::Word;
-use scene::Scene;
+use scene::{Scene, Texture};
 use tactile::Posteriors;
 
 use crate::Error;
@@ -218,6 +218,17 @@ impl<B: Bench + ?Sized> Run<B> {
     /// What is being touched: its class name and the trial.
     pub fn presented(&self) -> (&'static str, u64) {
         (self.presented.label, self.presented.trial)
+    }
+
+    /// Has a texture laid in place of the present one, as soon as that is not touched, and left
+    /// there: as a person would who exchanges samples, instead of in the scene's order.
+    pub const fn lay(&mut self, texture: Texture) {
+        self.presented.lay(texture);
+    }
+
+    /// Whether what was to be [laid](Run::lay) lies there.
+    pub const fn is_laid(&self) -> bool {
+        self.presented.is_laid()
     }
 
     /// Whether any whisker touches a texture: the truth, which no module knows.

@@ -16,6 +16,12 @@ pub(super) struct Presented {
     touched: u64,
     /// Presentations that have begun.
     begun: u64,
+    /// Set once a texture is laid by hand: the scene's order has no say any more.
+    is_by_hand: bool,
+    /// To be laid by hand, once nothing is touched.
+    wanted: Option<Texture>,
+    /// Ticks without touch before that.
+    apart: u64,
     pub(super) label: &'static str,
     pub(super) trial: u64,
 }
@@ -42,6 +48,9 @@ impl Presented {
             air: in_air.then(|| ticks(AIR_S)),
             touched: 0,
             begun: 0,
+            is_by_hand: false,
+            wanted: None,
+            apart: ticks(AIR_S),
             label,
             trial: 0,
         }
@@ -52,6 +61,20 @@ impl Presented {
         self.trial = 0;
         self.touched = 0;
         self.begun = 0;
+        self.is_by_hand = false;
+        self.wanted = None;
+    }
+
+    /// Has this texture laid in place of the present one as soon as that is not touched, and
+    /// left there.
+    pub(super) const fn lay(&mut self, texture: Texture) {
+        self.is_by_hand = true;
+        self.wanted = Some(texture);
+    }
+
+    /// Whether what was to be laid by hand lies there.
+    pub(super) const fn is_laid(&self) -> bool {
+        self.is_by_hand && self.wanted.is_none()
     }
 
     /// The texture to put in place before tick `done + 1`, if it changes there;
@@ -59,6 +82,14 @@ impl Presented {
     pub(super) fn change(&mut self, done: u64, touches: bool) -> Option<Texture> {
         if touches {
             self.touched = done;
+        }
+        if self.is_by_hand {
+            let may = self.begun == 0 || done - self.touched >= self.apart;
+            let texture = self.wanted.take_if(|_| may)?;
+            self.begun += 1;
+            self.trial = self.begun - 1;
+            self.label = texture.name();
+            return Some(texture);
         }
         let count = done / self.length;
         let may = |air| self.begun == 0 || done - self.touched >= air;
@@ -71,5 +102,32 @@ impl Presented {
         self.label = texture.name();
         self.trial = count / among;
         Some(texture)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use scene::{Scene, Texture};
+
+    use super::Presented;
+
+    #[test]
+    fn by_hand_a_texture_is_laid_in_the_air_and_stays() {
+        let text = include_str!("../../../scenes/textures.toml");
+        let scene = Scene::from_str("textures.toml", text).unwrap();
+        let mut presented = Presented::new(&scene);
+        presented.lay(Texture::Carpet);
+        assert!(!presented.is_laid());
+        assert_eq!(presented.change(0, false), Some(Texture::Carpet));
+        assert!(presented.is_laid());
+        // Beyond the scene's 2.5 s, too.
+        assert!((1..10_000).all(|done| presented.change(done, false).is_none()));
+        presented.change(10_000, true);
+        presented.lay(Texture::Smooth);
+        // 20 ms without touch.
+        assert!((10_001..10_040).all(|done| presented.change(done, false).is_none()));
+        assert_eq!(presented.label, "carpet");
+        assert_eq!(presented.change(10_040, false), Some(Texture::Smooth));
+        assert_eq!((presented.label, presented.trial), ("smooth", 1));
     }
 }
