@@ -36,6 +36,7 @@ mod program;
 pub mod registers;
 mod rtt;
 pub mod sensor_loss;
+pub mod session;
 pub mod starting;
 pub mod supply;
 pub mod telemetry;
