@@ -37,6 +37,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated boards, one side and two", board)?;
+    steps.run("the walk at the bench", readme::walk)?;
     steps.run("injected faults, a thousand", faults::short)?;
     steps.run("endurance, in short", endurance::short)?;
     steps.run("counts of a tick", count::short)?;

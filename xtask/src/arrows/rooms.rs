@@ -8,10 +8,11 @@ use crate::run::{Fault, cargo, output};
 
 /// The packages of the workspace: each may depend only on rows below its own.
 /// `physics` depends on none and serves what simulates.
-pub(super) const ROWS: [&[&str]; 9] = [
+pub(super) const ROWS: [&[&str]; 10] = [
     &["acceptance", "count", "fuzz", "xtask"],
     &["studies"],
     &["classifiers"],
+    &["whisker"],
     &["emulator"],
     &["host-sim"],
     &["firmware"],

@@ -1,0 +1,14 @@
+//! Capturing: from records to a recording, label by label.
+
+mod alike;
+mod checks;
+mod file;
+mod label;
+mod samples;
+mod touches;
+
+pub(crate) use checks::Checks;
+pub(crate) use file::Recording;
+pub(crate) use label::Label;
+pub(crate) use samples::Sampler;
+pub(crate) use touches::Touches;

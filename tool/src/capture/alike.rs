@@ -1,0 +1,137 @@
+//! Whether the touches of a label are alike: a sample that slips, or a magnet that comes loose,
+//! makes classes that hold in one hour and not in the next.
+
+/// What is compared of a touch.
+const SIGNS: [&str; 3] = ["deflection", "sideways deflection", "roughness"];
+
+/// What was felt in one touch: sums over its samples of contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Felt {
+    samples: u32,
+    sum: [f64; 2],
+    /// Of the steps of x from sample to sample.
+    steps: f64,
+    last: Option<f64>,
+}
+
+impl Felt {
+    /// Takes a sample of contact.
+    pub(crate) fn take(&mut self, codes: [u16; 2]) {
+        let codes = codes.map(f64::from);
+        self.samples += 1;
+        for (sum, code) in self.sum.iter_mut().zip(codes) {
+            *sum += code;
+        }
+        let last = self.last.replace(codes[0]);
+        self.steps += last.map_or(0.0, |last| (codes[0] - last).abs());
+    }
+
+    /// How many there were.
+    pub(crate) const fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Mean deflection along and across the whisking, codes, and the logarithm of the mean
+    /// step of the first from sample to sample.
+    fn signs(&self) -> [f64; SIGNS.len()] {
+        let samples = f64::from(self.samples.max(1));
+        let [x, y] = self.sum.map(|sum| sum / samples);
+        // A step of less than a code is the sensor's own.
+        [x, y, (self.steps / samples).max(1.0).ln()]
+    }
+}
+
+/// Fewest touches in each half.
+const LEAST: usize = 4;
+
+/// By how many standard errors the means of two halves may differ: with 20 touches that
+/// happens by chance once in a few thousand labels.
+const ERRORS: f64 = 5.0;
+
+/// Differences that are none, whatever their error: codes, codes, share.
+const SMALL: [f64; SIGNS.len()] = [32.0, 32.0, 0.1];
+
+/// By what the later half of some touches differs from the earlier: the sign's name, and its
+/// means in both halves; nothing if the difference is one of chance.
+pub(crate) fn drift(touches: &[Felt]) -> Option<(&'static str, [f64; 2])> {
+    let (early, late) = touches.split_at(touches.len() / 2);
+    if early.len() < LEAST {
+        return None;
+    }
+    let halves = [early, late].map(|half| half.iter().map(Felt::signs).collect::<Vec<_>>());
+    (0..SIGNS.len()).find_map(|sign| {
+        let [early, late] = halves.each_ref().map(|half| moments(half, sign));
+        let (apart, error) = (
+            late.mean - early.mean,
+            (early.of_mean + late.of_mean).sqrt(),
+        );
+        let differs = apart.abs() > SMALL[sign] && apart.abs() > ERRORS * error;
+        differs.then_some((SIGNS[sign], [early.mean, late.mean]))
+    })
+}
+
+/// The mean of a sign, and the variance of that mean.
+struct Moments {
+    mean: f64,
+    of_mean: f64,
+}
+
+fn moments(half: &[[f64; SIGNS.len()]], sign: usize) -> Moments {
+    let n = half.len() as f64;
+    let mean = half.iter().map(|signs| signs[sign]).sum::<f64>() / n;
+    let square = |signs: &[f64; SIGNS.len()]| (signs[sign] - mean) * (signs[sign] - mean);
+    let variance = half.iter().map(square).sum::<f64>() / (n - 1.0);
+    Moments {
+        mean,
+        of_mean: variance / n,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Felt, drift};
+
+    /// A touch of such a mean, steps and scatter.
+    fn touch(n: u32, mean: u16, step: u16) -> Felt {
+        let mut felt = Felt::default();
+        let scatter = (n * 37 % 11 * 5) as u16;
+        for sample in 0..100 {
+            let x = mean + scatter + if sample % 2 == 0 { step } else { 0 };
+            felt.take([x, 8192]);
+        }
+        felt
+    }
+
+    #[test]
+    fn touches_that_scatter_are_alike() {
+        let touches: Vec<_> = (0..20).map(|n| touch(n, 9000, 40 + n as u16 % 5)).collect();
+        assert_eq!(drift(&touches), None);
+    }
+
+    #[test]
+    fn a_later_half_that_bends_more_is_told() {
+        let bend = |n| if n < 10 { 9000 } else { 9200 };
+        let touches: Vec<_> = (0..20).map(|n| touch(n, bend(n), 40)).collect();
+        let (sign, [early, late]) = drift(&touches).unwrap();
+        assert_eq!(sign, "deflection");
+        assert!((late - early - 200.0).abs() < 15.0, "{early} {late}");
+    }
+
+    #[test]
+    fn so_is_one_that_is_rougher() {
+        let rough = |n| if n < 10 { 40 } else { 60 };
+        let of = |n| touch(n, 9000 - rough(n) / 2, rough(n));
+        let touches: Vec<_> = (0..20).map(of).collect();
+        let (sign, [early, late]) = drift(&touches).unwrap();
+        assert_eq!(sign, "roughness");
+        assert!((late - early - 1.5_f64.ln()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn of_few_touches_nothing_is_said() {
+        let touches: Vec<_> = (0..7)
+            .map(|n| touch(n, 9000 + 100 * n as u16, 40))
+            .collect();
+        assert_eq!(drift(&touches), None);
+    }
+}

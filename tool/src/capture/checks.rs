@@ -1,0 +1,232 @@
+//! What is wrong with what comes while a label is captured: told at once, and counted.
+
+use host_sim::recording::GATE;
+use wire::{Flags, TickRecord};
+
+use super::alike::drift;
+use super::samples::Sampled;
+use super::touches::Touches;
+use crate::tally::Before;
+
+/// The last codes before either end at which a sensor no longer tells how far it is bent.
+const ENDS: [u16; 2] = [8, 16375];
+
+/// Samples of contact at an end from which it is told: 5 ms at 2 kHz.
+const SATURATED: u64 = 10;
+
+/// By what share the ticks may come too fast or too slow: a ceramic resonator's, and the PC's
+/// clock, together.
+const RATE: f64 = 0.01;
+
+/// Over how long the rate is measured, s.
+const RATE_S: f64 = 2.0;
+
+/// What has been told of a label, each kind once, and how often it was so.
+#[derive(Debug)]
+pub(crate) struct Checks {
+    label: String,
+    tick_hz: f64,
+    lost: u64,
+    restarts: u64,
+    faults: u64,
+    in_fault: bool,
+    saturated: [u64; 2],
+    /// Sequence and time from which the rate is measured.
+    since: Option<(u32, f64)>,
+    is_rate_told: bool,
+}
+
+impl Checks {
+    /// Of a label, by what the module says of its ticks.
+    pub(crate) fn new(label: &str, tick_hz: u32) -> Self {
+        Self {
+            label: label.to_owned(),
+            tick_hz: f64::from(tick_hz),
+            lost: 0,
+            restarts: 0,
+            faults: 0,
+            in_fault: false,
+            saturated: [0; 2],
+            since: None,
+            is_rate_told: false,
+        }
+    }
+
+    /// A record with what is before it; says what is wrong for the first time.
+    pub(crate) fn record(&mut self, record: &TickRecord, before: Before) -> Option<String> {
+        let valid = record.flags.contains(Flags::VALID);
+        let was_in_fault = std::mem::replace(&mut self.in_fault, !valid);
+        match before {
+            Before::Lost(lost) => {
+                self.lost += u64::from(lost);
+                self.since = None;
+                (self.lost == u64::from(lost)).then(|| {
+                    format!(
+                        "records lost before tick {}: {lost}. The touch that they are of does not \
+                         count; is this PC busy, or the cable long?",
+                        record.sequence
+                    )
+                })
+            }
+            Before::Restart => {
+                self.restarts += 1;
+                self.since = None;
+                Some("the module has started again: whisker log tells why".to_owned())
+            }
+            Before::Nothing if !valid && !was_in_fault => {
+                self.faults += 1;
+                (self.faults == 1).then(|| {
+                    format!(
+                        "no valid reading at tick {}: a fault of sensor or motor. Is the magnet \
+                         too near, too far or off its axis? whisker log names the fault, \
+                         docs/faults.md what to do",
+                        record.sequence
+                    )
+                })
+            }
+            Before::Nothing => None,
+        }
+        .map(|what| format!("{}: {what}", self.label))
+    }
+
+    /// A sample; says so once it is at the end of the sensor's range.
+    pub(crate) fn sample(&mut self, sample: &Sampled) -> Option<String> {
+        if sample.contact < GATE {
+            return None;
+        }
+        let axes = ["x", "y"].into_iter().zip(sample.codes);
+        for (saturated, (axis, code)) in self.saturated.iter_mut().zip(axes) {
+            if code <= ENDS[0] || code >= ENDS[1] {
+                *saturated += 1;
+                if *saturated == SATURATED {
+                    return Some(format!(
+                        "{}: {axis} is at the end of its range: the whisker is bent further than \
+                         its sensor tells. Lay the sample farther away, or the magnet farther \
+                         from the sensor",
+                        self.label
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// The last record came at this time; says so if they come at another rate than the
+    /// module's.
+    pub(crate) fn time(&mut self, sequence: u32, now_s: f64) -> Option<String> {
+        let (first, then_s) = *self.since.get_or_insert((sequence, now_s));
+        let passed = now_s - then_s;
+        if passed < RATE_S || self.is_rate_told {
+            return None;
+        }
+        let rate = f64::from(sequence.wrapping_sub(first)) / passed;
+        self.since = Some((sequence, now_s));
+        if (rate / self.tick_hz - 1.0).abs() <= RATE {
+            return None;
+        }
+        self.is_rate_told = true;
+        Some(format!(
+            "{}: {rate:.0} ticks a second, the module says {:.0}: is its program of another \
+             scene, or its clock wrong? What is learnt from this holds at this rate only",
+            self.label, self.tick_hz
+        ))
+    }
+
+    /// What there is to say of the label as a whole: how often what has been told was so, and
+    /// whether its touches are alike.
+    pub(crate) fn end(&self, touches: &Touches) -> Vec<String> {
+        let mut said = Vec::new();
+        let [x, y] = self.saturated;
+        for (count, what) in [
+            (self.lost, "records lost"),
+            (self.restarts, "starts of the module"),
+            (self.faults, "spells without a valid reading"),
+            (x, "samples of contact with x at the end of its range"),
+            (y, "samples of contact with y at the end of its range"),
+        ] {
+            if count > 0 {
+                said.push(format!("{}: {what}: {count}", self.label));
+            }
+        }
+        if let Some((sign, [early, late])) = drift(&touches.felt) {
+            said.push(format!(
+                "{}: its touches differ: {sign} {early:.2} in the first half, {late:.2} in the \
+                 second. Did the sample slip, or the magnet? Fasten it, and capture the label \
+                 anew",
+                self.label
+            ));
+        }
+        said
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{Flags, TickRecord};
+
+    use super::{Before, Checks, Sampled, Touches};
+
+    fn record(sequence: u32, flags: Flags) -> TickRecord {
+        TickRecord {
+            sequence,
+            flags,
+            ..TickRecord::default()
+        }
+    }
+
+    #[test]
+    fn losses_and_faults_are_told_once_and_counted() {
+        let mut checks = Checks::new("felt", 2000);
+        let good = |n| record(n, Flags::VALID);
+        assert_eq!(checks.record(&good(1), Before::Nothing), None);
+        let told = checks.record(&good(5), Before::Lost(3)).unwrap();
+        assert!(
+            told.starts_with("felt: records lost before tick 5: 3."),
+            "{told}"
+        );
+        assert_eq!(checks.record(&good(9), Before::Lost(3)), None);
+        let bad = |n| record(n, Flags::default());
+        let told = checks.record(&bad(10), Before::Nothing).unwrap();
+        assert!(told.contains("no valid reading at tick 10"), "{told}");
+        assert_eq!(checks.record(&bad(11), Before::Nothing), None);
+        assert_eq!(checks.record(&good(12), Before::Nothing), None);
+        assert_eq!(checks.record(&bad(13), Before::Nothing), None);
+        let end = checks.end(&Touches::new("felt", 0));
+        assert_eq!(
+            end,
+            [
+                "felt: records lost: 6",
+                "felt: spells without a valid reading: 2"
+            ]
+        );
+    }
+
+    #[test]
+    fn codes_at_their_ends_are_told_where_there_is_contact() {
+        let mut checks = Checks::new("felt", 2000);
+        let mut take = |contact, x| {
+            checks.sample(&Sampled {
+                codes: [x, 8192],
+                contact,
+                touch: 1,
+            })
+        };
+        assert!((0..100).all(|_| take(0.0, 16383).is_none()));
+        assert!((0..100).all(|_| take(1.0, 16000).is_none()));
+        assert!((0..9).all(|_| take(1.0, 16383).is_none()));
+        assert!(take(1.0, 0).unwrap().starts_with("felt: x is at the end"));
+        assert_eq!(take(1.0, 0), None);
+    }
+
+    #[test]
+    fn another_rate_than_the_module_s_is_told() {
+        let feed = |hz: u32| {
+            let mut checks = Checks::new("felt", 2000);
+            let told = (0..10 * hz).find_map(|n| checks.time(n, f64::from(n) / f64::from(hz)));
+            told.unwrap_or_default()
+        };
+        assert_eq!(feed(2000), "");
+        assert_eq!(feed(2010), "");
+        assert!(feed(1900).contains("1900 ticks a second, the module says 2000"));
+    }
+}

@@ -1,0 +1,108 @@
+//! The file that is captured to.
+
+use std::path::{Path, PathBuf};
+
+use host_sim::Error;
+use host_sim::files::read_recording;
+use host_sim::origin::{self, Origin};
+use host_sim::output::{self, Output};
+use host_sim::recording::{self, CHANNELS, Stream};
+
+use super::touches::count;
+
+/// Parts of the origin that must stay the same in one recording.
+const SAME: [&str; 2] = ["scene", "tick_hz"];
+
+/// A recording, as far as it has come.
+#[derive(Debug)]
+pub(crate) struct Recording {
+    path: PathBuf,
+    origin: Origin,
+    streams: Vec<Stream>,
+}
+
+impl Recording {
+    /// A new recording, or with `resumes` the one that is there.
+    pub(crate) fn open(path: &Path, resumes: bool) -> Result<Self, Error> {
+        output::check(path)?;
+        let is_there = path.exists();
+        if is_there && !resumes {
+            let fault = "is there already, and is not overwritten; name another file, or go on \
+                         with this one by --resume";
+            return Err(Error::file(path, fault));
+        }
+        let (mut origin, mut streams) = (Origin::default(), Vec::new());
+        if is_there {
+            streams = read_recording(path, CHANNELS)?;
+            let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+            (origin, ..) = origin::split(&bytes);
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            origin,
+            streams,
+        })
+    }
+
+    /// Says where it comes from, if that is not said; otherwise it must be the same module.
+    pub(crate) fn comes_from(&mut self, origin: Origin) -> Result<(), Error> {
+        if self.streams.is_empty() {
+            self.origin = origin;
+            return Ok(());
+        }
+        for key in SAME {
+            let (found, here) = (self.origin.get(key), origin.get(key));
+            if found != here {
+                let [found, here] = [found, here].map(|value| value.unwrap_or("none"));
+                let fault = format!(
+                    "is of a module whose {key} is {found}, this one's is {here}; capture to \
+                     another file"
+                );
+                return Err(Error::file(&self.path, fault));
+            }
+        }
+        Ok(())
+    }
+
+    fn of<'s>(&'s self, label: &'s str) -> impl Iterator<Item = &'s Stream> {
+        self.streams
+            .iter()
+            .filter(move |stream| stream.label == label)
+    }
+
+    /// How many touches there are of a label.
+    pub(crate) fn touches(&self, label: &str) -> usize {
+        count(self.of(label))
+    }
+
+    /// How many there are in all.
+    pub(crate) fn all_touches(&self) -> usize {
+        count(self.streams.iter())
+    }
+
+    /// The number of a label's next trial.
+    pub(crate) fn next_trial(&self, label: &str) -> u64 {
+        let trials = self
+            .of(label)
+            .filter_map(|stream| stream.trial.parse().ok());
+        trials.max().map_or(0, |last: u64| last.saturating_add(1))
+    }
+
+    /// Adds streams, and writes the file as it is by now.
+    pub(crate) fn add(&mut self, streams: Vec<Stream>) -> Result<(), Error> {
+        self.streams.extend(streams);
+        let mut output = Output::create(&self.path)?;
+        recording::write_from(&mut output, &self.origin, &self.streams)
+            .map_err(|source| output.failed(source))?;
+        output.finish()
+    }
+
+    /// Samples in all.
+    pub(crate) fn samples(&self) -> usize {
+        self.streams.iter().map(|stream| stream.samples.len()).sum()
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+}

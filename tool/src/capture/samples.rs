@@ -1,0 +1,44 @@
+//! From the records of one side to samples, as the module's own classifier gets them.
+
+use tactile::TouchDetector;
+use wire::{Flags, TickRecord, unit};
+
+use crate::tally::Before;
+
+/// What one record says of the whisker's touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sampled {
+    /// The sensor's codes of x and y.
+    pub(crate) codes: [u16; 2],
+    /// Contact π.
+    pub(crate) contact: f64,
+    /// The number of the touch, as soon as it is sure; 0 in the air.
+    pub(crate) touch: u16,
+}
+
+/// Numbers the touches: by the same rule from the same codes as the module does, of whose
+/// touches a record says only that there is one, and where nothing classifies not even that.
+#[derive(Debug, Default)]
+pub(crate) struct Sampler {
+    touches: TouchDetector,
+}
+
+impl Sampler {
+    /// Takes a record; nothing while the whisker has a fault.
+    pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Option<Sampled> {
+        if before != Before::Nothing {
+            self.touches.interrupt();
+        }
+        if !record.flags.contains(Flags::VALID) {
+            self.touches.interrupt();
+            return None;
+        }
+        let codes = record.codes();
+        let number = self.touches.step(codes).number;
+        Some(Sampled {
+            codes,
+            contact: f64::from(unit(record.contact)),
+            touch: if self.touches.is_sure() { number } else { 0 },
+        })
+    }
+}

@@ -1,0 +1,197 @@
+//! The touches of one label, and the trials that they make.
+
+use host_sim::recording::{GATE, Stream};
+
+use super::alike::Felt;
+use super::samples::Sampled;
+
+/// Touches of a trial: at the usual 2 Hz of whisking 2.5 s.
+const OF_TRIAL: u32 = 5;
+
+/// What was captured of a label.
+#[derive(Debug)]
+pub(crate) struct Touches {
+    label: String,
+    /// Trials that are full, and the one that goes on.
+    streams: Vec<Stream>,
+    trial: u64,
+    /// Touches in the trial that goes on.
+    of_trial: u32,
+    /// Number and samples of the touch that goes on.
+    present: Option<(u16, Felt)>,
+    /// Samples of the trial before that touch.
+    before: usize,
+    /// Touches with contact that have ended.
+    pub(crate) felt: Vec<Felt>,
+    /// Touches that have ended without any: they do not count.
+    pub(crate) without_contact: u32,
+}
+
+impl Touches {
+    /// Of `label`, its first trial being this one.
+    pub(crate) fn new(label: &str, trial: u64) -> Self {
+        let mut touches = Self {
+            label: label.to_owned(),
+            streams: Vec::new(),
+            trial,
+            of_trial: 0,
+            present: None,
+            before: 0,
+            felt: Vec::new(),
+            without_contact: 0,
+        };
+        touches.begin();
+        touches
+    }
+
+    fn begin(&mut self) {
+        self.streams.push(Stream {
+            label: self.label.clone(),
+            trial: self.trial.to_string(),
+            samples: Vec::new(),
+            contact: Some(Vec::new()),
+            touch: Some(Vec::new()),
+        });
+        self.trial += 1;
+        self.of_trial = 0;
+    }
+
+    /// Takes a sample; whether a touch that counts has ended before it.
+    pub(crate) fn take(&mut self, sample: &Sampled) -> bool {
+        let goes_on = |(number, _): &mut (u16, Felt)| *number != sample.touch;
+        let ended = self.present.take_if(goes_on);
+        let has_ended = ended.is_some_and(|(_, felt)| self.end(felt));
+        if has_ended && self.of_trial == OF_TRIAL {
+            self.begin();
+        }
+        if let Some(stream) = self.streams.last_mut() {
+            if self.present.is_none() {
+                self.before = stream.samples.len();
+            }
+            stream.samples.push(sample.codes.map(f64::from));
+            stream.contact.get_or_insert_default().push(sample.contact);
+            stream.touch.get_or_insert_default().push(sample.touch);
+        }
+        if sample.touch != 0 {
+            let (_, felt) = self.present.get_or_insert((sample.touch, Felt::default()));
+            if sample.contact >= GATE {
+                felt.take(sample.codes);
+            }
+        }
+        has_ended
+    }
+
+    /// A touch has ended; whether it counts.
+    fn end(&mut self, felt: Felt) -> bool {
+        let counts = felt.samples() > 0;
+        if counts {
+            self.of_trial += 1;
+            self.felt.push(felt);
+        } else {
+            self.without_contact += 1;
+        }
+        counts
+    }
+
+    /// Samples are missing: the touch that goes on is none, and what comes is another trial.
+    pub(crate) fn interrupt(&mut self) {
+        let was_touched = self.present.take().is_some();
+        if let Some(stream) = self.streams.last_mut() {
+            let is_cut = !stream.samples.is_empty();
+            let kept = if was_touched {
+                self.before
+            } else {
+                stream.samples.len()
+            };
+            // What is of the air alone is of no use.
+            let kept = if self.of_trial == 0 { 0 } else { kept };
+            stream.samples.truncate(kept);
+            stream.contact.get_or_insert_default().truncate(kept);
+            stream.touch.get_or_insert_default().truncate(kept);
+            if is_cut && kept > 0 {
+                self.begin();
+            }
+        }
+    }
+
+    /// The trials, but one in which there is no touch.
+    pub(crate) fn into_streams(mut self) -> Vec<Stream> {
+        if self.of_trial == 0 {
+            self.streams.pop();
+        }
+        self.streams
+    }
+}
+
+/// How many touches with contact the streams of a label have.
+pub(crate) fn count<'s>(streams: impl Iterator<Item = &'s Stream>) -> usize {
+    let mut found = 0;
+    for stream in streams {
+        let mut last = 0;
+        // Without a column each run of contact is one.
+        for touch in stream.touches(GATE, 1).filter(|touch| *touch != 0) {
+            found += usize::from(touch != last);
+            last = touch;
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OF_TRIAL, Sampled, Touches, count};
+
+    fn sample(touch: u16, contact: f64) -> Sampled {
+        Sampled {
+            codes: [8192 + touch, 8192],
+            contact,
+            touch,
+        }
+    }
+
+    #[test]
+    fn touches_count_with_contact_and_make_trials() {
+        let mut touches = Touches::new("felt", 3);
+        let mut ended = Vec::new();
+        for touch in 1..=OF_TRIAL as u16 + 1 {
+            for (n, (number, contact)) in [(0, 0.0), (touch, 0.0), (touch, 0.1), (0, 0.2)]
+                .into_iter()
+                .enumerate()
+            {
+                // The second touch has no contact.
+                let contact = if touch == 2 { 0.0 } else { contact };
+                if touches.take(&sample(number, contact)) {
+                    ended.push((touch, n));
+                }
+            }
+        }
+        touches.take(&sample(9, 0.1));
+        assert_eq!(ended, [1, 3, 4, 5, 6].map(|touch| (touch, 3)));
+        assert_eq!((touches.felt.len(), touches.without_contact), (5, 1));
+        let streams = touches.into_streams();
+        // The last trial, with a touch that goes on, has none that counts.
+        assert_eq!(streams.len(), 1);
+        assert_eq!(streams[0].trial, "3");
+        assert_eq!(count(streams.iter()), 5);
+    }
+
+    #[test]
+    fn a_touch_that_is_cut_by_lost_records_does_not_count() {
+        let mut touches = Touches::new("felt", 0);
+        touches.take(&sample(0, 0.0));
+        touches.take(&sample(1, 0.1));
+        touches.interrupt();
+        assert!(!touches.take(&sample(0, 0.1)));
+        assert!(touches.felt.is_empty());
+        // After one that counts the trial ends where the next was cut.
+        touches.take(&sample(2, 0.1));
+        assert!(touches.take(&sample(0, 0.0)));
+        touches.take(&sample(3, 0.1));
+        touches.interrupt();
+        touches.take(&sample(4, 0.1));
+        assert!(touches.take(&sample(0, 0.0)));
+        let streams = touches.into_streams();
+        let numbers: Vec<_> = streams.iter().map(|stream| stream.touch.clone()).collect();
+        assert_eq!(numbers, [Some(vec![0, 2, 0]), Some(vec![4, 0])]);
+    }
+}

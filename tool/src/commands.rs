@@ -1,0 +1,5 @@
+//! The commands, one file for each.
+
+pub(crate) mod capture;
+pub(crate) mod log;
+pub(crate) mod records;

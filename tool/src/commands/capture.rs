@@ -1,0 +1,384 @@
+//! `whisker capture`: textures, label by label.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use host_sim::progress::{Progress, Verbosity};
+use host_sim::{Error, report};
+use wire::{Command, Packet};
+
+use crate::capture::{Checks, Label, Recording, Sampler, Touches};
+use crate::conversation::Conversation;
+use crate::source::{Source, SourceChoice, seconds};
+use crate::tally::{Before, Tally, side};
+
+/// What is captured, how much of it, and where it goes.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: SourceChoice,
+    /// A class to capture; give it once for each, in the order in which samples are laid. In a
+    /// simulated world the sample is the texture of that name, or TEXTURE
+    #[arg(long = "label", value_name = "LABEL[=TEXTURE]", required = true)]
+    labels: Vec<Label>,
+    /// How many touches of each
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    touches: u32,
+    /// The side whose whisker is heard
+    #[arg(long, value_enum, default_value = "left")]
+    side: SideName,
+    /// Goes on with a recording: captures what is missing of each label. Simulated worlds get
+    /// another seed then, lest they repeat themselves
+    #[arg(long)]
+    resume: bool,
+    /// For how long nothing may be touched
+    #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
+    patience: f64,
+    /// The recording to write; an existing file is not overwritten
+    #[arg(long, value_name = "FILE.csv")]
+    out: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SideName {
+    /// The left one
+    Left,
+    /// The right one
+    Right,
+}
+
+/// Captures what is missing; each label is in the file once it is complete.
+pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
+    let Arguments {
+        labels, touches, ..
+    } = arguments;
+    let wanted = *touches as usize;
+    let named_twice = |n: usize| labels[..n].iter().any(|label| label.name == labels[n].name);
+    if let Some(n) = (0..labels.len()).find(|n| named_twice(*n)) {
+        let fault = format!("--label: found {:?} twice, allowed: once", labels[n].name);
+        return Err(Error::Input(fault));
+    }
+    let recording = Recording::open(&arguments.out, arguments.resume)?;
+    let missing = |label: &&Label| recording.touches(&label.name) < wanted;
+    let missing: Vec<&Label> = labels.iter().filter(missing).collect();
+    if missing.is_empty() {
+        report::say(format_args!(
+            "{}: has {wanted} touches of each label already",
+            arguments.out.display()
+        ));
+        return Ok(());
+    }
+    let source = arguments.source.open(recording.all_touches() as u64)?;
+    let told = complete(recording, &missing, source, arguments, verbosity)?;
+    if told > 0 {
+        report::warn(format_args!(
+            "told on standard error: {told}; look at it before you train"
+        ));
+    }
+    Ok(())
+}
+
+/// Captures from `source` what is `missing`; returns how much of it there was to tell about.
+fn complete(
+    mut recording: Recording,
+    missing: &[&Label],
+    source: Box<dyn Source>,
+    arguments: &Arguments,
+    verbosity: Verbosity,
+) -> Result<usize, Error> {
+    let wanted = arguments.touches as usize;
+    let mut module = Conversation::new(source);
+    for label in missing {
+        module.source().has(&label.sample)?;
+    }
+    if let Some(first) = missing.first() {
+        module.source().lay(&first.sample)?;
+    }
+    // From the first tick on: what is felt before a touch is learnt from, too.
+    module.ask(Command::Stream(true))?;
+    let about = module.about()?;
+    let origin = module.source().origin();
+    recording.comes_from(
+        origin
+            .with("scene", &about.scene)
+            .with("tick_hz", about.tick_hz),
+    )?;
+
+    let already: usize = missing
+        .iter()
+        .map(|label| recording.touches(&label.name))
+        .sum();
+    let total = missing.len() * wanted - already;
+    let mut capture = Capture {
+        module,
+        sampler: Sampler::default(),
+        tally: Tally::default(),
+        side: usize::from(arguments.side == SideName::Right),
+        tick_hz: about.tick_hz,
+        patience_s: arguments.patience,
+        progress: Progress::new(verbosity, "touches", total as u64),
+        done: 0,
+        told: 0,
+    };
+    for (n, label) in missing.iter().enumerate() {
+        if n > 0 {
+            capture.module.source().lay(&label.sample)?;
+        }
+        let had = recording.touches(&label.name);
+        let touches = Touches::new(&label.name, recording.next_trial(&label.name));
+        let touches = capture.label(label, touches, wanted - had)?;
+        let felt = touches.felt.len();
+        let streams = touches.into_streams();
+        let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
+        recording.add(streams)?;
+        capture.progress.pause(|| {
+            report::say(format_args!(
+                "{}: {felt} touches, {samples} samples",
+                label.name
+            ));
+        });
+    }
+    let Capture {
+        mut module,
+        tally,
+        told,
+        ..
+    } = capture;
+    module.ask(Command::Stream(false))?;
+    let out = recording.path().display();
+    report::say(format_args!(
+        "{out}: {} samples, {} touches; records lost: {} of {}\n\
+         next: cargo run --release -p host-sim -- train --data {out} --rate {} --out MODEL",
+        recording.samples(),
+        recording.all_touches(),
+        tally.lost,
+        tally.records + tally.lost,
+        about.tick_hz
+    ));
+    Ok(told)
+}
+
+/// A module that is listened to.
+struct Capture {
+    module: Conversation,
+    sampler: Sampler,
+    tally: Tally,
+    side: usize,
+    tick_hz: u32,
+    /// How long nothing may be touched.
+    patience_s: f64,
+    progress: Progress,
+    /// Touches so far, of all labels.
+    done: u64,
+    /// Lines about what is wrong.
+    told: usize,
+}
+
+impl Capture {
+    /// Hears until the sample that is being laid was touched so often.
+    fn label(
+        &mut self,
+        label: &Label,
+        mut touches: Touches,
+        most: usize,
+    ) -> Result<Touches, Error> {
+        let mut checks = Checks::new(&label.name, self.tick_hz);
+        let mut touched_s = self.module.source().now_s();
+        while touches.felt.len() < most {
+            let heard = self.module.hear()?;
+            let now_s = self.module.source().now_s();
+            let is_laid = self.module.source().is_laid();
+            for packet in heard.packets {
+                let Packet::Record(record) = packet else {
+                    continue;
+                };
+                if side(&record) != self.side {
+                    continue;
+                }
+                let before = self.tally.take(&record);
+                let sampled = self.sampler.take(&record, before);
+                self.tell(checks.record(&record, before));
+                self.tell(checks.time(record.sequence, now_s));
+                if before != Before::Nothing {
+                    touches.interrupt();
+                }
+                let Some(sampled) = sampled.filter(|_| is_laid) else {
+                    touches.interrupt();
+                    continue;
+                };
+                self.tell(checks.sample(&sampled));
+                if touches.take(&sampled) {
+                    touched_s = now_s;
+                    self.done += 1;
+                    self.progress.set(self.done);
+                    if touches.felt.len() >= most {
+                        break;
+                    }
+                }
+            }
+            if now_s - touched_s > self.patience_s {
+                return Err(Error::Work(self.nothing(label, &touches)));
+            }
+        }
+        for line in checks.end(&touches) {
+            self.tell(Some(line));
+        }
+        Ok(touches)
+    }
+
+    fn tell(&mut self, line: Option<String>) {
+        if let Some(line) = line {
+            self.told += 1;
+            self.progress.pause(|| report::warn(line));
+        }
+    }
+
+    /// What to do where nothing was touched for so long.
+    fn nothing(&self, label: &Label, touches: &Touches) -> String {
+        let seconds = self.patience_s;
+        let name = &label.name;
+        if self.tally.records == 0 {
+            return format!("{name}: no record of that side; has the module a whisker there?");
+        }
+        if touches.without_contact > 0 {
+            return format!(
+                "{name}: {} touches have no contact: the module computes none. Its scene needs \
+                 [rcp], [cia] or a [classifier]",
+                touches.without_contact
+            );
+        }
+        format!(
+            "{name}: no touch in {seconds} s; is the sample within reach of the whisker, and the \
+             module armed? What is complete is in the file: go on with --resume"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use clap::Parser;
+    use host_sim::files::read_recording;
+    use host_sim::origin::Origin;
+    use host_sim::recording::CHANNELS;
+    use wire::{Flags, Packet, TaggedCommand};
+
+    use super::*;
+    use crate::source::Heard;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    /// A module on a bad line.
+    struct Bad {
+        module: Box<dyn Source>,
+        /// What becomes of each record.
+        spoils: fn(&mut wire::TickRecord) -> bool,
+        /// How fast the clock beside it runs.
+        clock: f64,
+    }
+
+    impl Source for Bad {
+        fn next(&mut self) -> Result<Heard, Error> {
+            let mut heard = self.module.next()?;
+            heard.packets.retain_mut(|packet| match packet {
+                Packet::Record(record) => (self.spoils)(record),
+                Packet::Answer(_) => true,
+            });
+            Ok(heard)
+        }
+
+        fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+            self.module.request(request)
+        }
+
+        fn has(&self, sample: &str) -> Result<(), Error> {
+            self.module.has(sample)
+        }
+
+        fn lay(&mut self, sample: &str) -> Result<(), Error> {
+            self.module.lay(sample)
+        }
+
+        fn is_laid(&self) -> bool {
+            self.module.is_laid()
+        }
+
+        fn now_s(&mut self) -> f64 {
+            self.clock * self.module.now_s()
+        }
+
+        fn duration_s(&self) -> Option<f64> {
+            self.module.duration_s()
+        }
+
+        fn origin(&self) -> Origin {
+            self.module.origin()
+        }
+    }
+
+    /// Captures six touches of a carpet so; lines told, and the touches in each trial.
+    fn captured(clock: f64, spoils: fn(&mut wire::TickRecord) -> bool) -> (usize, Vec<usize>) {
+        let folder = tempfile::tempdir().unwrap();
+        let out = folder.path().join("c.csv");
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
+        let words = ["capture", "--label", "carpet", "--touches", "6", "--sim"];
+        let words = words.map(std::ffi::OsString::from).into_iter();
+        let files = [
+            scene.into_os_string(),
+            "--out".into(),
+            out.clone().into_os_string(),
+        ];
+        let Line { arguments } = Line::parse_from(words.chain(files));
+        let source = Bad {
+            module: arguments.source.open(0).unwrap(),
+            spoils,
+            clock,
+        };
+        let recording = Recording::open(&out, false).unwrap();
+        let labels: Vec<&Label> = arguments.labels.iter().collect();
+        let source = Box::new(source);
+        let told = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
+        let streams = read_recording(&out, CHANNELS).unwrap();
+        let of = |stream: &host_sim::recording::Stream| {
+            let mut touches = stream.touch.clone().unwrap();
+            touches.dedup();
+            touches.retain(|touch| *touch != 0);
+            touches.len()
+        };
+        (told, streams.iter().map(of).collect())
+    }
+
+    #[test]
+    fn a_good_line_has_nothing_to_be_told() {
+        assert_eq!(captured(1.0, |_| true), (0, vec![5, 1]));
+    }
+
+    #[test]
+    fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_told() {
+        // In the third touch: where it is cut another trial begins.
+        let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
+        assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+    }
+
+    #[test]
+    fn a_fault_costs_its_touch_and_is_told() {
+        let spoils = |record: &mut wire::TickRecord| {
+            if (4100..4120).contains(&record.sequence) {
+                record.flags = record.flags.without(Flags::VALID);
+            }
+            true
+        };
+        assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+    }
+
+    #[test]
+    fn another_rate_is_told() {
+        assert_eq!(captured(1.05, |_| true).0, 1);
+    }
+}

@@ -1,0 +1,57 @@
+//! `whisker log`: the lines that a module logs.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use host_sim::{Error, report};
+
+use crate::conversation::Conversation;
+use crate::script::Script;
+use crate::source::{SourceChoice, seconds};
+
+/// Whose log, and for how long.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: SourceChoice,
+    /// For how long; without it as long as the scene lasts
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    seconds: Option<f64>,
+    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]], such as 1.5 gain left 0.5;
+    /// what became of each is printed
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
+}
+
+/// Prints lines as they come.
+pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
+    let script = arguments.script.as_deref().map(Script::load);
+    let mut script = script.transpose()?.unwrap_or_default();
+    let mut module = Conversation::new(arguments.source.open(0)?);
+    let most = arguments.seconds.or(module.source().duration_s());
+    let begun = module.source().now_s();
+    // Of its answers; a module whose program takes no requests has a log all the same.
+    let tick_hz = match arguments.script {
+        Some(_) => module.about()?.tick_hz,
+        None => 1,
+    };
+    let mut lines = 0_u64;
+    while most.is_none_or(|most| module.source().now_s() - begun < most) {
+        script.play(&mut module)?;
+        let heard = module.hear()?;
+        let answers = heard.packets.iter();
+        let answers = answers.filter_map(|packet| script.answered(packet, tick_hz));
+        for line in answers.chain(heard.lines) {
+            lines += 1;
+            report::say(line);
+        }
+    }
+    if lines == 0 {
+        report::warn(
+            "nothing was logged; touches and decisions are told by modules whose scene has a \
+             [classifier]",
+        );
+    }
+    script.end()
+}

@@ -1,0 +1,171 @@
+//! `whisker records`: what a module tells of every tick.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use host_sim::output::{Output, check_or_stdout, is_stdout};
+use host_sim::progress::{Progress, Verbosity};
+use host_sim::{Error, report};
+use wire::{Command, Flags, Packet, TickRecord};
+
+use crate::conversation::Conversation;
+use crate::script::Script;
+use crate::source::{SourceChoice, seconds};
+use crate::table::{self, RecordWriter};
+use crate::tally::{Tally, side};
+
+/// Whose records, for how long, and where they go.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: SourceChoice,
+    /// Records that were written before: tells what is in them
+    #[arg(long, value_name = "FILE.csv", group = "source", conflicts_with_all = ["out", "seconds", "seed", "program", "board"])]
+    file: Option<PathBuf>,
+    /// For how long; without it as long as the scene lasts
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    seconds: Option<f64>,
+    /// Where to write the table; - is standard output
+    #[arg(long, value_name = "FILE.csv", required_unless_present = "file")]
+    out: Option<PathBuf>,
+    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]], such as 1.5 gain left 0.5;
+    /// what became of each is printed
+    #[arg(long, value_name = "FILE", conflicts_with = "file")]
+    script: Option<PathBuf>,
+}
+
+/// Writes a row a record, or looks at a table that was written before.
+pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
+    if let Some(file) = &arguments.file {
+        let bytes = std::fs::read(file).map_err(|error| Error::file(file, error))?;
+        let kept = table::read(&bytes).map_err(|fault| Error::file(file, fault))?;
+        let mut summary = Summary::default();
+        kept.records.iter().for_each(|record| summary.take(record));
+        if let Some(scene) = kept.origin.get("scene") {
+            report::say(format_args!("scene {scene}"));
+        }
+        report::say(summary.told(kept.tick_hz));
+        return Ok(());
+    }
+    let Some(out) = &arguments.out else {
+        return Err(Error::Input("--out is missing".to_owned()));
+    };
+    check_or_stdout(out)?;
+    // Where the table goes to standard output, nothing else does.
+    let say = |line: String| {
+        if is_stdout(out) {
+            report::warn(line);
+        } else {
+            report::say(line);
+        }
+    };
+    let script = arguments.script.as_deref().map(Script::load);
+    let mut script = script.transpose()?.unwrap_or_default();
+    let mut module = Conversation::new(arguments.source.open(0)?);
+    module.ask(Command::Stream(true))?;
+    let lost_before = module.ask(Command::Status)?.values[0];
+    let about = module.about()?;
+    let most = arguments.seconds.or(module.source().duration_s());
+    let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
+
+    let output = Output::create_or_stdout(out)?;
+    let failed = |error| Error::write(out, error);
+    let origin = module.source().origin().with("scene", &about.scene);
+    let mut rows = RecordWriter::new(output, origin, about.tick_hz).map_err(failed)?;
+    let mut summary = Summary::default();
+    let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
+    let mut first = None;
+    'heard: loop {
+        script.play(&mut module)?;
+        for packet in module.hear()?.packets {
+            if let Some(line) = script.answered(&packet, about.tick_hz) {
+                progress.pause(|| say(line));
+            }
+            let Packet::Record(record) = packet else {
+                continue;
+            };
+            let ticks = record
+                .sequence
+                .wrapping_sub(*first.get_or_insert(record.sequence));
+            if most.is_some_and(|most| ticks >= most) {
+                break 'heard;
+            }
+            summary.take(&record);
+            rows.row(&record).map_err(failed)?;
+            progress.tick(ticks.into());
+        }
+    }
+    drop(progress);
+    module.ask(Command::Stream(false))?;
+    let lost = module.ask(Command::Status)?.values[0];
+    rows.finish().map_err(failed)?.finish()?;
+    say(format!(
+        "{}: {}",
+        out.display(),
+        summary.told(Some(about.tick_hz))
+    ));
+    let own = lost.wrapping_sub(lost_before).cast_unsigned();
+    if summary.tally.lost > 0 || own > 0 {
+        say(format!(
+            "the module itself counts records that found no room: {own}. Read faster, or have \
+             fewer ticks a second; what else is missing was lost on the way"
+        ));
+    }
+    script.end()
+}
+
+/// What is in records.
+#[derive(Debug, Default)]
+struct Summary {
+    tally: Tally,
+    /// Records with a fault in their tick, and those that do not count.
+    faults: u64,
+    invalid: u64,
+    touches: [u64; 2],
+    decisions: u64,
+    touching: [bool; 2],
+}
+
+impl Summary {
+    fn take(&mut self, record: &TickRecord) {
+        self.tally.take(record);
+        let has = |flag| record.flags.contains(flag);
+        self.faults += u64::from(has(Flags::FAULT));
+        self.invalid += u64::from(!has(Flags::VALID));
+        self.decisions += u64::from(has(Flags::DECIDED));
+        let (side, touching) = (side(record), has(Flags::TOUCHING));
+        let before = std::mem::replace(&mut self.touching[side], touching);
+        self.touches[side] += u64::from(touching && !before);
+    }
+
+    /// In words, at so many ticks a second.
+    fn told(&self, tick_hz: Option<u32>) -> String {
+        let Tally {
+            records,
+            lost,
+            restarts,
+            ..
+        } = self.tally;
+        let rate = tick_hz.map_or(String::new(), |hz| format!(" at {hz} ticks a second"));
+        let touches: u64 = self.touches.iter().sum();
+        let decisions = self.decisions;
+        let mut told = vec![format!(
+            "{records} records{rate}, {lost} lost, {touches} touches, {decisions} records with \
+             decisions"
+        )];
+        if restarts > 0 {
+            told.push(format!(
+                "starts of the module meanwhile: {restarts}; whisker log tells why"
+            ));
+        }
+        if self.invalid > 0 {
+            told.push(format!(
+                "records without a valid reading: {}, with a fault: {}; whisker log names it, \
+                 docs/faults.md says what to do",
+                self.invalid, self.faults
+            ));
+        }
+        told.join("\n")
+    }
+}

@@ -1,0 +1,104 @@
+//! Requests to a module, and their answers from among all that it tells.
+
+use std::collections::VecDeque;
+
+use host_sim::Error;
+use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
+
+use crate::source::{Heard, Source};
+
+/// How long an answer may take, s.
+const PATIENCE_S: f64 = 2.0;
+
+/// What a module says of itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct AboutModule {
+    /// The name of its scene.
+    pub(crate) scene: String,
+    /// Ticks a second.
+    pub(crate) tick_hz: u32,
+}
+
+/// A module that is talked with.
+pub(crate) struct Conversation {
+    source: Box<dyn Source>,
+    tag: u16,
+    /// What has come while an answer was waited for.
+    kept: VecDeque<Heard>,
+}
+
+impl Conversation {
+    pub(crate) fn new(source: Box<dyn Source>) -> Self {
+        Self {
+            source,
+            tag: 0,
+            kept: VecDeque::new(),
+        }
+    }
+
+    pub(crate) fn source(&mut self) -> &mut dyn Source {
+        &mut *self.source
+    }
+
+    /// What comes next; what came while an answer was waited for comes first.
+    pub(crate) fn hear(&mut self) -> Result<Heard, Error> {
+        match self.kept.pop_front() {
+            Some(heard) => Ok(heard),
+            None => self.source.next(),
+        }
+    }
+
+    /// Asks for something, without waiting; the answer has the tag that is returned.
+    pub(crate) fn send(&mut self, command: Command) -> Result<u16, Error> {
+        self.tag = self.tag.wrapping_add(1);
+        let tag = self.tag;
+        self.source.request(TaggedCommand { tag, command })?;
+        Ok(tag)
+    }
+
+    /// Asks for something and waits for the answer, which must be that it is done.
+    pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
+        let tag = self.send(command)?;
+        let begun = self.source.now_s();
+        while self.source.now_s() - begun < PATIENCE_S {
+            let mut heard = self.source.next()?;
+            let is_it =
+                |packet: &Packet| matches!(packet, Packet::Answer(answer) if answer.tag == tag);
+            let found = heard.packets.iter().position(is_it);
+            let found = found.map(|at| heard.packets.remove(at));
+            self.kept.push_back(heard);
+            if let Some(Packet::Answer(answer)) = found {
+                return match answer.status {
+                    CommandStatus::Done => Ok(answer),
+                    status => Err(Error::Work(format!("{command:?}: {status}"))),
+                };
+            }
+        }
+        Err(Error::Work(format!(
+            "{command:?}: no answer in {PATIENCE_S} s; is the module's program older than this one, \
+             or of a scene with telemetry.rtt = false?"
+        )))
+    }
+
+    /// Asks the module what it is.
+    pub(crate) fn about(&mut self) -> Result<AboutModule, Error> {
+        let [tick_hz, _] = self.ask(Command::Hello)?.values;
+        let tick_hz = tick_hz.cast_unsigned();
+        if tick_hz == 0 {
+            return Err(Error::Work(
+                "the module says that it does not tick".to_owned(),
+            ));
+        }
+        let mut letters: Vec<u8> = Vec::new();
+        while let Ok(from) = u8::try_from(letters.len()) {
+            let answer = self.ask(Command::Name(from))?;
+            letters.extend(answer.values.map(i32::to_le_bytes).as_flattened());
+            if letters.last() == Some(&0) {
+                break;
+            }
+        }
+        letters.retain(|letter| *letter != 0);
+        let scene = String::from_utf8_lossy(&letters).into_owned();
+        Ok(AboutModule { scene, tick_hz })
+    }
+}

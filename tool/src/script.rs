@@ -1,0 +1,190 @@
+//! Commands at their times: lines `TIME COMMAND [SIDE [VALUE]]`.
+
+use std::collections::VecDeque;
+use std::path::Path;
+
+use host_sim::Error;
+use wire::{Command, CommandStatus, Packet, WhiskerId};
+
+use crate::conversation::Conversation;
+
+/// What can be commanded, as a message has it.
+const ALLOWED: &str = "arm, stop, clear SIDE, home SIDE, gain SIDE VALUE (0 to 2), setpoint SIDE \
+                       DEGREES, release SIDE";
+
+/// 1 in Q24.
+const ONE: f64 = 16_777_216.0;
+
+/// A command at its time.
+#[derive(Debug, Clone, PartialEq)]
+struct Entry {
+    /// s since the script began.
+    at_s: f64,
+    /// As it stands there.
+    text: String,
+    command: Command,
+}
+
+/// Commands that are still to be given, and what became of the others.
+#[derive(Debug, Default)]
+pub(crate) struct Script {
+    entries: VecDeque<Entry>,
+    /// When it began.
+    begun_s: Option<f64>,
+    /// The command that is not answered yet, and the tag of its request.
+    pending: Option<(u16, String)>,
+    /// Commands that were refused.
+    refused: u32,
+}
+
+impl Script {
+    /// Reads a script.
+    pub(crate) fn load(path: &Path) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        Self::parse(&text).map_err(|fault| Error::file(path, fault))
+    }
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let mut entries: VecDeque<Entry> = VecDeque::new();
+        for (n, line) in (1..).zip(text.lines()) {
+            let words = line.split('#').next().unwrap_or_default();
+            if words.trim().is_empty() {
+                continue;
+            }
+            let entry = entry(words).map_err(|fault| format!("line {n}: {fault}"))?;
+            if entries.back().is_some_and(|last| last.at_s > entry.at_s) {
+                return Err(format!(
+                    "line {n}: its time is before that of the last command"
+                ));
+            }
+            entries.push_back(entry);
+        }
+        Ok(Self {
+            entries,
+            ..Self::default()
+        })
+    }
+
+    /// Gives the next command if it is due and the last was answered.
+    pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<(), Error> {
+        let now_s = module.source().now_s();
+        let begun_s = *self.begun_s.get_or_insert(now_s);
+        let is_due = |entry: &Entry| now_s - begun_s >= entry.at_s;
+        if self.pending.is_none()
+            && self.entries.front().is_some_and(is_due)
+            && let Some(entry) = self.entries.pop_front()
+        {
+            self.pending = Some((module.send(entry.command)?, entry.text));
+        }
+        Ok(())
+    }
+
+    /// The line of an answer, at so many ticks a second, if the packet is one to the script.
+    pub(crate) fn answered(&mut self, packet: &Packet, tick_hz: u32) -> Option<String> {
+        let Packet::Answer(answer) = packet else {
+            return None;
+        };
+        let (_, text) = self.pending.take_if(|(tag, _)| *tag == answer.tag)?;
+        self.refused += u32::from(answer.status != CommandStatus::Done);
+        let t_s = f64::from(answer.sequence) / f64::from(tick_hz);
+        Some(format!("{t_s:.3} {text}: {}", answer.status))
+    }
+
+    /// Fails if a command was refused, or was not answered.
+    pub(crate) fn end(&self) -> Result<(), Error> {
+        let left = self.entries.len() + usize::from(self.pending.is_some());
+        match (self.refused, left) {
+            (0, 0) => Ok(()),
+            (refused, 0) => Err(Error::Work(format!(
+                "commands that were refused: {refused}"
+            ))),
+            (_, left) => Err(Error::Work(format!(
+                "commands without an answer at the end: {left}; a longer time is --seconds"
+            ))),
+        }
+    }
+}
+
+fn entry(words: &str) -> Result<Entry, String> {
+    let mut words = words.split_whitespace();
+    let mut next = || words.next().unwrap_or_default();
+    let time = next();
+    let at_s = time.parse().ok();
+    let at_s = at_s.filter(|at_s: &f64| *at_s >= 0.0 && *at_s <= 1e6);
+    let at_s = at_s.ok_or_else(|| format!("found the time {time:?}, allowed: 0 to 1000000 s"))?;
+    let [name, side, value, more] = [next(), next(), next(), next()];
+    let whisker = match side {
+        "left" => Some(0),
+        "right" => Some(1),
+        _ => None,
+    };
+    let whisker = whisker.map(|side| WhiskerId { side, number: 0 });
+    let number = value.parse().ok();
+    let number = number.filter(|number: &f64| number.abs() <= 1e4);
+    let q24 = |value: f64| (value * ONE).round() as i32;
+    let command = match (name, whisker, number) {
+        ("arm", None, None) if side.is_empty() => Some(Command::Arm),
+        ("stop", None, None) if side.is_empty() => Some(Command::Stop),
+        ("clear", Some(whisker), None) if value.is_empty() => Some(Command::Clear(whisker)),
+        ("home", Some(whisker), None) if value.is_empty() => Some(Command::Home(whisker)),
+        ("release", Some(whisker), None) if value.is_empty() => Some(Command::Release(whisker)),
+        ("gain", Some(whisker), Some(gain)) => Some(Command::Gain(whisker, q24(gain))),
+        ("setpoint", Some(whisker), Some(degrees)) => {
+            let protraction = (degrees - 50.0) / 100.0;
+            Some(Command::Setpoint(whisker, q24(protraction)))
+        }
+        _ => None,
+    };
+    let text = [name, side, value].join(" ");
+    let text = text.trim_end().to_owned();
+    let command = command.filter(|_| more.is_empty());
+    let command = command.ok_or_else(|| format!("found {text:?}, allowed: {ALLOWED}"))?;
+    Ok(Entry {
+        at_s,
+        text,
+        command,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{Command, WhiskerId};
+
+    use super::Script;
+
+    #[test]
+    fn lines_are_commands_at_their_times() {
+        let text = "# a remark\n0 arm\n0.5 gain left 0.5 # half\n\n1 setpoint right 75\n";
+        let script = Script::parse(text).unwrap();
+        let [left, right] = [0, 1].map(|side| WhiskerId { side, number: 0 });
+        let found: Vec<_> = script.entries.iter().map(|e| (e.at_s, e.command)).collect();
+        assert_eq!(
+            found,
+            [
+                (0.0, Command::Arm),
+                (0.5, Command::Gain(left, 1 << 23)),
+                (1.0, Command::Setpoint(right, 1 << 22)),
+            ]
+        );
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let fault = |text: &str| Script::parse(text).unwrap_err();
+        assert!(fault("0 arm\nsoon stop").starts_with("line 2: found the time \"soon\""));
+        assert!(fault("1 stop\n0 arm").starts_with("line 2: its time is before"));
+        for text in [
+            "0 arm left",
+            "0 clear",
+            "0 clear front",
+            "0 clear left 1",
+            "0 gain left",
+            "0 gain left much",
+            "0 gain left nan",
+            "0 gain left 1 2",
+            "0 jump",
+        ] {
+            assert!(fault(text).starts_with("line 1: found"), "{text}");
+        }
+    }
+}

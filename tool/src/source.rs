@@ -1,0 +1,49 @@
+//! Where a module is that can be talked with.
+
+mod choice;
+mod emulated;
+mod program;
+mod simulated;
+mod texture;
+
+pub(crate) use choice::{SourceChoice, seconds};
+
+use host_sim::Error;
+use host_sim::origin::Origin;
+use wire::{Packet, TaggedCommand};
+
+/// What has come from a module.
+#[derive(Debug, Default)]
+pub(crate) struct Heard {
+    /// Records and answers, in their order.
+    pub(crate) packets: Vec<Packet>,
+    /// Whole lines of its log.
+    pub(crate) lines: Vec<String>,
+}
+
+/// A module that can be talked with.
+pub(crate) trait Source {
+    /// Waits for what comes next, and takes it. Nothing may have come after a while.
+    fn next(&mut self) -> Result<Heard, Error>;
+
+    /// Sends a request, whose answer is among what comes next.
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error>;
+
+    /// Whether it has a sample of that name; where a person lays it any name will do.
+    fn has(&self, sample: &str) -> Result<(), Error>;
+
+    /// Has a sample laid before the whisker, in place of what lies there.
+    fn lay(&mut self, sample: &str) -> Result<(), Error>;
+
+    /// Whether it lies there.
+    fn is_laid(&self) -> bool;
+
+    /// The time where the module is, by another clock than its own, s.
+    fn now_s(&mut self) -> f64;
+
+    /// How long its scene lasts, s; none: until it is switched off.
+    fn duration_s(&self) -> Option<f64>;
+
+    /// What is known of it without asking: its board, the version of its firmware.
+    fn origin(&self) -> Origin;
+}

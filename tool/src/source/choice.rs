@@ -1,0 +1,83 @@
+//! Which module a command is about.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use host_sim::Error;
+use host_sim::commands::choice::seed;
+use host_sim::commands::run::Loaded;
+
+use super::Source;
+use super::emulated::Emulated;
+use super::program::{self, BoardName};
+use super::simulated::Simulated;
+
+/// Which module.
+#[derive(Debug, Clone, Args)]
+pub(crate) struct SourceChoice {
+    /// A simulated module, in the world of this scene
+    #[arg(long, value_name = "SCENE", group = "source")]
+    sim: Option<PathBuf>,
+    /// The program that a board has for this scene, on an emulated chip, in the scene's world
+    #[arg(long, value_name = "SCENE", group = "source")]
+    emulated: Option<PathBuf>,
+    /// The program's file, which must be of the same scene; without it it is built (minutes,
+    /// the first time)
+    #[arg(long, value_name = "ELF", conflicts_with_all = ["sim", "board"])]
+    program: Option<PathBuf>,
+    /// The board whose program is built
+    #[arg(
+        long,
+        value_enum,
+        conflicts_with = "sim",
+        default_value = "nucleo-f446re"
+    )]
+    board: BoardName,
+    /// Another seed of the world than the scene's
+    #[arg(long, value_name = "N", value_parser = seed)]
+    seed: Option<u64>,
+}
+
+impl SourceChoice {
+    /// Opens it, in a world whose seed is `later` ones after its own.
+    pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
+        let (Some(path), simulates) = (
+            self.sim.as_ref().or(self.emulated.as_ref()),
+            self.sim.is_some(),
+        ) else {
+            let fault = "which module? allowed: --sim SCENE, --emulated SCENE";
+            return Err(Error::Input(fault.to_owned()));
+        };
+        let mut loaded = Loaded::new(path)?;
+        let seed = self.seed.unwrap_or(loaded.scene.seed);
+        loaded.scene.seed = seed.wrapping_add(later) & i64::MAX.cast_unsigned();
+        if loaded.scene.head.whiskers_per_side > 1 {
+            let fault = "a record tells a whisker's side and not its number; found more than \
+                         one, allowed: head.whiskers_per_side = 1";
+            return Err(Error::file(path, fault));
+        }
+        if simulates {
+            return Ok(Box::new(Simulated::open(&loaded)?));
+        }
+        if !loaded.scene.telemetry.rtt {
+            let fault = "telemetry.rtt is false: the program of this scene tells nothing but \
+                         its log; take that line out";
+            return Err(Error::file(path, fault));
+        }
+        let (program, version) = if let Some(program) = &self.program {
+            (program.clone(), None)
+        } else {
+            let version = env!("CARGO_PKG_VERSION");
+            (program::build(self.board, path)?, Some(version))
+        };
+        let emulated = Emulated::open(&loaded.scene, &program, version)?;
+        Ok(Box::new(emulated))
+    }
+}
+
+/// A time in seconds, as an option has it.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok();
+    let seconds = seconds.filter(|seconds: &f64| *seconds > 0.0 && *seconds <= 1e6);
+    seconds.ok_or_else(|| "allowed: above 0, up to 1000000 s".to_owned())
+}

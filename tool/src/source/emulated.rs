@@ -1,0 +1,80 @@
+//! A board's own program on an emulated chip.
+
+use std::path::Path;
+
+use emulator::session::Session;
+use host_sim::Error;
+use host_sim::origin::Origin;
+use scene::Scene;
+use wire::TaggedCommand;
+
+use super::texture::texture;
+use super::{Heard, Source};
+
+/// A board, talked with through the memory that a probe reads and writes.
+pub(super) struct Emulated {
+    scene: Scene,
+    session: Session,
+    /// Of its program, where that is known.
+    version: Option<&'static str>,
+}
+
+impl Emulated {
+    pub(super) fn open(
+        scene: &Scene,
+        program: &Path,
+        version: Option<&'static str>,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            session: Session::open(scene, program)?,
+            scene: scene.clone(),
+            version,
+        })
+    }
+}
+
+impl Source for Emulated {
+    fn next(&mut self) -> Result<Heard, Error> {
+        self.session.tick()?;
+        Ok(Heard {
+            packets: self.session.packets()?,
+            lines: self.session.log(),
+        })
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        if self.session.request(request)? {
+            return Ok(());
+        }
+        let fault = "the board takes no requests; is its program of another scene, or one with \
+                     telemetry.rtt = false?";
+        Err(Error::Work(fault.to_owned()))
+    }
+
+    fn has(&self, sample: &str) -> Result<(), Error> {
+        texture(sample, &self.scene).map(drop)
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.session.lay(texture(sample, &self.scene)?);
+        Ok(())
+    }
+
+    fn is_laid(&self) -> bool {
+        self.session.is_laid()
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.session.now_s()
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        Some(self.scene.duration_s)
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::default()
+            .with("board", format_args!("{} (emulated)", self.session.board()))
+            .with("firmware", self.version.unwrap_or("unknown"))
+    }
+}

@@ -1,0 +1,248 @@
+//! Records as a table of comma-separated values.
+
+use std::io::{self, Write};
+
+use host_sim::origin::{self, Origin};
+use wire::{Flags, TickRecord, degrees, unit};
+
+use crate::tally::side;
+
+/// Flags that have a column, in the order of the columns.
+const FLAGS: [(&str, Flags); 10] = [
+    ("fresh", Flags::FRESH),
+    ("valid", Flags::VALID),
+    ("armed", Flags::ARMED),
+    ("running", Flags::RUNNING),
+    ("homing", Flags::HOMING),
+    ("resting", Flags::RESTING),
+    ("touching", Flags::TOUCHING),
+    ("decided", Flags::DECIDED),
+    ("fault", Flags::FAULT),
+    ("lost", Flags::LOST),
+];
+
+/// The columns before those of flags.
+const NUMBERS: [&str; 10] = [
+    "sequence",
+    "t_s",
+    "side",
+    "x",
+    "y",
+    "setpoint_deg",
+    "measured_deg",
+    "duty",
+    "z",
+    "contact",
+];
+
+/// The names of sides in a table.
+const SIDES: [&str; 2] = ["left", "right"];
+
+/// Full duty in a record.
+const FULL: f32 = 32767.0;
+
+/// What is above the table: ticks a second.
+const TICK_HZ: &str = "tick_hz";
+
+/// A table that is being written.
+pub(crate) struct RecordWriter<W: Write> {
+    table: csv::Writer<W>,
+    tick_hz: f64,
+}
+
+impl<W: Write> RecordWriter<W> {
+    /// Writes what is above the first row; `tick_hz` are the module's ticks a second.
+    pub(crate) fn new(mut to: W, origin: Origin, tick_hz: u32) -> io::Result<Self> {
+        origin.with(TICK_HZ, tick_hz).write(&mut to)?;
+        let mut table = csv::Writer::from_writer(to);
+        let flags = FLAGS.iter().map(|(name, _)| *name);
+        table.write_record(NUMBERS.into_iter().chain(flags))?;
+        Ok(Self {
+            table,
+            tick_hz: f64::from(tick_hz),
+        })
+    }
+
+    /// Writes a row.
+    pub(crate) fn row(&mut self, record: &TickRecord) -> io::Result<()> {
+        let [x, y] = record.codes();
+        let numbers = [
+            record.sequence.to_string(),
+            (f64::from(record.sequence) / self.tick_hz).to_string(),
+            SIDES[side(record)].to_owned(),
+            x.to_string(),
+            y.to_string(),
+            degrees(record.setpoint).to_string(),
+            degrees(record.measured).to_string(),
+            (f32::from(record.duty) / FULL).to_string(),
+            unit(record.z).to_string(),
+            unit(record.contact).to_string(),
+        ];
+        let digit = |so| if so { "1" } else { "0" };
+        let flags = FLAGS.map(|(_, flag)| digit(record.flags.contains(flag)));
+        let numbers = numbers.iter().map(String::as_str);
+        self.table.write_record(numbers.chain(flags))?;
+        Ok(())
+    }
+
+    /// What it was written to, all rows in it.
+    pub(crate) fn finish(self) -> io::Result<W> {
+        self.table
+            .into_inner()
+            .map_err(csv::IntoInnerError::into_error)
+    }
+}
+
+/// A table that was kept.
+#[derive(Debug)]
+pub(crate) struct Kept {
+    /// What stands above it.
+    pub(crate) origin: Origin,
+    /// Ticks a second, if it says so.
+    pub(crate) tick_hz: Option<u32>,
+    /// Its rows.
+    pub(crate) records: Vec<TickRecord>,
+}
+
+/// Reads a table; the error names the line.
+pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
+    let (origin, above, table) = origin::split(file);
+    let tick_hz = origin.get(TICK_HZ).map(|text| {
+        let fault = || format!("{TICK_HZ} is {text:?}, not a whole number above 0");
+        text.parse().ok().filter(|hz| *hz > 0).ok_or_else(fault)
+    });
+    let mut table = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .from_reader(table);
+    let header = table.headers().map_err(|error| error.to_string())?.clone();
+    let place = |name: &str| {
+        let found = header.iter().position(|column| column == name);
+        found.ok_or_else(|| format!("line {}: no column {name:?}", above + 1))
+    };
+    let mut numbers = [0; NUMBERS.len()];
+    for (number, name) in numbers.iter_mut().zip(NUMBERS) {
+        *number = place(name)?;
+    }
+    let flags = FLAGS.iter().map(|(name, flag)| Ok((place(name)?, *flag)));
+    let flags = flags.collect::<Result<Vec<_>, String>>()?;
+    let mut records = Vec::new();
+    for row in table.records() {
+        let row = row.map_err(|error| error.to_string())?;
+        let line = above + row.position().map_or(0, csv::Position::line);
+        let cell = |n: usize| row.get(numbers[n]).unwrap_or_default();
+        let wrong = |n: usize, text: &str| format!("line {line}: {} is {text:?}", NUMBERS[n]);
+        let number = |n: usize, lowest: f32, highest: f32| {
+            let text = cell(n);
+            let value = text.parse().ok();
+            let value = value.filter(|value| (lowest..=highest).contains(value));
+            value.ok_or_else(|| wrong(n, text))
+        };
+        let q13 = |n: usize| Ok::<_, String>((number(n, -4.0, 4.0)? * 8192.0).round() as i16);
+        let angle = |n: usize| {
+            let protraction = (number(n, -350.0, 450.0)? - 50.0) / 100.0;
+            Ok::<_, String>((protraction * 8192.0).round() as i16)
+        };
+        let code = |n: usize| Ok::<_, String>((number(n, 0.0, 16383.0)? as u16) << 2);
+        let side = SIDES.iter().position(|side| cell(2) == *side);
+        let side = side.ok_or_else(|| wrong(2, cell(2)))?;
+        let mut said = Flags::RIGHT.when(side > 0);
+        for (place, flag) in &flags {
+            said = said | flag.when(row.get(*place) == Some("1"));
+        }
+        let sequence = cell(0);
+        records.push(TickRecord {
+            sequence: sequence.parse().map_err(|_| wrong(0, sequence))?,
+            x: code(3)?,
+            y: code(4)?,
+            setpoint: angle(5)?,
+            measured: angle(6)?,
+            duty: (number(7, -1.0, 1.0)? * FULL).round() as i16,
+            z: q13(8)?,
+            contact: q13(9)?,
+            flags: said,
+        });
+    }
+    Ok(Kept {
+        tick_hz: tick_hz.transpose()?,
+        origin,
+        records,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use host_sim::origin::Origin;
+    use wire::{Flags, TickRecord};
+
+    use super::{FLAGS, RecordWriter, read};
+
+    fn written(records: &[TickRecord]) -> Vec<u8> {
+        let origin = Origin::default().with("scene", "bench");
+        let mut table = RecordWriter::new(Vec::new(), origin, 2000).unwrap();
+        for record in records {
+            table.row(record).unwrap();
+        }
+        table.finish().unwrap()
+    }
+
+    #[test]
+    fn numbers_have_their_units() {
+        let record = TickRecord {
+            sequence: 500,
+            x: 4 * 8200,
+            y: 4 * 16383,
+            setpoint: 4096,
+            measured: -4096,
+            duty: -32767,
+            z: 2048,
+            contact: 8192,
+            flags: Flags::RIGHT | Flags::VALID | Flags::TOUCHING,
+        };
+        let text = String::from_utf8(written(&[record])).unwrap();
+        assert_eq!(
+            text,
+            "# scene = bench\n# tick_hz = 2000\n\
+             sequence,t_s,side,x,y,setpoint_deg,measured_deg,duty,z,contact,\
+             fresh,valid,armed,running,homing,resting,touching,decided,fault,lost\n\
+             500,0.25,right,8200,16383,100,0,-1,0.25,1,0,1,0,0,0,0,1,0,0,0\n"
+        );
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let records: Vec<TickRecord> = (0..=u16::MAX)
+            .step_by(17)
+            .map(|n| TickRecord {
+                sequence: u32::from(n) << 16,
+                x: n & !3,
+                y: !n & !3,
+                setpoint: n.cast_signed(),
+                measured: (!n).cast_signed(),
+                duty: n.cast_signed().max(-32767),
+                z: n.cast_signed().wrapping_mul(3),
+                contact: n.cast_signed().wrapping_add(99),
+                flags: FLAGS
+                    .iter()
+                    .enumerate()
+                    .fold(Flags::RIGHT.when(n & 1 > 0), |all, (bit, (_, flag))| {
+                        all | flag.when(n >> bit & 1 > 0)
+                    }),
+            })
+            .collect();
+        let kept = read(&written(&records)).unwrap();
+        assert_eq!(kept.records, records);
+        assert_eq!(kept.tick_hz, Some(2000));
+        assert_eq!(kept.origin.get("scene"), Some("bench"));
+    }
+
+    #[test]
+    fn faults_name_their_line() {
+        let text = String::from_utf8(written(&[TickRecord::default()])).unwrap();
+        let fault = |from: &str, to: &str| read(text.replace(from, to).as_bytes()).unwrap_err();
+        assert_eq!(fault("0,0,left", "0,0,front"), "line 4: side is \"front\"");
+        assert_eq!(fault("left,0,", "left,nan,"), "line 4: x is \"nan\"");
+        assert_eq!(fault("left,0,", "left,16384,"), "line 4: x is \"16384\"");
+        assert_eq!(fault(",duty", ",force"), "line 3: no column \"duty\"");
+        assert!(fault("= 2000", "= 0").starts_with("tick_hz is"));
+    }
+}

@@ -1,0 +1,80 @@
+//! Counting the records of each side, and those that are missing between two.
+
+use wire::{Flags, TickRecord};
+
+/// What stands before a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Before {
+    /// The record of the tick before, or nothing at all.
+    Nothing,
+    /// So many records that were lost.
+    Lost(u32),
+    /// Ticks are counted anew: the module has started again.
+    Restart,
+}
+
+/// Records so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Tally {
+    last: [Option<u32>; 2],
+    /// Records that have come.
+    pub(crate) records: u64,
+    /// Those that have not.
+    pub(crate) lost: u64,
+    /// How often the module has started again.
+    pub(crate) restarts: u64,
+}
+
+/// 0 for a record of the left side, 1 for one of the right.
+pub(crate) fn side(record: &TickRecord) -> usize {
+    usize::from(record.flags.contains(Flags::RIGHT))
+}
+
+impl Tally {
+    /// Counts a record; tells what is before it.
+    pub(crate) fn take(&mut self, record: &TickRecord) -> Before {
+        self.records += 1;
+        let last = self.last[side(record)].replace(record.sequence);
+        let Some(last) = last else {
+            return Before::Nothing;
+        };
+        // Half of all numbers are ahead of one, and half behind it.
+        match record.sequence.wrapping_sub(last) {
+            1 => Before::Nothing,
+            ahead @ 2..0x8000_0000 => {
+                self.lost += u64::from(ahead - 1);
+                Before::Lost(ahead - 1)
+            }
+            _ => {
+                self.restarts += 1;
+                Before::Restart
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Before, Tally};
+    use wire::{Flags, TickRecord};
+
+    #[test]
+    fn sides_are_counted_apart_and_numbers_wrap() {
+        let mut tally = Tally::default();
+        let mut take = |sequence, flags| {
+            tally.take(&TickRecord {
+                sequence,
+                flags,
+                ..TickRecord::default()
+            })
+        };
+        let (left, right) = (Flags::default(), Flags::RIGHT);
+        assert_eq!(take(u32::MAX, left), Before::Nothing);
+        assert_eq!(take(u32::MAX, right), Before::Nothing);
+        assert_eq!(take(0, left), Before::Nothing);
+        assert_eq!(take(2, right), Before::Lost(2));
+        assert_eq!(take(1, left), Before::Nothing);
+        assert_eq!(take(1, left), Before::Restart);
+        assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
+    }
+}

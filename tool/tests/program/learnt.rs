@@ -1,0 +1,118 @@
+//! What is captured is what can be learnt from: as `host-sim record` has it, and nothing that
+//! comes from the order of labels.
+
+use host_sim::classifier::Classifier;
+use host_sim::commands::record;
+use host_sim::commands::train::{How, Tables};
+use host_sim::decisions::UNKNOWN;
+use host_sim::evaluation::presentations;
+use host_sim::files::read_recording;
+use host_sim::progress::Verbosity;
+use host_sim::recording::{CHANNELS, Stream};
+use host_sim::scoring;
+use scene::{Rule, Scene};
+use tactile::ModelBuf;
+
+use crate::common::{Place, textures};
+
+const TICK_HZ: u32 = 2000;
+
+fn main_scene() -> Scene {
+    Scene::load(textures()).unwrap()
+}
+
+/// Captures from the main scene.
+fn capture(place: &Place, more: &str) -> Vec<Stream> {
+    let scene = textures();
+    place.done(&format!(
+        "capture --sim {} --out c.csv {more}",
+        scene.display()
+    ));
+    let streams = read_recording(&place.path("c.csv"), CHANNELS).unwrap();
+    std::fs::remove_file(place.path("c.csv")).unwrap();
+    streams
+}
+
+fn train(streams: Vec<Stream>) -> ModelBuf {
+    let how = How::of(Tables::Joint);
+    how.train(&[("it".to_owned(), streams)], TICK_HZ)
+        .unwrap()
+        .model
+}
+
+/// Hit rate on the main scene with another seed.
+fn hits(model: &ModelBuf, seed: u64) -> f64 {
+    let scene = Scene {
+        seed,
+        ..main_scene()
+    };
+    let rule = Rule::Sequential { threshold: 0.99 };
+    let classifier = Classifier::new(model.clone(), rule).unwrap();
+    scoring::run(&scene, classifier, || {})
+        .unwrap()
+        .evaluation
+        .hits
+        .unwrap()
+}
+
+#[test]
+fn until_the_first_exchange_it_is_what_record_writes() {
+    let recorded = record::streams(&main_scene(), Verbosity::Quiet).unwrap();
+    let captured = capture(&Place::new(), "--label smooth --touches 3");
+    let (recorded, captured) = (&recorded[0], &captured[0]);
+    let n = captured.samples.len();
+    assert_eq!(
+        (recorded.label.as_str(), captured.label.as_str()),
+        ("smooth", "smooth")
+    );
+    assert!((4000..5000).contains(&n), "{n}");
+    assert_eq!(recorded.samples[..n], captured.samples);
+    assert_eq!(
+        recorded.touch.as_ref().unwrap()[..n],
+        captured.touch.clone().unwrap()
+    );
+    let contacts = recorded.contact.iter().zip(&captured.contact);
+    for (recorded, captured) in contacts.flat_map(|(a, b)| a.iter().zip(b)) {
+        // Q13, rounded downwards.
+        assert!(
+            (0.0..1.3e-4).contains(&(recorded - captured)),
+            "{recorded} {captured}"
+        );
+    }
+}
+
+#[test]
+fn a_model_of_it_scores_as_one_of_what_record_writes() {
+    let labels = "--label smooth --label p600 --label p240 --label carpet";
+    let captured = train(capture(&Place::new(), &format!("{labels} --touches 20")));
+    let recorded = train(record::streams(&main_scene(), Verbosity::Quiet).unwrap());
+    let mean = |model| (100..103).map(|seed| hits(model, seed)).sum::<f64>() / 3.0;
+    let (captured, recorded) = (mean(&captured), mean(&recorded));
+    println!("captured {captured:.3}, recorded {recorded:.3}");
+    // Standard error of the difference of three runs of some 200 decisions each: 2 %.
+    assert!(
+        recorded > 0.9 && (captured - recorded).abs() < 0.05,
+        "{captured} {recorded}"
+    );
+}
+
+#[test]
+fn a_texture_under_two_labels_is_told_apart_by_chance_alone() {
+    let place = Place::new();
+    let labels = "--label one=p240 --label two=p240 --touches 40";
+    let model = train(capture(&place, labels));
+    let (mut right, mut all) = (0_u32, 0_u32);
+    for seed in 11..21 {
+        let other = capture(&place, &format!("{labels} --seed {seed}"));
+        let shown = presentations(&model, 0.7, &other).unwrap();
+        let decided = shown.iter().flat_map(|shown| &shown.decided);
+        for decided in decided.filter(|decided| decided.decision != UNKNOWN) {
+            right += u32::from(decided.is_right());
+            all += 1;
+        }
+    }
+    let share = f64::from(right) / f64::from(all);
+    println!("{right} of {all} right");
+    // Twice the standard error of so many decisions, of which some share a touch.
+    assert!(all > 300 && (share - 0.5).abs() < 0.1, "{right} of {all}");
+}

@@ -1,0 +1,9 @@
+//! The program from outside, as a user runs it: what it writes and prints, what it refuses
+//! and how, and whether what it captures is what can be learnt from.
+
+mod capture;
+mod common;
+mod learnt;
+mod log;
+mod records;
+mod script;

@@ -1,0 +1,108 @@
+//! `whisker records`.
+
+use host_sim::run::Run;
+use scene::Scene;
+
+use crate::common::{BENCH, Place};
+
+/// The cells of a table below what stands above it.
+fn cells(text: &str) -> Vec<Vec<&str>> {
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    rows.map(|row| row.split(',').collect()).collect()
+}
+
+#[test]
+fn every_tick_has_the_row_of_its_trace() {
+    let place = Place::new();
+    let ran = place.done("records --sim bench.toml --out r.csv");
+    assert!(
+        ran.stdout
+            .starts_with("r.csv: 6000 records at 2000 ticks a second, 0 lost"),
+        "{}",
+        ran.stdout
+    );
+    let text = place.text("r.csv");
+    assert!(
+        text.contains("# scene = bench\n# tick_hz = 2000\n"),
+        "{text}"
+    );
+    let rows = cells(&text);
+    let at = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
+    let columns = [
+        "t_s",
+        "x",
+        "y",
+        "setpoint_deg",
+        "measured_deg",
+        "z",
+        "contact",
+        "touching",
+    ];
+    let columns = columns.map(at);
+    let scene = Scene::from_str("bench.toml", BENCH).unwrap();
+    let mut run = Run::new(&scene, None).unwrap();
+    assert_eq!(rows.len(), 1 + 6000);
+    let mut angle_before = 50.0;
+    for (n, row) in (1..).zip(&rows[1..]) {
+        let trace = run.tick();
+        assert_eq!(row[0], n.to_string());
+        assert_eq!(row[2], "left");
+        let found = columns.map(|at| row[at].parse::<f64>().unwrap());
+        // The encoder is read in the tick, the trace has the angle after it.
+        let expected = [
+            trace.t_s,
+            trace.x[0],
+            trace.y[0],
+            trace.theta_deg[0],
+            angle_before,
+            trace.z[0],
+            trace.contact[0],
+            f64::from(u8::from(trace.touch[0] != 0)),
+        ];
+        // Q13 of 100 degrees, and steps of the encoder.
+        let tolerances = [1e-9, 0.0, 0.0, 0.0123, 0.25, 1.3e-4, 1.3e-4, 0.0];
+        for n in 0..expected.len() {
+            let off = (found[n] - expected[n]).abs();
+            assert!(off <= tolerances[n], "{row:?}: {n}: {expected:?}");
+        }
+        angle_before = trace.angle_deg[0];
+    }
+}
+
+#[test]
+fn what_is_missing_is_counted() {
+    let place = Place::new();
+    place.done("records --sim bench.toml --seconds 0.1 --out r.csv");
+    let text = place.text("r.csv");
+    // The fourth and the fifth tick, and the last but one.
+    let gone = ["\n4,", "\n5,", "\n199,"];
+    let kept = text
+        .lines()
+        .filter(|line| !gone.iter().any(|gone| line.starts_with(&gone[1..])));
+    place.write("less.csv", &kept.collect::<Vec<_>>().join("\n"));
+    let told = |file: &str| place.done(&format!("records --file {file}")).stdout;
+    assert!(told("r.csv").contains("200 records at 2000 ticks a second, 0 lost"));
+    assert!(told("less.csv").contains("197 records at 2000 ticks a second, 3 lost"));
+}
+
+#[test]
+fn a_table_goes_to_standard_output_alone() {
+    let place = Place::new();
+    let ran = place.done("records --sim bench.toml --seconds 0.01 --out -");
+    assert_eq!(cells(&ran.stdout).len(), 1 + 20);
+    assert!(ran.stderr.contains("20 records"), "{}", ran.stderr);
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let place = Place::new();
+    place.write("bad.csv", "sequence,t_s\n1,2\n");
+    let said = place.refused("records --file bad.csv");
+    assert!(
+        said.contains("bad.csv: line 1: no column \"side\""),
+        "{said}"
+    );
+    assert!(place.refused("records --sim bench.toml").contains("--out"));
+    let said = place.refused("records --sim bench.toml --out /");
+    assert!(said.contains("/: not a file name"), "{said}");
+}

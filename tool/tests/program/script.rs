@@ -1,0 +1,80 @@
+//! Commands at their times, with `--script`.
+
+use crate::common::Place;
+
+#[test]
+fn a_module_does_what_it_is_told_and_says_so() {
+    let place = Place::new();
+    place.write(
+        "s.txt",
+        "0.5 stop\n0.8 arm\n1.0 setpoint left 75\n1.5 release left\n1.5 gain left 0\n",
+    );
+    let ran = place.done("records --sim bench.toml --script s.txt --seconds 3 --out r.csv");
+    let answers: Vec<&str> = ran.stdout.lines().take(5).collect();
+    for (answer, text) in answers.iter().zip(["0.5", "0.8", "1.0", "1.5", "1.5"]) {
+        assert!(
+            answer.starts_with(text) && answer.ends_with(": done"),
+            "{answers:?}"
+        );
+    }
+    let table = place.text("r.csv");
+    let rows = table
+        .lines()
+        .skip(5)
+        .map(|row| row.split(',').collect::<Vec<_>>());
+    for row in rows {
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        let (t_s, setpoint, measured, duty) = (number(1), number(5), number(6), number(7));
+        // From the tick after the answer until the next command.
+        if (0.51..0.79).contains(&t_s) {
+            assert_eq!((duty, row[12], row[13]), (0.0, "0", "0"), "{row:?}");
+        }
+        if (1.3..1.5).contains(&t_s) {
+            assert!(
+                (setpoint - 75.0).abs() < 0.02 && (measured - 75.0).abs() < 1.0,
+                "{row:?}"
+            );
+        }
+        // Without gain the muscle falls back to rest.
+        if t_s > 2.5 {
+            assert!((setpoint - 50.0).abs() < 0.5, "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_refused_is_said_and_fails() {
+    let place = Place::new();
+    place.write("s.txt", "0.1 gain left 2.5\n0.2 clear right\n");
+    let ran = place.run("log --sim bench.toml --script s.txt --seconds 0.5");
+    assert_eq!(ran.status, Some(1), "{}", ran.stderr);
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    assert!(
+        lines[0].ends_with("gain left 2.5: value out of range"),
+        "{lines:?}"
+    );
+    assert!(
+        lines[1].contains("clear right: no such whisker"),
+        "{lines:?}"
+    );
+    assert!(
+        ran.stderr.contains("commands that were refused: 2"),
+        "{}",
+        ran.stderr
+    );
+
+    let ran = place.run("log --sim bench.toml --script s.txt --seconds 0.15");
+    assert_eq!(ran.status, Some(1));
+    assert!(
+        ran.stderr.contains("without an answer at the end: 1"),
+        "{}",
+        ran.stderr
+    );
+
+    place.write("bad.txt", "0.1 gain left 1\n0.2 jump\n");
+    let said = place.refused("log --sim bench.toml --script bad.txt");
+    assert!(
+        said.contains("bad.txt: line 2: found \"jump\", allowed: arm, stop"),
+        "{said}"
+    );
+}
