@@ -110,6 +110,8 @@ impl Telemetry {
         if link.is_free() && IS_FULL.load(Ordering::Acquire) {
             let [first, value] = &INBOX;
             let words = [first, value].map(|word| word.load(Ordering::Relaxed));
+            // Erased too: no command has the number 0.
+            first.store(0, Ordering::Relaxed);
             IS_FULL.store(false, Ordering::Release);
             match TaggedCommand::from_words(words) {
                 Ok(request) => link.carry_out(module, settings, request, ABOUT, tick),
