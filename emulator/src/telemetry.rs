@@ -16,7 +16,7 @@ use crate::program::Program;
 /// Most instructions of a tick for the record of the only whisker, where the core has an FPU;
 /// for that of each of two; and for one where the core has no FPU.
 const STREAMING: f64 = 120.0;
-const STREAMING_OF_TWO: f64 = 150.0;
+const STREAMING_OF_TWO: f64 = 170.0;
 const STREAMING_NO_FPU: f64 = 300.0;
 
 /// The same where nobody asks for any.
