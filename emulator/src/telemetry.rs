@@ -5,6 +5,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
+use host_sim::trace::Row;
 use scene::{PlantKind, Scene, Sides};
 use wire::{Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, WhiskerId};
 
@@ -29,6 +30,9 @@ const PART_S: f64 = 0.1;
 /// By how much a record may be away from the world, degrees: a step of its numbers, and of
 /// the encoder.
 const ANGLE_DEG: f64 = 0.25;
+
+/// A step of z.
+const Z_STEP: f64 = 1.0 / 8192.0;
 
 /// A value of 1 in Q24.
 const ONE: i32 = 1 << 24;
@@ -117,7 +121,7 @@ impl Talk {
                 if let Packet::Record(record) = packet
                     && !self.is_apart
                 {
-                    same_as_world(record, before, row.x)?;
+                    same_as_world(record, before, &row)?;
                 }
             }
             self.packets.extend(packets);
@@ -380,15 +384,23 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
 }
 
 /// A record must tell the angle that the encoder has read in its tick, `before` the world
-/// moved on, and the code that its sensor has got.
-fn same_as_world(record: &TickRecord, before: [f64; 2], x: [f64; 2]) -> Result<(), Error> {
+/// moved on, the codes that its sensor has got, and z as a debugger reads it.
+fn same_as_world(record: &TickRecord, before: [f64; 2], row: &Row) -> Result<(), Error> {
     let side = usize::from(record.flags.contains(Flags::RIGHT));
     let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
-    let is_code = f64::from(record.codes()[0]) == x[side];
-    if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !is_code {
+    let codes = [row.x[side], row.y[side]];
+    let are_codes = record.codes().map(f64::from) == codes;
+    // A scene that does not whisk has none.
+    let z = if row.z[side].is_nan() {
+        0.0
+    } else {
+        row.z[side]
+    };
+    let is_z = (f64::from(wire::unit(record.z)) - z).abs() <= Z_STEP;
+    if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !are_codes || !is_z {
         return Err(Error::Work(format!(
-            "at {} degrees with code {}: {record:?}",
-            before[side], x[side]
+            "at {} degrees with codes {codes:?} and z {z}: {record:?}",
+            before[side]
         )));
     }
     Ok(())

@@ -113,9 +113,7 @@ impl Link {
     pub const fn is_busy(&self) -> bool {
         self.streams || self.answer.is_some()
     }
-}
 
-impl Link {
     /// Carries out a request between two ticks.
     pub fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
         &mut self,
