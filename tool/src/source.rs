@@ -2,6 +2,11 @@
 
 mod choice;
 mod emulated;
+#[allow(
+    dead_code,
+    reason = "of sources of a real module, none of which is here yet"
+)]
+mod person;
 mod program;
 mod simulated;
 mod texture;
@@ -35,8 +40,13 @@ pub(crate) trait Source {
     /// Has a sample laid before the whisker, in place of what lies there.
     fn lay(&mut self, sample: &str) -> Result<(), Error>;
 
-    /// Whether it lies there.
-    fn is_laid(&self) -> bool;
+    /// Whether it lies there. Waits for nobody.
+    fn is_laid(&mut self) -> Result<bool, Error>;
+
+    /// Whether a person lays it, who takes their time and is told when it counts.
+    fn is_laid_by_hand(&self) -> bool {
+        false
+    }
 
     /// The time where the module is, by another clock than its own, s.
     fn now_s(&mut self) -> f64;

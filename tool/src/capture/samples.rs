@@ -1,5 +1,6 @@
 //! From the records of one side to samples, as the module's own classifier gets them.
 
+use host_sim::recording::GATE;
 use tactile::TouchDetector;
 use wire::{Flags, TickRecord, unit};
 
@@ -14,6 +15,13 @@ pub(crate) struct Sampled {
     pub(crate) contact: f64,
     /// The number of the touch, as soon as it is sure; 0 in the air.
     pub(crate) touch: u16,
+}
+
+impl Sampled {
+    /// Whether nothing is touched, nor was within the memory of contact.
+    pub(crate) fn is_in_the_air(&self) -> bool {
+        self.touch == 0 && self.contact < GATE
+    }
 }
 
 /// Numbers the touches: by the same rule from the same codes as the module does, of whose

@@ -185,10 +185,16 @@ impl Capture {
     ) -> Result<Touches, Error> {
         let mut checks = Checks::new(&label.name, self.tick_hz);
         let mut touched_s = self.module.source().now_s();
+        let is_by_hand = self.module.source().is_laid_by_hand();
+        let mut counts = false;
         while touches.felt.len() < most {
             let heard = self.module.hear()?;
             let now_s = self.module.source().now_s();
-            let is_laid = self.module.source().is_laid();
+            let is_laid = self.module.source().is_laid()?;
+            if is_by_hand && !is_laid {
+                // A person takes their time.
+                touched_s = now_s;
+            }
             for packet in heard.packets {
                 let Packet::Record(record) = packet else {
                     continue;
@@ -207,6 +213,17 @@ impl Capture {
                     touches.interrupt();
                     continue;
                 };
+                // A touch that goes on as the sample is laid is none of it.
+                if !counts && sampled.is_in_the_air() {
+                    counts = true;
+                    if is_by_hand {
+                        let told = format!("{}: counts from now on", label.name);
+                        self.progress.pause(|| report::warn(told));
+                    }
+                }
+                if !counts {
+                    continue;
+                }
                 self.tell(checks.sample(&sampled));
                 if touches.take(&sampled) {
                     touched_s = now_s;
@@ -256,129 +273,4 @@ impl Capture {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use clap::Parser;
-    use host_sim::files::read_recording;
-    use host_sim::origin::Origin;
-    use host_sim::recording::CHANNELS;
-    use wire::{Flags, Packet, TaggedCommand};
-
-    use super::*;
-    use crate::source::Heard;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        arguments: Arguments,
-    }
-
-    /// A module on a bad line.
-    struct Bad {
-        module: Box<dyn Source>,
-        /// What becomes of each record.
-        spoils: fn(&mut wire::TickRecord) -> bool,
-        /// How fast the clock beside it runs.
-        clock: f64,
-    }
-
-    impl Source for Bad {
-        fn next(&mut self) -> Result<Heard, Error> {
-            let mut heard = self.module.next()?;
-            heard.packets.retain_mut(|packet| match packet {
-                Packet::Record(record) => (self.spoils)(record),
-                Packet::Answer(_) => true,
-            });
-            Ok(heard)
-        }
-
-        fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-            self.module.request(request)
-        }
-
-        fn has(&self, sample: &str) -> Result<(), Error> {
-            self.module.has(sample)
-        }
-
-        fn lay(&mut self, sample: &str) -> Result<(), Error> {
-            self.module.lay(sample)
-        }
-
-        fn is_laid(&self) -> bool {
-            self.module.is_laid()
-        }
-
-        fn now_s(&mut self) -> f64 {
-            self.clock * self.module.now_s()
-        }
-
-        fn duration_s(&self) -> Option<f64> {
-            self.module.duration_s()
-        }
-
-        fn origin(&self) -> Origin {
-            self.module.origin()
-        }
-    }
-
-    /// Captures six touches of a carpet so; lines told, and the touches in each trial.
-    fn captured(clock: f64, spoils: fn(&mut wire::TickRecord) -> bool) -> (usize, Vec<usize>) {
-        let folder = tempfile::tempdir().unwrap();
-        let out = folder.path().join("c.csv");
-        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
-        let words = ["capture", "--label", "carpet", "--touches", "6", "--sim"];
-        let words = words.map(std::ffi::OsString::from).into_iter();
-        let files = [
-            scene.into_os_string(),
-            "--out".into(),
-            out.clone().into_os_string(),
-        ];
-        let Line { arguments } = Line::parse_from(words.chain(files));
-        let source = Bad {
-            module: arguments.source.open(0).unwrap(),
-            spoils,
-            clock,
-        };
-        let recording = Recording::open(&out, false).unwrap();
-        let labels: Vec<&Label> = arguments.labels.iter().collect();
-        let source = Box::new(source);
-        let told = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
-        let streams = read_recording(&out, CHANNELS).unwrap();
-        let of = |stream: &host_sim::recording::Stream| {
-            let mut touches = stream.touch.clone().unwrap();
-            touches.dedup();
-            touches.retain(|touch| *touch != 0);
-            touches.len()
-        };
-        (told, streams.iter().map(of).collect())
-    }
-
-    #[test]
-    fn a_good_line_has_nothing_to_be_told() {
-        assert_eq!(captured(1.0, |_| true), (0, vec![5, 1]));
-    }
-
-    #[test]
-    fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_told() {
-        // In the third touch: where it is cut another trial begins.
-        let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
-        assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
-    }
-
-    #[test]
-    fn a_fault_costs_its_touch_and_is_told() {
-        let spoils = |record: &mut wire::TickRecord| {
-            if (4100..4120).contains(&record.sequence) {
-                record.flags = record.flags.without(Flags::VALID);
-            }
-            true
-        };
-        assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
-    }
-
-    #[test]
-    fn another_rate_is_told() {
-        assert_eq!(captured(1.05, |_| true).0, 1);
-    }
-}
+mod tests;

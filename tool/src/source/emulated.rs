@@ -60,8 +60,8 @@ impl Source for Emulated {
         Ok(())
     }
 
-    fn is_laid(&self) -> bool {
-        self.session.is_laid()
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        Ok(self.session.is_laid())
     }
 
     fn now_s(&mut self) -> f64 {

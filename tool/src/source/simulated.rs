@@ -90,8 +90,8 @@ impl Source for Simulated {
         Ok(())
     }
 
-    fn is_laid(&self) -> bool {
-        self.run.is_laid()
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        Ok(self.run.is_laid())
     }
 
     fn now_s(&mut self) -> f64 {

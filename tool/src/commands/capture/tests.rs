@@ -1,0 +1,172 @@
+//! Capturing from modules on bad lines, and by hand.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use clap::Parser;
+use host_sim::files::read_recording;
+use host_sim::origin::Origin;
+use host_sim::recording::{CHANNELS, GATE, Stream};
+use wire::{Flags, Packet, TaggedCommand};
+
+use super::*;
+use crate::source::Heard;
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    arguments: Arguments,
+}
+
+/// A module on a bad line.
+struct Bad {
+    module: Box<dyn Source>,
+    /// What becomes of each record.
+    spoils: fn(&mut wire::TickRecord) -> bool,
+    /// How fast the clock beside it runs.
+    clock: f64,
+    /// When somebody says that the sample lies there; 0: it is laid by the world.
+    laid_s: f64,
+}
+
+impl Source for Bad {
+    fn next(&mut self) -> Result<Heard, Error> {
+        let mut heard = self.module.next()?;
+        heard.packets.retain_mut(|packet| match packet {
+            Packet::Record(record) => (self.spoils)(record),
+            Packet::Answer(_) => true,
+        });
+        Ok(heard)
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.module.request(request)
+    }
+
+    fn has(&self, sample: &str) -> Result<(), Error> {
+        self.module.has(sample)
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.module.lay(sample)
+    }
+
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        Ok(self.module.is_laid()? && self.module.now_s() >= self.laid_s)
+    }
+
+    fn is_laid_by_hand(&self) -> bool {
+        self.laid_s > 0.0
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.clock * self.module.now_s()
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        self.module.duration_s()
+    }
+
+    fn origin(&self) -> Origin {
+        self.module.origin()
+    }
+}
+
+/// Captures six touches of a carpet so; lines told, and the touches in each trial.
+fn captured(clock: f64, spoils: fn(&mut wire::TickRecord) -> bool) -> (usize, Vec<usize>) {
+    let (told, streams) = streams(&[], clock, 0.0, spoils);
+    let of = |stream: &Stream| {
+        let mut touches = stream.touch.clone().unwrap();
+        touches.dedup();
+        touches.retain(|touch| *touch != 0);
+        touches.len()
+    };
+    (told, streams.iter().map(of).collect())
+}
+
+/// With `more` options: lines told, and what is captured.
+fn streams(
+    more: &[&str],
+    clock: f64,
+    laid_s: f64,
+    spoils: fn(&mut wire::TickRecord) -> bool,
+) -> (usize, Vec<Stream>) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("c.csv");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
+    let words = ["--label", "carpet", "--touches", "6", "--sim"];
+    let words = more.iter().chain(&words).map(OsString::from);
+    let files = [
+        scene.into_os_string(),
+        "--out".into(),
+        out.clone().into_os_string(),
+    ];
+    let Line { arguments } = Line::parse_from(
+        [OsString::from("capture")]
+            .into_iter()
+            .chain(words)
+            .chain(files),
+    );
+    let source = Bad {
+        module: arguments.source.open(0).unwrap(),
+        spoils,
+        clock,
+        laid_s,
+    };
+    let recording = Recording::open(&out, false).unwrap();
+    let labels: Vec<&Label> = arguments.labels.iter().collect();
+    let source = Box::new(source);
+    let told = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
+    (told, read_recording(&out, CHANNELS).unwrap())
+}
+
+#[test]
+fn a_good_line_has_nothing_to_be_told() {
+    assert_eq!(captured(1.0, |_| true), (0, vec![5, 1]));
+}
+
+#[test]
+fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_told() {
+    // In the third touch: where it is cut another trial begins.
+    let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
+    assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+}
+
+#[test]
+fn a_fault_costs_its_touch_and_is_told() {
+    let spoils = |record: &mut wire::TickRecord| {
+        if (4100..4120).contains(&record.sequence) {
+            record.flags = record.flags.without(Flags::VALID);
+        }
+        true
+    };
+    assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+}
+
+#[test]
+fn another_rate_is_told() {
+    assert_eq!(captured(1.05, |_| true).0, 1);
+}
+
+#[test]
+fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() {
+    // In a touch, and after a longer time than may pass without one.
+    let by_hand = |patience, laid_s| streams(&["--patience", patience], 1.0, laid_s, |_| true);
+    let (told, streams) = by_hand("1", 2.05);
+    assert_eq!((told, streams.len()), (0, 2));
+    let [first, ..] = &streams[..] else { panic!() };
+    let (touch, contact) = (
+        first.touch.as_ref().unwrap(),
+        first.contact.as_ref().unwrap(),
+    );
+    assert_eq!(touch[0], 0);
+    assert!(contact[0] < GATE, "{}", contact[0]);
+    // Soon after that touch has ended, a fifth of a second after the sample was laid.
+    let (_, from_the_start) = by_hand("3", 0.001);
+    let at = |samples: &[[f64; 2]]| {
+        let all = &from_the_start[0].samples;
+        all.windows(50).position(|found| found == &samples[..50])
+    };
+    let at = at(&first.samples).expect("the same world");
+    assert!((4100..4700).contains(&at), "{at}");
+}
