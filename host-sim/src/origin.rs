@@ -25,6 +25,11 @@ impl Origin {
         Some(value)
     }
 
+    /// What it says, in order: keys and values.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.0.iter().map(|(key, value)| (&**key, &**value))
+    }
+
     /// Writes its lines.
     ///
     /// # Errors

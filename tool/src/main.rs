@@ -10,6 +10,8 @@
 mod capture;
 mod commands;
 mod conversation;
+mod log_line;
+mod record_file;
 mod script;
 mod source;
 mod table;

@@ -1,11 +1,12 @@
 //! Records as a table of comma-separated values.
 
+use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use host_sim::origin::{self, Origin};
 use wire::{Flags, TickRecord, degrees, unit};
 
-use crate::tally::side;
+use crate::tally::{SIDES, side};
 
 /// Flags that have a column, in the order of the columns.
 const FLAGS: [(&str, Flags); 10] = [
@@ -25,7 +26,7 @@ const FLAGS: [(&str, Flags); 10] = [
 const NUMBERS: [&str; 10] = [
     "sequence",
     "t_s",
-    "side",
+    SIDE,
     "x",
     "y",
     "setpoint_deg",
@@ -35,14 +36,64 @@ const NUMBERS: [&str; 10] = [
     "contact",
 ];
 
-/// The names of sides in a table.
-const SIDES: [&str; 2] = ["left", "right"];
+/// The column that is a name.
+const SIDE: &str = "side";
 
 /// Full duty in a record.
 const FULL: f32 = 32767.0;
 
 /// What is above the table: ticks a second.
-const TICK_HZ: &str = "tick_hz";
+pub(crate) const TICK_HZ: &str = "tick_hz";
+
+/// The columns of numbers of a record, as text; the side is a name.
+fn numbers(record: &TickRecord, tick_hz: f64) -> [String; NUMBERS.len()] {
+    let [x, y] = record.codes();
+    [
+        record.sequence.to_string(),
+        (f64::from(record.sequence) / tick_hz).to_string(),
+        SIDES[side(record)].to_owned(),
+        x.to_string(),
+        y.to_string(),
+        degrees(record.setpoint).to_string(),
+        degrees(record.measured).to_string(),
+        (f32::from(record.duty) / FULL).to_string(),
+        unit(record.z).to_string(),
+        unit(record.contact).to_string(),
+    ]
+}
+
+/// A record as an object of JSON, with the columns of the table as keys. Rust writes finite
+/// numbers as JSON has them.
+pub(crate) fn json(record: &TickRecord, tick_hz: f64) -> String {
+    let mut text = String::with_capacity(320);
+    for (name, number) in NUMBERS.iter().zip(numbers(record, tick_hz)) {
+        let before = if text.is_empty() { '{' } else { ',' };
+        let quote = if *name == SIDE { "\"" } else { "" };
+        // Writing to a string does not fail.
+        let _ = write!(text, "{before}\"{name}\":{quote}{number}{quote}");
+    }
+    for (name, flag) in FLAGS {
+        let so = record.flags.contains(flag);
+        let _ = write!(text, ",\"{name}\":{so}");
+    }
+    text.push('}');
+    text
+}
+
+/// The properties of such an object, as a JSON schema has them.
+pub(crate) fn schema() -> serde_json::Value {
+    let kind = |name: &str| match name {
+        SIDE => "string",
+        "sequence" | "x" | "y" => "integer",
+        _ => "number",
+    };
+    let numbers = NUMBERS.iter().map(|name| (*name, kind(name)));
+    let flags = FLAGS.iter().map(|(name, _)| (*name, "boolean"));
+    let properties = numbers.chain(flags);
+    let properties =
+        properties.map(|(name, kind)| (name.to_owned(), serde_json::json!({"type": kind})));
+    serde_json::Value::Object(properties.collect())
+}
 
 /// A table that is being written.
 pub(crate) struct RecordWriter<W: Write> {
@@ -65,19 +116,7 @@ impl<W: Write> RecordWriter<W> {
 
     /// Writes a row.
     pub(crate) fn row(&mut self, record: &TickRecord) -> io::Result<()> {
-        let [x, y] = record.codes();
-        let numbers = [
-            record.sequence.to_string(),
-            (f64::from(record.sequence) / self.tick_hz).to_string(),
-            SIDES[side(record)].to_owned(),
-            x.to_string(),
-            y.to_string(),
-            degrees(record.setpoint).to_string(),
-            degrees(record.measured).to_string(),
-            (f32::from(record.duty) / FULL).to_string(),
-            unit(record.z).to_string(),
-            unit(record.contact).to_string(),
-        ];
+        let numbers = numbers(record, self.tick_hz);
         let digit = |so| if so { "1" } else { "0" };
         let flags = FLAGS.map(|(_, flag)| digit(record.flags.contains(flag)));
         let numbers = numbers.iter().map(String::as_str);

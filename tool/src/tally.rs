@@ -25,6 +25,9 @@ pub(crate) struct Tally {
     pub(crate) restarts: u64,
 }
 
+/// The names of the sides.
+pub(crate) const SIDES: [&str; 2] = ["left", "right"];
+
 /// 0 for a record of the left side, 1 for one of the right.
 pub(crate) fn side(record: &TickRecord) -> usize {
     usize::from(record.flags.contains(Flags::RIGHT))

@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use host_sim::output::{Output, check_or_stdout, is_stdout};
+use host_sim::output::is_stdout;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use wire::{Command, Flags, Packet, TickRecord};
 
 use crate::conversation::Conversation;
+use crate::record_file::{self, RecordFile};
 use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
-use crate::table::{self, RecordWriter};
 use crate::tally::{Tally, side};
 
 /// Whose records, for how long, and where they go.
@@ -26,8 +26,13 @@ pub(crate) struct Arguments {
     /// For how long; without it as long as the scene lasts
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
-    /// Where to write the table; - is standard output
-    #[arg(long, value_name = "FILE.csv", required_unless_present = "file")]
+    /// Where to write the table; - is standard output. A name that ends in .mcap has all that
+    /// the module says, its log and its answers too, as messages that Foxglove reads
+    #[arg(
+        long,
+        value_name = "FILE.csv|FILE.mcap",
+        required_unless_present = "file"
+    )]
     out: Option<PathBuf>,
     /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]], such as 1.5 gain left 0.5;
     /// what became of each is printed
@@ -39,19 +44,19 @@ pub(crate) struct Arguments {
 pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
     if let Some(file) = &arguments.file {
         let bytes = std::fs::read(file).map_err(|error| Error::file(file, error))?;
-        let kept = table::read(&bytes).map_err(|fault| Error::file(file, fault))?;
+        let table = crate::table::read(&bytes).map_err(|fault| Error::file(file, fault))?;
         let mut summary = Summary::default();
-        kept.records.iter().for_each(|record| summary.take(record));
-        if let Some(scene) = kept.origin.get("scene") {
+        table.records.iter().for_each(|record| summary.take(record));
+        if let Some(scene) = table.origin.get("scene") {
             report::say(format_args!("scene {scene}"));
         }
-        report::say(summary.told(kept.tick_hz));
+        report::say(summary.told(table.tick_hz));
         return Ok(());
     }
     let Some(out) = &arguments.out else {
         return Err(Error::Input("--out is missing".to_owned()));
     };
-    check_or_stdout(out)?;
+    record_file::check(out)?;
     // Where the table goes to standard output, nothing else does.
     let say = |line: String| {
         if is_stdout(out) {
@@ -69,37 +74,37 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let most = arguments.seconds.or(module.source().duration_s());
     let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
 
-    let output = Output::create_or_stdout(out)?;
-    let failed = |error| Error::write(out, error);
     let origin = module.source().origin().with("scene", &about.scene);
-    let mut rows = RecordWriter::new(output, origin, about.tick_hz).map_err(failed)?;
+    let mut kept = RecordFile::create(out, &origin, about.tick_hz)?;
     let mut summary = Summary::default();
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
     let mut first = None;
     'heard: loop {
         script.play(&mut module)?;
-        for packet in module.hear()?.packets {
-            if let Some(line) = script.answered(&packet, about.tick_hz) {
+        let heard = module.hear()?;
+        for packet in &heard.packets {
+            if let Some(line) = script.answered(packet, about.tick_hz) {
                 progress.pause(|| say(line));
             }
-            let Packet::Record(record) = packet else {
-                continue;
-            };
-            let ticks = record
-                .sequence
-                .wrapping_sub(*first.get_or_insert(record.sequence));
-            if most.is_some_and(|most| ticks >= most) {
-                break 'heard;
+            if let Packet::Record(record) = packet {
+                let first = *first.get_or_insert(record.sequence);
+                let ticks = record.sequence.wrapping_sub(first);
+                if most.is_some_and(|most| ticks >= most) {
+                    break 'heard;
+                }
+                summary.take(record);
+                progress.tick(ticks.into());
             }
-            summary.take(&record);
-            rows.row(&record).map_err(failed)?;
-            progress.tick(ticks.into());
+            kept.packets(std::slice::from_ref(packet))?;
+        }
+        for line in &heard.lines {
+            kept.line(line)?;
         }
     }
     drop(progress);
     module.ask(Command::Stream(false))?;
     let lost = module.ask(Command::Status)?.values[0];
-    rows.finish().map_err(failed)?.finish()?;
+    kept.finish()?;
     say(format!(
         "{}: {}",
         out.display(),

@@ -5,5 +5,6 @@ mod capture;
 mod common;
 mod learnt;
 mod log;
+mod messages;
 mod records;
 mod script;

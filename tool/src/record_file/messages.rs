@@ -1,0 +1,230 @@
+//! What a module tells as messages of [MCAP](https://mcap.dev), JSON in channels with a schema
+//! each, as Foxglove and others read them.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use host_sim::origin::Origin;
+use host_sim::output::Output;
+use mcap::records::{MessageHeader, Metadata};
+use mcap::write::NoSeek;
+use mcap::{McapError, WriteOptions, Writer};
+use serde_json::{Value, json};
+use wire::{Answer, Packet, TickRecord};
+
+use crate::log_line::{LogLine, News};
+use crate::table;
+use crate::tally::{SIDES, side};
+
+/// Nanoseconds in a second.
+const NS: u64 = 1_000_000_000;
+
+/// Messages that are being written. Their time is that of the module, from its first tick; it
+/// goes on where the module starts again.
+pub(super) struct Messages {
+    writer: Writer<NoSeek<Output>>,
+    channels: Channels,
+    count: u32,
+    tick_hz: u32,
+    /// Ticks since the first, and the number of the last record.
+    ticks: u64,
+    last: Option<u32>,
+}
+
+struct Channels {
+    records: [u16; 2],
+    answers: u16,
+    decisions: u16,
+    log: u16,
+}
+
+impl Messages {
+    /// Messages of a module with so many ticks a second.
+    pub(super) fn new(output: Output, origin: &Origin, tick_hz: u32) -> io::Result<Self> {
+        let options = WriteOptions::new()
+            .disable_seeking(true)
+            .compression(None)
+            .library(concat!("whisker ", env!("CARGO_PKG_VERSION")));
+        let mut writer = options.create(NoSeek::new(output)).map_err(failed)?;
+        let origin = origin.clone().with(table::TICK_HZ, tick_hz);
+        let metadata = origin.iter().map(|(key, value)| (key.into(), value.into()));
+        writer
+            .write_metadata(&Metadata {
+                name: "origin".to_owned(),
+                metadata: metadata.collect(),
+            })
+            .map_err(failed)?;
+        let mut channel = |topic: &str, schema: &str, properties: Value| {
+            let schema_text = json!({"type": "object", "properties": properties}).to_string();
+            let schema = writer.add_schema(schema, "jsonschema", schema_text.as_bytes())?;
+            writer.add_channel(schema, topic, "json", &BTreeMap::new())
+        };
+        let mut channels = || {
+            let record = table::schema();
+            Ok(Channels {
+                records: [
+                    channel("/left/records", "whisker.Record", record.clone())?,
+                    channel("/right/records", "whisker.Record", record)?,
+                ],
+                answers: channel("/answers", "whisker.Answer", answer_schema())?,
+                decisions: channel("/decisions", "whisker.Decision", decision_schema())?,
+                // The one that Foxglove's panel of logs reads.
+                log: channel("/log", "foxglove.Log", log_schema())?,
+            })
+        };
+        let channels = channels().map_err(failed)?;
+        Ok(Self {
+            writer,
+            channels,
+            count: 0,
+            tick_hz,
+            ticks: 0,
+            last: None,
+        })
+    }
+
+    pub(super) fn packet(&mut self, packet: &Packet) -> io::Result<()> {
+        match packet {
+            Packet::Record(record) => self.record(record),
+            Packet::Answer(answer) => {
+                let channel = self.channels.answers;
+                let message = answer_message(answer, self.tick_hz);
+                self.write(channel, message.to_string().as_bytes())
+            }
+        }
+    }
+
+    fn record(&mut self, record: &TickRecord) -> io::Result<()> {
+        let ahead = self
+            .last
+            .map_or(record.sequence, |last| record.sequence.wrapping_sub(last));
+        // Half of all numbers are ahead of one; otherwise ticks are counted anew.
+        self.ticks += match ahead {
+            ahead if ahead < 0x8000_0000 => u64::from(ahead),
+            _ => 1,
+        };
+        self.last = Some(record.sequence);
+        let channel = self.channels.records[side(record)];
+        let message = table::json(record, f64::from(self.tick_hz));
+        self.write(channel, message.as_bytes())
+    }
+
+    /// A line of the log; one about a decision is a decision besides.
+    pub(super) fn line(&mut self, line: &str) -> io::Result<()> {
+        let told = LogLine::of(line);
+        let ns = self.now();
+        let level = match told.level {
+            Some("DEBUG" | "TRACE") => 1,
+            Some("WARN") => 3,
+            Some("ERROR") => 4,
+            _ => 2,
+        };
+        let message = json!({
+            "timestamp": {"sec": ns / NS, "nsec": ns % NS},
+            "level": level,
+            "message": line,
+            "name": "module",
+            "file": "",
+            "line": 0,
+        });
+        self.write(self.channels.log, message.to_string().as_bytes())?;
+        if let News::Decision {
+            class,
+            posterior,
+            samples,
+        } = told.news
+        {
+            let message = json!({
+                "t_s": told.t_s.unwrap_or(ns as f64 / NS as f64),
+                // A module whose one whisker decides does not name its side.
+                "side": SIDES[usize::from(told.side == Some(1))],
+                "decision": class,
+                "posterior": posterior,
+                "samples": samples,
+            });
+            self.write(self.channels.decisions, message.to_string().as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// The time of what came last, ns.
+    fn now(&self) -> u64 {
+        let hz = u64::from(self.tick_hz).max(1);
+        // In two steps, lest it overflow.
+        self.ticks / hz * NS + self.ticks % hz * NS / hz
+    }
+
+    fn write(&mut self, channel_id: u16, data: &[u8]) -> io::Result<()> {
+        let now = self.now();
+        let header = MessageHeader {
+            channel_id,
+            sequence: self.count,
+            log_time: now,
+            publish_time: now,
+        };
+        self.count = self.count.wrapping_add(1);
+        self.writer
+            .write_to_known_channel(&header, data)
+            .map_err(failed)
+    }
+
+    /// What it was written to, all messages in it.
+    pub(super) fn finish(mut self) -> io::Result<Output> {
+        self.writer.finish().map_err(failed)?;
+        Ok(self.writer.into_inner().into_inner())
+    }
+}
+
+fn failed(error: McapError) -> io::Error {
+    match error {
+        McapError::Io(error) => error,
+        error => io::Error::other(error),
+    }
+}
+
+fn answer_message(answer: &Answer, tick_hz: u32) -> Value {
+    json!({
+        "t_s": f64::from(answer.sequence) / f64::from(tick_hz),
+        "tag": answer.tag,
+        "command": answer.command,
+        "status": answer.status.code(),
+        "said": answer.status.to_string(),
+        "values": answer.values,
+    })
+}
+
+fn answer_schema() -> Value {
+    json!({
+        "t_s": {"type": "number", "description": "when it was carried out, s"},
+        "tag": {"type": "integer", "description": "that of the request"},
+        "command": {"type": "integer", "description": "its number (docs/telemetry.md)"},
+        "status": {"type": "integer", "description": "0 done, otherwise refused"},
+        "said": {"type": "string", "description": "the status in words"},
+        "values": {"type": "array", "items": {"type": "integer"}},
+    })
+}
+
+fn decision_schema() -> Value {
+    json!({
+        "t_s": {"type": "number", "description": "when it fell, s"},
+        "side": {"type": "string"},
+        "decision": {"type": "string", "description": "the class, or unknown"},
+        "posterior": {"type": "number", "description": "its probability, 0 to 1"},
+        "samples": {"type": "integer", "description": "samples that it used"},
+    })
+}
+
+fn log_schema() -> Value {
+    json!({
+        "timestamp": {
+            "type": "object",
+            "title": "time",
+            "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}},
+        },
+        "level": {"type": "integer", "description": "1 debug, 2 info, 3 warning, 4 error"},
+        "message": {"type": "string"},
+        "name": {"type": "string"},
+        "file": {"type": "string"},
+        "line": {"type": "integer"},
+    })
+}

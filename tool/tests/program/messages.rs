@@ -1,0 +1,121 @@
+//! Files of messages (MCAP), read back by the library that others use.
+
+use std::collections::BTreeMap;
+
+use mcap::MessageStream;
+use serde_json::Value;
+
+use crate::common::{Place, textures};
+
+/// What is in the channels of a file: time in ns, and message.
+pub(crate) fn channels(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Value)>> {
+    let mut channels: BTreeMap<String, Vec<(u64, Value)>> = BTreeMap::new();
+    for message in MessageStream::new(bytes).unwrap() {
+        let message = message.unwrap();
+        let schema = message.channel.schema.as_ref().unwrap();
+        assert_eq!(
+            (
+                schema.encoding.as_str(),
+                message.channel.message_encoding.as_str()
+            ),
+            ("jsonschema", "json")
+        );
+        let value: Value = serde_json::from_slice(&message.data).unwrap();
+        let schema: Value = serde_json::from_slice(&schema.data).unwrap();
+        fits(&value, &schema);
+        let of = channels.entry(message.channel.topic.clone()).or_default();
+        of.push((message.log_time, value));
+    }
+    channels
+}
+
+/// The keys of a message are those of its schema, and of its types.
+fn fits(value: &Value, schema: &Value) {
+    let properties = schema["properties"].as_object().unwrap();
+    let object = value.as_object().unwrap();
+    assert!(object.keys().eq(properties.keys()), "{value} {schema}");
+    for (key, property) in properties {
+        let found = &object[key];
+        let is_so = match property["type"].as_str().unwrap() {
+            "boolean" => found.is_boolean(),
+            "string" => found.is_string(),
+            "integer" => found.is_i64() || found.is_u64(),
+            "number" => found.is_number(),
+            "array" => found.is_array(),
+            "object" => found.is_object(),
+            other => panic!("{other}"),
+        };
+        assert!(is_so, "{key}: {found} {property}");
+    }
+}
+
+#[test]
+fn messages_are_the_table_and_the_log() {
+    let place = Place::new();
+    let scene = textures();
+    let scene = scene.display();
+    for out in ["r.csv", "r.mcap"] {
+        let ran = place.done(&format!("records --sim {scene} --seconds 2.6 --out {out}"));
+        assert!(
+            ran.stdout.contains("5200 records at 2000"),
+            "{}",
+            ran.stdout
+        );
+    }
+    let channels = channels(&std::fs::read(place.path("r.mcap")).unwrap());
+
+    let table = place.text("r.csv");
+    let mut rows = table.lines().filter(|line| !line.starts_with('#'));
+    let header: Vec<&str> = rows.next().unwrap().split(',').collect();
+    let records = &channels["/left/records"];
+    assert!(!channels.contains_key("/right/records"));
+    assert_eq!(records.len(), 5200);
+    for ((ns, record), row) in records.iter().zip(rows.by_ref()) {
+        let cells: Vec<&str> = row.split(',').collect();
+        assert_eq!(record.as_object().unwrap().len(), header.len());
+        for (column, cell) in header.iter().zip(cells) {
+            let is_same = match &record[*column] {
+                Value::Bool(so) => cell == if *so { "1" } else { "0" },
+                Value::String(text) => cell == text,
+                number => cell.parse::<f64>().ok() == number.as_f64(),
+            };
+            assert!(is_same, "{column}: {cell}, {record}");
+        }
+        // A tick is half a millisecond.
+        assert_eq!(*ns, record["sequence"].as_u64().unwrap() * 500_000);
+    }
+    assert_eq!(rows.next(), None);
+
+    let log = place
+        .done(&format!("log --sim {scene} --seconds 2.6"))
+        .stdout;
+    let logged = &channels["/log"];
+    let said = logged
+        .iter()
+        .map(|(_, line)| line["message"].as_str().unwrap());
+    assert!(said.eq(log.lines()), "{logged:?}");
+    let decisions = &channels["/decisions"];
+    let lines: Vec<&str> = log
+        .lines()
+        .filter(|line| line.contains("decision"))
+        .collect();
+    assert!(lines.len() >= 3 && lines.len() == decisions.len(), "{log}");
+    for (line, (_, decision)) in lines.iter().zip(decisions) {
+        let posterior = 100.0 * decision["posterior"].as_f64().unwrap();
+        let again = format!(
+            "{:.3} INFO  decision: {}, posterior {posterior:.4} %, {} samples",
+            decision["t_s"].as_f64().unwrap(),
+            decision["decision"].as_str().unwrap(),
+            decision["samples"]
+        );
+        assert_eq!(again, *line);
+    }
+}
+
+#[test]
+fn the_ending_says_what_a_file_is() {
+    let place = Place::new();
+    let said = place.refused("records --sim bench.toml --out r.bag");
+    assert!(said.contains("r.bag: what is it to be?"), "{said}");
+    assert!(said.contains(".mcap"), "{said}");
+}
