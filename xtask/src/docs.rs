@@ -3,6 +3,7 @@
 mod faults;
 mod harness;
 mod main_job;
+mod mount;
 
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top};
@@ -17,6 +18,8 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
     document("docs/harness.svg", harness::svg()?.as_bytes(), check)?;
+    document("docs/mount.md", mount::page().as_bytes(), check)?;
+    document("docs/mount.svg", mount::svg().as_bytes(), check)?;
     let columns = ["run", "--quiet", "-p", "host-sim", "--", "columns"];
     document(
         "docs/files.md",
