@@ -8,8 +8,8 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, target};
 use crate::steps::Steps;
 use crate::{
-    arrows, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
-    panics, readme, size,
+    arrows, book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
+    panics, size, walk,
 };
 
 /// What a warning becomes.
@@ -25,19 +25,19 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("arrows", || arrows::all(&[]))?;
     steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
-    // What the README tells a newcomer to run: all tests, and the main job, whose
-    // output and files are what the generated documents must hold.
+    // All tests, and the main job, whose output and files are what the generated documents
+    // must hold.
     steps.run("tests", tests)?;
     steps.run("dependencies", dependencies::check)?;
     steps.run("untrusted input", fuzz::short)?;
     steps.run("main job and documents", || docs::all(true))?;
     steps.run("chips as described", descriptions::compare)?;
-    steps.run("README's commands", readme::all)?;
+    steps.run("the book", || book::test().and_then(|()| book::build()))?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated boards, one side and two", board)?;
-    steps.run("the walk at the bench", readme::walk)?;
+    steps.run("the walk through the book", walk::short)?;
     steps.run("injected faults, a thousand", faults::short)?;
     steps.run("endurance, in short", endurance::short)?;
     steps.run("counts of a tick", count::short)?;

@@ -1,6 +1,7 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `flash`, `docs`.
 
 mod arrows;
+mod book;
 mod ci;
 mod cost;
 mod count;
@@ -16,12 +17,12 @@ mod firmware;
 mod fuzz;
 mod nightly;
 mod panics;
-mod readme;
 mod reproducible;
 mod run;
 mod size;
 mod speed;
 mod steps;
+mod walk;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -137,6 +138,10 @@ enum Command {
     /// Writes docs/registers.md, and holds its facts against the descriptions that others
     /// have made of the chips
     Descriptions,
+    /// Builds the book into target/book, unless a link or an image is broken
+    Book,
+    /// Runs the command blocks of the book's pages, of the README and of CONTRIBUTING
+    Walk(walk::Choice),
     /// Writes the generated documents anew
     Docs {
         /// Only say whether they are up to date
@@ -279,6 +284,8 @@ fn main() -> ExitCode {
         Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
         Command::Speed(choice) => speed::speed(&choice),
         Command::Descriptions => descriptions::page(false).and_then(|()| descriptions::compare()),
+        Command::Book => book::build(),
+        Command::Walk(choice) => walk::all(&choice),
         Command::Docs { check, quick: true } => docs::quick(check),
         Command::Docs { check, .. } => docs::all(check),
     };

@@ -189,7 +189,7 @@ const fn reason(setting: Setting) -> &'static str {
         }
         Setting::Bins => {
             "finer ones are quicker, but tell fewer of the unknown textures of the elastic whisker \
-             ([decisions.md](../decisions.md#27-bins-and-block-by-many-trainings))"
+             ([decisions.md](../decisions.md#28-bins-and-block-by-many-trainings))"
         }
         Setting::Block => "meant to be the quickest to decide that keeps the goals",
         Setting::Training => "the scene's own length, in which each texture comes several times",

@@ -1,0 +1,176 @@
+//! Does what the pages tell their reader to do: the commands of the book, of the README and of
+//! CONTRIBUTING, page by page, each in a folder of its own that holds the scenes.
+
+mod blocks;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+use std::{fs, io};
+
+use crate::run::{Fault, listing, read, read_bytes, top, write};
+use blocks::{Block, When, blocks, differs, pages};
+
+/// Pages with commands that are not in the book.
+const BESIDE: [&str; 2] = ["README.md", "CONTRIBUTING.md"];
+
+/// What the commands of a page find in their folder: from where, and which files.
+const FOUND: [(&str, &str); 4] = [
+    ("scenes", "toml"),
+    ("scenes/models", "model"),
+    ("tests/data/terrain", "csv"),
+    ("docs/measured", "csv"),
+];
+
+#[derive(clap::Args)]
+pub(crate) struct Choice {
+    /// The pages, such as docs/tool.md; without any, all of docs/SUMMARY.md, the README and
+    /// CONTRIBUTING
+    pages: Vec<PathBuf>,
+    /// The blocks marked `sh nightly` too, which take long
+    #[arg(long)]
+    nightly: bool,
+    /// Run nothing, say which blocks are run when
+    #[arg(long)]
+    list: bool,
+}
+
+/// What CI runs of all pages.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn short() -> Result<(), Fault> {
+    with(&[], false)
+}
+
+/// All that can be run without hardware.
+///
+/// # Errors
+/// As [`all`].
+pub(crate) fn nightly() -> Result<(), Fault> {
+    with(&[], true)
+}
+
+/// Runs the blocks of the pages that are chosen, or lists them.
+///
+/// # Errors
+/// The first command that fails or says something else than its page, and a block that is
+/// marked as none of `sh`, `sh nightly` and `sh hardware`.
+pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
+    if !choice.list {
+        return with(&choice.pages, choice.nightly);
+    }
+    for (page, blocks) in chosen(&choice.pages)? {
+        for block in blocks {
+            println!("{:9} {}:{}", block.when.name(), page.display(), block.line);
+        }
+    }
+    Ok(())
+}
+
+fn with(pages: &[PathBuf], nightly: bool) -> Result<(), Fault> {
+    let mut run = 0;
+    let mut not_run = Vec::new();
+    for (page, blocks) in chosen(pages)? {
+        let (now, later): (Vec<Block>, Vec<Block>) =
+            blocks.into_iter().partition(|block| match block.when {
+                When::Always => true,
+                When::Nightly => nightly,
+                When::Hardware => false,
+            });
+        for block in later {
+            let (when, line) = (block.when.name(), block.line);
+            not_run.push(format!("{when:9} {}:{line}", page.display()));
+        }
+        if now.is_empty() {
+            continue;
+        }
+        let begun = Instant::now();
+        let folder = folder(&page)?;
+        for block in &now {
+            do_block(&page, block, &folder)?;
+        }
+        run += now.len();
+        let seconds = begun.elapsed().as_secs_f64();
+        println!(
+            "== {}: {} blocks, {seconds:.1} s",
+            page.display(),
+            now.len()
+        );
+    }
+    println!("{run} blocks run; not run:");
+    for block in not_run {
+        println!("{block}");
+    }
+    match run {
+        0 => Err("no page has a command to be run".to_owned()),
+        _ => Ok(()),
+    }
+}
+
+/// The pages with their blocks, by the paths from the top.
+fn chosen(wanted: &[PathBuf]) -> Result<Vec<(PathBuf, Vec<Block>)>, Fault> {
+    let docs = Path::new("docs");
+    let named = if wanted.is_empty() {
+        let book = pages(&read(&top().join(docs).join("SUMMARY.md"))?);
+        let book = book.into_iter().map(|page| docs.join(page));
+        BESIDE.iter().map(PathBuf::from).chain(book).collect()
+    } else {
+        wanted.to_vec()
+    };
+    let with_blocks = named.into_iter().map(|page| {
+        let blocks = blocks(&read(&top().join(&page))?);
+        let blocks = blocks.map_err(|fault| format!("{}:{fault}", page.display()))?;
+        Ok((page, blocks))
+    });
+    with_blocks.collect()
+}
+
+/// A folder for the commands of a page: with what they find there, and nothing that an
+/// earlier walk has left. Within the workspace, so that cargo finds that.
+fn folder(page: &Path) -> Result<PathBuf, Fault> {
+    let name = page.with_extension("").display().to_string();
+    let folder = top()
+        .join("target/walk")
+        .join(name.replace(['/', '\\'], "-"));
+    match fs::remove_dir_all(&folder) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            return Err(format!("{}: {error}", folder.display()));
+        }
+        _ => {}
+    }
+    for (from, extension) in FOUND {
+        for file in listing(&top().join(from), extension)? {
+            let name = file.file_name().unwrap_or_default();
+            write(&folder.join(from).join(name), read_bytes(&file)?)?;
+        }
+    }
+    Ok(folder)
+}
+
+/// Runs a block as its reader does, in a shell that stops at the first failure.
+fn do_block(page: &Path, block: &Block, folder: &Path) -> Result<(), Fault> {
+    let place = format!("{}:{}", page.display(), block.line);
+    println!("== {place}\n{}", block.commands.trim_end());
+    let script = format!("exec 2>&1\n{}", block.commands);
+    let shell = Command::new("bash")
+        .args(["-eu", "-o", "pipefail", "-c", &script])
+        .current_dir(folder)
+        .env("CARGO_TERM_QUIET", "true")
+        .stdin(Stdio::null())
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("{place}: bash: {error}"))?;
+    let said = String::from_utf8_lossy(&shell.stdout);
+    print!("{said}");
+    if !shell.status.success() {
+        return Err(format!("{place}: {}", shell.status));
+    }
+    let shown = block
+        .shown
+        .as_deref()
+        .and_then(|shown| differs(shown, &said));
+    shown.map_or(Ok(()), |line| {
+        Err(format!("{place}: the page shows what is not said: {line}"))
+    })
+}
