@@ -93,9 +93,14 @@ impl Classifier {
     /// Posterior of each class after the last full block: of the first whisker, or of all
     /// together.
     pub fn posteriors(&self) -> Posteriors {
+        self.posteriors_of(0)
+    }
+
+    /// The same of a whisker, counted from 0, left side first, or of all together.
+    pub fn posteriors_of(&self, whisker: usize) -> Posteriors {
         match &self.judge {
-            Judge::Each(codes) => codes.bayes().posteriors(0),
-            Judge::Together(codes) => codes.bayes().posteriors(0),
+            Judge::Each(codes) => codes.bayes().posteriors(whisker),
+            Judge::Together(codes) => codes.bayes().posteriors(whisker),
         }
     }
 

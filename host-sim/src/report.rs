@@ -35,7 +35,12 @@ pub fn warn(line: impl Display) {
 pub fn program(program: &str, work: impl FnOnce() -> Result<(), Error>) -> ExitCode {
     let ready = remove_on_interrupt();
     let ready = ready.map_err(|error| Error::Work(format!("interrupts: {error}")));
-    match ready.and_then(|()| work()) {
+    ended(program, ready.and_then(|()| work()))
+}
+
+/// The exit status of a program that has ended so; what went wrong it says on standard error.
+pub fn ended(program: &str, done: Result<(), Error>) -> ExitCode {
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             warn(format_args!("{program}: {error}"));

@@ -2,4 +2,5 @@
 
 pub(crate) mod capture;
 pub(crate) mod log;
+pub(crate) mod monitor;
 pub(crate) mod records;

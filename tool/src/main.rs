@@ -11,6 +11,7 @@ mod capture;
 mod commands;
 mod conversation;
 mod log_line;
+mod monitor;
 mod record_file;
 mod script;
 mod source;
@@ -46,6 +47,8 @@ enum Command {
     Log(commands::log::Arguments),
     /// Writes what the module tells of every tick to a table, and counts what was lost
     Records(commands::records::Arguments),
+    /// Opens a window on the module: angles, deflection, posteriors, decisions, faults
+    Monitor(Box<commands::monitor::Arguments>),
     /// Records textures, label by label, as many touches of each: what host-sim train reads
     Capture(commands::capture::Arguments),
 }
@@ -53,8 +56,13 @@ enum Command {
 fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
     let verbosity = Verbosity::of(quiet);
+    if let Command::Monitor(arguments) = &command {
+        // An interrupt stops the motors there before it ends the program.
+        return report::ended("whisker", commands::monitor::monitor(arguments));
+    }
     report::program("whisker", || -> Result<(), Error> {
         match command {
+            Command::Monitor(arguments) => commands::monitor::monitor(&arguments),
             Command::Log(arguments) => commands::log::log(&arguments),
             Command::Records(arguments) => commands::records::records(&arguments, verbosity),
             Command::Capture(arguments) => commands::capture::capture(&arguments, verbosity),

@@ -43,6 +43,16 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
     is_messages(path).map(drop)
 }
 
+/// The same, and there is no such file yet.
+pub(crate) fn check_new(path: &Path) -> Result<(), Error> {
+    check(path)?;
+    if path.exists() {
+        let fault = "is there already, and is not overwritten; name another file";
+        return Err(Error::file(path, fault));
+    }
+    Ok(())
+}
+
 impl RecordFile {
     /// A file of a module with so many ticks a second.
     pub(crate) fn create(path: &Path, origin: &Origin, tick_hz: u32) -> Result<Self, Error> {

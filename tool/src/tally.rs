@@ -56,9 +56,34 @@ impl Tally {
     }
 }
 
+/// Ticks since a module's first start, from numbers that wrap around and begin anew.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct TickCount {
+    ticks: u64,
+    last: Option<u32>,
+}
+
+impl TickCount {
+    /// Goes on to the tick of this number; after another start it goes on by one.
+    pub(crate) fn take(&mut self, sequence: u32) -> u64 {
+        let last = self.last.replace(sequence);
+        let ahead = sequence.wrapping_sub(last.unwrap_or(0));
+        self.ticks += match last {
+            Some(_) if ahead >= 0x8000_0000 => 1,
+            _ => u64::from(ahead),
+        };
+        self.ticks
+    }
+
+    /// The last one.
+    pub(crate) const fn now(&self) -> u64 {
+        self.ticks
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Before, Tally};
+    use super::{Before, Tally, TickCount};
     use wire::{Flags, TickRecord};
 
     #[test]
@@ -79,5 +104,15 @@ mod tests {
         assert_eq!(take(1, left), Before::Nothing);
         assert_eq!(take(1, left), Before::Restart);
         assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
+    }
+
+    #[test]
+    fn ticks_go_on_where_numbers_wrap_and_begin_anew() {
+        let mut ticks = TickCount::default();
+        let numbers = [u32::MAX - 1, u32::MAX - 1, 1, 0x7000_0000, 1, 2];
+        let first = u64::from(u32::MAX - 1);
+        let later = first + 0x7000_0002;
+        let expected = [first, first, first + 3, later, later + 1, later + 2];
+        assert_eq!(numbers.map(|number| ticks.take(number)), expected);
     }
 }

@@ -14,7 +14,7 @@ use wire::{Answer, Packet, TickRecord};
 
 use crate::log_line::{LogLine, News};
 use crate::table;
-use crate::tally::{SIDES, side};
+use crate::tally::{SIDES, TickCount, side};
 
 /// Nanoseconds in a second.
 const NS: u64 = 1_000_000_000;
@@ -26,9 +26,7 @@ pub(super) struct Messages {
     channels: Channels,
     count: u32,
     tick_hz: u32,
-    /// Ticks since the first, and the number of the last record.
-    ticks: u64,
-    last: Option<u32>,
+    ticks: TickCount,
 }
 
 struct Channels {
@@ -78,8 +76,7 @@ impl Messages {
             channels,
             count: 0,
             tick_hz,
-            ticks: 0,
-            last: None,
+            ticks: TickCount::default(),
         })
     }
 
@@ -95,15 +92,7 @@ impl Messages {
     }
 
     fn record(&mut self, record: &TickRecord) -> io::Result<()> {
-        let ahead = self
-            .last
-            .map_or(record.sequence, |last| record.sequence.wrapping_sub(last));
-        // Half of all numbers are ahead of one; otherwise ticks are counted anew.
-        self.ticks += match ahead {
-            ahead if ahead < 0x8000_0000 => u64::from(ahead),
-            _ => 1,
-        };
-        self.last = Some(record.sequence);
+        self.ticks.take(record.sequence);
         let channel = self.channels.records[side(record)];
         let message = table::json(record, f64::from(self.tick_hz));
         self.write(channel, message.as_bytes())
@@ -151,7 +140,8 @@ impl Messages {
     fn now(&self) -> u64 {
         let hz = u64::from(self.tick_hz).max(1);
         // In two steps, lest it overflow.
-        self.ticks / hz * NS + self.ticks % hz * NS / hz
+        let ticks = self.ticks.now();
+        ticks / hz * NS + ticks % hz * NS / hz
     }
 
     fn write(&mut self, channel_id: u16, data: &[u8]) -> io::Result<()> {

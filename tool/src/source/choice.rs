@@ -1,6 +1,6 @@
 //! Which module a command is about.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use host_sim::Error;
@@ -39,6 +39,16 @@ pub(crate) struct SourceChoice {
 }
 
 impl SourceChoice {
+    /// The scene of the module's program, where it is named.
+    pub(crate) fn scene(&self) -> Option<&Path> {
+        self.sim.as_deref().or(self.emulated.as_deref())
+    }
+
+    /// Seconds in a second at which a module that has no clock of its own is watched.
+    pub(crate) fn pace(&self) -> Option<f64> {
+        self.sim.as_ref().map(|_| 1.0)
+    }
+
     /// Opens it, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
         let (Some(path), simulates) = (

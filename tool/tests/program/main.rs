@@ -6,5 +6,6 @@ mod common;
 mod learnt;
 mod log;
 mod messages;
+mod monitor;
 mod records;
 mod script;

@@ -1,0 +1,169 @@
+//! `whisker monitor`: a window in which one watches a module.
+
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+
+use clap::Args;
+use host_sim::origin::Origin;
+use host_sim::{Error, output, report};
+use wire::Command;
+
+use crate::conversation::Conversation;
+use crate::monitor::{
+    About, Hearing, History, Known, Listener, Shared, Size, Snapshot, Wish, open, size,
+};
+use crate::record_file::{self, RecordFile};
+use crate::source::{SourceChoice, seconds};
+
+/// Pictures in a second.
+const PICTURES_HZ: f64 = 20.0;
+
+/// What to watch, and where it is kept.
+#[derive(Debug, Clone, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: SourceChoice,
+    /// The model by which the PC says how sure it is, in place of the scene's
+    #[arg(long, value_name = "FILE.model")]
+    model: Option<PathBuf>,
+    /// Where to record all that comes meanwhile: a table (.csv) or messages (.mcap); may be given
+    /// several times. An existing file is not overwritten
+    #[arg(long, value_name = "FILE.csv|FILE.mcap")]
+    out: Vec<PathBuf>,
+    /// Where the key s saves the last minutes; a number is put behind the name of a file that is
+    /// there already
+    #[arg(long, value_name = "FILE.csv|FILE.mcap", default_value = "monitor.csv")]
+    save: PathBuf,
+    /// Seconds of the module in a second; without it 1 for --sim, and as fast as it goes for
+    /// --emulated
+    #[arg(long, value_name = "N", value_parser = seconds)]
+    speed: Option<f64>,
+    /// For how long; without it until it is ended
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    seconds: Option<f64>,
+    /// Opens no window, but shows the last of so many pictures, 20 in a second of the module, as
+    /// text
+    #[arg(long, value_name = "N", conflicts_with_all = ["seconds", "speed"], value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: Option<u32>,
+    /// Columns and rows of that picture
+    #[arg(long, value_name = "COLUMNSxROWS", requires = "frames", default_value = "100x30", value_parser = size)]
+    size: Size,
+    /// Draws it to a file instead
+    #[arg(long, value_name = "FILE.svg", requires = "frames")]
+    snapshot: Option<PathBuf>,
+}
+
+/// Watches a module until it is ended.
+pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
+    for path in &arguments.out {
+        record_file::check_new(path)?;
+    }
+    record_file::check(&arguments.save)?;
+    if let Some(path) = &arguments.snapshot {
+        output::check(path)?;
+    }
+    let is_window = arguments.frames.is_none();
+    if is_window && !(io::stdin().is_terminal() && io::stdout().is_terminal()) {
+        let fault = "a window needs a terminal; without one: --frames N, or whisker records";
+        return Err(Error::Input(fault.to_owned()));
+    }
+    if !is_window {
+        let ready = output::remove_on_interrupt();
+        ready.map_err(|error| Error::Work(format!("interrupts: {error}")))?;
+    }
+    let (wish, wishes) = mpsc::channel();
+    let (ready, readied) = mpsc::channel();
+    let listener = listen(arguments.clone(), wishes, ready)?;
+    let Ok(Ready { shared, about }) = readied.recv() else {
+        // Why, it says itself.
+        return listener
+            .join()
+            .unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+    };
+    if is_window {
+        return open(&shared, about, listener, &wish);
+    }
+    let heard = listener.join();
+    drop(wish);
+    heard.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())))?;
+    let snapshot = Snapshot::of(&shared, &about, arguments.size)?;
+    if let Some(path) = &arguments.snapshot {
+        return output::write_whole(path, snapshot.svg().as_bytes());
+    }
+    report::say(snapshot.text().trim_end());
+    Ok(())
+}
+
+/// A module that is listened to.
+struct Ready {
+    shared: Arc<Mutex<Shared>>,
+    about: About,
+}
+
+/// Begins to listen, where the module is opened: not every one can be handed on.
+fn listen(
+    arguments: Arguments,
+    wishes: Receiver<Wish>,
+    ready: Sender<Ready>,
+) -> Result<JoinHandle<Result<(), Error>>, Error> {
+    let work = move || {
+        let (hearing, is_ready) = begin(&arguments, wishes)?;
+        // Whoever asked for it waits.
+        let _ = ready.send(is_ready);
+        hearing.run()
+    };
+    let thread = thread::Builder::new().name("listening".to_owned());
+    let started = thread.spawn(work);
+    started.map_err(|error| Error::Work(format!("thread: {error}")))
+}
+
+fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Ready), Error> {
+    let scene = arguments.source.scene();
+    let known = Known::of(scene, arguments.model.as_deref())?;
+    let mut module = Conversation::new(arguments.source.open(0)?);
+    // From the first tick on: how the whisker swings in the air is learnt from.
+    module.ask(Command::Stream(true))?;
+    let [_, whiskers] = module.ask(Command::Hello)?.values;
+    let whiskers = usize::try_from(whiskers).unwrap_or(1);
+    let crate::conversation::AboutModule { scene, tick_hz, .. } = module.about()?;
+    let listener = known.map(|known| Listener::new(known, tick_hz, whiskers));
+    let origin: Origin = module.source().origin().with("scene", &scene);
+    let files = arguments.out.iter();
+    let files = files.map(|path| RecordFile::create(path, &origin, tick_hz));
+    let files = files.collect::<Result<Vec<_>, _>>()?;
+    let board = origin.get("board").unwrap_or("unknown").to_owned();
+    let mut title = format!("{scene}, {board}, {tick_hz} Hz");
+    if !files.is_empty() {
+        title.push_str(", recording");
+    }
+    let history = History::new(tick_hz, whiskers, listener.transpose()?);
+    let shared = Arc::new(Mutex::new(Shared {
+        history,
+        message: None,
+        has_ended: false,
+    }));
+    let pictures = arguments
+        .frames
+        .map(|frames| f64::from(frames) / PICTURES_HZ);
+    let hearing = Hearing {
+        module,
+        files,
+        shared: shared.clone(),
+        wishes,
+        speed: match arguments.frames {
+            Some(_) => None,
+            None => arguments.speed.or(arguments.source.pace()),
+        },
+        most_s: pictures.or(arguments.seconds),
+    };
+    let about = About {
+        title,
+        origin,
+        save: arguments.save.clone(),
+    };
+    Ok((hearing, Ready { shared, about }))
+}

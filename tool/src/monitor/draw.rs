@@ -1,0 +1,113 @@
+//! The window: what is shown, as characters. Nothing is told by colour alone.
+
+mod charts;
+mod panes;
+mod theme;
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Modifier, Style};
+use ratatui::text::Line;
+use ratatui::widgets::{Block, Clear, Paragraph};
+
+use super::shown::Shown;
+use super::view::KEYS;
+pub(crate) use theme::Theme;
+use theme::bold;
+
+/// A window this narrow, or low, has no room for the panes beside the charts, or for charts.
+const WIDE: u16 = 68;
+const HIGH: u16 = 14;
+
+/// Where everything is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Places {
+    head: Rect,
+    states: Rect,
+    charts: Rect,
+    side: Rect,
+    foot: Rect,
+}
+
+fn places(area: Rect, whiskers: u16) -> Places {
+    let [head, states, body, foot] = Layout::vertical([
+        Constraint::Length(1),
+        Constraint::Length(whiskers),
+        Constraint::Min(0),
+        Constraint::Length(1),
+    ])
+    .areas(area);
+    let side = match (area.width >= WIDE, area.height >= HIGH) {
+        (true, _) => (body.width * 2 / 5).clamp(34, 60),
+        // Charts alone, or the panes alone.
+        (false, true) => 0,
+        (false, false) => body.width,
+    };
+    let [charts, side] =
+        Layout::horizontal([Constraint::Min(0), Constraint::Length(side)]).areas(body);
+    Places {
+        head,
+        states,
+        charts,
+        side,
+        foot,
+    }
+}
+
+/// Draws the whole window.
+pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
+    let area = frame.area();
+    let places = places(area, shown.whiskers.len() as u16);
+    frame.render_widget(head(shown, places.head.width), places.head);
+    panes::states(frame, places.states, shown, theme);
+    charts::charts(frame, places.charts, shown, theme);
+    panes::panes(frame, places.side, shown, theme);
+    let foot = if shown.message.is_empty() {
+        "x stop  a arm  p pause  Tab side  +- time  s save  q end  ^C stop, end  ? help"
+    } else {
+        &shown.message
+    };
+    frame.render_widget(Line::from(foot).style(bold()), places.foot);
+    if shown.has_help {
+        help(frame, area);
+    }
+}
+
+fn head(shown: &Shown, width: u16) -> Line<'static> {
+    let state = match shown.behind_s {
+        Some(behind_s) => format!("PAUSED, {behind_s:.1} s behind"),
+        None => "live".to_owned(),
+    };
+    let right = format!("{:.2} s  {state}", shown.to_s);
+    let room = usize::from(width).saturating_sub(right.len() + 1);
+    let title: String = shown.title.chars().take(room).collect();
+    Line::from(format!("{title:room$} {right}"))
+        .style(Style::new().add_modifier(Modifier::REVERSED))
+}
+
+fn help(frame: &mut Frame<'_>, area: Rect) {
+    let width = KEYS
+        .iter()
+        .map(|(key, does)| key.len().max(19) + does.len() + 5)
+        .max();
+    let width = (width.unwrap_or(0) as u16).min(area.width);
+    let height = (KEYS.len() as u16 + 2).min(area.height);
+    let place = Rect {
+        x: area.x + (area.width - width) / 2,
+        y: area.y + (area.height - height) / 2,
+        width,
+        height,
+    };
+    let lines: Vec<Line<'_>> = KEYS
+        .iter()
+        .map(|(key, does)| Line::from(format!(" {key:19} {does}")))
+        .collect();
+    frame.render_widget(Clear, place);
+    frame.render_widget(
+        Paragraph::new(lines).block(Block::bordered().title(" keys ")),
+        place,
+    );
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,195 @@
+//! What is told in words and bars beside the charts.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Paragraph, Wrap};
+use wire::Flags;
+
+use super::super::shown::{STATES, Shown, Whisker};
+use super::theme::{Theme, bold};
+
+/// The state of each whisker, a line each: what is so stands in capitals.
+pub(super) fn states(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+    let lines: Vec<Line<'_>> = shown
+        .whiskers
+        .iter()
+        .map(|whisker| state(whisker, theme))
+        .collect();
+    frame.render_widget(Paragraph::new(lines), area);
+}
+
+fn state(whisker: &Whisker, theme: Theme) -> Line<'static> {
+    let mut spans = vec![Span::raw(format!("{:5}", whisker.side))];
+    let Some(record) = &whisker.record else {
+        spans.push(Span::raw(" no record yet"));
+        return Line::from(spans);
+    };
+    for (name, flag) in STATES {
+        let is_so = record.flags.contains(flag);
+        let text = if is_so {
+            format!(" [{}]", name.to_uppercase())
+        } else {
+            format!("  {name} ")
+        };
+        let is_bad = is_so == (flag != Flags::VALID) && matches!(name, "resting" | "valid");
+        let style = match (is_so, is_bad) {
+            (_, true) => theme.style(Color::Red).add_modifier(Modifier::BOLD),
+            (true, _) => theme.style(Color::Green).add_modifier(Modifier::BOLD),
+            (false, _) => Style::new().add_modifier(Modifier::DIM),
+        };
+        spans.push(Span::styled(text, style));
+    }
+    Line::from(spans)
+}
+
+/// All panes, one below the other.
+pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+    if area.width < 10 || area.height < 3 {
+        return;
+    }
+    let bars: usize = shown
+        .whiskers
+        .iter()
+        .map(|whisker| whisker.posteriors.len())
+        .sum();
+    let sure = (bars + shown.classifying.len() + 2) as u16;
+    let load = shown.load.len() as u16 + 2;
+    let [sure, rest] = Layout::vertical([Constraint::Max(sure), Constraint::Min(0)]).areas(area);
+    posteriors(frame, sure, shown, theme);
+    let faults = if shown.faults.is_empty() {
+        3
+    } else {
+        (rest.height / 2).max(3)
+    };
+    let [events, faults, load] = Layout::vertical([
+        Constraint::Min(3),
+        Constraint::Max(faults),
+        Constraint::Max(load),
+    ])
+    .areas(rest);
+    told(frame, events, shown);
+    faults_pane(frame, faults, shown, theme);
+    let lines: Vec<Line<'_>> = shown
+        .load
+        .iter()
+        .map(|line| Line::from(line.as_str()))
+        .collect();
+    pane(
+        frame,
+        load,
+        " ticks and records ".to_owned(),
+        Paragraph::new(lines),
+    );
+}
+
+fn pane(frame: &mut Frame<'_>, area: Rect, title: String, text: Paragraph<'_>) {
+    frame.render_widget(text.block(Block::bordered().title(title)), area);
+}
+
+/// A bar a class.
+fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+    let width = usize::from(area.width.saturating_sub(2));
+    let longest = shown
+        .whiskers
+        .iter()
+        .flat_map(|whisker| &whisker.posteriors)
+        .map(|(name, _)| name.chars().count())
+        .max();
+    let name_width = longest.unwrap_or(0).min(width / 3);
+    let room = width.saturating_sub(name_width + 9);
+    let mut lines = Vec::new();
+    for whisker in &shown.whiskers {
+        let mark = if shown.whiskers.len() > 1 {
+            &whisker.side[..1]
+        } else {
+            ""
+        };
+        for (name, posterior) in &whisker.posteriors {
+            let name: String = name.chars().take(name_width).collect();
+            let bar = bar(*posterior, room.saturating_sub(mark.len()));
+            let percent = 100.0 * posterior;
+            lines.push(Line::from(vec![
+                Span::raw(format!("{mark}{name:name_width$} ")),
+                Span::styled(bar, theme.style(Color::Green)),
+                Span::raw(format!(" {percent:5.1}%")),
+            ]));
+        }
+    }
+    lines.extend(
+        shown
+            .classifying
+            .iter()
+            .map(|line| Line::from(line.as_str())),
+    );
+    pane(frame, area, " posterior ".to_owned(), Paragraph::new(lines));
+}
+
+/// A bar of `room` characters for 1, in eighths of one.
+fn bar(share: f32, room: usize) -> String {
+    const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
+    let eighths = (share.clamp(0.0, 1.0) * room as f32 * 8.0).round() as usize;
+    let bar = format!("{}{}", "█".repeat(eighths / 8), EIGHTHS[eighths % 8]);
+    format!("{bar:room$}")
+}
+
+/// The newest at the bottom.
+fn told(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
+    let room = usize::from(area.height.saturating_sub(2));
+    let old = shown.events.len().saturating_sub(room);
+    let lines: Vec<Line<'_>> = shown.events[old..]
+        .iter()
+        .map(|line| {
+            // Decisions have a percentage, touches none.
+            let style = if line.contains('%') {
+                bold()
+            } else {
+                Style::new()
+            };
+            Line::from(line.as_str()).style(style)
+        })
+        .collect();
+    pane(
+        frame,
+        area,
+        " touches and decisions ".to_owned(),
+        Paragraph::new(lines),
+    );
+}
+
+fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+    let mut lines = Vec::new();
+    for fault in &shown.faults {
+        let style = theme.style(Color::Red).add_modifier(Modifier::BOLD);
+        lines.push(Line::from(fault.what.as_str()).style(style));
+        lines.push(Line::from(format!("cause? {}", fault.cause)));
+        lines.push(Line::from(format!("check: {}", fault.remedy)));
+    }
+    if lines.is_empty() {
+        lines.push(Line::from("none"));
+    }
+    let title = format!(" faults: {} ", shown.fault_count);
+    pane(
+        frame,
+        area,
+        title,
+        Paragraph::new(lines).wrap(Wrap { trim: true }),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bar;
+
+    #[test]
+    fn a_bar_is_as_long_as_its_share() {
+        assert_eq!(bar(0.0, 4), "    ");
+        assert_eq!(bar(0.5, 4), "██  ");
+        assert_eq!(bar(0.28125, 4), "█▏  ");
+        assert_eq!(bar(1.0, 4), "████");
+        assert_eq!(bar(7.0, 2), "██");
+        assert_eq!(bar(f32::NAN, 2), "  ");
+        assert_eq!(bar(0.5, 0), "");
+    }
+}

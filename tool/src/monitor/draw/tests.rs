@@ -1,0 +1,158 @@
+//! The window at all sizes, without a terminal.
+
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::style::Color;
+use wire::{Flags, Packet, TickRecord};
+
+use super::{Theme, draw};
+use crate::monitor::history::History;
+use crate::monitor::shown::Shown;
+use crate::monitor::svg::{svg, text};
+use crate::monitor::view::{Key, View};
+use crate::source::Heard;
+
+const PLAIN: Theme = Theme { colours: false };
+
+fn history() -> History {
+    let mut history = History::new(1000, 2, None);
+    for sequence in 1..=6000_u32 {
+        let wave = (f64::from(sequence) / 200.0).sin();
+        for flags in [Flags::ARMED | Flags::VALID | Flags::TOUCHING, Flags::RIGHT] {
+            let record = TickRecord {
+                sequence,
+                flags,
+                x: 32_768 + (3000.0 * wave) as u16,
+                y: 32_768,
+                setpoint: (4000.0 * wave) as i16,
+                measured: (3900.0 * wave) as i16,
+                ..TickRecord::default()
+            };
+            history.take(&Heard {
+                packets: vec![Packet::Record(record)],
+                lines: Vec::new(),
+            });
+        }
+    }
+    history.take(&Heard {
+        packets: Vec::new(),
+        lines: [
+            "5.500 INFO  touch 3",
+            "5.900 INFO  decision: carpet, posterior 99.5000 %, 640 samples",
+            "5.950 ERROR left 0: fault 6, driven but not moving (blocked?)",
+            "6.000 INFO  longest tick 43.5 us of 500; missed 0, events dropped 0",
+        ]
+        .map(str::to_owned)
+        .into(),
+    });
+    history
+}
+
+fn drawn(shown: &Shown, theme: Theme, width: u16, height: u16) -> ratatui::buffer::Buffer {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    terminal.draw(|frame| draw(frame, shown, theme)).unwrap();
+    terminal.backend().buffer().clone()
+}
+
+#[test]
+fn all_is_there_in_the_smallest_usual_window() {
+    let shown = history().shown(&View::new(), "bench, simulated", String::new());
+    let buffer = drawn(&shown, PLAIN, 80, 24);
+    let text = text(&buffer);
+    for word in [
+        "bench, simulated",
+        "6.00 s  live",
+        "[ARMED]",
+        "[TOUCHING]",
+        "  running ",
+        "measured",
+        "setpoint",
+        "contact",
+        "duty",
+        "no model: --model",
+        "touch 3",
+        "carpet 99.50 % 640",
+        "fault 6: driven",
+        "longest tick 43.5 us (9 %)",
+        "lost 0",
+        "x stop",
+        "q end",
+    ] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    assert_eq!(text.lines().count(), 24);
+    // The line of the chart.
+    assert!(text.chars().any(|c| ('\u{2801}'..='\u{28FF}').contains(&c)));
+}
+
+#[test]
+fn any_window_can_be_drawn() {
+    let history = history();
+    let mut view = View::new();
+    for press in ['n', '?', 'p'] {
+        view.press(Key::Letter(press), history.extent());
+        view.press(Key::Tab, history.extent());
+        let shown = history.shown(&view, "a title that is longer than some", String::new());
+        for (width, height) in [
+            (1, 1),
+            (2, 3),
+            (10, 4),
+            (40, 10),
+            (67, 13),
+            (68, 14),
+            (200, 60),
+        ] {
+            drawn(&shown, PLAIN, width, height);
+        }
+    }
+}
+
+#[test]
+fn both_whiskers_are_shown_side_by_side() {
+    let history = history();
+    let mut view = View::new();
+    view.press(Key::Tab, history.extent());
+    view.press(Key::Tab, history.extent());
+    let shown = history.shown(&view, "t", String::new());
+    let text = text(&drawn(&shown, PLAIN, 120, 40));
+    assert!(text.contains("\nleft  [ARMED]"), "{text}");
+    assert!(text.contains("\nright  armed"), "{text}");
+    let charts = text.lines().find(|line| line.contains("measured")).unwrap();
+    assert!(
+        charts.contains(" left ") && charts.contains(" right "),
+        "{charts}"
+    );
+}
+
+#[test]
+fn without_colours_there_are_none() {
+    let shown = history().shown(&View::new(), "t", String::new());
+    let has_colour = |theme| {
+        let buffer = drawn(&shown, theme, 100, 30);
+        buffer
+            .content
+            .iter()
+            .any(|cell| cell.fg != Color::Reset || cell.bg != Color::Reset)
+    };
+    assert!(!has_colour(PLAIN));
+    assert!(has_colour(Theme { colours: true }));
+}
+
+#[test]
+fn a_picture_has_every_word_and_dot_of_the_window() {
+    let shown = history().shown(&View::new(), "t < & \"", String::new());
+    let buffer = drawn(&shown, Theme { colours: true }, 100, 30);
+    let picture = svg(&buffer);
+    for word in ["t &lt; &amp;", "[ARMED]", "carpet 99.50 % 640"] {
+        assert!(picture.contains(word), "{word}: {picture}");
+    }
+    let dots: u32 = buffer
+        .content
+        .iter()
+        .filter_map(|cell| cell.symbol().chars().next())
+        .filter(|c| ('\u{2800}'..='\u{28FF}').contains(c))
+        .map(|c| (c as u32 - 0x2800).count_ones())
+        .sum();
+    assert!(dots > 100);
+    assert_eq!(picture.matches("h2v2h-2z").count() as u32, dots);
+}

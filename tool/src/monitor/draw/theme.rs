@@ -1,0 +1,32 @@
+//! How letters look.
+
+use ratatui::style::{Color, Modifier, Style};
+
+/// Colours, or none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Theme {
+    /// Whether there are any.
+    pub(crate) colours: bool,
+}
+
+impl Theme {
+    /// As the environment asks for (<https://no-color.org>).
+    pub(crate) fn of_environment() -> Self {
+        let none = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        Self { colours: !none }
+    }
+
+    /// Letters in this colour.
+    pub(super) fn style(self, colour: Color) -> Style {
+        if self.colours {
+            Style::new().fg(colour)
+        } else {
+            Style::new()
+        }
+    }
+}
+
+/// What is to be seen first.
+pub(super) fn bold() -> Style {
+    Style::new().add_modifier(Modifier::BOLD)
+}

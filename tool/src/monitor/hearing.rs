@@ -1,0 +1,247 @@
+//! Listening to a module, apart from all drawing: what comes is taken, kept and recorded, and
+//! wishes reach the module between two ticks, whatever the window does meanwhile.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use host_sim::Error;
+use wire::{Answer, Command, CommandStatus, Flags, Packet};
+
+use super::history::History;
+use crate::conversation::Conversation;
+use crate::record_file::RecordFile;
+use crate::source::Heard;
+
+/// After how long without an answer the motors are told to stop again, s.
+const AGAIN_S: f64 = 0.1;
+
+/// For how long that is tried, s.
+const PATIENCE_S: f64 = 2.0;
+
+/// For how long a stopped module is listened to, so that what is recorded shows that its motors
+/// are off, s.
+const AFTER_S: f64 = 0.05;
+
+/// How far a simulation may run ahead of its time before it waits.
+const AHEAD: Duration = Duration::from_millis(4);
+
+/// What listening and drawing share.
+pub(crate) struct Shared {
+    pub(crate) history: History,
+    /// What is to be told at the bottom, and the tick by then.
+    pub(crate) message: Option<(u64, String)>,
+    pub(crate) has_ended: bool,
+}
+
+/// Whoever holds it has it whole: no step leaves it half done.
+pub(crate) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What is wanted of whoever listens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wish {
+    Arm,
+    Stop,
+    /// Ends, the module going on.
+    End,
+    /// Stops the motors, and ends.
+    StopAndEnd,
+}
+
+/// Someone who listens.
+pub(crate) struct Hearing {
+    pub(crate) module: Conversation,
+    pub(crate) files: Vec<RecordFile>,
+    pub(crate) shared: Arc<Mutex<Shared>>,
+    pub(crate) wishes: Receiver<Wish>,
+    /// Seconds of the module in a second; none: as fast as it goes.
+    pub(crate) speed: Option<f64>,
+    /// How long to listen, s of the module; none: until it is ended.
+    pub(crate) most_s: Option<f64>,
+}
+
+/// Motors that are to be stopped.
+#[derive(Debug, Default)]
+struct Stopping {
+    /// The tags of the requests.
+    tags: Vec<u16>,
+    /// When the first and the last was sent, s; none: not yet.
+    first_s: Option<f64>,
+    last_s: f64,
+    is_answered: bool,
+}
+
+impl Hearing {
+    /// Listens until it is ended. Whatever ends it but [`Wish::End`] and time stops the motors
+    /// first, and what was recorded until then is kept.
+    pub(crate) fn run(mut self) -> Result<(), Error> {
+        let heard = self.hear();
+        if heard.is_err() {
+            // It may still take a request.
+            let _ = self.module.send(Command::Stop);
+        }
+        let mut done = heard;
+        for file in std::mem::take(&mut self.files) {
+            let finished = file.finish();
+            done = done.and(finished);
+        }
+        lock(&self.shared).has_ended = true;
+        done
+    }
+
+    fn hear(&mut self) -> Result<(), Error> {
+        let begun_s = self.module.source().now_s();
+        let mut pace = Pace::new(self.speed, begun_s);
+        let mut stopping: Option<Stopping> = None;
+        let mut ends_at_s: Option<f64> = None;
+        let mut is_ending = false;
+        loop {
+            let now_s = self.module.source().now_s();
+            let wish = match pace.ahead(now_s) {
+                // Waits for what is wanted, not for time alone.
+                Some(ahead) => match self.wishes.recv_timeout(ahead) {
+                    Ok(wish) => Some(wish),
+                    Err(RecvTimeoutError::Timeout) => None,
+                    Err(RecvTimeoutError::Disconnected) => Some(Wish::StopAndEnd),
+                },
+                None => match self.wishes.try_recv() {
+                    Ok(wish) => Some(wish),
+                    Err(TryRecvError::Empty) => None,
+                    Err(TryRecvError::Disconnected) => Some(Wish::StopAndEnd),
+                },
+            };
+            match wish {
+                Some(Wish::End) => return Ok(()),
+                Some(Wish::StopAndEnd) if !is_ending => {
+                    is_ending = true;
+                    stopping = Some(Stopping::default());
+                }
+                Some(Wish::Stop) if !is_ending => stopping = Some(Stopping::default()),
+                // What is being stopped is not armed.
+                Some(Wish::Arm) if stopping.is_none() => {
+                    self.module.send(Command::Arm)?;
+                }
+                _ => {}
+            }
+            if let Some(stopping) = &mut stopping {
+                self.stop(stopping, now_s)?;
+            }
+
+            let heard = self.module.hear()?;
+            let answers = self.take(&heard)?;
+            for answer in &answers {
+                self.tell(answer);
+                if let Some(stopping) = &mut stopping {
+                    stopping.is_answered |= stopping.tags.contains(&answer.tag);
+                }
+            }
+            let now_s = self.module.source().now_s();
+            if stopping
+                .as_ref()
+                .is_some_and(|stopping| stopping.is_answered)
+            {
+                stopping = None;
+                if is_ending {
+                    ends_at_s = Some(now_s + AFTER_S);
+                }
+            }
+            let is_off = ends_at_s.is_some() && is_unarmed(&heard);
+            if is_off || ends_at_s.is_some_and(|end_s| now_s >= end_s) {
+                return Ok(());
+            }
+            if !is_ending && self.most_s.is_some_and(|most_s| now_s - begun_s >= most_s) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Tells the module to stop, again and again until it has answered.
+    fn stop(&mut self, stopping: &mut Stopping, now_s: f64) -> Result<(), Error> {
+        let first_s = *stopping.first_s.get_or_insert(now_s);
+        let is_due = stopping.tags.is_empty() || now_s - stopping.last_s >= AGAIN_S;
+        if !is_due {
+            return Ok(());
+        }
+        let waited = now_s - first_s >= PATIENCE_S;
+        match self.module.send(Command::Stop) {
+            Ok(tag) if !waited => {
+                stopping.tags.push(tag);
+                stopping.last_s = now_s;
+                Ok(())
+            }
+            Err(_) if !waited => Ok(()),
+            _ => Err(Error::Work(format!(
+                "the module has not answered in {PATIENCE_S} s that its motors are stopped: \
+                 switch their supply off"
+            ))),
+        }
+    }
+
+    fn take(&mut self, heard: &Heard) -> Result<Vec<Answer>, Error> {
+        let answers = lock(&self.shared).history.take(heard);
+        for file in &mut self.files {
+            file.packets(&heard.packets)?;
+            for line in &heard.lines {
+                file.line(line)?;
+            }
+        }
+        Ok(answers)
+    }
+
+    fn tell(&self, answer: &Answer) {
+        let name = match answer.command {
+            number if number == Command::Arm.number() => "arm",
+            number if number == Command::Stop.number() => "stop",
+            _ => return,
+        };
+        let mut shared = lock(&self.shared);
+        let now = shared.history.now();
+        let status = match answer.status {
+            CommandStatus::Done => "done".to_owned(),
+            status => status.to_string(),
+        };
+        shared.message = Some((now, format!("{name}: {status}")));
+    }
+}
+
+/// Whether records have come, none of which is of an armed module.
+fn is_unarmed(heard: &Heard) -> bool {
+    let mut flags = heard.packets.iter().filter_map(|packet| match packet {
+        Packet::Record(record) => Some(record.flags),
+        Packet::Answer(_) => None,
+    });
+    let first = flags.next();
+    first.is_some_and(|first| {
+        !first.contains(Flags::ARMED) && !flags.any(|of| of.contains(Flags::ARMED))
+    })
+}
+
+/// Keeps a simulation to its time.
+struct Pace {
+    speed: Option<f64>,
+    since: Instant,
+    since_s: f64,
+}
+
+impl Pace {
+    fn new(speed: Option<f64>, now_s: f64) -> Self {
+        Self {
+            speed,
+            since: Instant::now(),
+            since_s: now_s,
+        }
+    }
+
+    /// For how long to wait at a time of the module.
+    fn ahead(&mut self, now_s: f64) -> Option<Duration> {
+        let due = Duration::try_from_secs_f64((now_s - self.since_s) / self.speed?).ok()?;
+        let passed = self.since.elapsed();
+        if passed > due + Duration::from_millis(500) {
+            // A PC that cannot keep up does not hurry afterwards.
+            (self.since, self.since_s) = (Instant::now(), now_s);
+        }
+        due.checked_sub(passed).filter(|ahead| *ahead > AHEAD)
+    }
+}

@@ -1,0 +1,304 @@
+//! What a module has told in the last minutes.
+
+use std::collections::{VecDeque, vec_deque};
+
+use wire::{Answer, Flags, Packet, TickRecord};
+
+use super::faults::{Fault, fault};
+use super::listener::{Decided, Listener};
+use crate::log_line::{Health, LogLine, News};
+use crate::source::Heard;
+use crate::tally::{Before, SIDES, Tally, TickCount, side};
+
+/// For how long records are held, s.
+pub(crate) const HELD_S: u32 = 300;
+
+/// How many lines of the log are held.
+const LINES: usize = 4000;
+
+/// How often the classifier's posteriors are kept in a second.
+const BELIEFS_HZ: u32 = 20;
+
+/// A record, and the tick that it is of: counted on where the module starts again.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Entry {
+    pub(crate) ticks: u64,
+    pub(crate) record: TickRecord,
+}
+
+/// How sure the PC's classifier was of each class after a tick.
+#[derive(Debug, Clone)]
+pub(crate) struct Belief {
+    pub(crate) ticks: u64,
+    pub(crate) posteriors: Vec<f32>,
+}
+
+/// Something that was said, and the tick by then.
+#[derive(Debug, Clone)]
+pub(crate) struct Said<T> {
+    pub(crate) ticks: u64,
+    pub(crate) what: T,
+}
+
+/// What has come from a module.
+pub(crate) struct History {
+    pub(crate) tick_hz: u32,
+    /// How many of its whiskers are watched: 1, or one a side.
+    pub(crate) whiskers: usize,
+    pub(crate) tally: Tally,
+    pub(crate) sides: [VecDeque<Entry>; 2],
+    pub(crate) lines: VecDeque<Said<String>>,
+    /// Touches and decisions, as they are shown, and faults.
+    pub(crate) events: VecDeque<Said<String>>,
+    pub(crate) faults: VecDeque<Said<Fault>>,
+    pub(crate) beliefs: [VecDeque<Belief>; 2],
+    /// What the PC decided last for each side.
+    pub(crate) decided: [VecDeque<Said<Decided>>; 2],
+    pub(crate) health: Option<Health>,
+    /// Ticks in which the module decided, and in how many of them so did the PC.
+    pub(crate) agreed: [u64; 2],
+    /// When the PC's classifier has started anew, and why.
+    pub(crate) anew: Option<Said<&'static str>>,
+    listener: Option<Listener>,
+    ticks: TickCount,
+    /// Whether module and PC have decided in the tick that is being heard of.
+    deciding: [bool; 2],
+    last_belief: u64,
+}
+
+impl History {
+    /// Nothing yet, of a module with so many whiskers.
+    pub(crate) fn new(tick_hz: u32, whiskers: usize, listener: Option<Listener>) -> Self {
+        Self {
+            tick_hz,
+            whiskers: whiskers.clamp(1, 2),
+            tally: Tally::default(),
+            sides: [VecDeque::new(), VecDeque::new()],
+            lines: VecDeque::new(),
+            events: VecDeque::new(),
+            faults: VecDeque::new(),
+            beliefs: [VecDeque::new(), VecDeque::new()],
+            decided: [VecDeque::new(), VecDeque::new()],
+            health: None,
+            agreed: [0; 2],
+            anew: None,
+            listener,
+            ticks: TickCount::default(),
+            deciding: [false; 2],
+            last_belief: 0,
+        }
+    }
+
+    /// The last tick that was heard of.
+    pub(crate) const fn now(&self) -> u64 {
+        self.ticks.now()
+    }
+
+    /// The first tick that is still held.
+    pub(crate) fn oldest(&self) -> u64 {
+        let firsts = self.sides.iter().filter_map(VecDeque::front);
+        firsts.map(|entry| entry.ticks).min().unwrap_or(0)
+    }
+
+    /// A time in seconds as ticks.
+    pub(crate) fn ticks_of(&self, seconds: f64) -> u64 {
+        (seconds * f64::from(self.tick_hz)) as u64
+    }
+
+    /// The names of the PC's classes; none without a model.
+    pub(crate) fn classes(&self) -> &[String] {
+        self.listener.as_ref().map_or(&[], Listener::classes)
+    }
+
+    /// Takes what has come; returns the answers among it.
+    pub(crate) fn take(&mut self, heard: &Heard) -> Vec<Answer> {
+        let mut answers = Vec::new();
+        for packet in &heard.packets {
+            match packet {
+                Packet::Record(record) => self.record(record),
+                Packet::Answer(answer) => answers.push(*answer),
+            }
+        }
+        for line in &heard.lines {
+            self.line(line);
+        }
+        answers
+    }
+
+    fn record(&mut self, record: &TickRecord) {
+        let last = self.now();
+        let before = self.tally.take(record);
+        let ticks = self.ticks.take(record.sequence);
+        if ticks != last {
+            let [module, here] = std::mem::take(&mut self.deciding);
+            self.agreed[0] += u64::from(module);
+            self.agreed[1] += u64::from(module && here);
+        }
+        let side = side(record);
+        let entries = &mut self.sides[side];
+        entries.push_back(Entry {
+            ticks,
+            record: *record,
+        });
+        let held = u64::from(HELD_S) * u64::from(self.tick_hz);
+        while entries
+            .front()
+            .is_some_and(|first| first.ticks + held < ticks)
+        {
+            entries.pop_front();
+        }
+        self.listen(record, before, ticks);
+    }
+
+    fn listen(&mut self, record: &TickRecord, before: Before, ticks: u64) {
+        let Some(listener) = &mut self.listener else {
+            return;
+        };
+        let why = match before {
+            Before::Nothing => None,
+            Before::Lost(_) => Some("records were lost"),
+            Before::Restart => Some("the module started again"),
+        };
+        if let Some(what) = why {
+            self.anew = Some(Said { ticks, what });
+        }
+        self.deciding[0] |= record.flags.contains(Flags::DECIDED);
+        let decided = listener.take(record, before);
+        self.deciding[1] |= !decided.is_empty();
+        let is_due = ticks >= self.last_belief + u64::from((self.tick_hz / BELIEFS_HZ).max(1));
+        if is_due || !decided.is_empty() {
+            self.last_belief = ticks;
+            for (side, beliefs) in self.beliefs.iter_mut().enumerate().take(self.whiskers) {
+                let posteriors = listener.posteriors(side);
+                beliefs.push_back(Belief { ticks, posteriors });
+                bound(beliefs, (HELD_S * BELIEFS_HZ) as usize);
+            }
+        }
+        for decided in decided {
+            let decisions = &mut self.decided[decided.side.min(1)];
+            decisions.push_back(Said {
+                ticks,
+                what: decided,
+            });
+            bound(decisions, LINES);
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        let ticks = self.now();
+        let told = LogLine::of(line);
+        let t_s = told.t_s.unwrap_or(ticks as f64 / f64::from(self.tick_hz));
+        let side = told.side.map(|side| SIDES[usize::from(side)]);
+        let of = side.map_or(String::new(), |side| format!("{side} "));
+        let event = match told.news {
+            News::Touch(number) => Some(format!("{t_s:8.3} {of}touch {number}")),
+            News::TouchEnd(number) => Some(format!("{t_s:8.3} {of}  {number} ends")),
+            News::Decision {
+                class,
+                posterior,
+                samples,
+            } => {
+                let percent = 100.0 * posterior;
+                Some(format!("{t_s:8.3} {of}{class} {percent:.2} % {samples}"))
+            }
+            News::Fault(number) => {
+                let what = fault(number, &format!("{t_s:.3} {of}"), told.text);
+                self.faults.push_back(Said { ticks, what });
+                bound(&mut self.faults, LINES);
+                None
+            }
+            News::Health(health) => {
+                self.health = Some(health);
+                None
+            }
+            News::Other => None,
+        };
+        if let Some(what) = event {
+            self.events.push_back(Said { ticks, what });
+            bound(&mut self.events, LINES);
+        }
+        let what = line.to_owned();
+        self.lines.push_back(Said { ticks, what });
+        bound(&mut self.lines, LINES);
+    }
+
+    /// What is held of a side from `from` on, up to and with `to`.
+    pub(crate) fn between(
+        &self,
+        side: usize,
+        from: u64,
+        to: u64,
+    ) -> impl Iterator<Item = &Entry> + '_ {
+        let entries = &self.sides[side.min(1)];
+        let first = entries.partition_point(|entry| entry.ticks < from);
+        let last = entries.partition_point(|entry| entry.ticks <= to);
+        entries.range(first..last.max(first))
+    }
+}
+
+/// What was said by tick `end`.
+pub(crate) fn until<T>(said: &VecDeque<Said<T>>, end: u64) -> vec_deque::Iter<'_, Said<T>> {
+    let after = said.partition_point(|said| said.ticks <= end);
+    said.range(..after)
+}
+
+/// The last of it.
+pub(crate) fn by<T>(said: &VecDeque<Said<T>>, end: u64) -> Option<&Said<T>> {
+    until(said, end).next_back()
+}
+
+fn bound<T>(all: &mut VecDeque<T>, most: usize) {
+    while all.len() > most {
+        all.pop_front();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{Flags, Packet, TickRecord};
+
+    use super::{HELD_S, History, by};
+    use crate::source::Heard;
+
+    fn heard(sequence: u32, flags: Flags) -> Heard {
+        let record = TickRecord {
+            sequence,
+            flags,
+            ..TickRecord::default()
+        };
+        Heard {
+            packets: vec![Packet::Record(record)],
+            lines: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn minutes_are_held_and_no_more() {
+        let mut history = History::new(10, 2, None);
+        let last = 2 * HELD_S * 10;
+        for sequence in 1..=last {
+            history.take(&heard(sequence, Flags::default()));
+            history.take(&heard(sequence, Flags::RIGHT));
+        }
+        assert_eq!(history.now(), u64::from(last));
+        assert_eq!(history.oldest(), u64::from(last - 10 * HELD_S));
+        let found: Vec<u64> = history.between(1, 5990, 5993).map(|e| e.ticks).collect();
+        assert_eq!(found, [5990, 5991, 5992, 5993]);
+        assert_eq!(history.between(0, 7, 3).count(), 0);
+        assert_eq!(history.between(0, 9000, 8000).count(), 0);
+    }
+
+    #[test]
+    fn lines_have_the_tick_by_which_they_came() {
+        let mut history = History::new(1000, 1, None);
+        let mut next = heard(40, Flags::default());
+        next.lines =
+            vec!["0.040 INFO  longest tick 10.0 us of 1000; missed 3, events dropped 0".into()];
+        history.take(&next);
+        history.take(&heard(50, Flags::default()));
+        assert_eq!(history.health.unwrap().missed, 3);
+        assert_eq!(history.tally.lost, 9);
+        assert!(by(&history.lines, 39).is_none());
+        assert!(by(&history.lines, 40).is_some());
+    }
+}

@@ -1,0 +1,63 @@
+//! What the PC must know of a module to classify as it does.
+
+use std::path::Path;
+
+use host_sim::classifier::Classifier;
+use host_sim::commands::run::Loaded;
+use host_sim::{Error, files};
+use scene::{Deciding, Rule};
+
+/// How sure a classifier must be where no scene says it.
+const THRESHOLD: f64 = 0.99;
+
+/// A classifier, and what it takes for a sample.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub(crate) classifier: Classifier,
+    /// Samples count from this contact, if any is asked for.
+    pub(crate) contact_min: Option<f64>,
+    /// For how long a sensor's words may repeat, s.
+    pub(crate) frozen_s: f64,
+}
+
+impl Known {
+    /// That of a scene, with another model or its own; none without either.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene or a model that is wrong, or that do not fit each other.
+    pub(crate) fn of(scene: Option<&Path>, model: Option<&Path>) -> Result<Option<Self>, Error> {
+        let loaded = scene.map(Loaded::new).transpose()?;
+        let said = loaded.as_ref().and_then(|of| of.scene.classifier.as_ref());
+        let classifier = match (model, &loaded) {
+            (Some(path), _) => {
+                let (_, model) = files::load_model(path)?;
+                let rule = said.map_or(
+                    Rule::Sequential {
+                        threshold: THRESHOLD,
+                    },
+                    |said| said.rule,
+                );
+                let deciding = said.map_or(Deciding::First, |said| said.whiskers);
+                let classifier = Classifier::of(model, rule, deciding);
+                Some(classifier.map_err(|fault| Error::file(path, fault))?)
+            }
+            (None, Some(loaded)) => loaded.classifier()?,
+            (None, None) => None,
+        };
+        let Some(classifier) = classifier else {
+            return Ok(None);
+        };
+        let gate = classifier.touch_rule().map(|touch| touch.gate);
+        let contact_min = match &loaded {
+            Some(loaded) => plan::contact_min(&loaded.scene, gate)
+                .map_err(|fault| Error::Input(fault.to_string()))?,
+            None => gate.map(f64::from),
+        };
+        let frozen_s = loaded.map_or(f64::INFINITY, |loaded| loaded.scene.sensor.frozen_s);
+        Ok(Some(Self {
+            classifier,
+            contact_min,
+            frozen_s,
+        }))
+    }
+}

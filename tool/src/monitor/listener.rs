@@ -1,0 +1,215 @@
+//! The module's classifier on this PC, over the records: a module tells its decisions, and not
+//! how sure it is meanwhile.
+//!
+//! Contact is computed anew from the sensor's words, by the module's own filter: that of a
+//! record has 13 bits, so that now and then a sample near the least contact would count on one
+//! side only, and decisions come apart. Numbers are `f32`, as on a board with an FPU.
+
+use firmware::design_parameters::{Plausible, sensor_limits};
+use firmware::{Classifying, ClassifyingConfig, Event, Perception, Reading, SensorLimits};
+use host_sim::Error;
+use host_sim::classifier::Classifier;
+use host_sim::decisions;
+use mlx90333::Word;
+use whisking::{Real, filter};
+use wire::{Flags, TickRecord};
+
+use super::known::Known;
+use crate::tally::{Before, side};
+
+/// Ticks at a module's start by which a record is asked for, where one listens from the start.
+const UNHEARD: u32 = 100;
+
+type Config = ClassifyingConfig<Option<f32>, ()>;
+
+/// A decision that fell here.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Decided {
+    /// The side of its whisker.
+    pub(crate) side: usize,
+    /// The class, or that it is none.
+    pub(crate) class: String,
+    /// Its posterior, 0 to 1, and the samples that it used.
+    pub(crate) posterior: f64,
+    pub(crate) samples: u32,
+}
+
+/// What is known of one whisker from its records.
+#[derive(Debug, Clone, Copy, Default)]
+struct Ear {
+    filter: filter::State<f32>,
+    words: [u16; 2],
+    /// Frames that have repeated these words in succession.
+    repeats: u16,
+    /// Its motor rested or was homed after the last tick.
+    is_deaf: bool,
+}
+
+impl Ear {
+    /// Contact and reading of a tick, as the module has them.
+    fn hear(
+        &mut self,
+        record: &TickRecord,
+        h50: &filter::Config<f32>,
+        limits: SensorLimits,
+    ) -> (f32, Reading) {
+        let has = |flag| record.flags.contains(flag);
+        let words = [record.x, record.y];
+        if has(Flags::FRESH) {
+            let is_same = std::mem::replace(&mut self.words, words) == words;
+            self.repeats = if is_same {
+                self.repeats.saturating_add(1)
+            } else {
+                0
+            };
+        }
+        let was_deaf =
+            std::mem::replace(&mut self.is_deaf, has(Flags::RESTING) || has(Flags::HOMING));
+        let [x, y] = words.map(Word::new);
+        let reading = Reading {
+            x,
+            y,
+            fresh: has(Flags::FRESH),
+            current: self.repeats <= limits.stale,
+            valid: has(Flags::VALID) && !was_deaf,
+        };
+        if !reading.valid {
+            self.filter = filter::State::default();
+            return (0.0, reading);
+        }
+        let deflection = f32::from_code(x.signed14().max(-8191));
+        (h50.process(&mut self.filter, deflection).abs(), reading)
+    }
+}
+
+/// Classifies what the first whisker of each side feels.
+pub(crate) struct Listener {
+    perception: Option<Classifying<Classifier, 2>>,
+    config: Config,
+    h50: filter::Config<f32>,
+    limits: SensorLimits,
+    ears: [Ear; 2],
+    /// How many whiskers a tick has records of, and those of the tick that have come.
+    whiskers: usize,
+    pending: [Option<TickRecord>; 2],
+    decided: Vec<Decided>,
+    has_begun: bool,
+}
+
+impl Listener {
+    /// By the classifier of a module with so many whiskers.
+    pub(crate) fn new(known: Known, tick_hz: u32, whiskers: usize) -> Result<Self, Error> {
+        let h50 = filter::Config::new(filter::CORNER_HZ, f64::from(tick_hz));
+        let h50 = h50.map_err(|error| Error::Work(format!("{tick_hz} ticks a second: {error}")))?;
+        let plausible = Plausible {
+            frozen_s: known.frozen_s,
+            jump_per_s: f64::INFINITY,
+        };
+        Ok(Self {
+            perception: Some(Classifying::new(known.classifier)),
+            config: ClassifyingConfig {
+                contact_min: known.contact_min.map(|least| least as f32),
+                rule: (),
+            },
+            h50,
+            limits: sensor_limits(tick_hz, plausible),
+            ears: [Ear::default(); 2],
+            whiskers: whiskers.clamp(1, 2),
+            pending: [None; 2],
+            decided: Vec::new(),
+            has_begun: false,
+        })
+    }
+
+    /// The names of its classes.
+    pub(crate) fn classes(&self) -> &[String] {
+        let perception = self.perception.as_ref();
+        perception.map_or(&[], |perception| perception.classifier().classes())
+    }
+
+    /// The posterior of each class for a side's whisker.
+    pub(crate) fn posteriors(&self, side: usize) -> Vec<f32> {
+        let Some(perception) = &self.perception else {
+            return Vec::new();
+        };
+        let posteriors = perception.classifier().posteriors_of(side);
+        posteriors.to_f64().map(|p| p as f32).collect()
+    }
+
+    /// Takes a record and what is before it; after records that were lost, or another start of
+    /// the module, it starts anew. Returns what was decided in its tick.
+    pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<Decided> {
+        if before != Before::Nothing {
+            self.perception = self.perception.take().map(Classifying::restarted);
+            self.pending = [None; 2];
+            self.ears = [Ear::default(); 2];
+        }
+        if !std::mem::replace(&mut self.has_begun, true) && record.sequence <= UNHEARD {
+            self.catch_up(record.sequence);
+        }
+        let other = self.pending[1 - side(record)];
+        if other.is_some_and(|other| other.sequence != record.sequence) {
+            // The first tick that is heard may be heard of in part.
+            self.pending = [None; 2];
+        }
+        self.pending[side(record)] = Some(*record);
+        match (self.whiskers, self.pending) {
+            (1, _) => {
+                self.pending = [None; 2];
+                self.step([record]);
+            }
+            (_, [Some(left), Some(right)]) => {
+                self.pending = [None; 2];
+                self.step([&left, &right]);
+            }
+            _ => {}
+        }
+        std::mem::take(&mut self.decided)
+    }
+
+    /// Before a record could be asked for there were ticks: all were at rest, or nearly.
+    fn catch_up(&mut self, sequence: u32) {
+        let rest = |flags| TickRecord {
+            x: Word::MID.raw(),
+            y: Word::MID.raw(),
+            flags: flags | Flags::VALID,
+            ..TickRecord::default()
+        };
+        let (left, right) = (rest(Flags::default()), rest(Flags::RIGHT));
+        for _ in 1..sequence {
+            if self.whiskers == 1 {
+                self.step([&left]);
+            } else {
+                self.step([&left, &right]);
+            }
+        }
+    }
+
+    /// One tick.
+    fn step<const S: usize>(&mut self, records: [&TickRecord; S]) {
+        let Some(perception) = &mut self.perception else {
+            return;
+        };
+        let heard: [(f32, Reading); S] =
+            std::array::from_fn(|n| self.ears[n].hear(records[n], &self.h50, self.limits));
+        let contact = heard.map(|(contact, _)| [contact]);
+        let readings = heard.map(|(_, reading)| [reading]);
+        let mut fell = Vec::new();
+        perception.step(&self.config, &contact, &readings, &mut |event| {
+            if let Event::Decision(place, decision) = event {
+                fell.push((place, decision));
+            }
+        });
+        let classes = perception.classifier().classes();
+        let heard = fell.into_iter().map(|(place, decision)| Decided {
+            side: usize::from(place.side),
+            class: decisions::name(decision, classes).to_owned(),
+            posterior: decision.posterior().to_f64(),
+            samples: decision.samples(),
+        });
+        self.decided.extend(heard);
+    }
+}
+
+#[cfg(test)]
+mod tests;

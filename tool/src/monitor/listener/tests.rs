@@ -1,0 +1,134 @@
+//! The PC's decisions beside the module's own.
+
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+use wire::{Command, Packet, TickRecord};
+
+use super::{Decided, Listener};
+use crate::conversation::Conversation;
+use crate::log_line::{LogLine, News};
+use crate::monitor::known::Known;
+use crate::source::SourceChoice;
+use crate::tally::Tally;
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    source: SourceChoice,
+}
+
+/// What was decided: tick, side, class, posterior in millionths, samples.
+type Told = (u32, usize, String, i64, u32);
+
+/// Listens so long to a module that is told as `how` says; `drops` says which records get lost.
+/// Returns what the PC decided, and what the module logged.
+fn listened(
+    how: &str,
+    scene: &Path,
+    seed: &str,
+    seconds: f64,
+    drops: fn(&TickRecord) -> bool,
+) -> [Vec<Told>; 2] {
+    let words = ["x", how, scene.to_str().unwrap(), "--seed", seed];
+    let Line { source } = Line::parse_from(words);
+    let known = Known::of(Some(scene), None).unwrap().unwrap();
+    let mut module = Conversation::new(source.open(0).unwrap());
+    module.ask(Command::Stream(true)).unwrap();
+    let [tick_hz, whiskers] = module.ask(Command::Hello).unwrap().values;
+    let mut listener = Listener::new(known, tick_hz as u32, whiskers as usize).unwrap();
+    let mut tally = Tally::default();
+    let (mut own, mut told) = (Vec::new(), Vec::new());
+    let mut last = 0;
+    while module.source().now_s() < seconds {
+        let heard = module.hear().unwrap();
+        for packet in &heard.packets {
+            let Packet::Record(record) = packet else {
+                continue;
+            };
+            last = record.sequence;
+            if drops(record) {
+                continue;
+            }
+            let before = tally.take(record);
+            for decided in listener.take(record, before) {
+                let Decided {
+                    side,
+                    class,
+                    posterior,
+                    samples,
+                } = decided;
+                let millionths = (1e6 * posterior).floor() as i64;
+                own.push((last, side, class, millionths, samples));
+            }
+        }
+        for line in &heard.lines {
+            let line = LogLine::of(line);
+            if let News::Decision {
+                class,
+                posterior,
+                samples,
+            } = line.news
+            {
+                let side = usize::from(line.side.unwrap_or(0));
+                let millionths = (1e6 * posterior).round() as i64;
+                told.push((last, side, class.to_owned(), millionths, samples));
+            }
+        }
+    }
+    [own, told]
+}
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"))
+}
+
+/// Ticks and sides apart, in which the log may differ, both say the same: to the last figure
+/// that the log has, which one rounds and the other cuts.
+fn assert_same(own: &[Told], told: &[Told]) {
+    for (own, told) in own.iter().zip(told) {
+        assert_eq!((&own.2, own.4), (&told.2, told.4), "{own:?} {told:?}");
+        assert!((own.3 - told.3).abs() <= 1, "{own:?} {told:?}");
+    }
+    assert!(own.len().abs_diff(told.len()) <= 1);
+}
+
+#[test]
+fn decisions_are_those_of_the_simulated_module() {
+    // Ends of the runs: fewer whisks are in a shorter one.
+    for (name, seed, least) in [
+        ("textures", "1", 200),
+        ("textures", "2", 200),
+        ("both", "1", 300),
+        ("papers", "1", 200),
+        ("whisker", "1", 200),
+    ] {
+        let [own, told] = listened("--sim", &scene(name), seed, 40.0, |_| false);
+        println!("{name}: {} decisions", own.len());
+        assert!(own.len() >= least, "{name}: {}", own.len());
+        assert_same(&own, &told);
+        let ticks = |all: &[Told]| all.iter().map(|told| told.0).collect::<Vec<_>>();
+        assert_eq!(ticks(&own), ticks(&told), "{name}");
+    }
+}
+
+#[test]
+fn decisions_are_those_of_the_emulated_board() {
+    let [own, told] = listened("--emulated", &scene("textures"), "2", 6.0, |_| false);
+    println!("{} decisions", own.len());
+    assert!(own.len() >= 20, "{}", own.len());
+    assert_same(&own, &told);
+}
+
+#[test]
+fn after_lost_records_it_starts_anew() {
+    let drops = |record: &TickRecord| record.sequence == 10_000;
+    let [own, told] = listened("--sim", &scene("textures"), "2", 12.0, drops);
+    let split = |all: &[Told]| all.iter().filter(|told| told.0 < 10_000).count();
+    let (before, told_before) = (split(&own), split(&told));
+    assert_eq!(before, told_before);
+    assert_same(&own[..before], &told[..before]);
+    // What a touch is, is learnt anew for a second.
+    assert!(own[before].0 > 12_000 && told[before].0 < 12_000);
+    assert!(own.len() > before + 10, "{}", own.len());
+}

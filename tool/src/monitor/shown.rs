@@ -1,0 +1,232 @@
+//! What is drawn, taken from the history at once, so that nothing is drawn while it is held.
+
+use wire::{Flags, TickRecord, degrees, unit};
+
+use super::faults::Fault;
+use super::history::{History, by, until};
+use super::view::{Extent, View};
+use crate::tally::SIDES;
+
+/// In how many parts a curve is drawn.
+const PARTS: usize = 160;
+
+/// Lines that a pane may have room for.
+const MOST_LINES: usize = 60;
+
+/// Faults, alike.
+const MOST_FAULTS: usize = 8;
+
+/// Signals of a whisker, in the order of [`signals`].
+pub(crate) const SIGNALS: usize = 7;
+
+/// What there is to draw.
+#[derive(Debug, Clone)]
+pub(crate) struct Shown {
+    /// Which module.
+    pub(crate) title: String,
+    /// The time that is shown, s.
+    pub(crate) from_s: f64,
+    pub(crate) to_s: f64,
+    /// How far the picture is behind what comes, s; none: it is not held.
+    pub(crate) behind_s: Option<f64>,
+    pub(crate) has_help: bool,
+    pub(crate) whiskers: Vec<Whisker>,
+    /// Touches and decisions, the newest last.
+    pub(crate) events: Vec<String>,
+    /// Faults, the newest first, and how many there were.
+    pub(crate) faults: Vec<Fault>,
+    pub(crate) fault_count: usize,
+    /// How the ticks keep their time, and what was lost.
+    pub(crate) load: Vec<String>,
+    /// Where the PC's classifier stands.
+    pub(crate) classifying: Vec<String>,
+    /// What is to be told at the bottom.
+    pub(crate) message: String,
+}
+
+/// A whisker that is shown.
+#[derive(Debug, Clone)]
+pub(crate) struct Whisker {
+    pub(crate) side: &'static str,
+    /// The last record that is shown.
+    pub(crate) record: Option<TickRecord>,
+    /// Least and most of each signal in each part of the time: s, value.
+    pub(crate) curves: [Vec<(f64, f64)>; SIGNALS],
+    /// The PC's posterior of each class.
+    pub(crate) posteriors: Vec<(String, f32)>,
+}
+
+/// Setpoint and measured angle, degrees; x and y, codes; contact, z, duty.
+pub(crate) fn signals(record: &TickRecord) -> [f64; SIGNALS] {
+    let [x, y] = record.codes().map(f64::from);
+    let [setpoint, measured] = [record.setpoint, record.measured]
+        .map(degrees)
+        .map(f64::from);
+    let [contact, z] = [record.contact, record.z].map(unit).map(f64::from);
+    [
+        setpoint,
+        measured,
+        x,
+        y,
+        contact,
+        z,
+        f64::from(record.duty) / 32767.0,
+    ]
+}
+
+impl History {
+    /// What there is to look at.
+    pub(crate) fn extent(&self) -> Extent {
+        Extent {
+            oldest: self.oldest(),
+            now: self.now(),
+            tick_hz: self.tick_hz,
+            whiskers: self.whiskers,
+        }
+    }
+
+    /// What `view` shows of it.
+    pub(crate) fn shown(&self, view: &View, title: &str, message: String) -> Shown {
+        let hz = f64::from(self.tick_hz);
+        let extent = self.extent();
+        let end = view.end(extent);
+        let from = end.saturating_sub(self.ticks_of(view.span_s()));
+        let events = until(&self.events, end);
+        let old = events.len().saturating_sub(MOST_LINES);
+        let faults = until(&self.faults, end);
+        Shown {
+            title: title.to_owned(),
+            from_s: end as f64 / hz - view.span_s(),
+            to_s: end as f64 / hz,
+            behind_s: view.held.map(|_| (self.now() - end) as f64 / hz),
+            has_help: view.has_help,
+            whiskers: view
+                .sides()
+                .iter()
+                .map(|side| self.whisker(*side, from, end))
+                .collect(),
+            events: events.skip(old).map(|said| said.what.clone()).collect(),
+            fault_count: faults.len(),
+            faults: faults
+                .rev()
+                .take(MOST_FAULTS)
+                .map(|said| said.what.clone())
+                .collect(),
+            load: self.load(),
+            classifying: self.classifying(view, end),
+            message,
+        }
+    }
+
+    fn whisker(&self, side: usize, from: u64, end: u64) -> Whisker {
+        let hz = f64::from(self.tick_hz);
+        let mut curves: [Vec<(f64, f64)>; SIGNALS] = Default::default();
+        let part = ((end - from) / PARTS as u64).max(1);
+        let mut of_part = None;
+        let mut ends = [[0.0; 2]; SIGNALS];
+        let mut put = |at: u64, ends: &[[f64; 2]; SIGNALS]| {
+            let at_s = (at as f64 + 0.5) * part as f64 / hz;
+            for (curve, [least, most]) in curves.iter_mut().zip(ends) {
+                curve.push((at_s, *least));
+                curve.push((at_s, *most));
+            }
+        };
+        let mut last = None;
+        for entry in self.between(side, from, end) {
+            let values = signals(&entry.record);
+            let at = entry.ticks / part;
+            if of_part != Some(at) {
+                if let Some(before) = of_part.replace(at) {
+                    put(before, &ends);
+                }
+                ends = values.map(|value| [value; 2]);
+            }
+            for ([least, most], value) in ends.iter_mut().zip(values) {
+                (*least, *most) = (least.min(value), most.max(value));
+            }
+            last = Some(entry.record);
+        }
+        if let Some(at) = of_part {
+            put(at, &ends);
+        }
+        let beliefs = &self.beliefs[side];
+        let after = beliefs.partition_point(|belief| belief.ticks <= end);
+        let belief = after.checked_sub(1).and_then(|at| beliefs.get(at));
+        let posteriors = belief.map_or(&[][..], |belief| &belief.posteriors);
+        Whisker {
+            side: SIDES[side],
+            record: last,
+            curves,
+            posteriors: self
+                .classes()
+                .iter()
+                .cloned()
+                .zip(posteriors.iter().copied())
+                .collect(),
+        }
+    }
+
+    fn load(&self) -> Vec<String> {
+        let mut load = Vec::new();
+        match self.health {
+            Some(health) => {
+                let share = 100.0 * health.longest_us / health.period_us.max(1e-9);
+                load.push(format!(
+                    "longest tick {:.1} us ({share:.0} %)",
+                    health.longest_us
+                ));
+                load.push(format!(
+                    "ticks missed {}, events dropped {}",
+                    health.missed, health.dropped
+                ));
+            }
+            None => load.push("longest tick: not told".to_owned()),
+        }
+        load.push(format!(
+            "records {}, lost {}",
+            self.tally.records, self.tally.lost
+        ));
+        if self.tally.restarts > 0 {
+            load.push(format!("starts meanwhile {}", self.tally.restarts));
+        }
+        load
+    }
+
+    fn classifying(&self, view: &View, end: u64) -> Vec<String> {
+        if self.classes().is_empty() {
+            return vec!["no model: --model FILE names one".to_owned()];
+        }
+        let mut lines = vec!["computed on the PC from records".to_owned()];
+        let hz = f64::from(self.tick_hz);
+        for side in view.sides() {
+            if let Some(said) = by(&self.decided[*side], end) {
+                let (at_s, decided) = (said.ticks as f64 / hz, &said.what);
+                lines.push(format!(
+                    "{} {:.2} % at {at_s:.3} s",
+                    decided.class,
+                    100.0 * decided.posterior
+                ));
+            }
+        }
+        let [told, same] = self.agreed;
+        lines.push(format!("with the module: {same} of {told}"));
+        if let Some(anew) = &self.anew {
+            let at_s = anew.ticks as f64 / hz;
+            lines.push(format!("anew at {at_s:.1} s: {}", anew.what));
+        }
+        lines
+    }
+}
+
+/// Flags of a record that are shown, in their order.
+pub(crate) const STATES: [(&str, Flags); 6] = [
+    ("armed", Flags::ARMED),
+    ("running", Flags::RUNNING),
+    ("homing", Flags::HOMING),
+    ("resting", Flags::RESTING),
+    ("touching", Flags::TOUCHING),
+    ("valid", Flags::VALID),
+];
+
+#[cfg(test)]
+mod tests;

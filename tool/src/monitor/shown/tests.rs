@@ -1,0 +1,86 @@
+//! What is shown of records and lines.
+
+use wire::{Packet, TickRecord};
+
+use super::{Fault, signals};
+use crate::monitor::history::History;
+use crate::monitor::view::View;
+use crate::source::Heard;
+
+#[test]
+fn signals_have_their_units() {
+    let record = TickRecord {
+        x: 4 * 9000,
+        y: 4 * 8000,
+        setpoint: 4096,
+        measured: -4096,
+        duty: -32767,
+        z: 2048,
+        contact: 4096,
+        ..TickRecord::default()
+    };
+    let expected = [100.0, 0.0, 9000.0, 8000.0, 0.5, 0.25, -1.0];
+    assert_eq!(signals(&record), expected);
+}
+
+/// Records of four seconds at 1 kHz, a peak of one tick in the third, with a line of the log.
+fn history() -> History {
+    let mut history = History::new(1000, 1, None);
+    for sequence in 1..=4000 {
+        let measured = if sequence == 2500 { 8192 } else { 0 };
+        let record = TickRecord {
+            sequence,
+            measured,
+            ..TickRecord::default()
+        };
+        let line = "2.000 ERROR left 0: fault 8, runs away (motor or encoder wired wrong?)";
+        history.take(&Heard {
+            packets: vec![Packet::Record(record)],
+            lines: (sequence == 2000)
+                .then(|| line.to_owned())
+                .into_iter()
+                .collect(),
+        });
+    }
+    history
+}
+
+#[test]
+fn a_peak_of_one_tick_is_in_the_picture_where_it_was() {
+    let history = history();
+    let shown = history.shown(&View::new(), "t", String::new());
+    assert_eq!((shown.from_s, shown.to_s), (-1.0, 4.0));
+    let measured = &shown.whiskers[0].curves[1];
+    let peaks: Vec<f64> = measured
+        .iter()
+        .filter(|(_, deg)| *deg == 150.0)
+        .map(|(t_s, _)| *t_s)
+        .collect();
+    assert_eq!(peaks.len(), 1);
+    assert!((peaks[0] - 2.5).abs() < 0.03, "{peaks:?}");
+    assert!(measured.iter().all(|(_, deg)| [50.0, 150.0].contains(deg)));
+    assert!(measured.len() < 400);
+}
+
+#[test]
+fn a_held_picture_ends_where_it_was_held() {
+    let history = history();
+    let mut held = View::new();
+    held.held = Some(1500);
+    let shown = history.shown(&held, "t", String::new());
+    assert_eq!((shown.to_s, shown.behind_s), (1.5, Some(2.5)));
+    assert!(shown.faults.is_empty());
+    let last = shown.whiskers[0].curves[0].last().unwrap();
+    assert!((last.0 - 1.5).abs() < 0.03);
+}
+
+#[test]
+fn faults_come_with_cause_and_remedy() {
+    let shown = history().shown(&View::new(), "t", String::new());
+    let expected = Fault {
+        what: "2.000 left fault 8: runs away".to_owned(),
+        cause: "motor or encoder wired the wrong way round; noise on the encoder's lines",
+        remedy: "exchange the motor's two wires, or A and B; top_speed_deg_s".to_owned(),
+    };
+    assert_eq!(shown.faults, [expected]);
+}

@@ -1,0 +1,81 @@
+//! The window without a terminal.
+
+use std::convert::Infallible;
+use std::sync::Mutex;
+
+use host_sim::Error;
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
+use ratatui::buffer::Buffer;
+
+use super::draw::{Theme, draw};
+use super::hearing::{Shared, lock};
+use super::svg;
+use super::view::View;
+use super::window::About;
+
+/// Columns and rows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Size {
+    columns: u16,
+    rows: u16,
+}
+
+/// A size as an option has it.
+pub(crate) fn size(text: &str) -> Result<Size, String> {
+    let parts = text.split_once('x');
+    let parts = parts.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
+    let fits =
+        |(columns, rows): &(u16, u16)| (10..=400).contains(columns) && (3..=200).contains(rows);
+    let (columns, rows) = parts
+        .filter(fits)
+        .ok_or_else(|| "allowed: 10x3 to 400x200, as in 100x30".to_owned())?;
+    Ok(Size { columns, rows })
+}
+
+/// A window that was drawn.
+pub(crate) struct Snapshot(Buffer);
+
+impl Snapshot {
+    /// What is shared, in a window of this size.
+    pub(crate) fn of(shared: &Mutex<Shared>, about: &About, size: Size) -> Result<Self, Error> {
+        let view = View::new();
+        let shown = lock(shared)
+            .history
+            .shown(&view, &about.title, String::new());
+        let failed = |error: Infallible| Error::Work(error.to_string());
+        let mut terminal =
+            Terminal::new(TestBackend::new(size.columns, size.rows)).map_err(failed)?;
+        let theme = Theme::of_environment();
+        terminal
+            .draw(|frame| draw(frame, &shown, theme))
+            .map_err(failed)?;
+        Ok(Self(terminal.backend().buffer().clone()))
+    }
+
+    /// As lines of text.
+    pub(crate) fn text(&self) -> String {
+        svg::text(&self.0)
+    }
+
+    /// As a picture.
+    pub(crate) fn svg(&self) -> String {
+        svg::svg(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::size;
+
+    #[test]
+    fn sizes_have_two_parts_within_their_ranges() {
+        let found = size("80x24").unwrap();
+        assert_eq!((found.columns, found.rows), (80, 24));
+        for text in [
+            "80", "x", "80x", "9x24", "80x2", "401x24", "80x201", "-80x24",
+        ] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

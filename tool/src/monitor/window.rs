@@ -1,0 +1,256 @@
+//! Who does what while a window is open: one listens, one reads the keyboard, one draws, and
+//! one waits for signals. None waits for another's work: a terminal that takes no more
+//! characters stops the drawing and nothing else.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use crossterm::event::{self, Event};
+use host_sim::Error;
+use host_sim::origin::Origin;
+
+use super::draw::{Theme, draw};
+use super::hearing::{Shared, Wish, lock};
+use super::save::Held;
+use super::screen::{self, Screen, Window};
+use super::view::{Deed, Key, View, deed};
+
+/// From one picture to the next.
+const PICTURE: Duration = Duration::from_millis(50);
+
+/// For how long the last picture may take, once all else has ended.
+const LAST: Duration = Duration::from_millis(500);
+
+/// For how long something is told at the bottom, s.
+const TOLD_S: f64 = 4.0;
+
+/// What a window is about.
+pub(crate) struct About {
+    pub(crate) title: String,
+    pub(crate) origin: Origin,
+    /// Where what is held is saved.
+    pub(crate) save: PathBuf,
+}
+
+/// What the one who draws is to look at.
+enum Look {
+    Key(Key),
+    Resized,
+}
+
+/// Opens a window on what `listener` hears, until that has ended; `wishes` reach it.
+pub(crate) fn open(
+    shared: &Arc<Mutex<Shared>>,
+    about: About,
+    listener: JoinHandle<Result<(), Error>>,
+    wishes: &Sender<Wish>,
+) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::Work(format!("terminal: {error}"));
+    let opened = Screen::take().map_err(failed);
+    let (screen, window) = match opened {
+        Ok(opened) => opened,
+        Err(error) => {
+            // Who cannot see must not leave motors running.
+            let _ = wishes.send(Wish::StopAndEnd);
+            let _ = listener.join();
+            return Err(error);
+        }
+    };
+    let signal = signals(wishes.clone()).map_err(failed);
+    let (look, looks) = mpsc::channel();
+    let keys_wishes = wishes.clone();
+    let ends = shared.clone();
+    let watch = move || keyboard(&look, &keys_wishes, &ends);
+    let keyboard = thread::Builder::new().name("keyboard".to_owned());
+    let watched = keyboard.spawn(watch).map_err(failed);
+
+    let (ended, drawing_ends) = mpsc::channel();
+    let (drawn, draws_wishes) = (shared.clone(), wishes.clone());
+    let drawing = thread::Builder::new()
+        .name("drawing".to_owned())
+        .spawn(move || {
+            let done = pictures(window, &drawn, &about, &looks);
+            if done.is_err() {
+                let _ = draws_wishes.send(Wish::StopAndEnd);
+            }
+            // Nobody may wait for it any more.
+            let _ = ended.send(done);
+        });
+    let drawing = drawing.map_err(failed);
+    if signal.is_err() || watched.is_err() || drawing.is_err() {
+        let _ = wishes.send(Wish::StopAndEnd);
+    }
+
+    let heard = listener.join();
+    let heard = heard.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+    lock(shared).has_ended = true;
+    let drawn = match drawing_ends.recv_timeout(LAST) {
+        Ok(done) => done.map_err(failed),
+        Err(RecvTimeoutError::Disconnected) => Err(Error::Work("drawing has failed".to_owned())),
+        Err(RecvTimeoutError::Timeout) => {
+            // The terminal takes nothing: it can be told nothing either.
+            screen::restore_modes();
+            std::process::exit(1);
+        }
+    };
+    drop(screen);
+    heard
+        .and(signal?.told())
+        .and(drawn)
+        .and(watched.map(drop))
+        .and(drawing.map(drop))
+}
+
+/// Reads the keyboard; stopping does not wait for a picture.
+fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) {
+    loop {
+        let event = match event::poll(PICTURE) {
+            Ok(false) => {
+                if lock(shared).has_ended {
+                    return;
+                }
+                continue;
+            }
+            Ok(true) => event::read(),
+            Err(error) => Err(error),
+        };
+        let looked = match event {
+            Ok(Event::Key(pressed)) => {
+                let Some(key) = screen::key(&pressed) else {
+                    continue;
+                };
+                let wish = match deed(key) {
+                    Some(Deed::Arm) => Some(Wish::Arm),
+                    Some(Deed::Stop) => Some(Wish::Stop),
+                    Some(Deed::Quit) => Some(Wish::End),
+                    Some(Deed::StopAndQuit) => Some(Wish::StopAndEnd),
+                    Some(Deed::Save) | None => None,
+                };
+                if let Some(wish) = wish {
+                    // Whoever listens no longer has stopped what was to be stopped.
+                    let _ = wishes.send(wish);
+                }
+                Look::Key(key)
+            }
+            Ok(Event::Resize(..)) => Look::Resized,
+            Ok(_) => continue,
+            // Nobody is there to stop the motors by a key.
+            Err(_) => {
+                let _ = wishes.send(Wish::StopAndEnd);
+                return;
+            }
+        };
+        if look.send(looked).is_err() {
+            return;
+        }
+    }
+}
+
+/// Draws until whoever listens has ended.
+fn pictures(
+    mut window: Window,
+    shared: &Arc<Mutex<Shared>>,
+    about: &About,
+    looks: &Receiver<Look>,
+) -> std::io::Result<()> {
+    let theme = Theme::of_environment();
+    let mut view = View::new();
+    loop {
+        let begun = Instant::now();
+        let (shown, has_ended) = {
+            let shared = lock(shared);
+            let now = shared.history.now();
+            let lasts = shared.history.ticks_of(TOLD_S);
+            let message = shared.message.as_ref();
+            let message = message.filter(|(since, _)| now <= since + lasts);
+            let message = message.map_or(String::new(), |(_, text)| text.clone());
+            let shown = shared.history.shown(&view, &about.title, message);
+            (shown, shared.has_ended)
+        };
+        window.draw(|frame| draw(frame, &shown, theme))?;
+        if has_ended {
+            return Ok(());
+        }
+        // Keys are answered at once, and a picture is drawn in time without any.
+        while let Ok(look) = looks.recv_timeout(PICTURE.saturating_sub(begun.elapsed())) {
+            let Look::Key(key) = look else {
+                break;
+            };
+            let extent = lock(shared).history.extent();
+            view.press(key, extent);
+            if deed(key) == Some(Deed::Save) {
+                save(shared, about);
+            }
+            if begun.elapsed() >= PICTURE / 2 {
+                break;
+            }
+        }
+        // A keyboard that is gone leaves its channel closed, which waits for nothing.
+        thread::sleep((PICTURE / 2).saturating_sub(begun.elapsed()));
+    }
+}
+
+/// Saves what is held, beside all else.
+fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
+    let held = Held::of(&lock(shared).history);
+    let (shared, path, origin) = (shared.clone(), about.save.clone(), about.origin.clone());
+    thread::spawn(move || {
+        let message = match held.write(&path, &origin) {
+            Ok((path, records)) => format!("saved {}: {records} records", path.display()),
+            Err(error) => format!("not saved: {error}"),
+        };
+        let mut shared = lock(&shared);
+        let now = shared.history.now();
+        shared.message = Some((now, message));
+    });
+}
+
+/// Signals that have come.
+struct Signals(Arc<Mutex<Option<i32>>>);
+
+impl Signals {
+    /// An error if one has ended the program.
+    fn told(&self) -> Result<(), Error> {
+        let signal = *self
+            .0
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        match signal {
+            Some(signal) => Err(Error::Work(format!(
+                "ended by signal {signal}; the motors were stopped"
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A signal that would end the program stops the motors first.
+#[cfg(unix)]
+fn signals(wishes: Sender<Wish>) -> std::io::Result<Signals> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+
+    let come = Arc::new(Mutex::new(None));
+    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    let told = come.clone();
+    let wait = move || {
+        for signal in signals.forever() {
+            *told
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner) = Some(signal);
+            let _ = wishes.send(Wish::StopAndEnd);
+        }
+    };
+    thread::Builder::new()
+        .name("signals".to_owned())
+        .spawn(wait)?;
+    Ok(Signals(come))
+}
+
+/// Elsewhere there are none.
+#[cfg(not(unix))]
+fn signals(_wishes: Sender<Wish>) -> std::io::Result<Signals> {
+    Ok(Signals(Arc::new(Mutex::new(None))))
+}

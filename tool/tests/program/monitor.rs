@@ -1,0 +1,238 @@
+//! `whisker monitor`, as a person has it before them: in a terminal, by its keys.
+
+mod terminal;
+
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::common::{Place, textures};
+use crate::messages::channels;
+use terminal::Terminal;
+
+const SMALL: (u16, u16) = (80, 24);
+const CONTROL_C: &[u8] = b"\x03";
+
+/// The records of a side in a file of messages, and whether a `Stop` was answered that it is done.
+fn recorded(place: &Place, name: &str) -> (Vec<Value>, bool) {
+    let mut channels = channels(&std::fs::read(place.path(name)).unwrap());
+    let records = channels.remove("/left/records").unwrap();
+    let answers = channels.remove("/answers").unwrap_or_default();
+    let is_stopped = answers
+        .iter()
+        .any(|(_, answer)| answer["command"] == 6 && answer["status"] == 0);
+    (
+        records.into_iter().map(|(_, record)| record).collect(),
+        is_stopped,
+    )
+}
+
+/// Whether nothing is missing among records.
+fn is_whole(records: &[Value]) -> bool {
+    let number = |record: &Value| record["sequence"].as_u64().unwrap();
+    records
+        .windows(2)
+        .all(|pair| number(&pair[1]) == number(&pair[0]) + 1)
+}
+
+fn assert_stopped(place: &Place, name: &str) {
+    let (records, is_stopped) = recorded(place, name);
+    assert!(is_stopped && is_whole(&records));
+    let (first, last) = (&records[0], records.last().unwrap());
+    assert_eq!(
+        (&first["armed"], &last["armed"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(
+        (&last["duty"], &last["running"]),
+        (&0.into(), &false.into())
+    );
+}
+
+#[test]
+fn a_person_watches_and_stops() {
+    let place = Place::new();
+    let scene = textures();
+    let mut seen = Terminal::start(
+        &place,
+        &format!("monitor --sim {} --out r.mcap --out r.csv", scene.display()),
+        SMALL,
+        &[],
+    );
+    for word in [
+        "textures, simulated, 2000 Hz",
+        "live",
+        "[ARMED]",
+        "measured",
+        "smooth",
+        "lost 0",
+    ] {
+        seen.wait_for(word);
+    }
+    assert!(seen.is_raw() && seen.is_alternate());
+    // Of two sides there is one.
+    seen.press(b"\t");
+    seen.wait_for("touch 1");
+    seen.wait_for("with the module: 3 of 3");
+    assert!(seen.text().contains("\nleft "));
+
+    seen.press(b"p");
+    seen.wait_for("PAUSED");
+    let held = seen.line("PAUSED").split(" s ").next().unwrap().to_owned();
+    seen.wait_for("PAUSED, 0.5 s behind");
+    assert!(seen.line("PAUSED").starts_with(&held), "{held}");
+    seen.press(b"+");
+    seen.press(b"\x1b[D");
+    seen.wait_until(|text| !text.contains(&held));
+    seen.press(b"s");
+    seen.wait_for("saved monitor.csv: ");
+    let said = seen.line("saved monitor.csv: ");
+    let saved: usize = said.split_whitespace().nth(2).unwrap().parse().unwrap();
+    seen.press(b"p");
+    seen.wait_for("live");
+
+    seen.press(b"?");
+    seen.wait_for("stop: motors off until");
+    seen.press(b"?");
+    seen.wait_until(|text| !text.contains("motors off until"));
+    for (columns, rows) in [(40, 10), (1, 1), (120, 40), SMALL] {
+        seen.resize(columns, rows);
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    seen.wait_for("q end");
+
+    seen.press(b"x");
+    seen.wait_for("stop: done");
+    seen.wait_for("  armed ");
+    seen.press(b"a");
+    seen.wait_for("arm: done");
+    seen.wait_for("[ARMED]");
+    seen.press(CONTROL_C);
+    assert_eq!(seen.ends(), Some(0));
+    assert!(seen.is_restored() && !seen.is_alternate());
+
+    assert_stopped(&place, "r.mcap");
+    let (records, _) = recorded(&place, "r.mcap");
+    let rows = |name: &str| {
+        place
+            .text(name)
+            .lines()
+            .filter(|line| !line.starts_with('#'))
+            .count()
+            - 1
+    };
+    assert_eq!(rows("r.csv"), records.len());
+    // x and a are in it, too: armed, not, armed, not.
+    let mut states: Vec<bool> = records
+        .iter()
+        .map(|record| record["armed"].as_bool().unwrap())
+        .collect();
+    states.dedup();
+    assert_eq!(states, [true, false, true, false]);
+    // Held is what had come by then.
+    assert_eq!(rows("monitor.csv"), saved);
+    assert!((2000..records.len()).contains(&saved), "{saved}");
+}
+
+#[test]
+fn motors_stop_where_the_terminal_takes_no_more() {
+    let place = Place::new();
+    let line = "monitor --sim bench.toml --out r.mcap";
+    let mut seen = Terminal::start(&place, line, (200, 60), &[]);
+    seen.wait_for("[ARMED]");
+    seen.stop_reading();
+    // Pictures fill what is between.
+    std::thread::sleep(Duration::from_secs(2));
+    seen.press(CONTROL_C);
+    assert_eq!(seen.ends(), Some(1));
+    assert!(seen.is_restored());
+    assert_stopped(&place, "r.mcap");
+}
+
+#[test]
+fn motors_stop_before_a_signal_ends_it() {
+    for signal in [terminal::TERM, terminal::HANGUP, terminal::INTERRUPT] {
+        let place = Place::new();
+        let line = "monitor --sim bench.toml --out r.mcap";
+        let mut seen = Terminal::start(&place, line, SMALL, &[]);
+        seen.wait_for("[ARMED]");
+        seen.signal(signal);
+        assert_eq!(seen.ends(), Some(1));
+        assert!(seen.is_restored() && !seen.is_alternate());
+        seen.wait_for("the motors were stopped");
+        assert_stopped(&place, "r.mcap");
+    }
+}
+
+#[test]
+fn who_ends_by_q_leaves_the_module_as_it_is() {
+    let place = Place::new();
+    let line = "monitor --sim bench.toml --out r.mcap";
+    let mut seen = Terminal::start(&place, line, SMALL, &[("NO_COLOR", "1")]);
+    seen.wait_for("[ARMED]");
+    seen.wait_for("lost 0");
+    assert!(!seen.has_colour());
+    seen.press(b"q");
+    assert_eq!(seen.ends(), Some(0));
+    assert!(seen.is_restored());
+    let (records, is_stopped) = recorded(&place, "r.mcap");
+    assert!(!is_stopped && is_whole(&records));
+    assert_eq!(records.last().unwrap()["armed"], true);
+}
+
+#[test]
+fn two_whiskers_are_shown_one_by_one_and_together() {
+    let place = Place::new();
+    place.write(
+        "two.toml",
+        &crate::common::BENCH
+            .replace(r#""left""#, r#""both""#)
+            .replace("[100.0]", "[100.0, 100.0]")
+            .replace("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]"),
+    );
+    let mut seen = Terminal::start(&place, "monitor --sim two.toml", (120, 40), &[]);
+    seen.wait_for("[ARMED]");
+    assert!(seen.has_colour());
+    seen.press(b"\t");
+    seen.wait_for("\nright [ARMED]");
+    seen.press(b"\t");
+    seen.wait_for("\nleft  [ARMED]");
+    seen.wait_for("\nright [ARMED]");
+    seen.press(CONTROL_C);
+    assert_eq!(seen.ends(), Some(0));
+}
+
+#[test]
+fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
+    let place = Place::new();
+    let scene = textures();
+    let scene = scene.display();
+    let begun = std::time::Instant::now();
+    let mut seen = Terminal::start(&place, "monitor --sim bench.toml --seconds 2", SMALL, &[]);
+    assert_eq!(seen.ends(), Some(0));
+    let took = begun.elapsed().as_secs_f64();
+    assert!((2.0..4.0).contains(&took), "{took}");
+
+    let picture = |more: &str| {
+        place
+            .done(&format!("monitor --sim {scene} --frames 60 {more}"))
+            .stdout
+    };
+    let text = picture("--size 80x24");
+    assert_eq!(text.lines().count(), 24);
+    assert!(
+        text.contains("3.00 s  live") && text.contains("smooth"),
+        "{text}"
+    );
+    assert_eq!(text, picture("--size 80x24"));
+    assert_eq!(picture("--snapshot m.svg"), "");
+    assert!(place.text("m.svg").starts_with("<svg"));
+    place.done(&format!("monitor --sim {scene} --frames 60 --out r.csv"));
+    let said = place.refused(&format!("monitor --sim {scene} --frames 60 --out r.csv"));
+    assert!(said.contains("is not overwritten"), "{said}");
+    assert!(
+        place
+            .refused("monitor --sim bench.toml")
+            .contains("needs a terminal")
+    );
+}
