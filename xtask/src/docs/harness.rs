@@ -16,6 +16,7 @@ struct Wire {
     signal: String,
     left_pin: String,
     left_contact: String,
+    g071rb_contact: String,
     right_pin: String,
     right_contact: String,
     passes: InWire,
@@ -62,37 +63,95 @@ const PITCH: f64 = 26.0;
 const GAP: f64 = 26.0;
 const TOP: f64 = 44.0;
 
-/// The drawing: an SVG document.
+/// Under every drawing.
+const LEGEND: [&str; 2] = [
+    "triangle: a gate of a 74AHCT125 at 5 V",
+    "each bridge has the motors' own supply, with a current limit and a switch",
+];
+
+/// A board, as its harness is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Drawn {
+    /// With both sides.
+    F446re,
+    /// With the left side, as the next one.
+    F103rb,
+    G071rb,
+}
+
+impl Drawn {
+    const fn sides(self) -> &'static [Side] {
+        match self {
+            Self::F446re => &[Side::Left, Side::Right],
+            Self::F103rb | Self::G071rb => &[Side::Left],
+        }
+    }
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::F446re => "NUCLEO-F446RE",
+            Self::F103rb => "NUCLEO-F103RB",
+            Self::G071rb => "NUCLEO-G071RB",
+        }
+    }
+
+    /// What lies under the drawing, a line each.
+    const fn remarks(self) -> &'static [&'static str] {
+        match self {
+            Self::F446re => &[],
+            Self::F103rb => &[
+                "PA0, PA1, PA6 and PA7 do not bear 5 V: a level shifter in the data line,",
+                "and an encoder with outputs of 3.3 V or open collectors",
+            ],
+            Self::G071rb => &[
+                "PB6 is not D10 here: ST's UM2324 has its contact",
+                "whether a pin bears 5 V: the data sheet's table of pins",
+            ],
+        }
+    }
+}
+
+/// The drawing of a board's harness: an SVG document.
 ///
 /// # Errors
 /// If the table is broken.
-pub(super) fn svg() -> Result<String, Fault> {
+pub(super) fn svg(drawn: Drawn) -> Result<String, Fault> {
     let wires = wires()?;
     let mut body = String::new();
     let mut y = TOP;
     let parts: Vec<&[Wire]> = wires.chunk_by(|a, b| a.part == b.part).collect();
     for part in &parts {
         y += GAP;
-        for side in [Side::Left, Side::Right] {
-            draw_part(&mut body, part, side, y);
+        for side in drawn.sides() {
+            draw_part(&mut body, drawn, part, *side, y);
         }
         y += PITCH * part.len() as f64;
     }
     let bottom = y + GAP / 2.0;
     let mut board = String::new();
     rectangle(&mut board, MIDDLE - BOARD, TOP, 2.0 * BOARD, bottom - TOP);
-    text(&mut board, MIDDLE, TOP + 16.0, "middle", "NUCLEO-F446RE");
-    for (side, x) in [
-        ("left", MIDDLE - FAR + 65.0),
-        ("right", MIDDLE + FAR - 65.0),
-    ] {
-        text(&mut board, x, TOP - 12.0, "middle", side);
+    text(&mut board, MIDDLE, TOP + 16.0, "middle", drawn.name());
+    for side in drawn.sides() {
+        text(
+            &mut board,
+            side.x(FAR - 65.0),
+            TOP - 12.0,
+            "middle",
+            side.name(),
+        );
     }
-    let legend = "triangle: a gate of a 74AHCT125 at 5 V; each bridge has the motors' own supply, with a current limit and a switch";
-    text(&mut board, MIDDLE, bottom + 24.0, "middle", legend);
-    let height = bottom + 40.0;
+    let mut height = bottom + 8.0;
+    for line in LEGEND.iter().chain(drawn.remarks()) {
+        height += 16.0;
+        text(&mut board, 20.0, height, "start", line);
+    }
+    height += 16.0;
+    let width = match drawn.sides() {
+        [Side::Left] => MIDDLE + BOARD + 20.0,
+        _ => WIDTH,
+    };
     Ok(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"sans-serif\" font-size=\"13\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{board}{body}</svg>\n"
     ))
@@ -113,6 +172,13 @@ impl Side {
         }
     }
 
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+
     /// The anchors of texts that end at the middle's side and at the other.
     const fn anchors(self) -> [&'static str; 2] {
         match self {
@@ -122,7 +188,7 @@ impl Side {
     }
 }
 
-fn draw_part(body: &mut String, part: &[Wire], side: Side, top: f64) {
+fn draw_part(body: &mut String, drawn: Drawn, part: &[Wire], side: Side, top: f64) {
     let name = part.first().map_or("", |wire| &wire.part);
     let height = PITCH * part.len() as f64 - 6.0;
     let corner = side.x(NEAR).min(side.x(FAR));
@@ -132,6 +198,7 @@ fn draw_part(body: &mut String, part: &[Wire], side: Side, top: f64) {
     for (n, wire) in part.iter().enumerate() {
         let y = top + 12.0 + PITCH * n as f64;
         let (pin, contact) = match side {
+            Side::Left if drawn == Drawn::G071rb => (&wire.left_pin, &wire.g071rb_contact),
             Side::Left => (&wire.left_pin, &wire.left_contact),
             Side::Right => (&wire.right_pin, &wire.right_contact),
         };
