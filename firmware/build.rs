@@ -26,7 +26,7 @@ mod board {
 use board::timing::{Clocks, TICK_MIN_HZ};
 use databake::quote;
 use plan::NumberFormat;
-use scene::{Driver, MotorSection, Scene, SensorMode};
+use scene::{Driver, MotorSection, Scene, SensorMode, SensorModel};
 use whisking::Fix;
 
 /// What the build must know of a board.
@@ -183,6 +183,13 @@ fn fits(scene: &Scene, board: &Board) -> Result<(), String> {
             "motor.driver: found \"six-step\" on two sides; allowed on the {}: \"h-bridge\", \
              because one brushless motor takes every output of the PWM's timer",
             board.name
+        ));
+    }
+    if scene.sensor.model != SensorModel::Mlx90333 {
+        return Err(format!(
+            "sensor.model: found \"{}\"; allowed on the {}: \"mlx90333\", because no board's \
+             program reads the other yet",
+            scene.sensor.model, board.name
         ));
     }
     let clocks = match scene.sensor.mode {

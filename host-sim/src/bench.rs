@@ -2,25 +2,28 @@
 //! mock hardware.
 
 mod line;
+mod sensor;
 
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
-    NoActiveWhisker, Place, Polled, Servo, ServoConfig, StopAll,
+    NoActiveWhisker, Place, Servo, ServoConfig, StopAll,
 };
-use mlx90333::{Decoder, Mlx90333};
+use mlx90333::Decoder;
 use plan::NumberFormat;
-use scene::{Arm, Deciding, PlantKind, Scene};
+use scene::{Arm, Deciding, PlantKind, Scene, SensorModel};
 use whisking::motor::{GuardSettings, HomingConfig, StallConfig};
 use whisking::{Fix, Real, Start, filter};
 use wire::{Packet, TaggedCommand};
 
 use crate::Error;
 use crate::bus::Slave;
+use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, GATE, Tap};
 use crate::drive::{self, AnyAngle, AnyMotor};
 use crate::motor::Pins;
 use line::Line;
+use sensor::AnySensor;
 
 /// Time does not pass within a tick of the simulation.
 #[derive(Debug, Clone, Copy)]
@@ -57,8 +60,20 @@ pub trait Bench {
     /// Fills in `snapshot`; `theta_deg` has a place for every whisker.
     fn look(&mut self, snapshot: &mut Snapshot);
 
-    /// The sensor of whisker `n`, counted from 0, left side first.
+    /// The sensor of whisker `n`, counted from 0, left side first, if it is an MLX90333.
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave>;
+
+    /// The same, if it is a TMAG5170.
+    fn tmag_mut(&mut self, _n: usize) -> Option<&mut TmagSlave> {
+        None
+    }
+
+    /// Deflections along x and y of whisker `n` from now on, in units of its sensor's range.
+    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
+        if let Some(slave) = self.slave_mut(n) {
+            slave.set(deflection);
+        }
+    }
 
     /// Contact π of whisker `n`, counted from 0, left side first; none: that of its side is
     /// all that is known.
@@ -104,7 +119,7 @@ pub trait HostModule: Bench + Send {
 
 type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
 type Ears<const S: usize, const N: usize> = Option<Classifying<Tap, S, N>>;
-type Sensors<const S: usize, const N: usize> = [[Polled<Slave>; N]; S];
+type Sensors<const S: usize, const N: usize> = [[AnySensor; N]; S];
 
 type HostConfig<R> = Config<
     Option<ActiveConfig<R, whisking::Config<R>, Option<StopAll>, Option<HomingConfig>>>,
@@ -113,11 +128,18 @@ type HostConfig<R> = Config<
 >;
 
 struct Shaped<R: Real, const S: usize, const N: usize> {
-    module: Module<R, Polled<Slave>, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
+    module: Module<R, AnySensor, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
     config: HostConfig<R>,
     start: Option<Start<R, S, N>>,
     arms_at_start: bool,
+    model: SensorModel,
     line: Line,
+}
+
+impl<R: Real, const S: usize, const N: usize> Shaped<R, S, N> {
+    fn sensor_mut(&mut self, n: usize) -> Option<&mut AnySensor> {
+        Some(self.module.sensor_mut(n / N, n % N)?.source_mut())
+    }
 }
 
 impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
@@ -162,8 +184,17 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let sensor = self.module.sensor_mut(n / N, n % N)?;
-        Some(sensor.source_mut().sensor_mut().spi_mut())
+        self.sensor_mut(n)?.slave_mut()
+    }
+
+    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
+        self.sensor_mut(n)?.tmag_mut()
+    }
+
+    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
+        if let Some(sensor) = self.sensor_mut(n) {
+            sensor.bend(deflection);
+        }
     }
 
     fn felt_by(&self, n: usize) -> Option<f64> {
@@ -188,7 +219,8 @@ where
         };
         let perception = self.module.perception_mut().take();
         let perception = perception.map(Classifying::restarted);
-        self.module = Module::new(sensors()?, motors, perception, NoClock);
+        let sensors = sensors(self.model, seed)?;
+        self.module = Module::new(sensors, motors, perception, NoClock);
         self.module.arm(self.arms_at_start);
         self.line.restart();
         Ok(())
@@ -247,9 +279,12 @@ fn misfit(what: &str) -> Error {
     Error::Work(format!("the module's {what} do not fit the scene"))
 }
 
-fn sensors<const S: usize, const N: usize>() -> Result<Sensors<S, N>, Error> {
-    let sensor = || Polled::new(Mlx90333::new(Slave::new(), Decoder::new()));
-    array(|| Some(sensor())).ok_or_else(|| misfit("sensors"))
+fn sensors<const S: usize, const N: usize>(
+    model: SensorModel,
+    seed: u64,
+) -> Result<Sensors<S, N>, Error> {
+    let mut seeds = seed..;
+    array(|| AnySensor::new(model, seeds.next()?)).ok_or_else(|| misfit("sensors"))
 }
 
 fn motors<R: Real, const S: usize, const N: usize>(
@@ -377,13 +412,15 @@ where
     let perception = Some(Classifying::new(tap));
     let motor = scene.motor.as_ref();
     let arms_at_start = motor.is_some_and(|motor| motor.arm == Arm::AtStart);
-    let mut module = Module::new(sensors()?, motors, perception, NoClock);
+    let sensors = sensors(scene.sensor.model, scene.seed)?;
+    let mut module = Module::new(sensors, motors, perception, NoClock);
     module.arm(arms_at_start);
     Ok(Box::new(Shaped {
         module,
         config,
         start,
         arms_at_start,
+        model: scene.sensor.model,
         line: Line::new(scene),
     }))
 }

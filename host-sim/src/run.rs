@@ -10,6 +10,7 @@ use tactile::Posteriors;
 use crate::Error;
 use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
+use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
 use crate::motor::{PWM_COUNTS, SimMotor};
@@ -241,9 +242,15 @@ impl<B: Bench + ?Sized> Run<B> {
         &self.classes
     }
 
-    /// The sensor of whisker `n`, counted from 0, left side first: to disturb it.
+    /// The sensor of whisker `n`, counted from 0, left side first: to disturb it. None where it
+    /// is no MLX90333.
     pub fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
         self.bench.slave_mut(n)
+    }
+
+    /// The same, where it is a TMAG5170.
+    pub fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
+        self.bench.tmag_mut(n)
     }
 
     /// The motor of whisker `n`, counted from 0, left side first: to disturb it. None where
@@ -268,9 +275,7 @@ impl<B: Bench + ?Sized> Run<B> {
             for whisker in 0..self.whiskers {
                 let deflection = self.world.deflection(side, whisker);
                 let n = side * self.whiskers + whisker;
-                if let Some(slave) = self.bench.slave_mut(n) {
-                    slave.set(deflection);
-                }
+                self.bench.bend(n, deflection);
                 if let Some(last) = self.deflections.get_mut(n) {
                     *last = deflection;
                 }

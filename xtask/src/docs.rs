@@ -89,7 +89,7 @@ struct Trained {
 }
 
 /// Those but the main job.
-const TRAINED: [Trained; 4] = [
+const TRAINED: [Trained; 5] = [
     Trained {
         scene: "scenes/whisker.toml",
         model: "scenes/models/whisker.model",
@@ -104,6 +104,11 @@ const TRAINED: [Trained; 4] = [
         scene: "scenes/unknown.toml",
         model: "scenes/models/unknown.model",
         options: &["--unknown", "carpet"],
+    },
+    Trained {
+        scene: "scenes/tmag5170.toml",
+        model: "scenes/models/tmag5170.model",
+        options: &[],
     },
     Trained {
         scene: "scenes/papers.toml",

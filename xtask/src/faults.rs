@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 
 use clap::Args;
+use scene::{Scene, SensorModel};
 
 use crate::emulate::variants;
 use crate::firmware::{self, Board};
@@ -50,6 +51,11 @@ struct Subject {
     runs: Option<u64>,
 }
 
+fn has_mlx90333(scene: &PathBuf) -> bool {
+    let scene = Scene::load(scene);
+    scene.is_ok_and(|scene| scene.sensor.model == SensorModel::Mlx90333)
+}
+
 impl Subject {
     /// # Errors
     /// An unknown name, and what cannot be built.
@@ -58,7 +64,8 @@ impl Subject {
         match name {
             PC => Ok(Self {
                 name: PC,
-                scenes,
+                // What is injected befalls an MLX90333.
+                scenes: scenes.into_iter().filter(has_mlx90333).collect(),
                 programs: Vec::new(),
                 runs: Some(runs),
             }),

@@ -60,7 +60,7 @@ pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, HeadSection, MotorSection, Numbers,
     Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorMode,
-    SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture,
-    WhiskingSection,
+    SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection,
+    Texture, WhiskingSection,
 };
 pub use whisking::{GateSettings, Integrator};

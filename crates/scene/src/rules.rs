@@ -3,7 +3,7 @@
 //! A rule that turns on a value that was itself refused is left alone: that
 //! value's own message comes first.
 
-use crate::sections::{Deciding, PlantKind, Rest, RuleName, Sides};
+use crate::sections::{Deciding, PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -16,6 +16,18 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     textured_is_active(values, text);
     shaft_is_slender(values, text);
     several_can_decide(values, text);
+    mode_is_the_mlx90333s(values, text);
+}
+
+fn mode_is_the_mlx90333s(values: &Values, text: &mut Text<'_>) {
+    let is_slow = values.get::<SensorMode>("sensor", "mode") == Some(SensorMode::Slow);
+    let is_tmag = values.get::<SensorModel>("sensor", "model") == Some(SensorModel::Tmag5170);
+    if is_slow && is_tmag {
+        let offset = values.offset("sensor", "mode").unwrap_or(0);
+        let found = "found \"slow\" with model \"tmag5170\"".to_owned();
+        let allowed = "allowed: \"fast\", as only the MLX90333 has a slow mode".to_owned();
+        text.report(offset, "sensor.mode".to_owned(), found, allowed);
+    }
 }
 
 fn at_least_one_tick(

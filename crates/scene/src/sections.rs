@@ -23,7 +23,7 @@ pub use plant::{
     Exchanged, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
 };
 pub use scene::Scene;
-pub use sensor::{SensorMode, SensorSection};
+pub use sensor::{SensorMode, SensorModel, SensorSection};
 pub use shaft::{ShaftName, ShaftNumbers};
 pub use telemetry::TelemetrySection;
 pub use whisking::{Numbers, WhiskingSection};
@@ -66,9 +66,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, three of the sensor, two of the plant, one of the head, of
+        // Nineteen of the motor, four of the sensor, two of the plant, one of the head, of
         // whisking, of telemetry and of the classifier.
-        assert_eq!(defaults, 28);
+        assert_eq!(defaults, 29);
     }
 
     #[test]

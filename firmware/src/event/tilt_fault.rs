@@ -20,19 +20,18 @@ pub enum TiltFault {
 }
 
 impl TiltFault {
-    /// Its number in the [table](crate::faults), which it shares with the other sensor's
-    /// faults of the same meaning.
+    /// Its number in the [table](crate::faults).
     pub const fn code(self) -> u8 {
         match self {
-            Self::Reply(ReplyError::NoSensor) => number::NO_SENSOR,
-            Self::Reply(ReplyError::LineLow) => number::LINE_LOW,
-            Self::Reply(ReplyError::Rejected | ReplyError::BadCrc { .. }) => number::BAD_SUM,
+            Self::Reply(ReplyError::NoSensor) => number::TILT_NO_SENSOR,
+            Self::Reply(ReplyError::LineLow) => number::TILT_LINE_LOW,
             Self::Reply(
-                ReplyError::Restarted | ReplyError::Sensor(_) | ReplyError::OtherType(_),
-            )
+                ReplyError::Rejected | ReplyError::BadCrc { .. } | ReplyError::OtherType(_),
+            ) => number::TILT_CHECK,
+            Self::Reply(ReplyError::Restarted | ReplyError::Sensor(_))
             | Self::Reported(_)
-            | Self::NotWritten(_)
-            | Self::NoMagnet => number::SENSOR_REPORT,
+            | Self::NotWritten(_) => number::TILT_REPORT,
+            Self::NoMagnet => number::TILT_NO_MAGNET,
         }
     }
 }

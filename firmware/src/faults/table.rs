@@ -112,6 +112,27 @@ macro_rules! fault_table {
                 "what the line below it says of the last one",
                 WhiskerOff, GoodFrames;
 
+            27 TILT_NO_SENSOR: "no TMAG5170 answers",
+                "/CS, SCK or SDO open; no supply; sensor still starting",
+                "/CS and SCK at the sensor with an oscilloscope; 3.3 V there",
+                WhiskerOff, GoodFrames;
+            28 TILT_LINE_LOW: "SDO stuck low",
+                "short to ground; something drives the line; SDI and SDO exchanged",
+                "the line while /CS is high: it must be high",
+                WhiskerOff, GoodFrames;
+            29 TILT_CHECK: "check bits of a TMAG5170 are wrong",
+                "noise on SDI, SDO or SCK; a clock too fast; SDI open",
+                "the lines below it: whether commands or replies; shorter cable",
+                WhiskerOff, GoodFrames;
+            30 TILT_REPORT: "the TMAG5170 reports an error",
+                "its supply dips; its own checks; a setting that it does not take",
+                "the lines below it; the capacitor at its supply",
+                WhiskerOff, GoodFrames;
+            31 TILT_NO_MAGNET: "no magnet over the TMAG5170",
+                "magnet missing, too far or upside down; not converted yet",
+                "the gap: [mount](mount.md#field-and-gap); turn the magnet over",
+                WhiskerOff, GoodFrames;
+
             32 MISSED: "ticks were missed",
                 "a debugger halted the core; a tick took too long",
                 "*longest tick* in the log; leave parts of the scene out",

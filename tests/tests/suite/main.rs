@@ -18,4 +18,5 @@ mod several;
 mod stability;
 mod starting;
 mod terrain;
+mod tilted_module;
 mod unstable_scenes;

@@ -152,10 +152,10 @@ fn a_bad_frame_is_bridged() {
 fn each_line_fault_switches_the_whisker_off_until_it_is_mended() {
     let reply = |error| SensorFault::Tilt(TiltFault::Reply(error));
     let faults = [
-        (LineFault::Silent, reply(ReplyError::NoSensor), 18),
-        (LineFault::SdoLow, reply(ReplyError::LineLow), 19),
-        (LineFault::SdiLow, reply(ReplyError::Rejected), 21),
-        (LineFault::FlipCommand(9), reply(ReplyError::Rejected), 21),
+        (LineFault::Silent, reply(ReplyError::NoSensor), 27),
+        (LineFault::SdoLow, reply(ReplyError::LineLow), 28),
+        (LineFault::SdiLow, reply(ReplyError::Rejected), 29),
+        (LineFault::FlipCommand(9), reply(ReplyError::Rejected), 29),
         (LineFault::Bus, SensorFault::Bus, 17),
     ];
     for (fault, expected, number) in faults {
@@ -187,7 +187,7 @@ fn each_fault_that_the_sensor_reports_is_told_by_name() {
         assert_eq!(told, SensorFault::Tilt(TiltFault::Reported(known.bit)));
         assert_eq!(
             told.to_string(),
-            format!("the sensor reports an error: {}", known.name)
+            format!("the TMAG5170 reports an error: {}", known.name)
         );
         whisker.slave().set_report(StatusFaults::NONE);
         assert_eq!(back(&mut whisker), LIMITS.recover - 1);
@@ -223,6 +223,7 @@ fn a_magnet_that_is_gone_or_upside_down_is_a_fault() {
         }
         let expected = SensorFault::Tilt(TiltFault::NoMagnet);
         assert_eq!(fault, Some(Event::SensorLost(PLACE, expected)));
+        assert_eq!(expected.code(), 31);
     }
 }
 

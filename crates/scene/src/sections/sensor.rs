@@ -1,8 +1,18 @@
-//! `[sensor]`: what the readings of a whisker's sensor cannot do.
+//! `[sensor]`: which sensor a whisker has, and what its readings cannot do.
 
 use crate::choice::choice;
 use crate::key::{number, positive, word};
 use crate::keys::keys;
+
+choice! {
+    /// What a whisker's sensor is.
+    pub enum SensorModel {
+        /// Melexis MLX90333: two angles of a magnet's field.
+        Mlx90333 = "mlx90333",
+        /// Texas Instruments TMAG5170: three fields, of which the module computes the tilt.
+        Tmag5170 = "tmag5170",
+    }
+}
 
 choice! {
     /// How fast a sensor computes, which is set in its EEPROM, and is read.
@@ -15,7 +25,7 @@ choice! {
 }
 
 keys! {
-    /// What a sensor's readings cannot do.
+    /// Which sensor a whisker has, and what its readings cannot do.
     #[derive(Copy)]
     pub struct SensorSection {
         /// The sensor's own mode. In the slow one a board reads at half its clock, 125 to
@@ -31,5 +41,9 @@ keys! {
         /// Fastest change of a deflection, of the deflection from mid-scale to full scale; a
         /// frame beyond it is a bad one.
         jump_per_s: f64 = positive(1e6).unit("1/s").default("1500.0"),
+
+        /// Which sensor it is. The TMAG5170 has no `mode`, and is simulated: no board's
+        /// program reads it.
+        model: SensorModel = word().default("\"mlx90333\""),
     }
 }

@@ -4,7 +4,7 @@ use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, SensorMode, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
     TelemetrySection, Texture, WhiskingSection,
 };
 
@@ -37,6 +37,7 @@ fn every_key_reaches_its_field() {
             mode: SensorMode::Fast,
             frozen_s: 0.25,
             jump_per_s: 1500.0,
+            model: SensorModel::Mlx90333,
         },
         telemetry: TelemetrySection { rtt: true },
         whisking: Some(WhiskingSection {

@@ -1,0 +1,120 @@
+//! The sensor of a simulated whisker, as the scene has it.
+
+use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource};
+use mlx90333::{Decoder, Mlx90333, Word};
+use physics::{Magnet, SensorSettings};
+use scene::SensorModel;
+use tmag5170::{
+    Average, Channels, Config, DeviceConfig, OperatingMode, Range, SensorConfig, Tmag5170, Version,
+};
+
+use crate::bus::Slave;
+use crate::bus::tmag5170::TmagSlave;
+
+/// Field of the magnet along the axis of a TMAG5170, mT: docs/mount.md.
+const AXIAL_MT: f64 = 60.0;
+
+/// Either sensor on its mock bus.
+pub(super) enum AnySensor {
+    /// It is told what it measures.
+    Mlx90333(Polled<Slave>),
+    /// It measures the field of a magnet.
+    Tmag5170(Box<Tilted>),
+}
+
+/// A TMAG5170 below a magnet.
+pub(super) struct Tilted {
+    source: TiltSource<TmagSlave>,
+    magnet: Magnet,
+    /// Tilt that reads as a deflection of 1, rad.
+    full_scale_rad: f64,
+}
+
+impl AnySensor {
+    /// A sensor at rest, whose noise, where the bus does not make its own, follows from `seed`.
+    ///
+    /// `None` if its range does not fit the magnet, which does not depend on the scene.
+    pub(super) fn new(model: SensorModel, seed: u64) -> Option<Self> {
+        Some(match model {
+            SensorModel::Mlx90333 => {
+                Self::Mlx90333(Polled::new(Mlx90333::new(Slave::new(), Decoder::new())))
+            }
+            SensorModel::Tmag5170 => Self::Tmag5170(Box::new(Tilted::new(seed)?)),
+        })
+    }
+
+    /// The first kind, on its bus.
+    pub(super) fn slave_mut(&mut self) -> Option<&mut Slave> {
+        match self {
+            Self::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
+            Self::Tmag5170(_) => None,
+        }
+    }
+
+    /// The second kind, on its bus.
+    pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
+        match self {
+            Self::Mlx90333(_) => None,
+            Self::Tmag5170(tilted) => Some(tilted.source.sensor_mut().spi_mut()),
+        }
+    }
+
+    /// Deflections along x and y from now on, in units of the range.
+    pub(super) fn bend(&mut self, deflection: [f64; 2]) {
+        match self {
+            Self::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
+            Self::Tmag5170(tilted) => tilted.bend(deflection),
+        }
+    }
+}
+
+impl Tilted {
+    fn new(seed: u64) -> Option<Self> {
+        let config = Config {
+            device: DeviceConfig {
+                // The most that are new in every tick of 2 kHz.
+                average: Average::X4,
+                mode: OperatingMode::Active,
+                ..DeviceConfig::default()
+            },
+            sensor: SensorConfig {
+                channels: Channels::Xyz,
+                ranges: [Range::Narrow, Range::Narrow, Range::Wide],
+                ..SensorConfig::default()
+            },
+            ..Config::default()
+        };
+        let full_scale_rad = SensorSettings::default().full_scale_rad;
+        let scale = TiltScale::new(&config, full_scale_rad as f32)?;
+        let slave = TmagSlave::new(Version::A1).with_noise(seed);
+        let mut tilted = Self {
+            source: TiltSource::new(Tmag5170::new(slave), config, scale),
+            magnet: Magnet::of_field(AXIAL_MT).ok()?,
+            full_scale_rad,
+        };
+        tilted.bend([0.0; 2]);
+        Some(tilted)
+    }
+
+    fn bend(&mut self, deflection: [f64; 2]) {
+        let tilt = deflection.map(|along| self.full_scale_rad * along);
+        let field = self.magnet.field_mt(tilt);
+        self.source.sensor_mut().spi_mut().set_field(field);
+    }
+}
+
+impl WordSource for AnySensor {
+    fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
+        match self {
+            Self::Mlx90333(polled) => polled.words(decoder),
+            Self::Tmag5170(tilted) => tilted.source.words(decoder),
+        }
+    }
+
+    fn begin(&mut self) {
+        match self {
+            Self::Mlx90333(polled) => polled.begin(),
+            Self::Tmag5170(tilted) => tilted.source.begin(),
+        }
+    }
+}

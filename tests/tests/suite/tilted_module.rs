@@ -1,0 +1,107 @@
+//! A module whose whiskers have TMAG5170s: it feels what they are bent by, as noisily as such a
+//! sensor does, and a broken wire switches the motor off until it is mended.
+
+use crate::played::{TICK_HZ, play, scene, textured, undisturbed};
+use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
+use firmware::{Event, Place, SensorFault, TiltFault};
+use host_sim::bus::tmag5170::LineFault;
+use scene::Scene;
+use tmag5170::ReplyError;
+
+const LEFT: Place = Place::new(0, 0);
+
+/// Both sides whisk against a surface.
+fn tilted() -> Scene {
+    let more = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n[sensor]\nmodel = \"tmag5170\"\n";
+    scene(1, &textured(90.0), more)
+}
+
+/// RMS of the noise of x, codes: two fields of 0.025 √(32/4) mT, of which that along Z counts
+/// by the tilt alone, on 60 mT, and a full scale of 0.15 in 8191 codes.
+const NOISE: f64 = 2.0 * 0.025 * 2.828_427 / 60.0 / 0.15 * 8191.0;
+
+#[test]
+fn it_feels_what_it_is_bent_by() {
+    let played = undisturbed(&tilted(), 8000);
+    assert!(played.events.is_empty(), "{:?}", played.events);
+    let (mut bent, mut rest, mut product, mut square) = (0_u32, Vec::new(), 0.0, 0.0);
+    for (tick, codes) in &played.heard {
+        let row = &played.rows[*tick as usize];
+        let given = [row.x[0], row.y[0]].map(|code| code - 8192.0);
+        let [x, y] = codes.map(|code| f64::from(code) - 8192.0);
+        // The first ticks configure the sensor.
+        if *tick < 10 {
+            continue;
+        }
+        if given[0].abs() > 2000.0 && given[0].abs() < 7000.0 {
+            bent += 1;
+            product += x * given[0];
+            square += given[0] * given[0];
+        } else if given.iter().all(|code| code.abs() < 500.0) {
+            rest.push([x - given[0], y - given[1]]);
+        }
+    }
+    assert!(bent > 500 && rest.len() > 500, "{bent} {}", rest.len());
+    // tan(0.15) is 0.8 % more than 0.15, and a sensor with the wrong sign has −1.
+    let gain = product / square;
+    assert!((gain - 1.004).abs() < 0.01, "{gain}");
+    for axis in 0..2 {
+        let of_axis = rest.iter().map(|codes| codes[axis] * codes[axis]);
+        let rms = (of_axis.sum::<f64>() / rest.len() as f64).sqrt();
+        assert!((rms / NOISE - 1.0).abs() < 0.1, "{rms} {NOISE}");
+    }
+}
+
+#[test]
+fn another_seed_is_other_noise_and_the_same_seed_the_same() {
+    let heard = |seed: u64| {
+        let scene = Scene { seed, ..tilted() };
+        undisturbed(&scene, 400).heard
+    };
+    assert_eq!(heard(1), heard(1));
+    assert_ne!(heard(1), heard(2));
+}
+
+#[test]
+fn a_cut_wire_switches_it_off_until_it_is_mended() {
+    let of = |seconds: f64| u64::from(ticks(seconds, TICK_HZ as u32));
+    let [cut, mended] = [2000, 3000];
+    let played = play(&tilted(), 4000, |tick, run| {
+        assert!(run.slave_mut(0).is_none(), "it is no MLX90333");
+        let slave = run.tmag_mut(0).unwrap();
+        if tick == cut {
+            slave.set_fault(Some(LineFault::Silent));
+        } else if tick == mended {
+            slave.set_fault(None);
+        }
+    });
+    let fault = SensorFault::Tilt(TiltFault::Reply(ReplyError::NoSensor));
+    assert_eq!(fault.code(), 27);
+    let sensors = |event: &Event| matches!(event, Event::SensorLost(..) | Event::SensorBack(_));
+    let told: Vec<_> = played
+        .events
+        .iter()
+        .filter(|(_, event)| sensors(event))
+        .collect();
+    let [(lost, loss), (back, recovery)] = told[..] else {
+        panic!("{told:?}");
+    };
+    assert_eq!(
+        (*lost, *loss),
+        (cut + of(HOLD_S), Event::SensorLost(LEFT, fault))
+    );
+    assert_eq!(*recovery, Event::SensorBack(LEFT));
+    // It is asked every few ticks while it is lost, and may have to be set up again.
+    let earliest = mended + of(RECOVER_S) - 1;
+    assert!(
+        (earliest..earliest + 10).contains(back),
+        "{back} {earliest}"
+    );
+    // The other side whisks on.
+    let right = &played.rows[2100..2900];
+    let angles = right.iter().map(|row| row.angle_deg[1]);
+    let (low, high) = angles.fold((f64::MAX, f64::MIN), |(low, high), angle| {
+        (low.min(angle), high.max(angle))
+    });
+    assert!(high - low > 20.0, "{low} {high}");
+}
