@@ -1,9 +1,13 @@
 //! What is shown of records and lines.
 
-use wire::{Packet, TickRecord};
+use std::path::Path;
+
+use wire::{Flags, Packet, TickRecord};
 
 use super::{Fault, signals};
 use crate::monitor::history::History;
+use crate::monitor::known::Known;
+use crate::monitor::listener::Listener;
 use crate::monitor::view::View;
 use crate::source::Heard;
 
@@ -83,4 +87,32 @@ fn faults_come_with_cause_and_remedy() {
         remedy: "exchange the motor's two wires, or A and B; top_speed_deg_s".to_owned(),
     };
     assert_eq!(shown.faults, [expected]);
+}
+
+#[test]
+fn it_is_said_that_the_classifier_has_started_anew() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
+    let known = Known::of(Some(&scene), None).unwrap().unwrap();
+    let listener = Listener::new(known, 2000, 1).unwrap();
+    let mut history = History::new(2000, 1, Some(listener));
+    let mut hear = |sequence| {
+        let record = TickRecord {
+            sequence,
+            flags: Flags::VALID,
+            ..TickRecord::default()
+        };
+        history.take(&Heard {
+            packets: vec![Packet::Record(record)],
+            lines: Vec::new(),
+        });
+        let shown = history.shown(&View::new(), "t", String::new());
+        shown.classifying.join("\n")
+    };
+    let said = [1, 2, 3001, 3002, 1].map(&mut hear);
+    assert!(said[1].starts_with("computed on the PC from records"));
+    assert!(!said[1].contains("anew"));
+    for said in &said[2..4] {
+        assert!(said.contains("anew at 1.5 s: records were lost"), "{said}");
+    }
+    assert!(said[4].contains("the module started again"), "{}", said[4]);
 }
