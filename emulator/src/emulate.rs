@@ -15,7 +15,6 @@ use scene::{Scene, SensorMode};
 use crate::board::{Board, Emulated};
 use crate::chip::{Chip, Fault, Model};
 use crate::program::Program;
-use crate::rtt::LogDecoder;
 
 impl From<Fault> for Error {
     fn from(fault: Fault) -> Self {
@@ -83,7 +82,7 @@ pub fn emulate(
     let loaded = Loaded::new(path)?;
     let classes = loaded.classes()?;
     let program = Program::load(program)?;
-    let mut decoder = LogDecoder::new(&program)?;
+    let mut decoder = program.log_decoder()?;
     let run = start(&loaded.scene, classes, &program)?;
     let written = Output::create(&out.join("log.txt"))?;
     let mut log = String::new();

@@ -34,7 +34,6 @@ mod paint;
 pub mod picture;
 mod program;
 pub mod registers;
-mod rtt;
 pub mod sensor_loss;
 pub mod session;
 pub mod starting;

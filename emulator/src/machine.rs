@@ -11,8 +11,8 @@ use crate::core::{Core, EXCEPTION};
 use crate::memory::{Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
-use crate::rtt::Rtt;
 use crate::upset::{Planned, Upset};
+use rtt::Rtt;
 
 /// Interrupts are exceptions from this number on.
 const INTERRUPTS: u32 = 16;
@@ -98,7 +98,7 @@ impl Machine {
             tick: exception(model.tick_irq()),
             frames: model.frame_irqs().map(exception).collect(),
             memories,
-            rtt: Rtt::new(program)?,
+            rtt: Rtt::of_program(program.bytes())?,
             stack: Stack::new(program)?,
             now: 0,
             due: None,

@@ -212,6 +212,18 @@ impl Memories {
     }
 }
 
+impl rtt::Ram for &Memories {
+    type Fault = Fault;
+
+    fn read(&mut self, at: u32, into: &mut [u8]) -> Result<(), Fault> {
+        Memories::read(self, at, into)
+    }
+
+    fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Fault> {
+        Memories::write(self, at, bytes)
+    }
+}
+
 fn ram_offset(address: u32) -> Result<u64, Fault> {
     let outside = || Fault::Memory(format!("{address:#010x} is not in RAM"));
     address.checked_sub(RAM).map(u64::from).ok_or_else(outside)

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use object::elf::{FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader, ProgramHeader};
-use object::{Endianness, Object, ObjectSection, ObjectSymbol};
+use object::{Endianness, Object, ObjectSection};
+use rtt::LogDecoder;
 
 use crate::chip::{Fault, MODELS, Model};
 
@@ -73,11 +74,13 @@ impl Program {
             .map(|(at, contents)| (*at, contents.as_slice()))
     }
 
+    /// What turns its log into lines.
+    pub(crate) fn log_decoder(&self) -> Result<LogDecoder, Fault> {
+        Ok(LogDecoder::new(&self.bytes)?)
+    }
+
     /// The address of a symbol.
     pub(crate) fn symbol(&self, name: &str) -> Result<u32, Fault> {
-        let file = object::File::parse(self.bytes.as_slice()).map_err(bad)?;
-        let symbol = file.symbols().find(|symbol| symbol.name() == Ok(name));
-        let symbol = symbol.ok_or_else(|| bad(format!("it has no symbol {name}")))?;
-        Ok(symbol.address() as u32)
+        Ok(rtt::symbol(&self.bytes, name)?)
     }
 }

@@ -11,7 +11,7 @@ use wire::{Packet, TaggedCommand};
 use crate::board::Emulated;
 use crate::emulate::start;
 use crate::program::Program;
-use crate::rtt::LogDecoder;
+use rtt::LogDecoder;
 
 /// Picoseconds in a second.
 const PS: f64 = 1e12;
@@ -34,7 +34,7 @@ impl Session {
         Ok(Self {
             // Decisions are told in the log, by their names.
             run: start(scene, Vec::new(), &program)?,
-            decoder: LogDecoder::new(&program)?,
+            decoder: program.log_decoder()?,
             board: program.model()?.program,
         })
     }

@@ -10,8 +10,8 @@ use crate::board::{Board, Emulated};
 use crate::chip::Ps;
 use crate::emulate::start;
 use crate::program::Program;
-use crate::rtt::LogDecoder;
 use crate::upset::{MIDDLE, Upset};
+use rtt::LogDecoder;
 
 /// A board in trouble.
 pub(crate) struct Trouble {
@@ -28,7 +28,7 @@ impl Trouble {
         Ok(Self {
             run: start(scene, Vec::new(), &program)?,
             sides: scene.head.sides.count(),
-            decoder: LogDecoder::new(&program)?,
+            decoder: program.log_decoder()?,
             log: Vec::new(),
         })
     }

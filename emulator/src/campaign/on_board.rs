@@ -12,8 +12,8 @@ use crate::board::Emulated;
 use crate::chip::Fault;
 use crate::emulate::start;
 use crate::program::Program;
-use crate::rtt::LogDecoder;
 use crate::upset::{MIDDLE, REGISTERS, Upset};
+use rtt::LogDecoder;
 
 /// A scene on an emulated board.
 pub(super) struct OnBoard<'p> {
@@ -38,7 +38,7 @@ impl<'p> OnBoard<'p> {
         Ok(Self {
             run,
             words,
-            decoder: LogDecoder::new(program)?,
+            decoder: program.log_decoder()?,
             sides: loaded.scene.head.sides.count(),
             tick_hz: loaded.scene.tick_hz,
             changed: None,

@@ -52,3 +52,9 @@ pub enum Fault {
     #[error("program: {0}")]
     Program(String),
 }
+
+impl From<rtt::BadProgram> for Fault {
+    fn from(bad: rtt::BadProgram) -> Self {
+        Self::Program(bad.to_string())
+    }
+}

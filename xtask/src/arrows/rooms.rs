@@ -19,7 +19,7 @@ pub(super) const ROWS: [&[&str]; 10] = [
     &["plan"],
     &["scene"],
     &[
-        "mlx90333", "physics", "tactile", "tmag5170", "whisking", "wire",
+        "mlx90333", "physics", "rtt", "tactile", "tmag5170", "whisking", "wire",
     ],
 ];
 
