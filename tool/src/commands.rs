@@ -1,6 +1,9 @@
 //! The commands, one file for each.
 
 pub(crate) mod capture;
+pub(crate) mod doctor;
+pub(crate) mod flash;
 pub(crate) mod log;
 pub(crate) mod monitor;
+pub(crate) mod order;
 pub(crate) mod records;

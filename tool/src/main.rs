@@ -10,8 +10,10 @@
 mod capture;
 mod commands;
 mod conversation;
+mod doctor;
 mod log_line;
 mod monitor;
+mod probe;
 mod record_file;
 mod script;
 mod source;
@@ -26,8 +28,8 @@ use host_sim::{Error, report};
 
 /// Reads the log and the records of a whisker module, and captures textures for it to learn.
 ///
-/// The module is a simulated one (--sim), or the program of a board on an emulated chip
-/// (--emulated).
+/// The module is a simulated one (--sim), the program of a board on an emulated chip
+/// (--emulated), or a board behind its debug probe (--probe).
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
 #[derive(Parser)]
@@ -51,6 +53,20 @@ enum Command {
     Monitor(Box<commands::monitor::Arguments>),
     /// Records textures, label by label, as many touches of each: what host-sim train reads
     Capture(commands::capture::Arguments),
+    /// Programs a board through its debug probe with a scene
+    Flash(commands::flash::Arguments),
+    /// Says what this PC lacks to work with a board, and the command that mends it
+    Doctor(commands::doctor::Arguments),
+    /// Drives the motors of a module
+    Arm(commands::order::ToAll),
+    /// Drives no motor of a module until it is armed
+    Stop(commands::order::ToAll),
+    /// Runs a motor that rests after faults, or was given up, again
+    Clear(commands::order::ToSide),
+    /// Finds a whisker's rest anew, where motor.rest is "find"
+    Home(commands::order::ToSide),
+    /// Says what a module is and what it has lost and missed
+    Status(commands::order::ToAll),
 }
 
 fn main() -> ExitCode {
@@ -66,6 +82,13 @@ fn main() -> ExitCode {
             Command::Log(arguments) => commands::log::log(&arguments),
             Command::Records(arguments) => commands::records::records(&arguments, verbosity),
             Command::Capture(arguments) => commands::capture::capture(&arguments, verbosity),
+            Command::Flash(arguments) => commands::flash::flash(&arguments, verbosity),
+            Command::Doctor(arguments) => commands::doctor::doctor(&arguments),
+            Command::Arm(to) => commands::order::arm(&to),
+            Command::Stop(to) => commands::order::stop(&to),
+            Command::Clear(to) => commands::order::clear(&to),
+            Command::Home(to) => commands::order::home(&to),
+            Command::Status(of) => commands::order::status(&of),
         }
     })
 }

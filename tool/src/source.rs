@@ -1,17 +1,17 @@
 //! Where a module is that can be talked with.
 
+mod board;
 mod choice;
 mod emulated;
-#[allow(
-    dead_code,
-    reason = "of sources of a real module, none of which is here yet"
-)]
 mod person;
 mod program;
 mod simulated;
 mod texture;
 
 pub(crate) use choice::{SourceChoice, seconds};
+#[cfg(feature = "probe")]
+pub(crate) use person::Person;
+pub(crate) use program::{BoardName, build};
 
 use host_sim::Error;
 use host_sim::origin::Origin;
@@ -33,6 +33,11 @@ pub(crate) trait Source {
 
     /// Sends a request, whose answer is among what comes next.
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error>;
+
+    /// Whether its log can be read; where not, what would help.
+    fn has_log(&self) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// Whether it has a sample of that name; where a person lays it any name will do.
     fn has(&self, sample: &str) -> Result<(), Error>;

@@ -15,6 +15,10 @@ use crate::{
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
+/// The bench's program without debug probes: to build those takes longer than all its tests.
+/// The nightly run has them.
+const TOOL: [&str; 3] = ["-p", "whisker", "--no-default-features"];
+
 /// Everything, or the steps whose names contain one of `only`.
 ///
 /// # Errors
@@ -54,13 +58,16 @@ fn web() -> Result<(), Fault> {
 
 fn lints() -> Result<(), Fault> {
     let everything = ["clippy", "--workspace", "--all-targets", "--all-features"];
-    run(cargo(&everything).args(DENY))?;
+    run(cargo(&everything).args(["--exclude", "whisker"]).args(DENY))?;
+    run(cargo(&["clippy", "--all-targets"]).args(TOOL).args(DENY))?;
     let board = Board::ALL[0].build_arguments();
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
 
 fn tests() -> Result<(), Fault> {
-    run(&mut cargo(&["test", "--locked"]))?;
+    let others = ["--workspace", "--exclude", "whisker", "--exclude", "count"];
+    run(cargo(&["test", "--locked"]).args(others))?;
+    run(cargo(&["test", "--locked"]).args(TOOL))?;
     run(&mut cargo(&["test", "--locked", "-p", "count", "--lib"]))
 }
 

@@ -1,4 +1,4 @@
-//! The firmware of a scene: building, measuring and flashing it.
+//! The firmware of a scene: building and measuring it.
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -16,8 +16,6 @@ pub(crate) struct Board {
     /// The program in `firmware/src/bin`.
     program: &'static str,
     target: &'static str,
-    /// What probe-rs calls its chip.
-    chip: &'static str,
     /// Whether its core computes f32 by itself.
     pub(crate) has_fpu: bool,
     /// Whether it carries a whisker a side, and not the left alone.
@@ -31,7 +29,6 @@ impl Board {
             name: "nucleo-f446re",
             program: "nucleo_f446re",
             target: "thumbv7em-none-eabihf",
-            chip: "STM32F446RETx",
             has_fpu: true,
             has_both_sides: true,
         },
@@ -39,7 +36,6 @@ impl Board {
             name: "nucleo-f103rb",
             program: "nucleo_f103rb",
             target: "thumbv7m-none-eabi",
-            chip: "STM32F103RBTx",
             has_fpu: false,
             has_both_sides: false,
         },
@@ -47,7 +43,6 @@ impl Board {
             name: "nucleo-g071rb",
             program: "nucleo_g071rb",
             target: "thumbv6m-none-eabi",
-            chip: "STM32G071RBTx",
             has_fpu: false,
             has_both_sides: false,
         },
@@ -199,23 +194,4 @@ pub(crate) fn with_elf<T, E: Display>(
     let bytes = read_bytes(elf)?;
     let file = object::File::parse(&*bytes).map_err(|error| wrong(&error))?;
     ask(&file).map_err(|error| wrong(&error))
-}
-
-/// Flashes an ELF file and streams its log until interrupted.
-///
-/// # Errors
-/// If probe-rs is not installed or finds no board.
-pub(crate) fn flash(board: Board, elf: &Path) -> Result<(), Fault> {
-    let mut probe = Command::new("probe-rs");
-    probe.args(["run", "--chip", board.chip]).arg(elf);
-    match probe.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!(
-            "probe-rs ended with {status}. Is the board plugged in by its ST-LINK socket, and \
-             does `probe-rs list` show it? On Linux the udev rules of probe-rs must be installed."
-        )),
-        Err(error) => Err(format!(
-            "probe-rs cannot be run ({error}). Install it: cargo install probe-rs-tools --locked"
-        )),
-    }
 }

@@ -1,4 +1,4 @@
-//! Everything CI does, by name: `cargo xtask ci`, `firmware`, `flash`, `docs`.
+//! Everything CI does, by name: `cargo xtask ci`, `firmware`, `docs`.
 
 mod arrows;
 mod book;
@@ -52,9 +52,6 @@ enum Command {
     },
     /// Builds the firmware of a scene and prints its flash and RAM bytes
     Firmware(Build),
-    /// Builds the firmware of a scene, flashes it and streams its log
-    /// (needs probe-rs and a board)
-    Flash(Build),
     /// Builds the firmware of a scene and runs it on an emulated board: writes
     /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
     Emulate(Emulate),
@@ -262,8 +259,6 @@ fn main() -> ExitCode {
         Command::Arrows { packages } => arrows::all(&packages),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| size::print(build.board, &build.scene, &elf)),
-        Command::Flash(build) => firmware::build(build.board, &build.scene)
-            .and_then(|elf| firmware::flash(build.board, &elf)),
         Command::Emulate(emulate) => emulate.run(),
         Command::Faults(choice) => faults::all(&choice),
         Command::Endurance(choice) => endurance::all(&choice),

@@ -23,6 +23,7 @@ const NIGHTS: u64 = 7;
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.try_run("lints of every board", lints);
+    steps.try_run("the bench's program with debug probes", with_probes);
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)
     });
@@ -44,6 +45,13 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     });
     steps.try_run("mutations", mutations);
     steps.end()
+}
+
+fn with_probes() -> Result<(), Fault> {
+    let tool = ["--locked", "-p", "whisker"];
+    let deny = ["--all-targets", "--", "-D", "warnings"];
+    run(cargo(&["clippy"]).args(tool).args(deny))?;
+    run(cargo(&["test"]).args(tool))
 }
 
 fn lints() -> Result<(), Fault> {

@@ -18,6 +18,18 @@ pub trait Ram {
     fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Self::Fault>;
 }
 
+impl<R: Ram> Ram for &mut R {
+    type Fault = R::Fault;
+
+    fn read(&mut self, at: u32, into: &mut [u8]) -> Result<(), R::Fault> {
+        R::read(self, at, into)
+    }
+
+    fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), R::Fault> {
+        R::write(self, at, bytes)
+    }
+}
+
 /// Bytes of a ring's description.
 pub(crate) const RING: u32 = 24;
 
@@ -176,7 +188,7 @@ mod tests {
     /// A ring of eight bytes at 24, in RAM that begins at 0.
     struct Memory([u8; 32]);
 
-    impl Ram for &mut Memory {
+    impl Ram for Memory {
         type Fault = Infallible;
 
         fn read(&mut self, at: u32, into: &mut [u8]) -> Result<(), Infallible> {

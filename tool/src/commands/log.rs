@@ -29,6 +29,7 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     let script = arguments.script.as_deref().map(Script::load);
     let mut script = script.transpose()?.unwrap_or_default();
     let mut module = Conversation::new(arguments.source.open(0)?);
+    module.source().has_log()?;
     let most = arguments.seconds.or(module.source().duration_s());
     let begun = module.source().now_s();
     // Of its answers; a module whose program takes no requests has a log all the same.
@@ -54,4 +55,11 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
         );
     }
     script.end()
+}
+
+/// Prints lines as they come, until interrupted.
+pub(crate) fn stream(mut module: Conversation) -> Result<(), Error> {
+    loop {
+        module.hear()?.lines.into_iter().for_each(report::say);
+    }
 }

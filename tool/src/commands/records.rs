@@ -68,10 +68,15 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let script = arguments.script.as_deref().map(Script::load);
     let mut script = script.transpose()?.unwrap_or_default();
     let mut module = Conversation::new(arguments.source.open(0)?);
+    let most = arguments.seconds.or(module.source().duration_s());
+    if most.is_none() {
+        // Whoever ends it by an interrupt has no file.
+        let fault = "--seconds is missing: a module on a bench goes on until it is switched off";
+        return Err(Error::Input(fault.to_owned()));
+    }
     module.ask(Command::Stream(true))?;
     let lost_before = module.ask(Command::Status)?.values[0];
     let about = module.about()?;
-    let most = arguments.seconds.or(module.source().duration_s());
     let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
 
     let origin = module.source().origin().with("scene", &about.scene);

@@ -11,6 +11,7 @@ use super::Source;
 use super::emulated::Emulated;
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
+use crate::probe;
 
 /// Which module.
 #[derive(Debug, Clone, Args)]
@@ -21,11 +22,23 @@ pub(crate) struct SourceChoice {
     /// The program that a board has for this scene, on an emulated chip, in the scene's world
     #[arg(long, value_name = "SCENE", group = "source")]
     emulated: Option<PathBuf>,
-    /// The program's file, which must be of the same scene; without it it is built (minutes,
-    /// the first time)
-    #[arg(long, value_name = "ELF", conflicts_with_all = ["sim", "board"])]
+    /// A board behind its debug probe, without stopping it; where there are several probes, the
+    /// one whose serial number begins so
+    #[arg(
+        long,
+        value_name = "SERIAL",
+        group = "source",
+        num_args = 0..=1,
+        default_missing_value = "",
+        conflicts_with = "seed"
+    )]
+    probe: Option<String>,
+    /// The program's file. Of --emulated it must be of the same scene; without it it is built
+    /// (minutes, the first time). Of --probe it is what the board runs; without it the log
+    /// cannot be read
+    #[arg(long, value_name = "ELF", conflicts_with = "sim")]
     program: Option<PathBuf>,
-    /// The board whose program is built
+    /// The board whose program is built, or that is behind the probe
     #[arg(
         long,
         value_enum,
@@ -51,11 +64,14 @@ impl SourceChoice {
 
     /// Opens it, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
+        if let Some(serial) = &self.probe {
+            return probe::open(serial, self.board, self.program.as_deref());
+        }
         let (Some(path), simulates) = (
             self.sim.as_ref().or(self.emulated.as_ref()),
             self.sim.is_some(),
         ) else {
-            let fault = "which module? allowed: --sim SCENE, --emulated SCENE";
+            let fault = "which module? allowed: --sim SCENE, --emulated SCENE, --probe";
             return Err(Error::Input(fault.to_owned()));
         };
         let mut loaded = Loaded::new(path)?;

@@ -8,8 +8,12 @@ use host_sim::{Error, report};
 
 /// A person before a keyboard. Their answers are read beside the work: the module goes on while
 /// a sample is exchanged, and what it tells must be fetched.
+#[cfg_attr(
+    not(feature = "probe"),
+    allow(dead_code, reason = "of sources of a real module")
+)]
 #[derive(Debug)]
-pub(super) struct Person {
+pub(crate) struct Person {
     answers: Receiver<io::Result<()>>,
     /// Whether answers that come before they are asked for are a key pressed once too often;
     /// otherwise they were written down beforehand.
@@ -18,9 +22,13 @@ pub(super) struct Person {
     asked: Option<String>,
 }
 
+#[cfg_attr(
+    not(feature = "probe"),
+    allow(dead_code, reason = "of sources of a real module")
+)]
 impl Person {
     /// Whoever is at standard input.
-    pub(super) fn at_standard_input() -> Self {
+    pub(crate) fn at_standard_input() -> Self {
         Self::new(|| Box::new(io::stdin().lock()), io::stdin().is_terminal())
     }
 
@@ -43,7 +51,7 @@ impl Person {
     }
 
     /// Asks for a sample, without waiting.
-    pub(super) fn lay(&mut self, sample: &str) {
+    pub(crate) fn lay(&mut self, sample: &str) {
         if self.forgets {
             // All that has come by now; what comes of a closed input is told when it counts.
             while let Ok(Ok(())) = self.answers.try_recv() {}
@@ -58,7 +66,7 @@ impl Person {
     ///
     /// # Errors
     /// [`Error::Work`] if nobody can answer.
-    pub(super) fn is_laid(&mut self) -> Result<bool, Error> {
+    pub(crate) fn is_laid(&mut self) -> Result<bool, Error> {
         let Some(sample) = &self.asked else {
             return Ok(true);
         };

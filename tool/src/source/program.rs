@@ -6,9 +6,9 @@ use std::process::Command;
 use clap::ValueEnum;
 use host_sim::{Error, report};
 
-/// A board whose program can be built and emulated.
+/// A board whose program can be built, emulated and flashed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum BoardName {
+pub(crate) enum BoardName {
     /// Cortex-M4F, a whisker a side
     NucleoF446re,
     /// Cortex-M3, in fixed point, one whisker
@@ -38,7 +38,7 @@ const fn recipe(board: BoardName) -> Recipe {
 }
 
 /// Builds the program of `scene`; returns its file.
-pub(super) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
+pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     let Recipe {
         feature,
         program,

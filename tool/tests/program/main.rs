@@ -7,5 +7,6 @@ mod learnt;
 mod log;
 mod messages;
 mod monitor;
+mod order;
 mod records;
 mod script;

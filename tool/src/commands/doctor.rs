@@ -1,0 +1,30 @@
+//! `whisker doctor`: what this PC lacks.
+
+use clap::Args;
+use host_sim::{Error, report};
+
+use crate::doctor::{Facts, Purpose, checks, is_well};
+use crate::source::BoardName;
+
+/// For what.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// What is needed; give it once for each, without it everything is
+    #[arg(long = "for", value_name = "PURPOSE", value_enum)]
+    purposes: Vec<Purpose>,
+    /// The board that is behind the probe
+    #[arg(long, value_enum, default_value = "nucleo-f446re")]
+    board: BoardName,
+}
+
+/// Prints a line a check; fails if something is missing that is needed.
+pub(crate) fn doctor(arguments: &Arguments) -> Result<(), Error> {
+    let facts = Facts::gather(arguments.board);
+    let checks = checks(&facts, arguments.board, &arguments.purposes);
+    checks.iter().for_each(report::say);
+    if is_well(&checks) {
+        return Ok(());
+    }
+    let fault = "something is missing; after a colon stands what mends it";
+    Err(Error::Work(fault.to_owned()))
+}

@@ -1,0 +1,50 @@
+//! `whisker flash`: a scene's program onto a board.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use host_sim::Error;
+use host_sim::progress::Verbosity;
+
+use super::log;
+use crate::conversation::Conversation;
+use crate::probe;
+use crate::source::{BoardName, build};
+
+/// Which program, and onto which board.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The scene whose program is built and flashed
+    #[arg(required_unless_present = "program")]
+    scene: Option<PathBuf>,
+    /// The program's file instead, built before
+    #[arg(long, value_name = "ELF", conflicts_with = "scene")]
+    program: Option<PathBuf>,
+    /// The board
+    #[arg(long, value_enum, default_value = "nucleo-f446re")]
+    board: BoardName,
+    /// Where there are several probes, the one whose serial number begins so
+    #[arg(long, value_name = "SERIAL", default_value = "")]
+    probe: String,
+    /// Prints the board's log afterwards, until interrupted
+    #[arg(long)]
+    log: bool,
+}
+
+/// Builds the program and flashes it.
+pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
+    let Arguments { board, probe, .. } = arguments;
+    // What cannot be flashed need not be built.
+    probe::is_there(probe)?;
+    let elf = match (&arguments.program, &arguments.scene) {
+        (Some(program), _) => program.clone(),
+        (None, Some(scene)) => build(*board, scene)?,
+        (None, None) => return Err(Error::Input("SCENE is missing".to_owned())),
+    };
+    probe::flash(probe, *board, &elf, verbosity)?;
+    if arguments.log {
+        let module = Conversation::new(probe::open(probe, *board, Some(&elf))?);
+        log::stream(module)?;
+    }
+    Ok(())
+}

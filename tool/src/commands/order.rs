@@ -1,0 +1,85 @@
+//! `whisker arm`, `stop`, `clear`, `home` and `status`: one command, and its answer.
+
+use clap::{Args, ValueEnum};
+use host_sim::{Error, report};
+use wire::{Command, WhiskerId};
+
+use crate::conversation::Conversation;
+use crate::source::SourceChoice;
+
+/// Which module.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct ToAll {
+    #[command(flatten)]
+    source: SourceChoice,
+}
+
+/// Which module, and which of its whiskers.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct ToSide {
+    /// The whisker's side
+    #[arg(value_enum)]
+    side: SideName,
+    #[command(flatten)]
+    source: SourceChoice,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SideName {
+    /// The left one
+    Left,
+    /// The right one
+    Right,
+}
+
+impl ToSide {
+    fn whisker(&self) -> WhiskerId {
+        WhiskerId {
+            side: u8::from(self.side == SideName::Right),
+            number: 0,
+        }
+    }
+}
+
+/// Arms the motors. Nothing of it is undone at the end.
+pub(crate) fn arm(to: &ToAll) -> Result<(), Error> {
+    order(&to.source, Command::Arm, "armed")
+}
+
+/// Stops the motors.
+pub(crate) fn stop(to: &ToAll) -> Result<(), Error> {
+    order(&to.source, Command::Stop, "motors off until armed")
+}
+
+/// Runs a motor again that rests.
+pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
+    order(&to.source, Command::Clear(to.whisker()), "faults cleared")
+}
+
+/// Finds rest anew.
+pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
+    order(&to.source, Command::Home(to.whisker()), "is being homed")
+}
+
+fn order(source: &SourceChoice, command: Command, done: &str) -> Result<(), Error> {
+    let answer = Conversation::new(source.open(0)?).ask(command)?;
+    report::say(format_args!("{done}, after tick {}", answer.sequence));
+    Ok(())
+}
+
+/// Says what the module says of itself.
+pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
+    let mut module = Conversation::new(of.source.open(0)?);
+    let about = module.about()?;
+    let [_, whiskers] = module.ask(Command::Hello)?.values;
+    let status = module.ask(Command::Status)?;
+    let [lost, missed] = status.values.map(i32::cast_unsigned);
+    report::say(format_args!(
+        "scene {}\n{} ticks a second, whiskers: {whiskers}\n{} ticks since the start, {missed} \
+         missed\n{lost} records found no room",
+        about.scene, about.tick_hz, status.sequence
+    ));
+    Ok(())
+}

@@ -1,0 +1,215 @@
+//! What is told of PCs that lack this or that.
+
+use super::super::usb::SerialPort;
+use super::*;
+
+const F446: BoardName = BoardName::NucleoF446re;
+
+fn probe() -> SeenProbe {
+    SeenProbe {
+        name: "STLink V2-1".to_owned(),
+        serial: "066DFF".to_owned(),
+        may_open: true,
+        chip: Ok(0x421),
+    }
+}
+
+/// A PC that lacks nothing.
+fn complete() -> Facts {
+    let targets = [
+        "thumbv7em-none-eabihf",
+        "thumbv7m-none-eabi",
+        "thumbv6m-none-eabi",
+    ];
+    let targets = targets.map(str::to_owned).to_vec();
+    Facts {
+        toolchain: "1.95.0".to_owned(),
+        fetched: targets.clone(),
+        targets,
+        rustup: Some("1.28.2".to_owned()),
+        toolchains: vec!["1.95.0-x86_64-unknown-linux-gnu".to_owned()],
+        free_mib: Some(40_000),
+        is_linux: true,
+        is_root: false,
+        has_rules: true,
+        probes: Ok(vec![probe()]),
+        ports: vec![SerialPort {
+            path: "/dev/ttyACM0".into(),
+            may_open: true,
+        }],
+    }
+}
+
+/// An empty PC, and a board that is not plugged in.
+fn empty() -> Facts {
+    Facts {
+        rustup: None,
+        toolchains: Vec::new(),
+        fetched: Vec::new(),
+        free_mib: Some(1024),
+        has_rules: false,
+        probes: Ok(Vec::new()),
+        ports: Vec::new(),
+        ..complete()
+    }
+}
+
+fn told(facts: &Facts, purposes: &[Purpose]) -> Vec<String> {
+    let checks = checks(facts, F446, purposes);
+    checks.iter().map(ToString::to_string).collect()
+}
+
+/// The only line that is missing.
+fn missing(facts: &Facts) -> String {
+    let told = told(facts, &[]);
+    let mut missing = told.into_iter().filter(|line| line.starts_with("missing"));
+    let one = missing.next().unwrap_or_default();
+    assert_eq!(missing.next(), None, "after {one}");
+    assert_eq!(is_well(&checks(facts, F446, &[])), one.is_empty());
+    one
+}
+
+#[test]
+fn where_all_is_there_nothing_is_missing() {
+    assert_eq!(missing(&complete()), "");
+    assert!(
+        told(&complete(), &[])
+            .iter()
+            .all(|line| line.starts_with("ok "))
+    );
+}
+
+#[test]
+fn each_lack_is_told_with_what_mends_it() {
+    let lacks = |change: fn(&mut Facts)| {
+        let mut facts = complete();
+        change(&mut facts);
+        missing(&facts)
+    };
+    for (change, says) in [
+        (
+            (|facts| facts.rustup = None) as fn(&mut Facts),
+            "missing  rustup: curl ",
+        ),
+        (
+            |facts| drop(facts.fetched.remove(1)),
+            "missing  target thumbv7m-none-eabi: rustup target add --toolchain 1.95.0 \
+             thumbv7m-none-eabi",
+        ),
+        (
+            |facts| facts.free_mib = Some(2047),
+            "missing  free disk, 2.0 GiB: 2 GiB are needed",
+        ),
+        (
+            |facts| facts.ports.clear(),
+            "missing  serial port of an ST-LINK: plug",
+        ),
+        (
+            |facts| facts.ports[0].may_open = false,
+            "missing  serial port /dev/ttyACM0: sudo usermod -aG dialout $USER",
+        ),
+        (
+            |facts| facts.probes = Ok(Vec::new()),
+            "missing  debug probe: plug",
+        ),
+        (
+            |facts| facts.probes = Err("built without probes".to_owned()),
+            "missing  debug probe: built without probes",
+        ),
+        (
+            |facts| {
+                facts.probes = Ok(vec![SeenProbe {
+                    chip: Ok(0x410),
+                    ..probe()
+                }]);
+            },
+            "missing  chip STM32F446RETx (found identity 0x410): --board",
+        ),
+        (
+            |facts| {
+                facts.probes = Ok(vec![SeenProbe {
+                    chip: Err("no answer".to_owned()),
+                    ..probe()
+                }]);
+            },
+            "missing  chip STM32F446RETx: no answer",
+        ),
+        (
+            |facts| {
+                facts.probes = Ok(vec![SeenProbe {
+                    may_open: false,
+                    ..probe()
+                }]);
+            },
+            "missing  permission for debug probes: sudo usermod -aG plugdev $USER",
+        ),
+        (
+            |facts| {
+                facts.has_rules = false;
+                facts.probes = Ok(vec![SeenProbe {
+                    may_open: false,
+                    ..probe()
+                }]);
+            },
+            "missing  permission for debug probes: echo 'SUBSYSTEM",
+        ),
+    ] {
+        let line = lacks(change);
+        assert!(line.starts_with(says), "{line}");
+    }
+}
+
+#[test]
+fn without_the_toolchain_its_targets_are_missing_too() {
+    let facts = Facts {
+        toolchains: vec!["1.95.00-x86_64".to_owned(), "stable-x86_64".to_owned()],
+        ..complete()
+    };
+    let told = told(&facts, &[Purpose::Sim]);
+    let missing = told.iter().filter(|line| line.starts_with("missing"));
+    assert_eq!(missing.count(), 4, "{told:?}");
+}
+
+#[test]
+fn what_a_purpose_does_not_need_is_absent() {
+    let facts = Facts {
+        probes: Ok(Vec::new()),
+        ports: Vec::new(),
+        ..complete()
+    };
+    for (purposes, count) in [
+        (&[][..], 2),
+        (&[Purpose::Sim], 0),
+        (&[Purpose::Probe], 1),
+        (&[Purpose::Port], 1),
+        (&[Purpose::Sim, Purpose::Port], 1),
+    ] {
+        let told = told(&facts, purposes);
+        let begins = |with: &str| told.iter().filter(|line| line.starts_with(with)).count();
+        assert_eq!(begins("missing"), count, "{purposes:?}: {told:?}");
+        assert_eq!(begins("absent"), 2 - count, "{purposes:?}: {told:?}");
+    }
+}
+
+#[test]
+fn elsewhere_devices_need_no_permission() {
+    let facts = Facts {
+        is_linux: false,
+        has_rules: false,
+        ports: Vec::new(),
+        ..complete()
+    };
+    assert_eq!(missing(&facts), "");
+}
+
+#[test]
+fn the_page_shows_what_is_printed() {
+    let page = include_str!("../../../../docs/flashing.md");
+    for facts in [empty(), complete()] {
+        let printed = told(&facts, &[]).join("\n");
+        assert!(
+            page.contains(&printed),
+            "not in docs/flashing.md:\n{printed}"
+        );
+    }
+}

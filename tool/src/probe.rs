@@ -1,0 +1,36 @@
+//! A board behind its debug probe, by probe-rs; without the feature `probe` a message how to
+//! get it.
+
+#[cfg(feature = "probe")]
+mod behind;
+#[cfg(feature = "probe")]
+mod find;
+#[cfg(feature = "probe")]
+mod flash;
+#[cfg(feature = "probe")]
+mod memory;
+#[cfg(not(feature = "probe"))]
+mod without;
+
+#[cfg(not(feature = "probe"))]
+pub(crate) use without::{flash, is_there, open, seen};
+#[cfg(feature = "probe")]
+pub(crate) use {
+    behind::open,
+    find::{is_there, seen},
+    flash::flash,
+};
+
+/// A probe on USB, as far as it is seen without the chip behind it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SeenProbe {
+    /// What kind it is.
+    pub(crate) name: String,
+    /// Its serial number, where it has one.
+    pub(crate) serial: String,
+    /// Whether this user may open it.
+    pub(crate) may_open: bool,
+    /// The chip behind it by its [identity](crate::source::BoardName::chip_id), or why that
+    /// cannot be read.
+    pub(crate) chip: Result<u16, String>,
+}

@@ -1,0 +1,172 @@
+//! A module behind a probe, talked with through its RAM.
+
+use std::path::Path;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use host_sim::Error;
+use host_sim::origin::Origin;
+use rtt::{LogDecoder, Ram, Ring, Rtt};
+use wire::{Packet, TaggedCommand};
+
+use super::find;
+use super::memory::MemoryPort;
+use crate::source::{BoardName, Heard, Person, Source};
+
+/// Between two looks where nothing has come: a sixth of the time in which the ring of packets
+/// fills.
+const PAUSE: Duration = Duration::from_millis(10);
+
+/// Opens the board behind a probe; `program` is the ELF file that it runs.
+///
+/// # Errors
+/// [`Error`] if there is no such probe, no chip behind it, or no module in the chip.
+pub(crate) fn open(
+    selector: &str,
+    board: BoardName,
+    program: Option<&Path>,
+) -> Result<Box<dyn Source>, Error> {
+    Ok(Box::new(Behind::new(
+        find::open(selector)?,
+        board,
+        program,
+    )?))
+}
+
+/// A module behind a probe.
+pub(super) struct Behind {
+    memory: MemoryPort,
+    board: BoardName,
+    rtt: Rtt,
+    /// Of packets and requests; none where its scene has no telemetry.
+    rings: Option<[Ring; 2]>,
+    decoder: Option<LogDecoder>,
+    person: Person,
+    since: Instant,
+}
+
+impl Behind {
+    pub(super) fn new(
+        probe: probe_rs::probe::Probe,
+        board: BoardName,
+        program: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let mut memory = MemoryPort::of(probe)?;
+        memory.check(board)?;
+        let (rtt, decoder) = match program {
+            Some(path) => {
+                let elf = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+                let wrong = |error| Error::file(path, error);
+                let rtt = Rtt::of_program(&elf).map_err(wrong)?;
+                if !rtt.is_there(&mut memory)? {
+                    let fault = "is not what the board runs; whisker flash SCENE programs it, \
+                                 and says which file it is";
+                    return Err(Error::file(path, fault));
+                }
+                (rtt, Some(LogDecoder::new(&elf).map_err(wrong)?))
+            }
+            None => (find_block(&mut memory, board)?, None),
+        };
+        let packets = rtt.packets(&mut memory)?;
+        let requests = rtt.requests(&mut memory)?;
+        let rings = packets.zip(requests).map(|(up, down)| [up, down]);
+        if let Some([packets, _]) = rings {
+            // What whoever was here before has left is no answer to us.
+            packets.drain(&mut memory)?;
+        }
+        Ok(Self {
+            memory,
+            board,
+            rtt,
+            rings,
+            decoder,
+            person: Person::at_standard_input(),
+            since: Instant::now(),
+        })
+    }
+}
+
+fn find_block(memory: &mut MemoryPort, board: BoardName) -> Result<Rtt, Error> {
+    let (at, length) = board.ram();
+    let mut bytes = vec![0; length];
+    memory.read(at, &mut bytes)?;
+    Rtt::find(at, &bytes).ok_or_else(|| {
+        Error::Work(
+            "no module runs on the board, or one that was built otherwise; whisker flash SCENE \
+             programs it"
+                .to_owned(),
+        )
+    })
+}
+
+impl Source for Behind {
+    fn next(&mut self) -> Result<Heard, Error> {
+        let bytes = match self.rings {
+            Some([packets, _]) => packets.drain(&mut self.memory)?,
+            None => Vec::new(),
+        };
+        let log = self.rtt.log().drain(&mut self.memory)?;
+        let lines = self.decoder.as_mut().map(|decoder| decoder.lines(&log));
+        if bytes.is_empty() && log.is_empty() {
+            sleep(PAUSE);
+        }
+        Ok(Heard {
+            packets: bytes.as_chunks().0.iter().map(Packet::from_bytes).collect(),
+            lines: lines.unwrap_or_default(),
+        })
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        let bytes = request.bytes();
+        let sent = match self.rings {
+            Some([_, requests]) => requests.send(&mut self.memory, &bytes)?,
+            None => 0,
+        };
+        if sent == bytes.len() {
+            return Ok(());
+        }
+        let fault = "the board takes no requests: its scene has telemetry.rtt = false, or it \
+                     stands still; whisker log --program ELF says what it does";
+        Err(Error::Work(fault.to_owned()))
+    }
+
+    fn has_log(&self) -> Result<(), Error> {
+        let fault = "--program ELF is missing: the file of the program that the board runs, whose \
+                     table its log is read by";
+        match self.decoder {
+            Some(_) => Ok(()),
+            None => Err(Error::Input(fault.to_owned())),
+        }
+    }
+
+    fn has(&self, _: &str) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.person.lay(sample);
+        Ok(())
+    }
+
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        self.person.is_laid()
+    }
+
+    fn is_laid_by_hand(&self) -> bool {
+        true
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.since.elapsed().as_secs_f64()
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        None
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::default()
+            .with("board", self.board.name())
+            .with("firmware", "unknown")
+    }
+}

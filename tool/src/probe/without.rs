@@ -1,0 +1,36 @@
+//! What there is without probe-rs.
+
+use std::path::Path;
+
+use host_sim::Error;
+use host_sim::progress::Verbosity;
+
+use super::SeenProbe;
+use crate::source::{BoardName, Source};
+
+const WITHOUT: &str = "this whisker was built without probes; the one that has them is built by \
+                       cargo build -p whisker --features probe";
+
+fn without<T>() -> Result<T, Error> {
+    Err(Error::Input(WITHOUT.to_owned()))
+}
+
+/// Refuses.
+pub(crate) fn open(_: &str, _: BoardName, _: Option<&Path>) -> Result<Box<dyn Source>, Error> {
+    without()
+}
+
+/// Refuses.
+pub(crate) fn flash(_: &str, _: BoardName, _: &Path, _: Verbosity) -> Result<(), Error> {
+    without()
+}
+
+/// Refuses.
+pub(crate) fn is_there(_: &str) -> Result<(), Error> {
+    without()
+}
+
+/// Says why it sees nothing.
+pub(crate) fn seen(_: BoardName) -> Result<Vec<SeenProbe>, String> {
+    Err(WITHOUT.to_owned())
+}
