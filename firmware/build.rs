@@ -11,6 +11,8 @@ use std::{env, fs};
 
 #[path = "build/model.rs"]
 mod model;
+#[path = "build/perception.rs"]
+mod perception;
 #[path = "build/source.rs"]
 mod source;
 
@@ -102,8 +104,14 @@ fn link(board: &Board) -> Result<(), Box<dyn Error>> {
     // A memory.x in the workspace's root would be taken before this one, whatever the board.
     let memory = workspace()?.join(board.memory);
     println!("cargo::rerun-if-changed={}", memory.display());
-    fs::copy(&memory, output("memory.x")?)
-        .map_err(|error| format!("{}: {error}", memory.display()))?;
+    let map = fs::read_to_string(&memory);
+    let map = map.map_err(|error| format!("{}: {error}", memory.display()))?;
+    // For whoever deploys a model, beside where it goes.
+    let most = board.max_classes;
+    fs::write(
+        output("memory.x")?,
+        format!("{map}_model_classes = {most};\n"),
+    )?;
     println!("cargo::rustc-link-search={}", env::var("OUT_DIR")?);
     for argument in ["--nmagic", "-Tlink.x", "-Tdefmt.x"] {
         println!("cargo::rustc-link-arg-bins={argument}");
@@ -121,6 +129,9 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     fits(&scene, board).map_err(wrong)?;
 
     let scene_dir = path.parent().unwrap_or(Path::new(""));
+    if let Some(classifier) = &scene.classifier {
+        model::check_rule(classifier.rule).map_err(wrong)?;
+    }
     let model = match (&scene.classifier, scene.model_path(scene_dir)) {
         (Some(classifier), Some(path)) => {
             // A path that is not found beside the scene counts from the workspace's root.

@@ -75,7 +75,9 @@ impl Pair {
         let listens = matches!(least, Ok(Some(_)));
         let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
         let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
-        let target = start(scene, host.classes().to_vec(), program)?;
+        let mut program = program.clone();
+        program.add_model(loaded.deployed())?;
+        let target = start(scene, host.classes().to_vec(), &program)?;
         Ok(Self {
             host,
             target,
@@ -117,25 +119,34 @@ pub fn compare(
     program: &Path,
     circumstances: Circumstances,
 ) -> Result<Agreement, Error> {
+    let loaded = Loaded::new(path)?;
+    compare_loaded(loaded, path, &Program::load(program)?, circumstances)
+}
+
+/// The same of a scene that messages call `path`, with the model that is deployed to it.
+pub(crate) fn compare_loaded(
+    mut loaded: Loaded,
+    path: &Path,
+    program: &Program,
+    circumstances: Circumstances,
+) -> Result<Agreement, Error> {
     let Circumstances {
         probe,
         wraps,
         duration_s,
     } = circumstances;
-    let mut loaded = Loaded::new(path)?;
     if let Some(duration_s) = duration_s {
         loaded.scene.duration_s = duration_s;
     }
-    let program = Program::load(program)?;
     let Pair {
         mut host,
         mut target,
         feels,
-    } = Pair::new(&mut loaded, &program)?;
+    } = Pair::new(&mut loaded, program)?;
     let scene = &loaded.scene;
 
     let board = &mut target.module_mut().board;
-    let started = wraps.then(|| Started::new(&program, board, scene.tick_hz));
+    let started = wraps.then(|| Started::new(program, board, scene.tick_hz));
     let mut started = started.transpose()?;
     if probe == Probe::Pulled {
         board.attach_reader()?;

@@ -40,7 +40,7 @@ pub fn damage(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let info = DebugInfo::new(&elf)?;
     let place = info.variable(PLACE)?;
     let mut flips = evenly(member(place, SETTINGS)?, WITHIN[0], "fault 55")?;
-    if loaded.scene.classifier.is_some() {
+    if loaded.scene.classifier.is_some() && !loaded.scene.awaits_model() {
         let perception = member(place, PERCEPTION)?.element(0)?;
         for path in CONSTANTS {
             flips.extend(evenly(member(perception, path)?, WITHIN[0], "fault 56")?);

@@ -22,6 +22,7 @@ mod counters;
 pub mod damage;
 pub mod deadlines;
 mod debug_info;
+pub mod deploying;
 pub mod emulate;
 pub mod endurance;
 pub mod latency;

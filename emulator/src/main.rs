@@ -9,7 +9,7 @@ use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::{Circumstances, Probe};
 use emulator::endurance;
 use emulator::{
-    compare, damage, deadlines, emulate, latency, overload, picture, registers, sensor_loss,
+    compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers, sensor_loss,
     starting, supply, telemetry,
 };
 use host_sim::output::{self, write_whole};
@@ -113,6 +113,18 @@ enum Command {
     /// Flips bits in the settings and in the model of a scene; fails if the motors are not
     /// switched off, or the log does not say why
     Damage(Flashed),
+    /// Deploys models to a board whose scene names none: a right one, after which PC and board
+    /// must agree, and wrong and interrupted ones; fails if one of these is not refused
+    Deploying {
+        #[command(flatten)]
+        flashed: Flashed,
+        /// The scene in whose world it is
+        #[arg(long, value_name = "SCENE")]
+        world: PathBuf,
+        /// The right model
+        #[arg(long, value_name = "FILE")]
+        model: PathBuf,
+    },
     /// Lets the supply dip and the clock stop; fails if the motor pins are not low in time, or
     /// the next start does not say why
     Supply(Flashed),
@@ -319,6 +331,20 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             }
             if measured.missed > 0 {
                 return Err(Error::Work(format!("{} ticks missed", measured.missed)));
+            }
+        }
+        Command::Deploying {
+            flashed: Flashed { scene, program },
+            world,
+            model,
+        } => {
+            let bench = deploying::Bench {
+                scene: &scene,
+                world: &world,
+                program: &program,
+            };
+            for line in deploying::deploying(bench, &model)? {
+                report::say(line);
             }
         }
         Command::Campaign(campaign) => inject(campaign)?,

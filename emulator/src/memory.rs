@@ -1,5 +1,6 @@
 //! Flash, RAM, and the bus on which core and peripherals meet.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -12,6 +13,8 @@ use crate::program::Program;
 
 /// Where the flash begins.
 pub(crate) const FLASH: u32 = 0x0800_0000;
+/// A byte of flash that is erased.
+const ERASED: u8 = 0xFF;
 /// Where RAM begins.
 pub(crate) const RAM: u32 = 0x2000_0000;
 
@@ -121,7 +124,7 @@ fn refused(error: impl std::fmt::Debug) -> Fault {
 }
 
 impl Memories {
-    /// Memories with the program flashed; RAM is zero.
+    /// Memories with the program flashed; the rest of flash is erased, RAM is zero.
     pub(crate) fn new(program: &Program, model: &Model) -> Result<Self, Fault> {
         Self::flashed(program.segments(), model.flash, model.ram)
     }
@@ -138,6 +141,7 @@ impl Memories {
             ram: Arc::new(RamStore::new(ram_len.into())),
             ram_len,
         };
+        memories.erase(FLASH..FLASH + flash_len)?;
         for (address, contents) in segments {
             let offset = address
                 .checked_sub(FLASH)
@@ -203,6 +207,38 @@ impl Memories {
         };
         let done = store.write_at((address - base).into(), &byte);
         done.map_err(refused).map(drop)
+    }
+
+    /// Erases flash.
+    pub(crate) fn erase(&self, place: Range<u32>) -> Result<(), Fault> {
+        let ones = vec![ERASED; place.len()];
+        let offset = place.start - FLASH;
+        self.flash
+            .write_at(offset.into(), &ones)
+            .map_err(refused)
+            .map(drop)
+    }
+
+    /// Programs bytes of flash, which can clear bits and set none.
+    pub(crate) fn program(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
+        let there = self.flashed_bytes(address, bytes.len())?;
+        let left: Vec<u8> = there.iter().zip(bytes).map(|(a, b)| a & b).collect();
+        let offset = address - FLASH;
+        self.flash
+            .write_at(offset.into(), &left)
+            .map_err(refused)
+            .map(drop)
+    }
+
+    /// Bytes of flash.
+    pub(crate) fn flashed_bytes(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
+        let outside = || Fault::Memory(format!("{address:#010x} is not in flash"));
+        let offset = address.checked_sub(FLASH).ok_or_else(outside)?;
+        let mut bytes = vec![0; length];
+        self.flash
+            .read_at(offset.into(), &mut bytes)
+            .map_err(refused)?;
+        Ok(bytes)
     }
 
     /// Writes RAM as a probe does.

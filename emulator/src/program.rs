@@ -1,5 +1,6 @@
 //! The program file of a board: what is flashed, where its symbols are.
 
+use std::ops::Range;
 use std::path::Path;
 
 use object::elf::{FileHeader32, PT_LOAD};
@@ -77,6 +78,30 @@ impl Program {
     /// What turns its log into lines.
     pub(crate) fn log_decoder(&self) -> Result<LogDecoder, Fault> {
         Ok(LogDecoder::new(&self.bytes)?)
+    }
+
+    /// Where a model lies that is deployed apart from it.
+    pub(crate) fn model_place(&self) -> Result<Range<u32>, Fault> {
+        Ok(self.symbol("_model_start")?..self.symbol("_model_end")?)
+    }
+
+    /// Most classes that its board takes.
+    pub(crate) fn model_classes(&self) -> Result<usize, Fault> {
+        Ok(self.symbol("_model_classes")? as usize)
+    }
+
+    /// Has `contents` lie where a model is deployed to, when it is flashed.
+    pub(crate) fn add_model(&mut self, contents: &[u8]) -> Result<(), Fault> {
+        let place = self.model_place()?;
+        if contents.len() > place.len() {
+            return Err(bad(format!(
+                "found {} bytes for the model's flash, allowed: at most {}",
+                contents.len(),
+                place.len()
+            )));
+        }
+        self.segments.push((place.start, contents.to_vec()));
+        Ok(())
     }
 
     /// The address of a symbol.

@@ -1,14 +1,17 @@
 //! A board that runs a scene, for a program that talks with it as with one on a bench: by what
 //! a probe reads from its RAM and writes into it.
 
+use std::ops::Range;
 use std::path::Path;
 
+use firmware::MODEL_LAST_WORDS;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
 use wire::{Packet, TaggedCommand};
 
 use crate::board::Emulated;
+use crate::chip::ResetCause;
 use crate::emulate::start;
 use crate::program::Program;
 use rtt::LogDecoder;
@@ -21,6 +24,9 @@ pub struct Session {
     run: Run<Emulated>,
     decoder: LogDecoder,
     board: &'static str,
+    /// Where a model is deployed to, and most classes of it.
+    place: Range<u32>,
+    classes: usize,
 }
 
 impl Session {
@@ -30,13 +36,93 @@ impl Session {
     /// [`Error::Work`] for a program that cannot be run, or a scene that its board cannot
     /// carry.
     pub fn open(scene: &Scene, program: &Path) -> Result<Self, Error> {
-        let program = Program::load(program)?;
+        Self::flashed(scene, program, &[])
+    }
+
+    /// The same with `model` in the flash where a model is deployed to, as [`Session::flash`]
+    /// gives it.
+    ///
+    /// # Errors
+    /// As [`Session::open`], and if it is more than there is room for.
+    pub fn flashed(scene: &Scene, program: &Path, model: &[u8]) -> Result<Self, Error> {
+        let mut program = Program::load(program)?;
+        program.add_model(model)?;
         Ok(Self {
             // Decisions are told in the log, by their names.
             run: start(scene, Vec::new(), &program)?,
             decoder: program.log_decoder()?,
             board: program.model()?.program,
+            place: program.model_place()?,
+            classes: program.model_classes()?,
         })
+    }
+
+    /// Bytes of flash for a model.
+    pub fn model_room(&self) -> usize {
+        self.place.len()
+    }
+
+    /// Most classes of a model that the board takes.
+    pub const fn model_classes(&self) -> usize {
+        self.classes
+    }
+
+    /// Whether a motor is driven.
+    pub fn drives(&mut self) -> bool {
+        let machine = &mut self.run.module_mut().board.machine;
+        let duties = machine.with_chip(|chip| chip.motor_duties());
+        duties.iter().any(|(on, _)| *on > 0)
+    }
+
+    /// What lies in the flash where a model is deployed to.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if it cannot be read.
+    pub fn flash(&mut self) -> Result<Vec<u8>, Error> {
+        let memories = &self.run.module_mut().board.machine.memories;
+        Ok(memories.flashed_bytes(self.place.start, self.place.len())?)
+    }
+
+    /// Deploys a model as a probe does: halts the core, erases the model's flash, programs it
+    /// word by word, those at its beginning last, and resets the chip, which starts anew.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if a motor is driven, as it would be driven on while the core is
+    /// halted; or for a file that is not whole words or longer than its place.
+    pub fn deploy(&mut self, model: &[u8]) -> Result<(), Error> {
+        self.deploy_part(model, usize::MAX)
+    }
+
+    /// The same, interrupted after so many `words`: the chip is reset then.
+    ///
+    /// # Errors
+    /// As [`Session::deploy`].
+    pub fn deploy_part(&mut self, model: &[u8], words: usize) -> Result<(), Error> {
+        let refused = |fault: String| Error::Work(format!("deploying: {fault}"));
+        let is_driven = self.drives();
+        let board = &mut self.run.module_mut().board;
+        if is_driven {
+            return Err(refused(
+                "a motor is driven, and would be while the core is halted".to_owned(),
+            ));
+        }
+        let (all, rest) = model.as_chunks::<4>();
+        if !rest.is_empty() || model.len() > self.place.len() {
+            return Err(refused(format!(
+                "found {} bytes, allowed: whole words, at most {} bytes",
+                model.len(),
+                self.place.len()
+            )));
+        }
+        let memories = &board.machine.memories;
+        memories.erase(self.place.clone())?;
+        let addressed: Vec<(u32, &[u8; 4])> = (self.place.start..).step_by(4).zip(all).collect();
+        let (last, first) = addressed.split_at(MODEL_LAST_WORDS.min(addressed.len()));
+        for (address, word) in first.iter().chain(last.iter().rev()).take(words) {
+            memories.program(*address, *word)?;
+        }
+        board.start_anew(ResetCause::Software)?;
+        Ok(())
     }
 
     /// One tick of the board, and of the world around it.

@@ -31,19 +31,28 @@ pub(crate) fn read(
     if model.channels() != 2 || !takes_codes(0) || !takes_codes(1) {
         return Err(refused(&"it was not trained on sensor codes of x and y").into());
     }
-    match classifier.rule {
-        Rule::Sequential { threshold } => {
-            Threshold::new(threshold).map_err(|error| refused(&error))?;
-        }
-        Rule::Window { samples } if !samples.is_multiple_of(model.block()) => {
-            let block = model.block();
-            return Err(refused(&format!(
-                "classifier.window: found {samples}; allowed: a multiple of the model's block of \
-                 {block}"
-            ))
-            .into());
-        }
-        Rule::Window { .. } => {}
+    if let Rule::Window { samples } = classifier.rule
+        && !samples.is_multiple_of(model.block())
+    {
+        let block = model.block();
+        return Err(refused(&format!(
+            "classifier.window: found {samples}; allowed: a multiple of the model's block of \
+             {block}"
+        ))
+        .into());
     }
     Ok(model)
+}
+
+/// What is wrong with a rule for any model.
+///
+/// # Errors
+/// A threshold too near to 1.
+pub(crate) fn check_rule(rule: Rule) -> Result<(), String> {
+    match rule {
+        Rule::Sequential { threshold } => Threshold::new(threshold)
+            .map(drop)
+            .map_err(|error| format!("classifier.threshold: found {threshold}; {error}")),
+        Rule::Window { .. } => Ok(()),
+    }
 }

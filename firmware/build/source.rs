@@ -3,9 +3,11 @@
 use std::error::Error;
 
 use databake::{Bake, CrateEnv, TokenStream, quote};
-use scene::{Arm, Deciding, Driver, Rule, Scene, SensorMode, Sides};
+use scene::{Arm, Driver, Scene, SensorMode, Sides};
 use tactile::{Model, ModelBuf};
 use whisking::{Real, Source, Start};
+
+use crate::perception::perception;
 
 /// Writes the source in number format `R`, which the firmware calls `number`.
 /// `model` is the classifier's.
@@ -75,12 +77,13 @@ pub(crate) fn source<R: Real>(
 }
 
 /// The types, constants and start of motion or perception, and its settings.
-struct Part {
-    items: Vec<TokenStream>,
-    config: Source,
+pub(crate) struct Part {
+    pub(crate) items: Vec<TokenStream>,
+    pub(crate) config: Source,
 }
 
-fn nothing() -> Source {
+/// Settings of a part that is left out.
+pub(crate) fn nothing() -> Source {
     Source {
         of_type: quote! { () },
         value: quote! { () },
@@ -167,108 +170,4 @@ where
         },
     };
     Ok(Part { items, config })
-}
-
-/// The classifier and its model.
-fn perception<R: Real>(scene: &Scene, model: Option<&ModelBuf>, contact_min: Option<f64>) -> Part {
-    let (Some(classifier), Some(model)) = (&scene.classifier, model) else {
-        let items = vec![
-            quote! { pub(crate) const CLASS_NAMES: &[&str] = &[]; },
-            quote! { pub(crate) const HEARS_SEVERAL: bool = false; },
-            quote! { pub(crate) type Perception = (); },
-            quote! {
-                pub(crate) fn constants(_: &Perception) -> (&impl Sized, &impl Sized) {
-                    (&(), &())
-                }
-            },
-            quote! {
-                pub(crate) fn model() -> &'static [u8] {
-                    &[]
-                }
-            },
-            quote! {
-                pub(crate) fn start_perception() -> Option<Perception> {
-                    Some(())
-                }
-            },
-        ];
-        let config = nothing();
-        return Part { items, config };
-    };
-    let names = model.names();
-    // A model that knows no touches needs no code for them.
-    let (words, into_words) = match model.view().into_single() {
-        Some(_) => (quote! { tactile::Single }, quote! { .into_single()? }),
-        None => (quote! { &'static [u32] }, quote! {}),
-    };
-    let (rule, rule_type, rule_value) = match classifier.rule {
-        Rule::Sequential { threshold } => (
-            quote! { SequentialRule },
-            quote! { tactile::Threshold },
-            quote! {
-                match tactile::Threshold::new(#threshold) {
-                    Ok(threshold) => threshold,
-                    Err(_) => panic!("the build script has checked it"),
-                }
-            },
-        ),
-        Rule::Window { samples } => (quote! { WindowRule }, quote! { u32 }, quote! { #samples }),
-    };
-    let rule = quote! { tactile::#rule };
-    let (sides, each) = match classifier.whiskers {
-        Deciding::First => (1, 1),
-        Deciding::Each | Deciding::Together => {
-            (scene.head.sides.count(), scene.head.whiskers_per_side)
-        }
-    };
-    let heard = sides * each;
-    let bayes = match classifier.whiskers {
-        Deciding::First => quote! { tactile::NaiveBayes<#rule, #words> },
-        Deciding::Each => quote! { tactile::Each<#rule, #words, #heard> },
-        Deciding::Together => quote! { tactile::Together<#words, #heard> },
-    };
-    let hears_several = heard > 1;
-    let contact_min = Source::optional(
-        contact_min.map(R::from_f64).as_ref(),
-        &quote! { Number },
-        &CrateEnv::default(),
-    );
-    let (contact_min_type, contact_min) = (contact_min.of_type, contact_min.value);
-    let items = vec![
-        quote! { pub(crate) const CLASS_NAMES: &[&str] = &[#(#names),*]; },
-        quote! { pub(crate) const HEARS_SEVERAL: bool = #hears_several; },
-        quote! { type Bayes = #bayes; },
-        quote! {
-            pub(crate) type Perception =
-                firmware::Classifying<firmware::CodeClassifier<Bayes>, #sides, #each>;
-        },
-        quote! {
-            pub(crate) fn model() -> &'static [u8] {
-                tactile::include_model!(concat!(env!("OUT_DIR"), "/touch.model"))
-            }
-        },
-        quote! {
-            pub(crate) fn constants(perception: &Perception) -> (&impl Sized, &impl Sized) {
-                perception.classifier().constants()
-            }
-        },
-        quote! {
-            pub(crate) fn start_perception() -> Option<Perception> {
-                let model = tactile::Model::linked(model()).ok()? #into_words;
-                let bayes = Bayes::new(model, SETTINGS.perception.rule).ok()?;
-                let classifier = firmware::CodeClassifier::new(bayes).ok()?;
-                Some(firmware::Classifying::new(classifier))
-            }
-        },
-    ];
-    let config = Source {
-        of_type: quote! { firmware::ClassifyingConfig<#contact_min_type, #rule_type> },
-        value: quote! {
-            firmware::ClassifyingConfig {
-                contact_min: #contact_min,
-                rule: #rule_value,
-            }
-        },
-    };
-    Part { items, config }
 }

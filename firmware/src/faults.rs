@@ -31,6 +31,8 @@ pub enum Recovery {
     Restart,
     /// Once motors are armed.
     Armed,
+    /// Once a model is deployed that fits.
+    Deployed,
 }
 
 /// A fault or limit.

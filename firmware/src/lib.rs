@@ -52,8 +52,8 @@ pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Config, Module};
 pub use motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
-    Classifying, ClassifyingConfig, CodeClassifier, NotCodes, Perception, Sample, SampleClassifier,
-    shifts,
+    Classifying, ClassifyingConfig, CodeClassifier, Deployed, MODEL_LAST_WORDS, ModelLimits,
+    ModelState, NotCodes, Perception, Refusal, Sample, SampleClassifier, shifts,
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};

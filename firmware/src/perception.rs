@@ -2,12 +2,14 @@
 
 mod classifying;
 mod codes;
+mod deployed;
 
 use crate::Event;
 use crate::sensing::Reading;
 
 pub use classifying::{Classifying, ClassifyingConfig, Sample, SampleClassifier};
 pub use codes::{CodeClassifier, NotCodes, shifts};
+pub use deployed::{Deployed, MODEL_LAST_WORDS, ModelLimits, ModelState, Refusal};
 
 /// Decides from the readings of a module by the constants `C`, or does not.
 pub trait Perception<R, C, const S: usize, const N: usize> {

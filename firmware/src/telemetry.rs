@@ -12,7 +12,9 @@ use wire::{
 };
 
 use crate::sensing::{Reading, Sensor};
-use crate::{Clock, Command, Config, Event, Module, Motion, MotorControl, Place, WordSource};
+use crate::{
+    Clock, Command, Config, Event, ModelState, Module, Motion, MotorControl, Place, WordSource,
+};
 
 /// Where packets go.
 pub trait PacketSink {
@@ -27,6 +29,26 @@ pub struct About<'n> {
     pub name: &'n str,
     /// Ticks a second.
     pub tick_hz: u32,
+    /// Which model it decides by.
+    pub model: ModelState,
+}
+
+/// The version of this crate, as [`wire::Command::Version`] tells it.
+const VERSION: [i32; 2] = {
+    let [major, minor, patch] = [
+        env!("CARGO_PKG_VERSION_MAJOR"),
+        env!("CARGO_PKG_VERSION_MINOR"),
+        env!("CARGO_PKG_VERSION_PATCH"),
+    ];
+    [number(major) << 16 | number(minor), number(patch)]
+};
+
+/// The number that a part of the version is.
+const fn number(digits: &str) -> i32 {
+    match u16::from_str_radix(digits, 10) {
+        Ok(number) => number as i32,
+        Err(_) => panic!("cargo has numbers there, below 2^16 in this crate"),
+    }
 }
 
 /// What the events of ticks say, for the next record. Shared, as whoever gets the events has
@@ -166,6 +188,21 @@ impl Link {
                 done(whisker, Command::Setpoint(Some(R::from_q24(theta))))
             }
             Said::Release(whisker) => done(whisker, Command::Setpoint(None)),
+            Said::Version => {
+                values = VERSION;
+                Ok(())
+            }
+            Said::Model => match about.model {
+                ModelState::Runs { crc, classes } => {
+                    values = [crc.cast_signed(), classes.into()];
+                    Ok(())
+                }
+                ModelState::Refused(refusal) => {
+                    values = [0, -i32::from(refusal.code())];
+                    Ok(())
+                }
+                ModelState::NotHere => Err(CommandStatus::NotHere),
+            },
         };
         self.reply(Answer {
             sequence,

@@ -7,7 +7,7 @@ mod sensor;
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
-    NoActiveWhisker, Place, Servo, ServoConfig, StopAll,
+    ModelState, NoActiveWhisker, Place, Refusal, Servo, ServoConfig, StopAll,
 };
 use mlx90333::Decoder;
 use plan::NumberFormat;
@@ -365,6 +365,7 @@ where
     // The trace shows contact wherever there is something to touch.
     let tap = Tap::new(classifier, heard(scene));
     let touch = tap.touch_rule();
+    let model = tap.model();
     let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate)).map_err(broken)?;
     // A recording has the touches that a model of it will know.
     let records = tap.is_recording() && scene.plant.obstacle.is_some();
@@ -415,13 +416,18 @@ where
     let sensors = sensors(scene.sensor.model, scene.seed)?;
     let mut module = Module::new(sensors, motors, perception, NoClock);
     module.arm(arms_at_start);
+    let model = match (model, &scene.classifier) {
+        (Some(model), _) => model,
+        (None, Some(_)) => ModelState::Refused(Refusal::Absent),
+        (None, None) => ModelState::NotHere,
+    };
     Ok(Box::new(Shaped {
         module,
         config,
         start,
         arms_at_start,
         model: scene.sensor.model,
-        line: Line::new(scene),
+        line: Line::new(scene, model),
     }))
 }
 

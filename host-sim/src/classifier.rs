@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use firmware::{CodeClassifier, Sample, SampleClassifier};
+use firmware::{CodeClassifier, ModelState, Sample, SampleClassifier};
 use scene::{Deciding, Rule};
 use tactile::{
     AnyRule, AnyRuleSettings, Decision, Each, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
@@ -90,6 +90,14 @@ impl Classifier {
         }
     }
 
+    /// Which model it decides by.
+    pub fn model(&self) -> ModelState {
+        match &self.judge {
+            Judge::Each(codes) => ModelState::of(codes.bayes().model()),
+            Judge::Together(codes) => ModelState::of(codes.bayes().model()),
+        }
+    }
+
     /// Posterior of each class after the last full block: of the first whisker, or of all
     /// together.
     pub fn posteriors(&self) -> Posteriors {
@@ -161,6 +169,11 @@ impl Tap {
     /// What a touch means to the classifier's model, if there is one.
     pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
         self.classifier.as_ref()?.touch_rule()
+    }
+
+    /// Which model that decides by, if there is one.
+    pub(crate) fn model(&self) -> Option<ModelState> {
+        self.classifier.as_ref().map(Classifier::model)
     }
 
     /// Whether there is none.

@@ -52,6 +52,7 @@ mod table;
 mod text;
 mod value;
 mod values;
+mod world;
 
 pub use overriding::Override;
 pub use places::Places;

@@ -55,6 +55,25 @@ pub(crate) const fn optional<K: Keys>(without: &'static str) -> Table<Option<K::
     }
 }
 
+/// A table that may be left out, whose value is then its type's default, which means `without`.
+pub(crate) const fn or_default<K: Keys<Value: Default>>(without: &'static str) -> Table<K::Value> {
+    Table {
+        presence: Presence::Optional {
+            without,
+            needs: None,
+        },
+        with: None,
+        entries: K::ENTRIES,
+        read: |from, is_there| {
+            if is_there {
+                K::read(from)
+            } else {
+                Some(K::Value::default())
+            }
+        },
+    }
+}
+
 /// A table whose keys all have defaults: it is always there. Leaving it out means `without`.
 pub(crate) const fn by_default<K: Keys>(without: &'static str) -> Table<K::Value> {
     Table {

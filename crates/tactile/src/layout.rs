@@ -62,6 +62,15 @@ impl Layout {
         Ok(Self::of(header, bytes))
     }
 
+    /// The length that the header at the beginning of `bytes` says, bytes.
+    ///
+    /// # Errors
+    ///
+    /// No header, or one of another version.
+    pub(crate) fn length(bytes: &[u8]) -> Result<usize, ModelError> {
+        Ok(header(bytes)?.length.get() as usize)
+    }
+
     /// Checks a model file: its magic, version and header, then its length, its
     /// checksum and its content.
     ///

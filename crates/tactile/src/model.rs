@@ -71,6 +71,17 @@ impl<'a> Model<&'a [u32]> {
         Self::placed(bytes, Layout::read(bytes)?)
     }
 
+    /// Reads a model at the beginning of memory that may hold more than it: from a sector of
+    /// flash. `bytes` must start on a four-byte boundary.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::parse`].
+    pub fn at_start(bytes: &'a [u8]) -> Result<Self, ModelError> {
+        let length = Layout::length(bytes)?;
+        Self::parse(bytes.get(..length).ok_or(ModelError::TooShort)?)
+    }
+
     fn placed(bytes: &'a [u8], layout: Layout) -> Result<Self, ModelError> {
         let words = <[u32]>::ref_from_bytes(bytes).map_err(|_| ModelError::Misaligned)?;
         Ok(Self { words, layout })
@@ -99,6 +110,11 @@ impl<W: Words> Model<W> {
     /// The bytes as they stand in a file.
     pub fn as_bytes(&self) -> &[u8] {
         self.words.as_ref().as_bytes()
+    }
+
+    /// The checksum at the end of the file: it tells one model from another.
+    pub fn crc(&self) -> u32 {
+        self.words.as_ref().last().copied().unwrap_or_default()
     }
 
     /// Number of classes K, 2 to 32.

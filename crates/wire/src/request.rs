@@ -46,6 +46,12 @@ pub enum Command {
     Setpoint(WhiskerId, i32),
     /// Gives the setpoint back to the pattern generator.
     Release(WhiskerId),
+    /// Says the version of the firmware: 2^16 times its major number plus its minor one, and
+    /// its patch.
+    Version,
+    /// Says which model it decides by: the CRC-32 at the end of the model's file and the number
+    /// of its classes; or 0 and the negative number of why there is none.
+    Model,
 }
 
 /// A command with its tag.
@@ -82,6 +88,8 @@ impl Command {
             Self::Gain(..) => 9,
             Self::Setpoint(..) => 10,
             Self::Release(_) => 11,
+            Self::Version => 12,
+            Self::Model => 13,
         }
     }
 
@@ -89,7 +97,9 @@ impl Command {
     const fn parts(self) -> (WhiskerId, i32) {
         const ALL: WhiskerId = WhiskerId { side: 0, number: 0 };
         match self {
-            Self::Hello | Self::Status | Self::Arm | Self::Stop => (ALL, 0),
+            Self::Hello | Self::Status | Self::Arm | Self::Stop | Self::Version | Self::Model => {
+                (ALL, 0)
+            }
             Self::Name(from) => (ALL, from as i32),
             Self::Stream(on) => (ALL, on as i32),
             Self::Clear(whisker) | Self::Home(whisker) | Self::Release(whisker) => (whisker, 0),
@@ -111,6 +121,8 @@ impl Command {
             9 => Self::Gain(whisker, value),
             10 => Self::Setpoint(whisker, value),
             11 => Self::Release(whisker),
+            12 => Self::Version,
+            13 => Self::Model,
             _ => return None,
         })
     }

@@ -13,10 +13,27 @@ use super::scene::{self, Perception, Settings};
 /// Words of each that are looked at between two sleeps.
 const WORDS: usize = 16;
 
-/// Words that stay as they are, and a walk over them.
-struct Region {
+/// Words that stay where and as they are.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
     address: usize,
     words: usize,
+}
+
+impl Span {
+    /// Those of something which stays where it is and which nobody writes from now on. A part
+    /// of a word at its end is left out; there is none.
+    pub(crate) fn of<T: ?Sized>(constant: &T) -> Self {
+        Self {
+            address: core::ptr::from_ref(constant).addr(),
+            words: size_of_val(constant) / size_of::<u32>(),
+        }
+    }
+}
+
+/// Words that stay as they are, and a walk over them.
+struct Region {
+    span: Span,
     sum: u32,
     /// The fault that another sum is.
     fault: u8,
@@ -26,18 +43,15 @@ struct Region {
 }
 
 impl Region {
-    /// That of something which stays where it is and which nobody writes from now on. A part
-    /// of a word at its end is left out; there is none.
-    fn of<T: ?Sized>(constant: &T, fault: u8) -> Self {
+    fn new(span: Span, fault: u8) -> Self {
         let mut region = Self {
-            address: core::ptr::from_ref(constant).addr(),
-            words: size_of_val(constant) / size_of::<u32>(),
+            span,
             sum: 0,
             fault,
             next: 0,
             so_far: 0,
         };
-        region.sum = region.add(0, 0..region.words);
+        region.sum = region.add(0, 0..span.words);
         region
     }
 
@@ -45,16 +59,16 @@ impl Region {
     fn add(&self, sum: u32, words: core::ops::Range<usize>) -> u32 {
         words.fold(sum, |sum, n| {
             sum.rotate_left(1)
-                .wrapping_add(word(self.address + n * size_of::<u32>()))
+                .wrapping_add(word(self.span.address + n * size_of::<u32>()))
         })
     }
 
     /// Looks at some words more. Does not come back from a fault.
     fn step(&mut self) {
-        let end = self.words.min(self.next.saturating_add(WORDS));
+        let end = self.span.words.min(self.next.saturating_add(WORDS));
         self.so_far = self.add(self.so_far, self.next..end);
         self.next = end;
-        if end < self.words {
+        if end < self.span.words {
             return;
         }
         if self.so_far != self.sum {
@@ -90,12 +104,12 @@ pub(crate) struct Integrity([Region; 4]);
 impl Integrity {
     /// Their sums as they are now; both stay where they are.
     pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
-        let (classifier, factors) = scene::constants(perception);
+        let [model, classifier, factors] = scene::constants(perception);
         Self([
-            Region::of(settings, number::SETTINGS),
-            Region::of(scene::model(), number::MODEL),
-            Region::of(classifier, number::MODEL),
-            Region::of(factors, number::MODEL),
+            Region::new(Span::of(settings), number::SETTINGS),
+            Region::new(model, number::MODEL),
+            Region::new(classifier, number::MODEL),
+            Region::new(factors, number::MODEL),
         ])
     }
 

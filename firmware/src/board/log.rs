@@ -10,14 +10,14 @@
 )]
 
 use firmware::faults::number;
-use firmware::{NotArmed, Place, SensorFault, StartCause, Startup};
+use firmware::{ModelState, NotArmed, Place, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
 use super::CLOCKS;
 use super::counters::TICKS;
 use super::reset::ClockError;
-use super::scene::{HEARS_SEVERAL, NAME, TICK_HZ};
+use super::scene::{AWAITS_MODEL, HEARS_SEVERAL, NAME, TICK_HZ};
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {
@@ -69,6 +69,20 @@ pub(crate) fn waits_for_supply() {
 /// A fast dip may take the supply below what the clock needs.
 pub(crate) fn brown_out_is_low() {
     defmt::warn!("brown-out level below what the clock needs: set BOR_LEV to level 3");
+}
+
+/// By which deployed model it decides, or why by none.
+pub(crate) fn model(state: ModelState) {
+    match state {
+        ModelState::Runs { crc, classes } if AWAITS_MODEL => {
+            defmt::info!("decides by model {=u32:08x}, {=u8} classes", crc, classes);
+        }
+        ModelState::Refused(refusal) if AWAITS_MODEL => {
+            limit(number::NO_MODEL);
+            defmt::warn!("- {=str}", refusal.text());
+        }
+        _ => {}
+    }
 }
 
 /// The motors are off until the user button is pressed.

@@ -28,6 +28,7 @@ pub(crate) mod inner;
 pub(crate) mod integrity;
 pub(crate) mod log;
 pub(crate) mod logger;
+pub(crate) mod model_place;
 pub(crate) mod motion;
 pub(crate) mod motors;
 pub(crate) mod outputs;

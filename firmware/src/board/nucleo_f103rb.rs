@@ -11,7 +11,7 @@ pub(crate) const NAME: &str = "NUCLEO-F103RB";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = false;
 /// Most classes of a model: its two tables of 24 by 24 bins then take 13.5 KiB of the
-/// 128 KiB of flash.
+/// 96 KiB of flash for the program, or of the 32 KiB for a model apart from it.
 pub(crate) const MAX_CLASSES: usize = 6;
 /// Most sides, of one whisker each.
 pub(crate) const MAX_SIDES: usize = 1;

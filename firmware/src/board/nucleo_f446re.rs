@@ -11,7 +11,7 @@ pub(crate) const NAME: &str = "NUCLEO-F446RE";
 /// Whether the core computes f32 by itself.
 pub(crate) const HAS_FPU: bool = true;
 /// Most classes of a model: its two tables of 24 by 24 bins then take 36 KiB of the
-/// 512 KiB of flash.
+/// 384 KiB of flash for the program, or of the 128 KiB for a model apart from it.
 pub(crate) const MAX_CLASSES: usize = 16;
 /// Most sides, of one whisker each.
 pub(crate) const MAX_SIDES: usize = 2;

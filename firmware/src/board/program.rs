@@ -18,7 +18,7 @@ use firmware::faults::number;
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::inner::Inner;
 use super::integrity::Integrity;
-use super::scene::{self, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
+use super::scene::{self, Names, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::telemetry::{self, Telemetry};
 use super::user_button::{REQUEST, UserButton};
@@ -73,8 +73,14 @@ impl Place {
 /// Events that found the queue full. Only the tick counts them.
 static DROPPED: WrappingCounter = WrappingCounter::new();
 
+/// What idle gets from the start.
+pub(crate) struct ForIdle {
+    integrity: Integrity,
+    names: Names,
+}
+
 /// From the reset to a module that is ready for its first tick.
-pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (Module, Integrity) {
+pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (Module, ForIdle) {
     outputs::off();
     here::prepare_for_debuggers();
     let cause = here::reset_cause();
@@ -96,7 +102,11 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     let (Some(perception), Some(settings)) = (perception, place.settings.fill(SETTINGS)) else {
         faults::die(number::MODEL, || {})
     };
+    scene::adapt(settings, perception);
     let integrity = Integrity::new(settings, perception);
+    let names = scene::names(perception);
+    let model = scene::model(perception);
+    log::model(model);
     let counter = Counter::start(core);
     let mut inner = firmware::Module::new(sources, motion, perception, counter);
     if scene::HAS_MOTOR {
@@ -110,11 +120,11 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
     let module = Module {
         inner,
-        telemetry: Telemetry::new(),
+        telemetry: Telemetry::new(model),
         settings,
         second: TICK_HZ,
     };
-    (module, integrity)
+    (module, ForIdle { integrity, names })
 }
 
 /// One tick of the module; `put` puts its events into the queue, or gives them back.
@@ -172,17 +182,17 @@ pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
 }
 
 /// Writes an event to the log. What the scene cannot do has no line.
-fn write(event: Event) {
+fn write(event: Event, names: &Names) {
     match event {
-        Event::Decision(place, decision) if !scene::CLASS_NAMES.is_empty() => {
+        Event::Decision(place, decision) if scene::DECIDES => {
             let class = decision.class();
-            let name = class.and_then(|class| scene::CLASS_NAMES.get(class));
-            log::decision(place, name.unwrap_or(&"unknown"), decision);
+            let name = class.and_then(|class| scene::class_name(names, class));
+            log::decision(place, name.unwrap_or("unknown"), decision);
         }
-        Event::Touch { place, number } if !scene::CLASS_NAMES.is_empty() => {
+        Event::Touch { place, number } if scene::DECIDES => {
             log::touch(place, number);
         }
-        Event::TouchEnd { place, number } if !scene::CLASS_NAMES.is_empty() => {
+        Event::TouchEnd { place, number } if scene::DECIDES => {
             log::touch_end(place, number);
         }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
@@ -202,6 +212,7 @@ fn write(event: Event) {
 /// The state of the idle task.
 pub(crate) struct Idle {
     integrity: Integrity,
+    names: Names,
     watchdog: Watchdog,
     button: UserButton,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
@@ -212,9 +223,10 @@ pub(crate) struct Idle {
 
 impl Idle {
     /// Starts the watchdog.
-    pub(crate) fn new(integrity: Integrity) -> Self {
+    pub(crate) fn new(ForIdle { integrity, names }: ForIdle) -> Self {
         Self {
             integrity,
+            names,
             watchdog: Watchdog::start(),
             button: UserButton::start(),
             fed: 0,
@@ -231,7 +243,7 @@ impl Idle {
         }
         self.fed = now;
         // A tick queues its events before it counts itself.
-        core::iter::from_fn(take).for_each(write);
+        core::iter::from_fn(take).for_each(|event| write(event, &self.names));
         telemetry::hear();
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
@@ -289,10 +301,10 @@ macro_rules! program {
 
             #[init(local = [queue: Queue<16> = Queue::new(), place: Place = Place::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
-                let (module, integrity) = program::start(cx.core, cx.local.place);
+                let (module, for_idle) = program::start(cx.core, cx.local.place);
                 let local = Local {
                     tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
-                    idle: Idle::new(integrity),
+                    idle: Idle::new(for_idle),
                 };
                 let queue = cx.local.queue;
                 (Shared { module, queue }, local)

@@ -7,8 +7,11 @@
 //! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
 //!   is left out by type.
 //! - `Motion`, `start_motion`, `HAS_MOTOR`, `ARMS_AT_START`: how it moves.
-//! - `Perception`, `start_perception`, `CLASS_NAMES`: what it decides; `model`: the bytes of
-//!   its model, or none; `constants`: what it holds that no sample changes.
+//! - `Perception`, `start_perception`, `DECIDES`: what it decides, if anything; `model`: by
+//!   which model; `adapt`: what of the settings follows from that; `constants`: what it holds
+//!   that no sample changes, the model's bytes first; `AWAITS_MODEL`: whether that lies apart
+//!   from the program.
+//! - `Names`, `names`, `class_name`: the names of the classes.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
     clippy::unnecessary_wraps,

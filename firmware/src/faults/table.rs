@@ -141,6 +141,10 @@ macro_rules! fault_table {
                 "more events in a tick than idle can log, by a fault that comes and goes",
                 "that fault",
                 GoesOn, Counted;
+            34 NO_MODEL: "no model to decide by",
+                "none was deployed; writing it was interrupted; one of another scene or version",
+                "the line below it; `whisker deploy` ([deploying.md](deploying.md))",
+                GoesOn, Deployed;
 
             48 PANIC: "panic",
                 "a fault of this program",

@@ -1,7 +1,8 @@
 //! The link of a simulated module to whoever runs it, which has room for every packet.
 
 use firmware::{
-    About, Clock, Config, Event, Link, Module, Motion, MotorControl, Notes, PacketSink, WordSource,
+    About, Clock, Config, Event, Link, ModelState, Module, Motion, MotorControl, Notes, PacketSink,
+    WordSource,
 };
 use scene::Scene;
 use whisking::{Optional, Real, filter};
@@ -15,6 +16,7 @@ pub(super) struct Line {
     sent: Sent,
     name: String,
     tick_hz: u32,
+    model: ModelState,
 }
 
 /// Packets on their way.
@@ -29,8 +31,8 @@ impl PacketSink for Sent {
 }
 
 impl Line {
-    /// Before the first tick of `scene`.
-    pub(super) fn new(scene: &Scene) -> Self {
+    /// Before the first tick of `scene`, whose module decides by this model.
+    pub(super) fn new(scene: &Scene, model: ModelState) -> Self {
         Self {
             link: Link::new(),
             notes: Notes::new(),
@@ -38,6 +40,7 @@ impl Line {
             sent: Sent::default(),
             name: scene.name.clone(),
             tick_hz: scene.tick_hz,
+            model,
         }
     }
 
@@ -87,6 +90,7 @@ impl Line {
         let about = About {
             name: &self.name,
             tick_hz: self.tick_hz,
+            model: self.model,
         };
         let link = &mut self.link;
         link.carry_out(module, config, request, about, self.ticks);

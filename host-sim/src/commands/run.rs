@@ -29,6 +29,12 @@ pub struct Arguments {
     /// Another seed than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
+    /// The model that its module decides by, where the scene names none
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// The scene in whose world it runs: what its whiskers meet, for how long, and the seed
+    #[arg(long, value_name = "SCENE")]
+    pub world: Option<PathBuf>,
     /// Where to write
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -47,6 +53,8 @@ impl Arguments {
         Self {
             scene: scene.to_owned().into(),
             seed: None,
+            model: None,
+            world: None,
             out: out.to_owned(),
             plot: None,
             no_plot: true,
@@ -54,7 +62,7 @@ impl Arguments {
     }
 }
 
-/// Runs a scene; writes `trace.csv`, `decisions.csv` where the scene classifies, and
+/// Runs a scene; writes `trace.csv`, `decisions.csv` where its module has a model, and
 /// pictures of the first ten seconds. Returns what was done: the score of the decisions,
 /// where there are any to score, and where all of it is.
 ///
@@ -68,6 +76,15 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     }
     plot.map_or(Ok(()), output::check)?;
     let mut loaded = Loaded::with(&arguments.scene)?;
+    if let Some(world) = &arguments.world {
+        loaded = loaded.in_world(world)?;
+    }
+    if let Some(model) = &arguments.model {
+        loaded = loaded.with_model(model)?;
+    }
+    if let Some(caution) = loaded.without_model() {
+        report::warn(format_args!("{caution}; --model FILE gives one"));
+    }
     loaded.scene.seed = arguments.seed.unwrap_or(loaded.scene.seed);
     let scene = &loaded.scene;
     let run = Run::new(scene, loaded.classifier()?)?;
@@ -106,7 +123,7 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
         scene.seed,
         out.display()
     );
-    if scene.classifier.is_some() {
+    if !played.classes.is_empty() {
         told.push_str(", decisions.csv");
     }
     if !no_plot {
@@ -188,6 +205,70 @@ impl Loaded {
         })
     }
 
+    /// The same module in the world of the scene in `path`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
+    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
+        let world = Scene::load(path)?;
+        let placed = self.scene.in_world(&world);
+        self.scene = placed.map_err(|fault| Error::file(path, fault))?;
+        Ok(self)
+    }
+
+    /// The same module with the model in `path` deployed, where its scene names none.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a model that is wrong, and for a scene that has no use for it.
+    pub fn with_model(mut self, path: &Path) -> Result<Self, Error> {
+        self.takes_model()?;
+        self.model = Some(files::load_model(path)?);
+        Ok(self)
+    }
+
+    /// The same with a model that was read from a place that messages call `path`.
+    #[must_use]
+    pub fn with_deployed(mut self, path: &Path, model: Option<ModelBuf>) -> Self {
+        self.model = model.map(|model| (path.to_owned(), model));
+        self
+    }
+
+    /// Whether a model can be deployed to its module.
+    ///
+    /// # Errors
+    /// [`Error::Input`] says why not.
+    pub fn takes_model(&self) -> Result<(), Error> {
+        if self.scene.awaits_model() {
+            return Ok(());
+        }
+        Err(Error::Input(if self.scene.classifier.is_some() {
+            self.places.fault(
+                "classifier.model",
+                "found, so the model is linked into the program; for one that is deployed take \
+                 this line out",
+            )
+        } else {
+            let path = self.path.display();
+            format!("{path}: it has no [classifier], and so no use for a model")
+        }))
+    }
+
+    /// The bytes of the model that is deployed to it, not linked; none where there is none.
+    pub fn deployed(&self) -> &[u8] {
+        match &self.model {
+            Some((_, model)) if self.scene.awaits_model() => model.as_bytes(),
+            _ => &[],
+        }
+    }
+
+    /// What its user should know of a classifier that has no model yet.
+    pub fn without_model(&self) -> Option<String> {
+        (self.scene.awaits_model() && self.model.is_none()).then(|| {
+            let fault = "names no model, and none is given: nothing is decided";
+            self.places.fault("classifier", fault)
+        })
+    }
+
     /// The scene's classifier; none without one.
     ///
     /// # Errors
@@ -265,8 +346,8 @@ pub fn play<B: Bench + ?Sized>(
     mut after: impl FnMut(&mut Run<B>, &Progress) -> Result<(), Error>,
 ) -> Result<Played, Error> {
     let mut trace = TraceFile::create(&out.join("trace.csv"), TraceShape::of(scene))?;
-    let table = scene.classifier.as_ref();
-    let table = table.map(|_| Output::create(&out.join("decisions.csv")));
+    let decides = scene.classifier.is_some() && !run.classes().is_empty();
+    let table = decides.then(|| Output::create(&out.join("decisions.csv")));
     let table = table.transpose()?;
     let mut decided: Vec<Decided> = Vec::new();
     let mut whiskers = Vec::new();

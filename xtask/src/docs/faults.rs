@@ -47,6 +47,7 @@ pub(super) fn page() -> String {
         Recovery::Restart,
         Recovery::Armed,
         Recovery::Counted,
+        Recovery::Deployed,
     ] {
         let (short, full) = ends(recovery);
         let _ = writeln!(page, "- *{short}*: {full}");
@@ -109,6 +110,12 @@ fn ends(recovery: Recovery) -> (&'static str, String) {
         Recovery::Counted => (
             "counted",
             "there is nothing to end; the log has the count once a second.".to_owned(),
+        ),
+        Recovery::Deployed => (
+            "deployed",
+            "once a model is deployed that fits. Until then nothing is decided; whisking and touches\n  \
+             go on."
+                .to_owned(),
         ),
     }
 }

@@ -70,9 +70,11 @@ keys! {
         /// When a decision falls: once a posterior exceeds the threshold, or after each window.
         rule: Rule = rule(),
 
-        /// Likelihood model: from the scene's folder when it exists there,
-        /// else from the current directory.
-        model: String = path(),
+        /// Likelihood model that is linked into the program: from the scene's folder when it
+        /// exists there, else from the current directory.
+        model: Option<String> = path().optional(
+            "`whisker deploy` gives the board one without a rebuild ([deploying.md](deploying.md)); until then nothing is decided"
+        ),
 
         /// Posterior probability at which a class is decided on.
         (threshold): f64 = between(0.0, 1.0).required_if(SEQUENTIAL, "not used"),

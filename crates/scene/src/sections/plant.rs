@@ -70,11 +70,23 @@ keys! {
         /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
         ..obstacle: Option<Obstacles>,
 
-        /// Surfaces; there exactly when [`PlantKind::has_textures`].
+        /// Surfaces; there exactly when [`PlantKind::has_textures`], but not in free air.
         ..textured: Option<Presentation>,
 
         /// The shaft; there exactly when `kind` is [`PlantKind::Whisker`].
         ..shaft: Option<ShaftChoice>,
+    }
+}
+
+/// Free air, motors and whiskers being simulated as for textures.
+impl Default for PlantSection {
+    fn default() -> Self {
+        Self {
+            kind: PlantKind::Textured,
+            obstacle: None,
+            textured: None,
+            shaft: None,
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use super::telemetry::TelemetrySection;
 use super::whisking::WhiskingSection;
 use crate::key::{integer, name, positive};
 use crate::keys::keys;
-use crate::table::{by_default, implied, optional, required};
+use crate::table::{by_default, implied, optional, or_default, required};
 
 /// Tick rates of the module, all whole.
 const TICK_HZ: RangeInclusive<u64> =
@@ -69,8 +69,10 @@ keys! {
         /// What a PC is told of every tick, and what it may ask for.
         [telemetry]: TelemetrySection = by_default::<TelemetrySection>("the default below holds"),
 
-        /// What the whiskers meet.
-        [plant]: PlantSection = required::<PlantSection>(),
+        /// What the whiskers meet in a simulation; a board meets what there is.
+        [plant]: PlantSection = or_default::<PlantSection>(
+            "simulated motors and whiskers in free air, unless `--world` says what they meet"
+        ),
 
         /// Texture perception by naive Bayes (LEP10, LEP12).
         /// The threshold may stand beside the window: the rule says which is used.
@@ -94,14 +96,21 @@ impl Scene {
 
     /// Where the likelihood model is: beside the scene, in `scene_dir`, when
     /// something exists there under its name, else as it was written, that is,
-    /// from the current directory. `None` without a classifier.
+    /// from the current directory. `None` where it names none.
     pub fn model_path(&self, scene_dir: &Path) -> Option<PathBuf> {
         let classifier = self.classifier.as_ref()?;
-        let beside = scene_dir.join(&classifier.model);
+        let model = classifier.model.as_ref()?;
+        let beside = scene_dir.join(model);
         Some(if beside.exists() {
             beside
         } else {
-            PathBuf::from(&classifier.model)
+            PathBuf::from(model)
         })
+    }
+
+    /// Whether it has a classifier whose model is deployed apart from its program.
+    pub fn awaits_model(&self) -> bool {
+        let classifier = self.classifier.as_ref();
+        classifier.is_some_and(|classifier| classifier.model.is_none())
     }
 }

@@ -1,6 +1,6 @@
 //! Telemetry of a scene that leaves it out: nothing.
 
-use firmware::Event;
+use firmware::{Event, ModelState};
 
 use crate::board::inner::Inner;
 use crate::board::scene::Settings;
@@ -22,7 +22,7 @@ pub(crate) fn note(_: &Event) {}
 pub(crate) struct Telemetry;
 
 impl Telemetry {
-    pub(crate) const fn new() -> Self {
+    pub(crate) const fn new(_: ModelState) -> Self {
         Self
     }
 

@@ -2,18 +2,13 @@
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use firmware::{About, Event, Link, Notes, PacketSink};
+use firmware::{About, Event, Link, ModelState, Notes, PacketSink};
 use wire::{PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
 
 use crate::board::inner::Inner;
 use crate::board::log;
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
 use crate::board::scene::{NAME, Settings, TICK_HZ};
-
-const ABOUT: About<'static> = About {
-    name: NAME,
-    tick_hz: TICK_HZ,
-};
 
 /// A request from idle to the tick: its words but for the sum, which is right.
 static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
@@ -82,20 +77,27 @@ pub(crate) fn note(event: &Event) {
 pub(crate) struct Telemetry {
     link: Link,
     packets: Packets,
+    about: About<'static>,
 }
 
 impl Telemetry {
-    pub(crate) const fn new() -> Self {
+    /// Of a module that decides by this model.
+    pub(crate) const fn new(model: ModelState) -> Self {
         Self {
             link: Link::new(),
             packets: Packets::new(),
+            about: About {
+                name: NAME,
+                tick_hz: TICK_HZ,
+                model,
+            },
         }
     }
 
     /// Sends what is to be told after a tick, the `tick`-th since the start, and carries out
     /// what was asked for.
     pub(crate) fn work(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
-        let Self { link, packets } = self;
+        let Self { link, packets, .. } = self;
         link.send(module, settings, tick, &NOTES, packets);
         if !link.is_free() || IS_FULL.load(Ordering::Relaxed) {
             self.talk(module, settings, tick);
@@ -105,7 +107,11 @@ impl Telemetry {
     /// Answers what was asked for, and carries out what is.
     #[cold]
     fn talk(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
-        let Self { link, packets } = self;
+        let Self {
+            link,
+            packets,
+            about,
+        } = self;
         link.answer(packets);
         if link.is_free() && IS_FULL.load(Ordering::Acquire) {
             let [first, value] = &INBOX;
@@ -114,7 +120,7 @@ impl Telemetry {
             first.store(0, Ordering::Relaxed);
             IS_FULL.store(false, Ordering::Release);
             match TaggedCommand::from_words(words) {
-                Ok(request) => link.carry_out(module, settings, request, ABOUT, tick),
+                Ok(request) => link.carry_out(module, settings, request, *about, tick),
                 Err(unknown) => link.refuse(unknown, tick),
             }
             link.answer(packets);
