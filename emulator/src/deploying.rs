@@ -6,7 +6,7 @@ use firmware::Refusal;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
-use wire::{Command, Packet, TaggedCommand};
+use wire::{Command, Packet, TaggedCommand, WhiskerId};
 
 use crate::compare::{Agreement, Circumstances, compare_loaded};
 use crate::program::Program;
@@ -16,6 +16,8 @@ use crate::session::Session;
 const COMPARED_S: f64 = 8.0;
 /// How long a board that has refused a model is watched, s: it whisks and may touch.
 const WATCHED_S: f64 = 2.0;
+/// How long a whisker takes to come to rest, s.
+const TO_REST_S: f64 = 0.3;
 /// How long one that has a model may take to decide, s.
 const PATIENCE_S: f64 = 6.0;
 
@@ -110,7 +112,7 @@ fn wrong_models(
     for (byte, other) in long.iter_mut().skip(LENGTH).zip(length.to_le_bytes()) {
         *byte = other;
     }
-    let mut contradictory = changed(right.len() / 2, &[0]);
+    let mut contradictory = right.to_vec();
     // Of the tables of samples none is left, and the sum is right.
     contradictory[8] = 0;
     let (body, sum) = contradictory.split_at_mut(right.len() - CRC_BYTES);
@@ -192,13 +194,16 @@ fn ask(session: &mut Session, command: Command) -> Result<[i32; 2], Error> {
     Err(Error::Work(format!("{command:?}: no answer")))
 }
 
-/// A board whose motors were on, and are off.
+/// A board whose motor was on, and is off, its whisker at rest.
 fn stopped(bench: Bench<'_>) -> Result<Session, Error> {
     let mut session = bench.session()?;
     let (lines, driven) = pass(&mut session, 0.5)?;
     if !driven || !says(&lines, Refusal::Absent) {
         return Err(missing("a board without a model whisks", &lines));
     }
+    // From where it is when it is armed anew.
+    ask(&mut session, Command::Setpoint(WhiskerId::default(), 0))?;
+    pass(&mut session, TO_REST_S)?;
     ask(&mut session, Command::Stop)?;
     session.tick()?;
     Ok(session)
@@ -261,7 +266,9 @@ fn decides(bench: Bench<'_>, model: &[u8]) -> Result<String, Error> {
     let is_it = crc.cast_unsigned() == buf.crc() && classes as usize == buf.classes();
     let is_named = |line: &&String| {
         let names = buf.names().chain(["unknown"]);
-        names.into_iter().any(|name| line.contains(&format!("decision: {name},")))
+        names
+            .into_iter()
+            .any(|name| line.contains(&format!("decision: {name},")))
     };
     let by = format!("decides by model {:08x}", buf.crc());
     let has = lines.iter().any(|line| line.contains(&by));

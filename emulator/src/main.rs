@@ -9,8 +9,8 @@ use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::{Circumstances, Probe};
 use emulator::endurance;
 use emulator::{
-    compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers, sensor_loss,
-    starting, supply, telemetry,
+    compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers,
+    sensor_loss, starting, supply, telemetry,
 };
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;

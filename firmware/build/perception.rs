@@ -146,11 +146,7 @@ fn linked(
 }
 
 /// Of a program whose model lies apart from it.
-fn deployed(
-    scene: &Scene,
-    classifier: &ClassifierSection,
-    rule: &TokenStream,
-) -> Vec<TokenStream> {
+fn deployed(scene: &Scene, classifier: &ClassifierSection, rule: &TokenStream) -> Vec<TokenStream> {
     let (mut items, [sides, each]) = common(scene, classifier, rule, &quote! { &'static [u32] });
     let contact_min = match classifier.contact_min {
         Some(least) => {

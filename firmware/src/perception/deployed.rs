@@ -167,7 +167,8 @@ impl<B: Streams> Deployed<B> {
 
     /// Its model, likewise.
     pub fn model(&self) -> Option<&Model<B::Words>> {
-        self.classifier().map(|classifier| classifier.bayes().model())
+        self.classifier()
+            .map(|classifier| classifier.bayes().model())
     }
 
     /// The contact π from which its model was trained, if that knows touches.
@@ -193,7 +194,9 @@ impl<B: Streams> SampleClassifier for Deployed<B> {
     #[inline]
     fn knows_touches(&self) -> bool {
         // Without a model touches are told all the same.
-        self.0.as_ref().map_or(true, SampleClassifier::knows_touches)
+        self.0
+            .as_ref()
+            .map_or(true, SampleClassifier::knows_touches)
     }
 
     fn interrupt(&mut self, whisker: usize) {
