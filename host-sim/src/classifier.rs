@@ -2,12 +2,17 @@
 
 use std::fmt::Display;
 
-use firmware::{CodeClassifier, ModelState, Sample, SampleClassifier};
-use scene::{Deciding, Rule};
+use firmware::{
+    CodeClassifier, Deployed, ModelLimits, ModelState, Refusal, Sample, SampleClassifier,
+};
+use scene::{Deciding, Rule, Scene};
 use tactile::{
     AnyRule, AnyRuleSettings, Decision, Each, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
     Streams, Threshold, Together, TouchRule,
 };
+use zerocopy::IntoBytes;
+
+use crate::Error;
 
 /// Contact from which a sample counts, unless scene or model say otherwise.
 pub const GATE: f64 = 0.05;
@@ -16,6 +21,7 @@ pub const GATE: f64 = 0.05;
 const MOST: usize = 24;
 
 type Words = Box<[u32]>;
+type Borrowed<'w> = NaiveBayes<AnyRule, &'w [u32]>;
 
 /// How decisions come from whiskers.
 #[derive(Debug, Clone)]
@@ -230,6 +236,42 @@ pub(crate) fn quantisers(model: &ModelBuf) -> Result<[Quantiser; 2], Fault> {
 /// A model under a rule.
 pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, Words>, Fault> {
     NaiveBayes::new(model, settings(rule)?).map_err(of_rule)
+}
+
+/// The model at the beginning of a board's flash for one, for the classifier of `scene` on a
+/// board that takes so many classes, or why the board refuses it.
+///
+/// # Errors
+/// [`Error::Input`] for a rule that no model can do.
+pub fn deployed(
+    flash: &[u8],
+    scene: &Scene,
+    classes: usize,
+) -> Result<Result<ModelBuf, Refusal>, Error> {
+    let Some(classifier) = &scene.classifier else {
+        return Ok(Err(Refusal::Absent));
+    };
+    let rule = settings(classifier.rule).map_err(|fault| Error::Input(fault.to_string()))?;
+    let limits = ModelLimits {
+        classes,
+        contact_min: classifier.contact_min.map(|least| least as f32),
+    };
+    let words: Vec<u32> = flash
+        .as_chunks()
+        .0
+        .iter()
+        .map(|word| u32::from_le_bytes(*word))
+        .collect();
+    let join = |model| Borrowed::new(model, rule);
+    let found = Deployed::new(words.as_bytes(), limits, join);
+    Ok(match (found.state(), found.model()) {
+        (ModelState::Refused(refusal), _) => Err(refusal),
+        (_, Some(model)) => {
+            let copied = ModelBuf::from_bytes(model.as_bytes());
+            copied.map_err(|_| Refusal::Content)
+        }
+        (_, None) => Err(Refusal::Absent),
+    })
 }
 
 fn settings(rule: Rule) -> Result<AnyRuleSettings, Fault> {

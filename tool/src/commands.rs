@@ -1,6 +1,7 @@
 //! The commands, one file for each.
 
 pub(crate) mod capture;
+pub(crate) mod deploy;
 pub(crate) mod doctor;
 pub(crate) mod flash;
 pub(crate) mod log;

@@ -58,6 +58,15 @@ impl Conversation {
 
     /// Asks for something and waits for the answer, which must be that it is done.
     pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
+        let answer = self.answer(command)?;
+        match answer.status {
+            CommandStatus::Done => Ok(answer),
+            status => Err(Error::Work(format!("{command:?}: {status}"))),
+        }
+    }
+
+    /// Asks for something and waits for the answer, whatever it is.
+    pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
         let tag = self.send(command)?;
         let begun = self.source.now_s();
         while self.source.now_s() - begun < PATIENCE_S {
@@ -68,10 +77,7 @@ impl Conversation {
             let found = found.map(|at| heard.packets.remove(at));
             self.kept.push_back(heard);
             if let Some(Packet::Answer(answer)) = found {
-                return match answer.status {
-                    CommandStatus::Done => Ok(answer),
-                    status => Err(Error::Work(format!("{command:?}: {status}"))),
-                };
+                return Ok(answer);
             }
         }
         Err(Error::Work(format!(

@@ -15,6 +15,7 @@ mod log_line;
 mod monitor;
 mod probe;
 mod record_file;
+mod resting;
 mod script;
 mod source;
 mod table;
@@ -67,6 +68,8 @@ enum Command {
     Home(commands::order::ToSide),
     /// Says what a module is and what it has lost and missed
     Status(commands::order::ToAll),
+    /// Gives a module a model to decide by, without building its program anew
+    Deploy(commands::deploy::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -89,6 +92,7 @@ fn main() -> ExitCode {
             Command::Clear(to) => commands::order::clear(&to),
             Command::Home(to) => commands::order::home(&to),
             Command::Status(of) => commands::order::status(&of),
+            Command::Deploy(arguments) => commands::deploy::deploy(&arguments),
         }
     })
 }

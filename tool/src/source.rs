@@ -3,8 +3,10 @@
 mod board;
 mod choice;
 mod emulated;
+mod flash;
 mod person;
 mod program;
+mod room;
 mod simulated;
 mod texture;
 
@@ -13,8 +15,11 @@ pub(crate) use choice::{SourceChoice, seconds};
 pub(crate) use person::Person;
 pub(crate) use program::{BoardName, build};
 
+use std::path::Path;
+
 use host_sim::Error;
 use host_sim::origin::Origin;
+use tactile::ModelBuf;
 use wire::{Packet, TaggedCommand};
 
 /// What has come from a module.
@@ -61,4 +66,13 @@ pub(crate) trait Source {
 
     /// What is known of it without asking: its board, the version of its firmware.
     fn origin(&self) -> Origin;
+
+    /// Whether its scene and its board take the model in `path`, as far as that is known
+    /// without asking.
+    fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error>;
+
+    /// Writes a model where the module looks for one, its first words last
+    /// ([`firmware::MODEL_LAST_WORDS`]), and has it start anew; comes back once it has. Its
+    /// motors are off already: what halts a core leaves them as they are.
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error>;
 }

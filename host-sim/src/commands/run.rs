@@ -151,7 +151,7 @@ fn tell_size(scene: &Scene) {
 }
 
 /// A scene that has been checked, and the model that it names.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Loaded {
     /// The scene.
     pub scene: Scene,

@@ -9,6 +9,7 @@ use host_sim::commands::run::Loaded;
 
 use super::Source;
 use super::emulated::Emulated;
+use super::flash::Flash;
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
 use crate::probe;
@@ -46,6 +47,14 @@ pub(crate) struct SourceChoice {
         default_value = "nucleo-f446re"
     )]
     board: BoardName,
+    /// The scene in whose world the module is: what it meets, for how long, and the seed;
+    /// without it the module's own
+    #[arg(long, value_name = "SCENE")]
+    world: Option<PathBuf>,
+    /// The file that keeps the module's flash for a model from one command to the next, as a
+    /// board does; made where there is none
+    #[arg(long, value_name = "FILE")]
+    flash: Option<PathBuf>,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
     seed: Option<u64>,
@@ -75,6 +84,10 @@ impl SourceChoice {
             return Err(Error::Input(fault.to_owned()));
         };
         let mut loaded = Loaded::new(path)?;
+        if let Some(world) = &self.world {
+            loaded = loaded.in_world(world)?;
+        }
+        let flash = Flash::open(self.flash.as_deref())?;
         let seed = self.seed.unwrap_or(loaded.scene.seed);
         loaded.scene.seed = seed.wrapping_add(later) & i64::MAX.cast_unsigned();
         if loaded.scene.head.whiskers_per_side > 1 {
@@ -83,7 +96,7 @@ impl SourceChoice {
             return Err(Error::file(path, fault));
         }
         if simulates {
-            return Ok(Box::new(Simulated::open(&loaded)?));
+            return Ok(Box::new(Simulated::open(loaded, flash)?));
         }
         if !loaded.scene.telemetry.rtt {
             let fault = "telemetry.rtt is false: the program of this scene tells nothing but \
@@ -96,7 +109,7 @@ impl SourceChoice {
             let version = env!("CARGO_PKG_VERSION");
             (program::build(self.board, path)?, Some(version))
         };
-        let emulated = Emulated::open(&loaded.scene, &program, version)?;
+        let emulated = Emulated::open(loaded, &program, version, flash)?;
         Ok(Box::new(emulated))
     }
 }

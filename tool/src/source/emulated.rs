@@ -4,30 +4,37 @@ use std::path::Path;
 
 use emulator::session::Session;
 use host_sim::Error;
+use host_sim::commands::run::Loaded;
 use host_sim::origin::Origin;
-use scene::Scene;
+use tactile::ModelBuf;
 use wire::TaggedCommand;
 
+use super::flash::Flash;
+use super::room::{ModelRoom, fits};
 use super::texture::texture;
 use super::{Heard, Source};
 
 /// A board, talked with through the memory that a probe reads and writes.
 pub(super) struct Emulated {
-    scene: Scene,
+    loaded: Loaded,
     session: Session,
+    flash: Flash,
     /// Of its program, where that is known.
     version: Option<&'static str>,
 }
 
 impl Emulated {
     pub(super) fn open(
-        scene: &Scene,
+        loaded: Loaded,
         program: &Path,
         version: Option<&'static str>,
+        flash: Flash,
     ) -> Result<Self, Error> {
+        let session = Session::flashed(&loaded.scene, program, flash.contents())?;
         Ok(Self {
-            session: Session::open(scene, program)?,
-            scene: scene.clone(),
+            flash: flash.of_size(session.model_room())?,
+            session,
+            loaded,
             version,
         })
     }
@@ -52,11 +59,11 @@ impl Source for Emulated {
     }
 
     fn has(&self, sample: &str) -> Result<(), Error> {
-        texture(sample, &self.scene).map(drop)
+        texture(sample, &self.loaded.scene).map(drop)
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.session.lay(texture(sample, &self.scene)?);
+        self.session.lay(texture(sample, &self.loaded.scene)?);
         Ok(())
     }
 
@@ -69,12 +76,29 @@ impl Source for Emulated {
     }
 
     fn duration_s(&self) -> Option<f64> {
-        Some(self.scene.duration_s)
+        Some(self.loaded.scene.duration_s)
     }
 
     fn origin(&self) -> Origin {
         Origin::default()
             .with("board", format_args!("{} (emulated)", self.session.board()))
             .with("firmware", self.version.unwrap_or("unknown"))
+    }
+
+    fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error> {
+        let board = self.session.board();
+        let room = ModelRoom {
+            bytes: self.session.model_room(),
+            classes: self.session.model_classes(),
+        };
+        room.takes(board, path, model)?;
+        fits(&self.loaded, path, model)
+    }
+
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
+        self.session.deploy(model.as_bytes())?;
+        self.flash.store(&self.session.flash()?)?;
+        // It starts, and does its first tick.
+        self.session.tick()
     }
 }

@@ -7,7 +7,8 @@ use scene::{Scene, Texture};
 pub(super) fn texture(sample: &str, scene: &Scene) -> Result<Texture, Error> {
     let Some(textured) = &scene.plant.textured else {
         let fault = "the scene has no textures to lay before the whisker; allowed: plant.kind = \
-                     \"textured\" or \"whisker\", with plant.textures";
+                     \"textured\" or \"whisker\", with plant.textures, or --world SCENE with such \
+                     a scene";
         return Err(Error::Input(fault.to_owned()));
     };
     let mut known = textured.textures.iter();

@@ -3,6 +3,7 @@
 
 mod capture;
 mod common;
+mod deploy;
 mod learnt;
 mod log;
 mod messages;

@@ -1,0 +1,123 @@
+//! `whisker deploy`: a model to a module, without a rebuild.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use firmware::Refusal;
+use host_sim::recording::CHANNELS;
+use host_sim::{Error, files, misfit, report};
+use tactile::ModelBuf;
+use wire::{Command, CommandStatus};
+
+use crate::conversation::Conversation;
+use crate::resting::rest;
+use crate::source::{SourceChoice, seconds};
+
+/// Which model, and to which module.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    source: SourceChoice,
+    /// The model, as host-sim train writes it
+    #[arg(long, value_name = "FILE")]
+    model: PathBuf,
+    /// A recording from this bench: says where it is out of the model's range, or has labels
+    /// that the model does not know
+    #[arg(long, value_name = "FILE")]
+    data: Option<PathBuf>,
+    /// For how long to print the log afterwards
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    seconds: Option<f64>,
+}
+
+/// Deploys it, once it fits, and says what the module then decides by.
+pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
+    let (path, model) = files::load_model(&arguments.model)?;
+    if let Some(data) = &arguments.data {
+        let streams = files::read_recording(data, CHANNELS)?;
+        for line in misfit::misfits(data, CHANNELS, &model, &streams) {
+            report::warn(line);
+        }
+    }
+    let mut module = Conversation::new(arguments.source.open(0)?);
+    module.source().takes(&path, &model)?;
+    report::say(format_args!(
+        "{}: model {:08x}, {} bytes, {} classes: {}",
+        path.display(),
+        model.crc(),
+        model.as_bytes().len(),
+        model.classes(),
+        model.names().collect::<Vec<_>>().join(", ")
+    ));
+    let before = Decides::ask(&mut module)?;
+    report::say(format_args!("before, the module {before}"));
+    rest(&mut module)?;
+    module.source().deploy(&model)?;
+    let after = Decides::ask(&mut module)?;
+    report::say(format_args!("now it {after}"));
+    after.is(&model)?;
+    let Some(seconds) = arguments.seconds else {
+        return Ok(());
+    };
+    let begun = module.source().now_s();
+    while module.source().now_s() - begun < seconds {
+        module.hear()?.lines.iter().for_each(report::say);
+    }
+    Ok(())
+}
+
+/// What a module decides by, as it says itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Decides {
+    /// A model with this checksum and so many classes.
+    By(u32, u32),
+    /// None, for this reason.
+    Not(u8),
+}
+
+impl Decides {
+    fn ask(module: &mut Conversation) -> Result<Self, Error> {
+        let answer = module.answer(Command::Model)?;
+        let why = match answer.status {
+            CommandStatus::Done => {
+                let [crc, number] = answer.values;
+                return Ok(if number > 0 {
+                    Self::By(crc.cast_unsigned(), number.cast_unsigned())
+                } else {
+                    Self::Not(number.unsigned_abs() as u8)
+                });
+            }
+            CommandStatus::NotHere => "its scene has no [classifier]",
+            CommandStatus::Unknown => "its firmware is older than this program",
+            _ => "it says so",
+        };
+        Err(Error::Work(format!("the module takes no model: {why}")))
+    }
+
+    /// Whether it is by `model`.
+    fn is(self, model: &ModelBuf) -> Result<(), Error> {
+        match self {
+            Self::By(crc, _) if crc == model.crc() => Ok(()),
+            Self::By(..) => Err(Error::Work(
+                "it decides by another model than was written: one that is linked into its \
+                 program?"
+                    .to_owned(),
+            )),
+            Self::Not(_) => Err(Error::Work("it has refused the model".to_owned())),
+        }
+    }
+}
+
+impl std::fmt::Display for Decides {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::By(crc, classes) => write!(f, "decides by model {crc:08x}, {classes} classes"),
+            Self::Not(code) => {
+                let why = Refusal::from_code(*code).map(Refusal::text);
+                let why = why.unwrap_or("for a reason that this program does not know");
+                write!(f, "decides by no model: {why}")
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Bringing whiskers to rest, and their motors off: before a module is started anew, which takes
+//! where its whiskers are then for their rest.
+
+use host_sim::Error;
+use wire::{Command, CommandStatus, Flags, Packet, TickRecord, WhiskerId, degrees};
+
+use crate::conversation::Conversation;
+
+/// The setpoint at rest, Q24.
+const REST: i32 = 0;
+/// How near to it is near enough, degrees.
+const NEAR_DEG: f32 = 2.0;
+/// How long whiskers may take to get there, and motors to go off, s.
+const PATIENCE_S: f64 = 1.0;
+
+/// Holds every whisker at rest and then switches its motor off; what the module has logged
+/// meanwhile. A module without motors is left alone.
+///
+/// # Errors
+/// [`Error::Work`] if a motor is still driven, or nothing is answered.
+pub(crate) fn rest(module: &mut Conversation) -> Result<Vec<String>, Error> {
+    let [_, whiskers] = module.ask(Command::Hello)?.values;
+    let whiskers = usize::try_from(whiskers).unwrap_or(0);
+    for side in (0..16).take(whiskers) {
+        let whisker = WhiskerId { side, number: 0 };
+        let answer = module.answer(Command::Setpoint(whisker, REST))?;
+        match answer.status {
+            // Its range may leave rest out.
+            CommandStatus::Done | CommandStatus::OutOfRange => {}
+            _ => return Ok(Vec::new()),
+        }
+    }
+    let mut lines = Vec::new();
+    module.ask(Command::Stream(true))?;
+    let is_near = |record: &TickRecord| (degrees(record.measured) - degrees(0)).abs() < NEAR_DEG;
+    until(module, whiskers, is_near, &mut lines)?;
+    module.ask(Command::Stop)?;
+    let is_off = |record: &TickRecord| record.duty == 0 && !record.flags.contains(Flags::ARMED);
+    let are_off = until(module, whiskers, is_off, &mut lines)?;
+    module.ask(Command::Stream(false))?;
+    if are_off {
+        return Ok(lines);
+    }
+    Err(Error::Work(format!(
+        "a motor is still driven {PATIENCE_S} s after it was told to stop; nothing was written"
+    )))
+}
+
+/// Waits until the last record of each whisker is such; whether that is so in time.
+fn until(
+    module: &mut Conversation,
+    whiskers: usize,
+    is_such: impl Fn(&TickRecord) -> bool,
+    lines: &mut Vec<String>,
+) -> Result<bool, Error> {
+    let mut such = [false; 2];
+    let begun = module.source().now_s();
+    while module.source().now_s() - begun < PATIENCE_S {
+        let heard = module.hear()?;
+        lines.extend(heard.lines);
+        for packet in &heard.packets {
+            if let Packet::Record(record) = packet {
+                such[usize::from(record.flags.contains(Flags::RIGHT))] = is_such(record);
+            }
+        }
+        if such.iter().filter(|such| **such).count() >= whiskers {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}

@@ -1,0 +1,76 @@
+//! The flash that a module has for a model, kept in a file: a simulated module and an emulated
+//! chip end with the program, a board on the bench does not.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use host_sim::Error;
+use host_sim::output::write_whole;
+
+/// A byte of flash that is erased.
+const ERASED: u8 = 0xFF;
+
+/// Such a file, or flash that nobody keeps.
+#[derive(Debug)]
+pub(super) struct Flash {
+    path: Option<PathBuf>,
+    contents: Vec<u8>,
+}
+
+impl Flash {
+    /// What the file has; nothing where there is none yet.
+    pub(super) fn open(path: Option<&Path>) -> Result<Self, Error> {
+        let contents = match path.map(std::fs::read) {
+            Some(Ok(contents)) => contents,
+            Some(Err(error)) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            Some(Err(error)) => return Err(Error::file(path.unwrap_or(Path::new("")), error)),
+            None => Vec::new(),
+        };
+        let path = path.map(Path::to_owned);
+        Ok(Self { path, contents })
+    }
+
+    /// The same for a board with so many bytes of it: erased, and written to the file, if that
+    /// was not there.
+    pub(super) fn of_size(mut self, bytes: usize) -> Result<Self, Error> {
+        if self.contents.is_empty() {
+            self.store(&vec![ERASED; bytes])?;
+        }
+        match &self.path {
+            Some(path) if self.contents.len() != bytes => {
+                let found = self.contents.len();
+                let fault = format!(
+                    "found {found} bytes, allowed: {bytes}, which the board has for a model; is it \
+                     of another board?"
+                );
+                Err(Error::file(path, fault))
+            }
+            _ => Ok(self),
+        }
+    }
+
+    pub(super) fn contents(&self) -> &[u8] {
+        &self.contents
+    }
+
+    /// What messages call it.
+    pub(super) fn name(&self) -> &Path {
+        self.path.as_deref().unwrap_or(Path::new("flash"))
+    }
+
+    /// Keeps other contents.
+    pub(super) fn store(&mut self, contents: &[u8]) -> Result<(), Error> {
+        self.contents = contents.to_vec();
+        let path = self.path.as_deref();
+        path.map_or(Ok(()), |path| write_whole(path, contents))
+    }
+
+    /// Keeps a model, as a board would be written: the rest is erased.
+    pub(super) fn program(&mut self, model: &[u8]) -> Result<(), Error> {
+        let mut contents = vec![ERASED; self.contents.len()];
+        for (byte, of_model) in contents.iter_mut().zip(model) {
+            *byte = *of_model;
+        }
+        self.store(&contents)
+    }
+}

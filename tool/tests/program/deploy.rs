@@ -1,0 +1,165 @@
+//! `whisker deploy`, and what a module does that has a model deployed, or none.
+
+use std::path::{Path, PathBuf};
+
+use crate::common::{Place, textures};
+
+/// A file of the workspace's scenes.
+fn scenes(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../scenes")
+        .join(name)
+}
+
+/// The bench in the world of the main job, and how its flash is kept.
+fn bench() -> String {
+    let (bench, world) = (scenes("bench.toml"), textures());
+    format!(
+        "--sim {} --world {} --flash board.flash",
+        bench.display(),
+        world.display()
+    )
+}
+
+fn model() -> PathBuf {
+    scenes("models/textures.model")
+}
+
+#[test]
+fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
+    let place = Place::new();
+    let (bench, model) = (bench(), model());
+    let log = |of: &str| place.done(&format!("log --seconds 6 {of}")).stdout;
+    let without = log(&bench);
+    assert!(
+        without.starts_with(
+            "0.000 WARN  limit 34, no model to decide by\n0.000 WARN  - none was deployed"
+        ),
+        "{without}"
+    );
+    assert!(without.contains("touch 1") && !without.contains("decision"));
+
+    let ran = place.done(&format!("deploy {bench} --model {}", model.display()));
+    let told: Vec<&str> = ran.stdout.lines().collect();
+    assert_eq!(told.len(), 3, "{told:?}");
+    assert!(told[0].ends_with("4 classes: smooth, p600, p240, carpet"));
+    assert!(told[1].starts_with("before, the module decides by no model: none was deployed"));
+    let crc = std::fs::read(&model).unwrap();
+    let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
+    assert_eq!(told[2], format!("now it decides by model {crc:08x}, 4 classes"));
+
+    let deployed = log(&bench);
+    let (first, rest) = deployed.split_once('\n').unwrap();
+    assert_eq!(
+        first,
+        format!("0.000 INFO  decides by model {crc:08x}, 4 classes")
+    );
+    assert_eq!(rest, log(&format!("--sim {}", textures().display())));
+    assert!(rest.matches("decision: ").count() > 10, "{rest}");
+    let again = place.done(&format!("deploy {bench} --model {}", model.display()));
+    assert!(again.stdout.contains("before, the module decides by model"));
+}
+
+#[test]
+fn flash_that_was_not_written_whole_is_refused_at_the_start() {
+    let place = Place::new();
+    let (bench, model) = (bench(), model());
+    place.done(&format!("deploy {bench} --model {}", model.display()));
+    let whole = std::fs::read(place.path("board.flash")).unwrap();
+    assert_eq!(whole.len(), 128 * 1024);
+    let refused = |at: usize, byte: u8, why: &str| {
+        let mut flash = whole.clone();
+        flash[at] = byte;
+        std::fs::write(place.path("board.flash"), flash).unwrap();
+        let log = place.done(&format!("log --seconds 0.1 {bench}")).stdout;
+        assert!(log.contains(why), "{log}");
+    };
+    refused(1_000, !whole[1_000], "it is damaged");
+    refused(4, 9, "another version");
+    refused(3, 0, "is no model");
+    let header = [0xFF; 8];
+    let flash = [&header, &whole[8..]].concat();
+    std::fs::write(place.path("board.flash"), flash).unwrap();
+    let log = place.done(&format!("log --seconds 0.1 {bench}")).stdout;
+    assert!(log.contains("writing it was interrupted"), "{log}");
+    place.write("board.flash", "short");
+    let said = place.refused(&format!("log {bench}"));
+    assert!(said.contains("found 5 bytes, allowed: 131072"), "{said}");
+}
+
+#[test]
+fn what_does_not_fit_is_told_before_anything_is_written() {
+    let place = Place::new();
+    let (bench, model) = (bench(), model());
+    let mut bytes = std::fs::read(&model).unwrap();
+    bytes[4] += 1;
+    std::fs::write(place.path("newer.model"), &bytes).unwrap();
+    let said = place.refused(&format!("deploy {bench} --model newer.model"));
+    assert!(said.contains("newer.model: model format version 3"), "{said}");
+    assert!(!place.path("board.flash").exists());
+
+    let linked = textures();
+    let said = place.refused(&format!(
+        "deploy --sim {} --model {}",
+        linked.display(),
+        model.display()
+    ));
+    assert!(
+        said.contains("textures.toml:34: classifier.model: found, so the model is linked"),
+        "{said}"
+    );
+    let said = place.refused(&format!("deploy --sim bench.toml --model {}", model.display()));
+    assert!(said.contains("bench.toml: it has no [classifier]"), "{said}");
+
+    let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    place.write("deaf.toml", &format!("{bench}contact_min = 0.2\n"));
+    let said = place.refused(&format!("deploy --sim deaf.toml --model {}", model.display()));
+    assert!(
+        said.contains("classifier.contact_min: found 0.2; allowed: 0.05"),
+        "{said}"
+    );
+    let window = bench.replace("\"sequential\"", "\"window\"");
+    place.write("window.toml", &format!("{window}window = 7\n"));
+    let said = place.refused(&format!("deploy --sim window.toml --model {}", model.display()));
+    assert!(said.contains("multiple of the block"), "{said}");
+}
+
+#[test]
+fn a_recording_out_of_the_models_range_is_told() {
+    let place = Place::new();
+    let mut rows = "label,trial,t,x,y\n".to_owned();
+    for n in 0..100 {
+        rows += &format!("felt,0,{},{},8192\n", n, 16_000 + n);
+    }
+    place.write("other.csv", &rows);
+    let ran = place.done(&format!(
+        "deploy {} --model {} --data other.csv",
+        bench(),
+        model().display()
+    ));
+    assert!(ran.stderr.contains("\"felt\" is none of the model's classes"));
+    assert!(ran.stderr.contains("other.csv:2: "), "{}", ran.stderr);
+}
+
+#[test]
+fn a_world_must_fit_the_module() {
+    let place = Place::new();
+    let bench = scenes("bench.toml");
+    let in_world = |world: &str| {
+        let world = scenes(world);
+        place.refused(&format!(
+            "log --sim {} --world {}",
+            bench.display(),
+            world.display()
+        ))
+    };
+    assert!(in_world("both.toml").contains("a world for two sides of whiskers, allowed: one for"));
+    // In free air nothing is touched.
+    let log = place.done(&format!("log --seconds 3 --sim {}", bench.display()));
+    assert!(log.stdout.contains("limit 34"), "{}", log.stdout);
+    let said = place.refused(&format!(
+        "capture --sim {} --label smooth --out c.csv",
+        bench.display()
+    ));
+    assert!(said.contains("--world SCENE"), "{said}");
+}
