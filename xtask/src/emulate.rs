@@ -43,6 +43,8 @@ pub(crate) enum Task {
     SensorLoss,
     /// Measures how long contact on one side takes to excite the other.
     Latency,
+    /// Deploys models to it, right ones and wrong.
+    Deploying,
 }
 
 /// Builds the program of `scene` and does `task` with it.
@@ -63,6 +65,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Damage => "damage",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
+        Task::Deploying => "deploying",
     };
     command.arg(task_name).arg(absolute(scene)?);
     match task {
@@ -78,6 +81,10 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
             command
                 .arg("--without")
                 .arg(std::mem::replace(&mut program, kept))
+        }
+        Task::Deploying => {
+            let (world, model) = (top().join(WORLD), top().join(MODEL));
+            command.arg("--world").arg(world).arg("--model").arg(model)
         }
         Task::Compare(Probe::Attached)
         | Task::Overload
@@ -141,6 +148,10 @@ pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
 
 /// Everything that one side can run at once; [`noisiest`] gives it to both.
 pub(crate) const FULL: &str = "scenes/full.toml";
+/// What a lab flashes, which names no model; a world for it, and a model of that.
+pub(crate) const BENCH: &str = "scenes/bench.toml";
+const WORLD: &str = "scenes/textures.toml";
+const MODEL: &str = "scenes/models/textures.model";
 /// Both sides, where contact on one excites the other.
 pub(crate) const CIA: &str = "scenes/cia.toml";
 

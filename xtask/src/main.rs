@@ -225,6 +225,9 @@ struct EmulateWhat {
     /// Flip bits in the settings and in the model, and see the motors off and the log say so
     #[arg(long)]
     damage: bool,
+    /// Deploy models to a scene that names none, right ones and wrong, and see these refused
+    #[arg(long)]
+    deploying: bool,
     /// Have a PC ask for records and carry out commands, and see what that costs
     #[arg(long)]
     telemetry: bool,
@@ -243,6 +246,7 @@ impl Emulate {
             None if what.supply => emulate::Task::Supply,
             None if what.damage => emulate::Task::Damage,
             None if what.telemetry => emulate::Task::Telemetry,
+            None if what.deploying => emulate::Task::Deploying,
             None => emulate::Task::Deadlines(self.minutes),
         };
         match self.scene {

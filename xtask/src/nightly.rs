@@ -68,6 +68,7 @@ fn lints() -> Result<(), Fault> {
 fn boards() -> Result<(), Fault> {
     for board in Board::ALL {
         emulate::compare_all(board)?;
+        emulate::emulate(board, Path::new(emulate::BENCH), &Task::Deploying)?;
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
         if board.has_both_sides {
             emulate::emulate(board, Path::new(emulate::CIA), &Task::Latency)?;

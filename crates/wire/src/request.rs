@@ -191,7 +191,7 @@ mod tests {
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
-        (0..11_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+        (0..13_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
             match which {
                 0 => Command::Hello,
@@ -204,7 +204,9 @@ mod tests {
                 7 => Command::Home(whisker),
                 8 => Command::Gain(whisker, value),
                 9 => Command::Setpoint(whisker, value),
-                _ => Command::Release(whisker),
+                10 => Command::Release(whisker),
+                11 => Command::Version,
+                _ => Command::Model,
             }
         })
     }

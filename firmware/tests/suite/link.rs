@@ -1,6 +1,6 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
-use firmware::{About, Link, Module, Notes, PacketSink, Passive};
+use firmware::{About, Link, ModelState, Module, Notes, PacketSink, Passive, Refusal};
 use wire::{
     Answer, Command, CommandStatus, Flags, PACKET_WORDS, Packet, TaggedCommand, TickRecord,
     UnknownCommand, WhiskerId,
@@ -12,6 +12,7 @@ use crate::hardware::{Bent, NoClock, feeling};
 const ABOUT: About<'static> = About {
     name: "a scene of bench",
     tick_hz: 2000,
+    model: ModelState::Refused(Refusal::Damaged),
 };
 
 /// A PC that has room for so many packets.
@@ -124,6 +125,10 @@ fn it_says_what_it_is() {
     assert_eq!(letters(ask(Command::Name(8))), b"of bench");
     assert_eq!(letters(ask(Command::Name(13))), b"nch\0\0\0\0\0");
     assert_eq!(letters(ask(Command::Name(255))), [0; 8]);
+    let [numbers, patch] = ask(Command::Version);
+    let version = format!("{}.{}.{patch}", numbers >> 16, numbers & 0xFFFF);
+    assert_eq!(version, env!("CARGO_PKG_VERSION"));
+    assert_eq!(ask(Command::Model), [0, -5]);
 }
 
 #[test]
@@ -261,4 +266,30 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
         };
         assert_eq!(answer.status, CommandStatus::NoWhisker, "{command:?}");
     }
+}
+
+#[test]
+fn it_says_by_which_model_it_decides() {
+    let (mut module, config) = module::<f32>();
+    let mut link = Link::new();
+    let mut asked = |model| {
+        let request = TaggedCommand {
+            tag: 1,
+            command: Command::Model,
+        };
+        let about = About { model, ..ABOUT };
+        link.carry_out(&mut module, &config, request, about, 0);
+        let mut reader = Reader::new(1);
+        link.answer(&mut reader);
+        match reader.packets[..] {
+            [Packet::Answer(answer)] => (answer.status, answer.values),
+            _ => panic!("{:?}", reader.packets),
+        }
+    };
+    let runs = ModelState::Runs {
+        crc: 0xFEDC_BA98,
+        classes: 4,
+    };
+    assert_eq!(asked(runs), (CommandStatus::Done, [-0x0123_4568, 4]));
+    assert_eq!(asked(ModelState::NotHere), (CommandStatus::NotHere, [0, 0]));
 }

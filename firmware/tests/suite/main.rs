@@ -3,5 +3,6 @@
 mod command;
 mod contact;
 mod control_loop;
+mod deployed;
 mod hardware;
 mod link;

@@ -3,6 +3,7 @@
 
 mod columns;
 mod common;
+mod deployed;
 mod does;
 mod judges;
 mod library;

@@ -49,11 +49,11 @@ pub(crate) struct SourceChoice {
     board: BoardName,
     /// The scene in whose world the module is: what it meets, for how long, and the seed;
     /// without it the module's own
-    #[arg(long, value_name = "SCENE")]
+    #[arg(long, value_name = "SCENE", conflicts_with = "probe")]
     world: Option<PathBuf>,
     /// The file that keeps the module's flash for a model from one command to the next, as a
     /// board does; made where there is none
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "probe")]
     flash: Option<PathBuf>,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]

@@ -46,7 +46,10 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     assert!(told[1].starts_with("before, the module decides by no model: none was deployed"));
     let crc = std::fs::read(&model).unwrap();
     let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
-    assert_eq!(told[2], format!("now it decides by model {crc:08x}, 4 classes"));
+    assert_eq!(
+        told[2],
+        format!("now it decides by model {crc:08x}, 4 classes")
+    );
 
     let deployed = log(&bench);
     let (first, rest) = deployed.split_once('\n').unwrap();
@@ -95,7 +98,10 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
     bytes[4] += 1;
     std::fs::write(place.path("newer.model"), &bytes).unwrap();
     let said = place.refused(&format!("deploy {bench} --model newer.model"));
-    assert!(said.contains("newer.model: model format version 3"), "{said}");
+    assert!(
+        said.contains("newer.model: model format version 3"),
+        "{said}"
+    );
     assert!(!place.path("board.flash").exists());
 
     let linked = textures();
@@ -108,19 +114,31 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
         said.contains("textures.toml:34: classifier.model: found, so the model is linked"),
         "{said}"
     );
-    let said = place.refused(&format!("deploy --sim bench.toml --model {}", model.display()));
-    assert!(said.contains("bench.toml: it has no [classifier]"), "{said}");
+    let said = place.refused(&format!(
+        "deploy --sim bench.toml --model {}",
+        model.display()
+    ));
+    assert!(
+        said.contains("bench.toml: it has no [classifier]"),
+        "{said}"
+    );
 
     let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
     place.write("deaf.toml", &format!("{bench}contact_min = 0.2\n"));
-    let said = place.refused(&format!("deploy --sim deaf.toml --model {}", model.display()));
+    let said = place.refused(&format!(
+        "deploy --sim deaf.toml --model {}",
+        model.display()
+    ));
     assert!(
         said.contains("classifier.contact_min: found 0.2; allowed: 0.05"),
         "{said}"
     );
     let window = bench.replace("\"sequential\"", "\"window\"");
     place.write("window.toml", &format!("{window}window = 7\n"));
-    let said = place.refused(&format!("deploy --sim window.toml --model {}", model.display()));
+    let said = place.refused(&format!(
+        "deploy --sim window.toml --model {}",
+        model.display()
+    ));
     assert!(said.contains("multiple of the block"), "{said}");
 }
 
@@ -137,7 +155,10 @@ fn a_recording_out_of_the_models_range_is_told() {
         bench(),
         model().display()
     ));
-    assert!(ran.stderr.contains("\"felt\" is none of the model's classes"));
+    assert!(
+        ran.stderr
+            .contains("\"felt\" is none of the model's classes")
+    );
     assert!(ran.stderr.contains("other.csv:2: "), "{}", ran.stderr);
 }
 

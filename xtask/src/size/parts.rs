@@ -24,9 +24,11 @@ pub(super) struct Named<'a> {
 /// Whether a scene on a board, with an FPU or without, has a part.
 fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> {
     let Named { scene, model } = named;
-    let knows_touches = model.is_some_and(|model| model.touch_rule().is_some());
+    // A program whose model is deployed has the code for all that a model can ask for.
+    let awaits = scene.awaits_model();
+    let knows_touches = awaits || model.is_some_and(|model| model.touch_rule().is_some());
     // All its tables, or none, are of samples alone.
-    let is_single = model.is_none_or(|model| model.view().into_single().is_some());
+    let is_single = !awaits && model.is_none_or(|model| model.view().into_single().is_some());
     let whisking = scene.whisking.as_ref();
     let classifier = scene.classifier.as_ref();
     let rule = classifier.map(|classifier| &classifier.rule);

@@ -90,7 +90,7 @@ fn every_key_reaches_its_field() {
         },
         classifier: Some(ClassifierSection {
             rule: Rule::Sequential { threshold: 0.99 },
-            model: "models/example.model".to_owned(),
+            model: Some("models/example.model".to_owned()),
             contact_min: None,
             whiskers: Deciding::First,
         }),
@@ -289,4 +289,56 @@ fn a_scene_goes_to_another_thread() {
     let scene = is_free(read(FULL));
     let there = std::thread::spawn(move || scene.whiskers());
     assert_eq!(there.join().expect("it counts"), 2);
+}
+
+/// [`FULL`] as it stands on a bench: what it meets and its model are left out.
+fn on_a_bench() -> Scene {
+    let without_model = with(FULL, "model       = \"models/example.model\"", "");
+    let (head, plant) = without_model.split_once("[plant]").expect("a plant");
+    let (_, classifier) = plant.split_once("[classifier]").expect("a classifier");
+    read(&format!("{head}[classifier]{classifier}"))
+}
+
+#[test]
+fn a_bench_has_neither_surfaces_nor_a_model() {
+    let bench = on_a_bench();
+    assert!(bench.awaits_model() && !read(FULL).awaits_model());
+    assert_eq!(bench.model_path(std::path::Path::new(".")), None);
+    assert_eq!(bench.plant, PlantSection::default());
+    assert_eq!(bench.plant.obstacle, None);
+}
+
+#[test]
+fn a_module_has_the_world_of_another_scene() {
+    let world = with(FULL, "duration_s  = 6.0", "duration_s = 9.0");
+    let world = read(&with(&world, "seed        = 1", "seed = 77"));
+    let bench = on_a_bench();
+    let placed = bench.clone().in_world(&world).expect("it fits");
+    assert_eq!(placed.plant, world.plant);
+    assert_eq!((placed.duration_s, placed.seed), (9.0, 77));
+    let own = |scene: &Scene| {
+        (
+            scene.name.clone(),
+            scene.whisking.clone(),
+            scene.classifier.clone(),
+        )
+    };
+    assert_eq!(own(&placed), own(&bench));
+
+    let mut left = world.clone();
+    left.head.sides = Sides::Left;
+    let refused = bench.clone().in_world(&left).expect_err("another head");
+    assert!(
+        refused.contains("a world for one side of whiskers"),
+        "{refused}"
+    );
+    let mut short = world.clone();
+    short.duration_s = 1e-4;
+    assert!(bench.clone().in_world(&short).is_err());
+    let mut passive = bench;
+    passive.whisking = None;
+    let mut textured = world;
+    textured.plant.kind = PlantKind::Textured;
+    let refused = passive.in_world(&textured).expect_err("no motor");
+    assert!(refused.contains("needs an active whisker"), "{refused}");
 }

@@ -1,0 +1,131 @@
+//! Models that lie apart from the program: which are taken, and why others are not.
+
+use firmware::{Deployed, MODEL_LAST_WORDS, ModelLimits, ModelState, Refusal};
+use tactile::{Aligned, CRC_BYTES, NaiveBayes, Threshold, Window, checksum};
+
+/// The main job's: two channels of codes, four classes, a gate of 0.05.
+const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
+
+const LIMITS: ModelLimits = ModelLimits {
+    classes: 6,
+    contact_min: None,
+};
+
+/// Flash for a model.
+#[derive(Clone, Copy)]
+struct Place(Aligned<[u8; 16_384]>);
+
+impl Place {
+    /// Erased, but for a model at its beginning.
+    fn with(model: &[u8]) -> Self {
+        let mut place = Aligned([0xFF; 16_384]);
+        place.0[..model.len()].copy_from_slice(model);
+        Self(place)
+    }
+
+    fn state(&self, limits: ModelLimits) -> ModelState {
+        let threshold = Threshold::new(0.99).unwrap();
+        let bytes = &self.0.0;
+        Deployed::new(bytes, limits, |model| {
+            NaiveBayes::<tactile::SequentialRule, _>::new(model, threshold)
+        })
+        .state()
+    }
+
+    fn changed(mut self, at: usize, to: u8) -> Self {
+        self.0.0[at] = to;
+        self
+    }
+
+    /// With the right sum of what it has now.
+    fn summed(mut self) -> Self {
+        let body = MODEL.len() - CRC_BYTES;
+        let sum = checksum(&self.0.0[..body]).to_le_bytes();
+        self.0.0[body..MODEL.len()].copy_from_slice(&sum);
+        self
+    }
+}
+
+#[test]
+fn the_model_at_the_beginning_is_taken() {
+    let sum = u32::from_le_bytes(*MODEL.last_chunk().unwrap());
+    let runs = ModelState::Runs {
+        crc: sum,
+        classes: 4,
+    };
+    let place = Place::with(MODEL);
+    assert_eq!(place.state(LIMITS), runs);
+    let with = |contact_min| ModelLimits {
+        contact_min,
+        ..LIMITS
+    };
+    assert_eq!(place.state(with(Some(0.05))), runs);
+    assert_eq!(
+        place.state(with(Some(0.1))),
+        ModelState::Refused(Refusal::Contact)
+    );
+    let deployed = Deployed::new(&place.0.0, LIMITS, |model| Window::new(model, 40));
+    assert_eq!(deployed.gate(), Some(0.05));
+}
+
+#[test]
+fn whatever_is_wrong_has_its_reason() {
+    let refused = |place: Place, limits| match place.state(limits) {
+        ModelState::Refused(refusal) => refusal,
+        other => panic!("{other:?}"),
+    };
+    let right = Place::with(MODEL);
+    let few = ModelLimits {
+        classes: 3,
+        ..LIMITS
+    };
+    let long = right.changed(13, 0x40);
+    for (place, limits, why) in [
+        (Place::with(&[]), LIMITS, Refusal::Absent),
+        (right.changed(0, b'w'), LIMITS, Refusal::Strange),
+        (right.changed(4, 3), LIMITS, Refusal::Version),
+        (long, LIMITS, Refusal::TooLong),
+        (
+            right.changed(5_000, !MODEL[5_000]),
+            LIMITS,
+            Refusal::Damaged,
+        ),
+        // No table of samples; two channels, of which one is none.
+        (right.changed(8, 0).summed(), LIMITS, Refusal::Content),
+        (right.changed(7, 1).summed(), LIMITS, Refusal::Content),
+        (right, few, Refusal::Classes),
+    ] {
+        assert_eq!(refused(place, limits), why);
+    }
+    let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
+    assert_eq!(codes, (1..=10).collect::<Vec<u8>>());
+    for why in Refusal::ALL {
+        assert_eq!(Refusal::from_code(why.code()), Some(*why));
+    }
+    assert_eq!(Refusal::from_code(0), None);
+}
+
+#[test]
+fn a_window_must_be_whole_blocks() {
+    let place = Place::with(MODEL);
+    let state = |window| {
+        let join = |model| Window::new(model, window);
+        Deployed::new(&place.0.0, LIMITS, join).state()
+    };
+    assert!(matches!(state(40), ModelState::Runs { .. }));
+    assert_eq!(state(41), ModelState::Refused(Refusal::Window));
+}
+
+/// Wherever writing ends before its last word, the place is empty.
+#[test]
+fn an_interrupted_write_leaves_nothing() {
+    let words = MODEL.len() / 4;
+    let order = (MODEL_LAST_WORDS..words).chain((0..MODEL_LAST_WORDS).rev());
+    let mut place = Place::with(&[]);
+    for word in order {
+        assert_eq!(place.state(LIMITS), ModelState::Refused(Refusal::Absent));
+        let bytes = 4 * word..4 * word + 4;
+        place.0.0[bytes.clone()].copy_from_slice(&MODEL[bytes]);
+    }
+    assert!(matches!(place.state(LIMITS), ModelState::Runs { .. }));
+}
