@@ -42,7 +42,7 @@ fn without_a_model_it_says_so_and_whisks_on() {
     let ran = place.run("run deployed.toml --out out --no-plot");
     assert_eq!(ran.status, Some(0), "{}", ran.stderr);
     let said =
-        "deployed.toml:24: classifier: names no model, and none is given: nothing is decided";
+        "deployed.toml:25: classifier: names no model, and none is given: nothing is decided";
     assert!(ran.stderr.contains(said), "{}", ran.stderr);
     assert!(place.path("out/trace.csv").exists());
     assert!(!place.path("out/decisions.csv").exists());
@@ -60,7 +60,7 @@ fn without_a_model_it_says_so_and_whisks_on() {
 fn a_model_where_there_is_no_use_for_it_is_refused() {
     let place = place();
     for (scene, why) in [
-        ("linked.toml", "linked.toml:26: classifier.model: found, so"),
+        ("linked.toml", "linked.toml:27: classifier.model: found, so"),
         ("deaf.toml", "deaf.toml: it has no [classifier]"),
     ] {
         place.refuses_to_write(&format!("run {scene} --model the.model"), &[why]);
