@@ -95,11 +95,11 @@ fn agreed(with: &str, of: Agreement) -> String {
     )
 }
 
-/// Models that a board must refuse, and why.
-fn wrong_models(
-    right: &[u8],
-    session: &Session,
-) -> Result<Vec<(&'static str, Vec<u8>, Refusal)>, Error> {
+/// What is wrong with a model, the model, and why a board must refuse it.
+type Wrong = (&'static str, Vec<u8>, Refusal);
+
+/// Models that a board must refuse.
+fn wrong_models(right: &[u8], session: &Session) -> Result<Vec<Wrong>, Error> {
     let changed = |at: usize, by: &[u8]| {
         let mut model = right.to_vec();
         for (byte, other) in model.iter_mut().skip(at).zip(by) {

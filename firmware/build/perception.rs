@@ -148,12 +148,11 @@ fn linked(
 /// Of a program whose model lies apart from it.
 fn deployed(scene: &Scene, classifier: &ClassifierSection, rule: &TokenStream) -> Vec<TokenStream> {
     let (mut items, [sides, each]) = common(scene, classifier, rule, &quote! { &'static [u32] });
-    let contact_min = match classifier.contact_min {
-        Some(least) => {
-            let least = least as f32;
-            quote! { Some(#least) }
-        }
-        None => quote! { None },
+    let contact_min = if let Some(least) = classifier.contact_min {
+        let least = least as f32;
+        quote! { Some(#least) }
+    } else {
+        quote! { None }
     };
     items.extend([
         quote! { pub(crate) const AWAITS_MODEL: bool = true; },
@@ -272,12 +271,11 @@ fn rule(of: Rule) -> (TokenStream, TokenStream, TokenStream) {
 /// A part that is there or not when the program starts.
 fn at_run_time<R: Real>(part: Option<R>) -> Source {
     let env = CrateEnv::default();
-    let value = match part {
-        Some(part) => {
-            let part = part.bake(&env);
-            quote! { Some(#part) }
-        }
-        None => quote! { None },
+    let value = if let Some(part) = part {
+        let part = part.bake(&env);
+        quote! { Some(#part) }
+    } else {
+        quote! { None }
     };
     Source {
         of_type: quote! { Option<Number> },
