@@ -279,6 +279,18 @@ fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
     }
 }
 
+/// Deploys models, and tells what was seen.
+fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
+    let bench = deploying::Bench {
+        scene: &flashed.scene,
+        world,
+        program: &flashed.program,
+    };
+    let told = deploying::deploying(bench, model)?;
+    told.iter().for_each(report::say);
+    Ok(())
+}
+
 fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
     match arguments.command {
@@ -334,19 +346,10 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             }
         }
         Command::Deploying {
-            flashed: Flashed { scene, program },
+            flashed,
             world,
             model,
-        } => {
-            let bench = deploying::Bench {
-                scene: &scene,
-                world: &world,
-                program: &program,
-            };
-            for line in deploying::deploying(bench, &model)? {
-                report::say(line);
-            }
-        }
+        } => deploy(&flashed, &world, &model)?,
         Command::Campaign(campaign) => inject(campaign)?,
         Command::Endure(run) => endure(&run)?,
         Command::Endurance { shards, out } => {

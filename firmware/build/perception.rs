@@ -52,9 +52,11 @@ fn absent() -> Part {
         quote! { pub(crate) const AWAITS_MODEL: bool = false; },
         quote! { pub(crate) const HEARS_SEVERAL: bool = false; },
         quote! { pub(crate) type Perception = (); },
-        quote! { pub(crate) type Names = (); },
+        quote! { pub(crate) struct Names; },
         quote! {
-            pub(crate) fn names(_: &Perception) -> Names {}
+            pub(crate) fn names(_: &Perception) -> Names {
+                Names
+            }
         },
         quote! {
             pub(crate) fn class_name(_: &Names, _: usize) -> Option<&str> {
@@ -99,9 +101,11 @@ fn linked(
     items.extend([
         quote! { pub(crate) const AWAITS_MODEL: bool = false; },
         quote! { const CLASS_NAMES: &[&str] = &[#(#names),*]; },
-        quote! { pub(crate) type Names = (); },
+        quote! { pub(crate) struct Names; },
         quote! {
-            pub(crate) fn names(_: &Perception) -> Names {}
+            pub(crate) fn names(_: &Perception) -> Names {
+                Names
+            }
         },
         quote! {
             pub(crate) fn class_name(_: &Names, class: usize) -> Option<&str> {

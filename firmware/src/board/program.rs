@@ -182,6 +182,10 @@ pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
 }
 
 /// Writes an event to the log. What the scene cannot do has no line.
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "names of a model that is linked take no memory"
+)]
 fn write(event: Event, names: &Names) {
     match event {
         Event::Decision(place, decision) if scene::DECIDES => {

@@ -14,6 +14,10 @@
 //! - `Names`, `names`, `class_name`: the names of the classes.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "what a scene leaves out takes no memory"
+)]
+#![allow(
     clippy::unnecessary_wraps,
     reason = "a scene without a classifier starts nothing that can fail"
 )]
