@@ -145,11 +145,9 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
 #[test]
 fn a_recording_out_of_the_models_range_is_told() {
     let place = Place::new();
-    let mut rows = "label,trial,t,x,y\n".to_owned();
-    for n in 0..100 {
-        rows += &format!("felt,0,{},{},8192\n", n, 16_000 + n);
-    }
-    place.write("other.csv", &rows);
+    let rows = (16_000..16_100).map(|x| format!("felt,0,{x},8192\n"));
+    let rows: String = rows.collect();
+    place.write("other.csv", &format!("label,trial,x,y\n{rows}"));
     let ran = place.done(&format!(
         "deploy {} --model {} --data other.csv",
         bench(),
