@@ -11,6 +11,8 @@ use std::{env, fs};
 
 #[path = "build/model.rs"]
 mod model;
+#[path = "build/part.rs"]
+mod part;
 #[path = "build/perception.rs"]
 mod perception;
 #[path = "build/source.rs"]

@@ -27,7 +27,7 @@ const LENGTH: usize = 12;
 
 /// A scene without a model, the world that it is in, and what is flashed for it.
 #[derive(Debug, Clone, Copy)]
-pub struct Bench<'p> {
+pub struct Deployment<'p> {
     /// The scene.
     pub scene: &'p Path,
     /// That of the world.
@@ -36,7 +36,7 @@ pub struct Bench<'p> {
     pub program: &'p Path,
 }
 
-impl Bench<'_> {
+impl Deployment<'_> {
     fn load(&self) -> Result<Loaded, Error> {
         Loaded::new(self.scene)?.in_world(self.world)
     }
@@ -53,7 +53,7 @@ impl Bench<'_> {
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
-pub fn deploying(bench: Bench<'_>, model: &Path) -> Result<Vec<String>, Error> {
+pub fn deploying(bench: Deployment<'_>, model: &Path) -> Result<Vec<String>, Error> {
     let mut told = Vec::new();
     let program = Program::load(bench.program)?;
     let compared = |loaded: Loaded| {
@@ -195,7 +195,7 @@ fn ask(session: &mut Session, command: Command) -> Result<[i32; 2], Error> {
 }
 
 /// A board whose motor was on, and is off, its whisker at rest.
-fn stopped(bench: Bench<'_>) -> Result<Session, Error> {
+fn stopped(bench: Deployment<'_>) -> Result<Session, Error> {
     let mut session = bench.session()?;
     let (lines, driven) = pass(&mut session, 0.5)?;
     if !driven || !says(&lines, Refusal::Absent) {
@@ -220,7 +220,7 @@ fn says(lines: &[String], refusal: Refusal) -> bool {
 }
 
 /// Nobody deploys while a motor is driven.
-fn drives_no_motor_while_halted(bench: Bench<'_>, model: &[u8]) -> Result<String, Error> {
+fn drives_no_motor_while_halted(bench: Deployment<'_>, model: &[u8]) -> Result<String, Error> {
     let mut session = bench.session()?;
     let mut ticks = 0;
     while !session.drives() && ticks < 2_000 {
@@ -237,7 +237,7 @@ fn drives_no_motor_while_halted(bench: Bench<'_>, model: &[u8]) -> Result<String
 
 /// A board that gets so many words of a model refuses it, whisks on and decides nothing.
 fn refuses(
-    bench: Bench<'_>,
+    bench: Deployment<'_>,
     model: &[u8],
     words: usize,
     refusal: Refusal,
@@ -257,7 +257,7 @@ fn refuses(
 }
 
 /// A board that gets a right model decides by it.
-fn decides(bench: Bench<'_>, model: &[u8]) -> Result<String, Error> {
+fn decides(bench: Deployment<'_>, model: &[u8]) -> Result<String, Error> {
     let mut session = stopped(bench)?;
     session.deploy(model)?;
     let buf = ModelBuf::from_bytes(model).map_err(|error| Error::Work(error.to_string()))?;

@@ -281,7 +281,7 @@ fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
 
 /// Deploys models, and tells what was seen.
 fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
-    let bench = deploying::Bench {
+    let bench = deploying::Deployment {
         scene: &flashed.scene,
         world,
         program: &flashed.program,

@@ -6,7 +6,7 @@ use scene::{ClassifierSection, Deciding, Rule, Scene};
 use tactile::ModelBuf;
 use whisking::{Real, Source};
 
-use crate::source::{Part, nothing};
+use crate::part::{Part, nothing};
 
 /// The classifier and its model.
 pub(crate) fn perception<R: Real>(

@@ -7,6 +7,7 @@ use scene::{Arm, Driver, Scene, SensorMode, Sides};
 use tactile::{Model, ModelBuf};
 use whisking::{Real, Source, Start};
 
+use crate::part::{Part, nothing};
 use crate::perception::perception;
 
 /// Writes the source in number format `R`, which the firmware calls `number`.
@@ -74,20 +75,6 @@ pub(crate) fn source<R: Real>(
         .chain(perception.items);
     let lines: Vec<String> = items.map(|item| item.to_string()).collect();
     Ok(lines.join("\n"))
-}
-
-/// The types, constants and start of motion or perception, and its settings.
-pub(crate) struct Part {
-    pub(crate) items: Vec<TokenStream>,
-    pub(crate) config: Source,
-}
-
-/// Settings of a part that is left out.
-pub(crate) fn nothing() -> Source {
-    Source {
-        of_type: quote! { () },
-        value: quote! { () },
-    }
 }
 
 /// The pattern generator and the position control.

@@ -69,10 +69,15 @@ pub(crate) trait Source {
 
     /// Whether its scene and its board take the model in `path`, as far as that is known
     /// without asking.
-    fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error>;
+    fn takes(&self, _path: &Path, _model: &ModelBuf) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// Writes a model where the module looks for one, its first words last
     /// ([`firmware::MODEL_LAST_WORDS`]), and has it start anew; comes back once it has. Its
     /// motors are off already: what halts a core leaves them as they are.
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error>;
+    fn deploy(&mut self, _model: &ModelBuf) -> Result<(), Error> {
+        let fault = "a model cannot be deployed to this module yet; allowed: --sim, --emulated";
+        Err(Error::Input(fault.to_owned()))
+    }
 }

@@ -80,7 +80,7 @@ fn whatever_is_wrong_has_its_reason() {
         ..LIMITS
     };
     let long = right.changed(13, 0x40);
-    for (place, limits, why) in [
+    for (place, limits, why) in vec![
         (Place::with(&[]), LIMITS, Refusal::Absent),
         (right.changed(0, b'w'), LIMITS, Refusal::Strange),
         (right.changed(4, 3), LIMITS, Refusal::Version),
