@@ -6,8 +6,8 @@ mod sensor;
 
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
-    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event, Module,
-    ModelState, NoActiveWhisker, Place, Refusal, Servo, ServoConfig, StopAll,
+    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event,
+    ModelState, Module, NoActiveWhisker, Place, Refusal, Servo, ServoConfig, StopAll,
 };
 use mlx90333::Decoder;
 use plan::NumberFormat;
