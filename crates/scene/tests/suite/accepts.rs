@@ -293,7 +293,7 @@ fn a_scene_goes_to_another_thread() {
 
 /// [`FULL`] as it stands on a bench: what it meets and its model are left out.
 fn on_a_bench() -> Scene {
-    let without_model = with(FULL, "model       = \"models/example.model\"", "");
+    let without_model = with(FULL, "model     = \"models/example.model\"", "");
     let (head, plant) = without_model.split_once("[plant]").expect("a plant");
     let (_, classifier) = plant.split_once("[classifier]").expect("a classifier");
     read(&format!("{head}[classifier]{classifier}"))
@@ -311,7 +311,7 @@ fn a_bench_has_neither_surfaces_nor_a_model() {
 #[test]
 fn a_module_has_the_world_of_another_scene() {
     let world = with(FULL, "duration_s  = 6.0", "duration_s = 9.0");
-    let world = read(&with(&world, "seed        = 1", "seed = 77"));
+    let world = read(&with(&world, "seed        = 1  ", "seed = 77 "));
     let bench = on_a_bench();
     let placed = bench.clone().in_world(&world).expect("it fits");
     assert_eq!(placed.plant, world.plant);
