@@ -225,7 +225,7 @@ fn nothing_is_decided_in_the_air() {
         let mut scene = scene(WHISKER, hz, limit_deg, 20.0, 3302);
         scene.classifier = Some(ClassifierSection {
             rule,
-            model: String::new(),
+            model: Some(String::new()),
             contact_min: None,
             whiskers: Deciding::First,
         });
