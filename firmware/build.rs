@@ -27,7 +27,7 @@ mod board {
     pub(crate) mod timing;
 }
 
-use board::timing::{Clocks, TICK_MIN_HZ};
+use board::timing::{Clocks, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
 use databake::quote;
 use plan::NumberFormat;
 use scene::{Driver, MotorSection, Scene, SensorMode, SensorModel};
@@ -75,6 +75,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=WHISKER_SCENE");
     println!("cargo::rustc-check-cfg=cfg(right_side)");
     println!("cargo::rustc-check-cfg=cfg(telemetry)");
+    println!("cargo::rustc-check-cfg=cfg(serial)");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
@@ -168,6 +169,9 @@ fn scene(board: &Board) -> Result<(), Box<dyn Error>> {
     if scene.telemetry.rtt {
         println!("cargo::rustc-cfg=telemetry");
     }
+    if scene.telemetry.serial_baud.is_some() {
+        println!("cargo::rustc-cfg=serial");
+    }
     Ok(())
 }
 
@@ -217,6 +221,34 @@ fn fits(scene: &Scene, board: &Board) -> Result<(), String> {
             board.name,
             clocks.tick_max_hz(),
             clocks.frame_least_ns() / 1_000
+        ));
+    }
+    match scene.telemetry.serial_baud {
+        Some(baud) => serial_fits(baud, scene.tick_hz, &clocks, board),
+        None => Ok(()),
+    }
+}
+
+/// Whether the board has that baud, and idle keeps up with it.
+fn serial_fits(baud: u32, tick_hz: u32, clocks: &Clocks, board: &Board) -> Result<(), String> {
+    let refuse = |allowed: String| {
+        let name = board.name;
+        Err(format!(
+            "telemetry.serial_baud: found {baud}; allowed on the {name}: {allowed}"
+        ))
+    };
+    if clocks.serial_divider(baud).is_none() {
+        let hz = clocks.serial_hz;
+        return refuse(format!(
+            "up to {}, where {hz} Hz are a multiple of it to within 1.5 %",
+            hz / 16
+        ));
+    }
+    if !serial_keeps_up(baud, tick_hz) {
+        return refuse(format!(
+            "what brings less than {RECEIVED_BYTES} bytes in two ticks, at {tick_hz} a second \
+             up to {}",
+            (RECEIVED_BYTES as u32 - 1) * 5 * tick_hz
         ));
     }
     Ok(())

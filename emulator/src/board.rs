@@ -19,7 +19,7 @@ use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{Pins, SimPwm};
 use wire::Packet;
 
-use crate::chip::{Fault, Ps, ResetCause, SensorEnd};
+use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
@@ -224,6 +224,21 @@ impl Board {
         let ring = rtt.packets(memories)?;
         let bytes = ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))?;
         Ok(bytes.as_chunks().0.iter().map(Packet::from_bytes).collect())
+    }
+
+    /// Has the other end of the serial line send bytes.
+    pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
+        self.machine.disturb(|chip| chip.serial_write(bytes));
+    }
+
+    /// What the other end of the serial line has received since the last call.
+    pub(crate) fn serial_read(&mut self) -> Vec<u8> {
+        self.machine.with_chip(Chip::serial_read)
+    }
+
+    /// Levels of the pins of contact and of decisions.
+    pub(crate) fn signals(&mut self) -> [bool; 2] {
+        self.machine.with_chip(|chip| chip.signals())
     }
 
     fn drain(&mut self) -> Result<(), Fault> {

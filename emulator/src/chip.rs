@@ -27,12 +27,14 @@ mod remap;
 mod requests;
 mod reset;
 mod sensor_lines;
+mod serial_line;
 mod spi;
 mod time;
 mod timer;
 mod timers;
 mod trouble;
 mod upset;
+mod usart;
 mod watchdog;
 mod wiring;
 
@@ -55,8 +57,10 @@ use power::Power;
 use rcc::{Clocks, Rcc};
 use remap::Remap;
 use sensor_lines::SensorLines;
+use serial_line::SerialLine;
 use spi::Spi;
 use timer::Timer;
+use usart::Usart;
 use watchdog::Watchdog;
 
 /// The voltage detector's interrupt in the NVIC, of every chip.
@@ -86,6 +90,9 @@ pub(crate) struct Chip {
     dmas: Vec<Dma>,
     mux: Mux,
     watchdog: Watchdog,
+    /// USART2, the ST-LINK's serial port, and its line.
+    usart: Usart,
+    serial: SerialLine,
     /// The wires of each side's sensor.
     lines: [SensorLines; 2],
     fault: Option<Fault>,
@@ -115,6 +122,8 @@ impl Chip {
             dmas: model.dmas.iter().copied().map(Dma::new).collect(),
             mux: Mux::default(),
             watchdog: Watchdog::new(model.lsi_hz, model.has_window),
+            usart: Usart::new(model.usart_version),
+            serial: SerialLine::default(),
             lines: SIDE_NAMES.map(SensorLines::new),
             fault: None,
         })
@@ -136,6 +145,7 @@ impl Chip {
         self.dmas.iter_mut().for_each(Dma::reset);
         self.mux = Mux::default();
         self.watchdog.reset();
+        self.usart.reset();
         // /SS floats, with the sensor's own pull-up.
         self.select_sensors();
         Ok(())
@@ -170,7 +180,10 @@ impl Chip {
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
         let bytes = self.spis.iter().filter_map(|spi| spi.shift);
         let bytes = bytes.map(|shift| shift.ends);
-        timers.chain(bytes).chain(self.watchdog.bites()).min()
+        let serial = [self.usart.sends_until(), self.serial.next()];
+        let serial = serial.into_iter().flatten();
+        let others = self.watchdog.bites().into_iter().chain(serial);
+        timers.chain(bytes).chain(others).min()
     }
 
     /// Lets everything happen that is due by `now`; `sensors` hang on the wires, the
@@ -202,6 +215,7 @@ impl Chip {
                 self.timers[n].sync(due, clock);
             }
             self.end_bytes(sensors);
+            self.carry_serial()?;
         }
         self.now = now;
         Ok(None)

@@ -58,6 +58,9 @@ pub(crate) fn start(
     if scene.sensor.mode == SensorMode::Slow {
         board.machine.with_chip(Chip::slow_sensors);
     }
+    if let Some(baud) = scene.telemetry.serial_baud {
+        board.machine.with_chip(|chip| chip.attach_serial(baud));
+    }
     Ok(Run::of(
         scene,
         Box::new(Emulated::new(board)),

@@ -36,6 +36,7 @@ pub mod picture;
 mod program;
 pub mod registers;
 pub mod sensor_loss;
+pub mod serial;
 pub mod session;
 pub mod starting;
 pub mod supply;

@@ -10,7 +10,7 @@ use emulator::compare::{Circumstances, Probe};
 use emulator::endurance;
 use emulator::{
     compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers,
-    sensor_loss, starting, supply, telemetry,
+    sensor_loss, serial, starting, supply, telemetry,
 };
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
@@ -134,6 +134,18 @@ enum Command {
         #[command(flatten)]
         flashed: Flashed,
         /// The program of the same scene without telemetry
+        #[arg(long, value_name = "ELF")]
+        without: PathBuf,
+    },
+    /// Talks with the board over its serial line; fails if a line, a record or an answer is
+    /// not what it should be, something is lost, or the tick takes longer for it
+    Serial {
+        #[command(flatten)]
+        flashed: Flashed,
+        /// The program of the same scene at a baud that cannot carry records
+        #[arg(long, value_name = "ELF")]
+        slow: PathBuf,
+        /// The program of the same scene without a serial port
         #[arg(long, value_name = "ELF")]
         without: PathBuf,
     },
@@ -291,6 +303,14 @@ fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
     Ok(())
 }
 
+fn draw(scenes: &[PathBuf], programs: &[PathBuf], out: &Path) -> Result<(), Error> {
+    output::check(out)?;
+    let flashed = scenes.iter().zip(programs);
+    let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
+    write_whole(out, picture::picture(&flashed)?.as_bytes())?;
+    Ok(())
+}
+
 fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
     match arguments.command {
@@ -304,12 +324,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             scenes,
             program,
             out,
-        } => {
-            output::check(&out)?;
-            let flashed = scenes.iter().zip(&program);
-            let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
-            write_whole(&out, picture::picture(&flashed)?.as_bytes())?;
-        }
+        } => draw(&scenes, &program, &out)?,
         Command::Compare {
             flashed: Flashed { scene, program },
             probe,
@@ -373,6 +388,11 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             flashed: Flashed { scene, program },
             without,
         } => report::say(telemetry::talk(&scene, &program, &without)?.join("\n")),
+        Command::Serial {
+            flashed: Flashed { scene, program },
+            slow,
+            without,
+        } => report::say(serial::talk(&scene, [&program, &slow, &without])?.join("\n")),
         Command::Supply(Flashed { scene, program }) => {
             report::say(supply::dip(&scene, &program)?.join("\n"));
         }

@@ -151,6 +151,17 @@ impl Session {
         Ok(self.run.module_mut().board.packets()?)
     }
 
+    /// Has the other end of the board's serial line, which has the scene's baud, send bytes
+    /// from now on.
+    pub fn serial_write(&mut self, bytes: &[u8]) {
+        self.run.module_mut().board.serial_write(bytes);
+    }
+
+    /// What the other end has received since the last call.
+    pub fn serial_read(&mut self) -> Vec<u8> {
+        self.run.module_mut().board.serial_read()
+    }
+
     /// The lines that it has logged since the last call.
     pub fn log(&mut self) -> Vec<String> {
         let bytes = self.run.module_mut().take_log();

@@ -23,6 +23,9 @@ pub(crate) fn source<R: Real>(
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
     let (frozen_s, jump_per_s) = (scene.sensor.frozen_s, scene.sensor.jump_per_s);
     let sensors_are_slow = scene.sensor.mode == SensorMode::Slow;
+    let telemetry = &scene.telemetry;
+    let (has_serial, has_pins) = (telemetry.serial_baud.is_some(), telemetry.pins);
+    let serial_baud = telemetry.serial_baud.unwrap_or(0);
     let touch = model.and_then(Model::touch_rule);
     let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate))?;
     let contact = Source::optional(
@@ -43,6 +46,9 @@ pub(crate) fn source<R: Real>(
     let items = [
         quote! { pub(crate) const NAME: &str = #name; },
         quote! { pub(crate) const TICK_HZ: u32 = #tick_hz; },
+        quote! { pub(crate) const HAS_SERIAL: bool = #has_serial; },
+        quote! { pub(crate) const SERIAL_BAUD: u32 = #serial_baud; },
+        quote! { pub(crate) const HAS_PINS: bool = #has_pins; },
         quote! { pub(crate) const SENSORS_ARE_SLOW: bool = #sensors_are_slow; },
         quote! {
             pub(crate) const SIDES: [&super::wiring::Side; #count] = [&crate::here::#sides];

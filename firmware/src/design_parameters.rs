@@ -101,6 +101,11 @@ pub const fn retry(tick_hz: u32) -> Retry {
     }
 }
 
+/// How long the pin of decisions is high after one, s: long enough for a program that looks
+/// at its pins a hundred times a second. A level that changed with each decision would tell
+/// nothing to one that has missed a change.
+pub const DECIDED_S: f64 = 0.01;
+
 /// `seconds` in ticks of a module that runs `tick_hz` times a second; at least
 /// one, at most `u16::MAX`.
 pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {

@@ -63,6 +63,16 @@ macro_rules! rows {
             )*
         }
 
+        /// What is wrong, and likely causes, of a number; for who has no room for the rest.
+        // Once in the program.
+        #[inline(never)]
+        pub const fn texts(number: u8) -> [&'static str; 2] {
+            match number {
+                $($number => [$name, $causes],)*
+                _ => ["not in the table", "an older table"],
+            }
+        }
+
         /// Every fault and limit, by number.
         pub const TABLE: &[FaultRow] = &[$(
             FaultRow {

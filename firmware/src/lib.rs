@@ -31,6 +31,7 @@ pub mod design_parameters;
 mod event;
 pub mod faults;
 mod io;
+pub mod lines;
 mod module;
 mod motion;
 mod perception;
@@ -38,6 +39,7 @@ mod queue;
 mod record;
 mod sensing;
 mod servo;
+mod signals;
 mod telemetry;
 #[cfg(feature = "tmag5170")]
 mod tilt;
@@ -59,6 +61,7 @@ pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
+pub use signals::Signals;
 pub use telemetry::{About, Link, Notes, PacketSink};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};

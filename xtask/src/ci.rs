@@ -103,6 +103,7 @@ fn board() -> Result<(), Fault> {
         Task::Starting,
         Task::Supply,
         Task::Telemetry,
+        Task::Serial,
         Task::Damage,
         Task::SensorLoss,
     ];

@@ -37,6 +37,8 @@ pub(crate) enum Task {
     Supply,
     /// Has a PC talk to it.
     Telemetry,
+    /// Talks with it over its serial line.
+    Serial,
     /// Flips bits in what nothing writes.
     Damage,
     /// Breaks the sensors' wires on purpose.
@@ -52,6 +54,9 @@ pub(crate) enum Task {
 /// # Errors
 /// If it cannot be built, or the emulated board says that something is wrong.
 pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fault> {
+    if let Task::Serial = task {
+        return serial(board, scene);
+    }
     let mut program = firmware::build(board, scene)?;
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
     let task_name = match task {
@@ -62,6 +67,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Starting => "starting",
         Task::Supply => "supply",
         Task::Telemetry => "telemetry",
+        Task::Serial => "serial",
         Task::Damage => "damage",
         Task::SensorLoss => "sensor-loss",
         Task::Latency => "latency",
@@ -90,11 +96,44 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         | Task::Overload
         | Task::Starting
         | Task::Supply
+        | Task::Serial
         | Task::Damage
         | Task::SensorLoss
         | Task::Latency => &mut command,
     };
     run(command.arg("--program").arg(program))
+}
+
+/// Bits a second that carry the records of one whisker at 2 kHz, and of two; and the
+/// ST-LINK's default, that carries neither.
+const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];
+
+/// Talks with a board over its serial line at two of [`SERIAL_BAUDS`].
+fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
+    let folder = target().join("serial");
+    let whiskers = variants::whiskers(scene)?;
+    let [one, two, slow] = SERIAL_BAUDS;
+    let bauds = [if whiskers > 1 { two } else { one }, slow];
+    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "serial"]);
+    let [fast, slow] = bauds.map(|baud| {
+        let folder = folder.join(baud.to_string());
+        variants::with_serial(scene, baud, &folder)
+    });
+    let fast = fast?;
+    command.arg(absolute(&fast)?);
+    for (option, scene) in [
+        ("--program", fast),
+        ("--slow", slow?),
+        ("--without", scene.into()),
+    ] {
+        // Each in a place of its own: the next build takes that of the last.
+        let kept = folder
+            .join(option.trim_start_matches('-'))
+            .with_extension("elf");
+        write(&kept, read_bytes(&firmware::build(board, &scene)?)?)?;
+        command.arg(option).arg(kept);
+    }
+    run(&mut command)
 }
 
 /// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.

@@ -231,6 +231,9 @@ struct EmulateWhat {
     /// Have a PC ask for records and carry out commands, and see what that costs
     #[arg(long)]
     telemetry: bool,
+    /// Talk with the board over its serial line: lines, records, commands and garbage
+    #[arg(long)]
+    serial: bool,
 }
 
 impl Emulate {
@@ -247,6 +250,7 @@ impl Emulate {
             None if what.damage => emulate::Task::Damage,
             None if what.telemetry => emulate::Task::Telemetry,
             None if what.deploying => emulate::Task::Deploying,
+            None if what.serial => emulate::Task::Serial,
             None => emulate::Task::Deadlines(self.minutes),
         };
         match self.scene {

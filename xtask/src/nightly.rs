@@ -85,6 +85,7 @@ fn boards() -> Result<(), Fault> {
                 Task::Starting,
                 Task::Supply,
                 Task::Telemetry,
+                Task::Serial,
                 Task::Damage,
                 Task::SensorLoss,
             ] {

@@ -17,6 +17,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     shaft_is_slender(values, text);
     several_can_decide(values, text);
     mode_is_the_mlx90333s(values, text);
+    serial_has_its_parts(values, text);
 }
 
 fn mode_is_the_mlx90333s(values: &Values, text: &mut Text<'_>) {
@@ -149,4 +150,24 @@ fn several_can_decide(values: &Values, text: &mut Text<'_>) {
     let found = format!("found \"{deciding}\"");
     let path = "classifier.whiskers".to_owned();
     text.report(offset, path, found, allowed.to_owned());
+}
+
+/// The serial port shares the records and the requests of the link, and the pins show what a
+/// classifier tells.
+fn serial_has_its_parts(values: &Values, text: &mut Text<'_>) {
+    let has_link = values.get::<bool>("telemetry", "rtt") != Some(false);
+    if let (false, Some(offset)) = (has_link, values.offset("telemetry", "serial_baud")) {
+        let path = "telemetry.serial_baud".to_owned();
+        let allowed = "allowed: rtt = true, whose records and commands it carries".to_owned();
+        text.report(offset, path, "found with rtt = false".to_owned(), allowed);
+    }
+    let has_pins = values.get::<bool>("telemetry", "pins") == Some(true);
+    if let (true, Some(offset)) = (
+        has_pins && values.section("classifier").is_none(),
+        values.offset("telemetry", "pins"),
+    ) {
+        let found = "found true without [classifier]".to_owned();
+        let allowed = "allowed: false, as nothing tells of touches and decisions".to_owned();
+        text.report(offset, "telemetry.pins".to_owned(), found, allowed);
+    }
 }

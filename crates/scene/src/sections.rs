@@ -66,9 +66,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, four of the sensor, two of the plant, one of the head, of
-        // whisking, of telemetry and of the classifier.
-        assert_eq!(defaults, 29);
+        // Nineteen of the motor, four of the sensor, two of the plant and of telemetry, one of
+        // the head, of whisking and of the classifier.
+        assert_eq!(defaults, 30);
     }
 
     #[test]

@@ -20,24 +20,21 @@ pub struct Answer {
 
 /// What became of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.text())]
 pub enum CommandStatus {
     /// It is done.
-    #[error("done")]
     Done,
     /// The command has no meaning in this program.
-    #[error("unknown command")]
     Unknown,
     /// There is no such whisker, or it has no motor.
-    #[error("no such whisker, or it has no motor")]
     NoWhisker,
     /// The value is outside its range; nothing has changed.
-    #[error("value out of range")]
     OutOfRange,
     /// The part that it is for was left out of the program.
-    #[error("not in this program")]
     NotHere,
+    /// The serial line cannot carry what was asked for.
+    TooSlow,
     /// A number that this version does not know.
-    #[error("status {0}")]
     Other(u8),
 }
 
@@ -50,7 +47,21 @@ impl CommandStatus {
             Self::NoWhisker => 2,
             Self::OutOfRange => 3,
             Self::NotHere => 4,
+            Self::TooSlow => 5,
             Self::Other(code) => code,
+        }
+    }
+
+    /// It in words.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Unknown => "unknown command",
+            Self::NoWhisker => "no such whisker, or it has no motor",
+            Self::OutOfRange => "value out of range",
+            Self::NotHere => "not in this program",
+            Self::TooSlow => "too much for this baud",
+            Self::Other(_) => "a status of a later version",
         }
     }
 
@@ -62,6 +73,7 @@ impl CommandStatus {
             2 => Self::NoWhisker,
             3 => Self::OutOfRange,
             4 => Self::NotHere,
+            5 => Self::TooSlow,
             code => Self::Other(code),
         }
     }
@@ -81,7 +93,7 @@ impl Answer {
     }
 
     /// As it was sent.
-    pub(crate) const fn from_words(words: [u32; PACKET_WORDS]) -> Self {
+    pub const fn from_words(words: [u32; PACKET_WORDS]) -> Self {
         let [tag, what] = halves(words[1]);
         let [status, command] = what.to_le_bytes();
         Self {

@@ -4,6 +4,9 @@
 //! whisker after every tick, once that is asked for, and [answers](Answer). Downwards go
 //! [requests](TaggedCommand) of [`REQUEST_WORDS`] words. Words are little-endian.
 //!
+//! A serial line carries both as [frames](Framed) between lines of text, and commands as
+//! [text] too.
+//!
 //! # Glossary
 //!
 //! - *sequence*: the number of the tick since the module started; wraps around. Records
@@ -14,16 +17,23 @@
 
 mod answer;
 mod flags;
+mod framed;
+mod line;
 mod packet;
 mod record;
 mod request;
+mod splitter;
+pub mod text;
 mod words;
 
 pub use answer::{Answer, CommandStatus};
 pub use flags::Flags;
+pub use framed::{Framed, PACKET_FRAME_BYTES, REQUEST_FRAME_BYTES};
+pub use line::{LINE_BYTES, Line};
 pub use packet::Packet;
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{
     Command, REQUEST_BYTES, REQUEST_WORDS, TaggedCommand, UnknownCommand, WhiskerId, summed,
 };
+pub use splitter::{Garbled, Piece, Splitter};
 pub use words::{PACKET_BYTES, PACKET_WORDS};

@@ -93,6 +93,25 @@ impl Command {
         }
     }
 
+    /// The word for it in a [text](crate::text).
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hello => "hello",
+            Self::Status => "status",
+            Self::Name(_) => "name",
+            Self::Stream(_) => "stream",
+            Self::Arm => "arm",
+            Self::Stop => "stop",
+            Self::Clear(_) => "clear",
+            Self::Home(_) => "home",
+            Self::Gain(..) => "gain",
+            Self::Setpoint(..) => "setpoint",
+            Self::Release(_) => "release",
+            Self::Version => "version",
+            Self::Model => "model",
+        }
+    }
+
     /// The whisker that it is for, the left side's first where it is for all, and its value.
     const fn parts(self) -> (WhiskerId, i32) {
         const ALL: WhiskerId = WhiskerId { side: 0, number: 0 };
@@ -146,6 +165,12 @@ impl TaggedCommand {
             *byte = *from;
         }
         bytes
+    }
+
+    /// Its words but for the sum.
+    pub const fn plain_words(&self) -> [u32; 2] {
+        let [first, value, _] = self.words();
+        [first, value]
     }
 
     /// What two words say whose [sum](summed) was right.

@@ -5,8 +5,8 @@
 use super::fields::{Field, whole};
 use super::map::Unit;
 use super::rcc::Bus;
-use super::wiring::{PWM, Pin, Request};
-use super::{Model, dma, gpio, lines, mux, power, remap, spi, timer, watchdog};
+use super::wiring::{PWM, Pin, Request, SERIAL};
+use super::{Model, dma, gpio, lines, mux, power, remap, spi, timer, usart, watchdog};
 
 /// What a fact is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,6 +80,7 @@ fn name(model: &Model, unit: Unit) -> &'static str {
         Unit::Debug => "DBGMCU",
         Unit::Power => "PWR",
         Unit::Lines => "EXTI",
+        Unit::Usart => "USART2",
     }
 }
 
@@ -98,6 +99,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),
         Unit::Dma(n) => dma::fields(model.dmas[n]).to_vec(),
+        Unit::Usart => usart::fields(model.usart_version),
         Unit::Requests => mux::FIELDS.to_vec(),
         Unit::Remap => remap::FIELDS.to_vec(),
         _ => Vec::new(),
@@ -166,7 +168,7 @@ fn wired(model: &Model) -> Vec<Fact> {
         facts.push(frame);
         for (of, signal, request) in [
             (spi, "RX", side.rx),
-            (timer(side.byte_timer), "UP", side.tx),
+            (timer(side.byte_timer), side.byte_signal.name(), side.tx),
         ] {
             let part = format!("{signal} on {dma}_{}", channel(model, side.dma, request));
             facts.push(fact(FactKind::Request, of, part, [request.channel, 0]));
@@ -177,6 +179,13 @@ fn wired(model: &Model) -> Vec<Fact> {
         let function = side.encoder_function;
         facts.extend(pins(encoder, &["CH1", "CH2"], &side.encoder, function));
     }
+    let (serial, usart) = (&wiring.serial, name(model, Unit::Usart));
+    let dma = name(model, Unit::Dma(serial.dma));
+    for (signal, request) in [("RX", serial.rx_request), ("TX", serial.tx_request)] {
+        let part = format!("{signal} on {dma}_{}", channel(model, serial.dma, request));
+        facts.push(fact(FactKind::Request, usart, part, [request.channel, 0]));
+    }
+    facts.extend(pins(usart, &["TX", "RX"], &SERIAL, serial.function));
     let pwm = timer(wiring.pwm_timer);
     let signals = ["CH1", "CH2", "CH3"];
     facts.extend(pins(pwm, &signals, &PWM, wiring.pwm_function));

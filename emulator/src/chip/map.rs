@@ -23,6 +23,8 @@ pub(super) enum Unit {
     Power,
     /// EXTI.
     Lines,
+    /// USART2.
+    Usart,
 }
 
 /// A unit, its base address, and its gate in RCC where it has one.

@@ -5,7 +5,7 @@ use super::map::Entry;
 use super::rcc::{Bus, Layout};
 use super::timers::Kind;
 use super::wiring::Wiring;
-use super::{dma, gpio, lines, power, spi};
+use super::{dma, gpio, lines, power, spi, usart};
 
 /// What a core can execute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +38,7 @@ pub(crate) struct Model {
     /// What each timer can do, and the bus whose clock it counts.
     pub(super) timers: &'static [(Kind, Bus)],
     pub(super) spi_version: spi::Version,
+    pub(super) usart_version: usart::Version,
     /// The bus of each SPI.
     pub(super) spis: &'static [Bus],
     pub(super) dmas: &'static [dma::Version],

@@ -4,7 +4,7 @@
 use super::Chip;
 use super::gpio::Role;
 use super::map::Unit;
-use super::wiring::{BUTTON, ENABLES, HALLS, PWM, Pin};
+use super::wiring::{BUTTON, ENABLES, HALLS, PWM, Pin, SIGNALS};
 
 impl Chip {
     fn role(&self, Pin { port, number }: Pin) -> Role {
@@ -12,13 +12,13 @@ impl Chip {
     }
 
     /// Whether a peripheral drives the pins by that alternate function.
-    fn drives(&self, pins: &[Pin], function: u32) -> bool {
+    pub(super) fn drives(&self, pins: &[Pin], function: u32) -> bool {
         let mut roles = pins.iter().map(|&pin| self.role(pin));
         roles.all(|role| role == Role::Alternate(function))
     }
 
     /// Whether a peripheral hears the pins by that alternate function.
-    fn hears(&self, pins: &[Pin], function: u32) -> bool {
+    pub(super) fn hears(&self, pins: &[Pin], function: u32) -> bool {
         let mut pins = pins.iter();
         pins.all(|pin| self.gpio[pin.port].feeds(pin.number, function))
     }
@@ -76,6 +76,11 @@ impl Chip {
     /// Levels of the enables of three half-bridges. A pin that is not driven is low.
     pub(crate) fn motor_enables(&self) -> [bool; 3] {
         ENABLES.map(|pin| self.is_high(pin))
+    }
+
+    /// Levels of the pins of contact and of decisions. A pin that is not driven is low.
+    pub(crate) fn signals(&self) -> [bool; 2] {
+        SIGNALS.map(|pin| self.is_high(pin))
     }
 
     /// Whether the pins and mode of a side's SPI are those that the sensor's wires need.

@@ -16,6 +16,13 @@ impl Chip {
         Some((unit, clocked, address - base))
     }
 
+    /// Whether a unit has its clock.
+    pub(super) fn is_clocked(&self, unit: Unit) -> bool {
+        let mut map = self.model.map.iter();
+        let found = map.find(|(found, ..)| *found == unit);
+        found.is_some_and(|(_, base, _)| self.find(*base).is_some_and(|(_, clocked, _)| clocked))
+    }
+
     /// Whether the chip has a unit.
     pub(super) fn has(&self, unit: Unit) -> bool {
         self.model.map.iter().any(|(found, ..)| *found == unit)
@@ -46,6 +53,7 @@ impl Chip {
                     .or_else(|| self.flash.read(offset)),
                 Unit::Power => self.power.read(offset),
                 Unit::Lines => self.exti.read(offset),
+                Unit::Usart => self.usart.read(offset),
                 Unit::Dma(n) => self.dmas[n].read(offset),
                 Unit::Requests => self.mux.read(offset),
                 Unit::Remap => Remap::read(offset),
@@ -79,9 +87,9 @@ impl Chip {
             return Ok(());
         }
         // Timers and watchdog have registers of 16 bits: a half-word is all. An SPI takes
-        // any access for what it is.
+        // any access for what it is, a USART no more of it than its register has.
         let half = matches!(unit, Unit::Tim(_) | Unit::Watchdog) && mask == 0xFFFF;
-        let whole = mask == u32::MAX || half || matches!(unit, Unit::Spi(_));
+        let whole = mask == u32::MAX || half || matches!(unit, Unit::Spi(_) | Unit::Usart);
         let value = if whole {
             value
         } else {
@@ -106,6 +114,10 @@ impl Chip {
             Unit::Flash => self.flash.write(offset, value),
             Unit::Power => self.power.write(offset, value),
             Unit::Lines => self.exti.write(offset, value),
+            Unit::Usart => {
+                let clock = self.serial_clock();
+                self.usart.write(offset, value, now, clock)
+            }
             Unit::Dma(n) => self.dmas[n].write(offset, value),
             Unit::Requests => self.mux.write(offset, value),
             Unit::Remap => self.remap.write(offset, value),
@@ -153,6 +165,7 @@ impl Chip {
                 Unit::System => self.system.reset(),
                 Unit::Debug => self.debug.reset(),
                 Unit::Power => self.power.reset(),
+                Unit::Usart => self.usart.reset(),
                 Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Lines => {}
             }
         }

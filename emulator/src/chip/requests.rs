@@ -19,6 +19,7 @@ impl Chip {
                 self.move_byte(side.dma, moved, memory)?;
             }
         }
+        while self.serve_serial(memory)? {}
         Ok(())
     }
 
@@ -30,23 +31,28 @@ impl Chip {
         {
             return Some(moved);
         }
-        if !self.timers[side.byte_timer].request {
+        if !self.timers[side.byte_timer].requests(side.byte_signal) {
             return None;
         }
         let moved = self.moves(side.dma, *tx)?;
-        self.timers[side.byte_timer].request = false;
+        self.timers[side.byte_timer].serve(side.byte_signal);
         Some(moved)
     }
 
     /// What a request moves, if the stream or channel that it is wired to listens to it.
-    fn moves(&mut self, dma: usize, of: Request) -> Option<Move> {
+    pub(super) fn moves(&mut self, dma: usize, of: Request) -> Option<Move> {
         if self.model.has_mux && self.mux.request(of.stream) != Some(of.channel) {
             return None;
         }
         self.dmas[dma].request(of.stream, of.channel)
     }
 
-    fn move_byte(&mut self, dma: usize, moved: Move, memory: &dyn Memory) -> Result<(), Fault> {
+    pub(super) fn move_byte(
+        &mut self,
+        dma: usize,
+        moved: Move,
+        memory: &dyn Memory,
+    ) -> Result<(), Fault> {
         let misused = |what| Fault::Misused {
             peripheral: if dma == 0 { "DMA1" } else { "DMA2" },
             what,

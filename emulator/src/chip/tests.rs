@@ -4,6 +4,7 @@ mod description;
 mod frame;
 mod pins;
 mod power;
+mod serial;
 mod side;
 mod time;
 
@@ -111,7 +112,9 @@ impl Rig {
 
     fn try_pass(&mut self, time: Ps) -> Result<Option<ResetCause>, Fault> {
         self.now += time;
-        self.chip.advance(self.now, &self.ram, &mut self.sensors)
+        let sides = self.chip.model.sides();
+        let sensors = &mut self.sensors[..sides];
+        self.chip.advance(self.now, &self.ram, sensors)
     }
 
     fn pass(&mut self, time: Ps) {

@@ -1,14 +1,16 @@
 //! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19; RM0008, chapters 14 to 17; RM0444,
 //! chapters 20 to 23): counting up, updates with
-//! interrupt and DMA request, PWM mode 1 and encoder mode 3.
+//! interrupt and DMA request, DMA requests by matches of channel 1, PWM mode 1 and encoder
+//! mode 3.
 //!
-//! The count is worked out when somebody looks; only updates that interrupt or
-//! make a DMA request are events. Compare values act at once: the buffering of
+//! The count is worked out when somebody looks; only updates that interrupt, and what makes
+//! a DMA request, are events. Compare values act at once: the buffering of
 //! a PWM period, 50 µs, is not modelled.
 
 use super::fields::{Field, field, whole};
 use super::time::Ps;
 use super::timers::Kind;
+use super::wiring::ByteSignal;
 
 const CR1: u32 = 0x00;
 const CR2: u32 = 0x04;
@@ -33,6 +35,7 @@ const ARPE: u32 = 1 << 7;
 const SMS: u32 = 7;
 const UIE: u32 = 1 << 0;
 const UDE: u32 = 1 << 8;
+const CC1DE: u32 = 1 << 9;
 const UIF: u32 = 1 << 0;
 const UG: u32 = 1 << 0;
 /// Of channel 1; those of the others stand at equal distances.
@@ -40,7 +43,7 @@ const OC1M: u32 = 7 << 4;
 const CC1E: u32 = 1 << 0;
 const MOE: u32 = 1 << 15;
 
-const FIELDS: [Field; 18] = [
+const FIELDS: [Field; 19] = [
     field("CR1", CR1, "CEN", CEN),
     field("CR1", CR1, "UDIS", UDIS),
     field("CR1", CR1, "URS", URS),
@@ -48,6 +51,7 @@ const FIELDS: [Field; 18] = [
     field("SMCR", SMCR, "SMS", SMS),
     field("DIER", DIER, "UIE", UIE),
     field("DIER", DIER, "UDE", UDE),
+    field("DIER", DIER, "CC1DE", CC1DE),
     field("SR", SR, "UIF", UIF),
     field("EGR", EGR, "UG", UG),
     field("CCMR1", CCMR1, "OC1M", OC1M),
@@ -82,8 +86,9 @@ pub(super) struct Timer {
     since: Ps,
     /// When the last update was.
     pub(super) updated: Ps,
-    /// Whether it waits for the DMA.
-    pub(super) request: bool,
+    /// Whether an update, and whether a match of channel 1, waits for the DMA.
+    update_waits: bool,
+    match_waits: bool,
     /// The encoder's position outside, counts.
     position: i32,
 }
@@ -100,7 +105,10 @@ const fn has(kind: Kind, offset: u32) -> bool {
 /// What is known of the registers of a timer of that kind.
 pub(super) fn fields(kind: Kind) -> Vec<Field> {
     let fields = FIELDS.into_iter();
-    fields.filter(|field| has(kind, field.offset)).collect()
+    // The request of a channel that it has.
+    let is_there = |field: &Field| field.bits != CC1DE || has(kind, CCR1);
+    let fields = fields.filter(|field| has(kind, field.offset) && is_there(field));
+    fields.collect()
 }
 
 impl Timer {
@@ -149,6 +157,12 @@ impl Timer {
         let steps = now.saturating_sub(self.since) / step;
         let total = Ps::from(self.count) + steps;
         let wraps = total / period;
+        // Matches in the counts after the last look, up to now.
+        if self.dier & CC1DE != 0 {
+            let first = (Ps::from(self.ccr[0]) + period - Ps::from(self.count) % period) % period;
+            let first = if first == 0 { period } else { first };
+            self.match_waits |= Ps::from(self.ccr[0]) < period && first <= steps;
+        }
         if wraps > 0 {
             let wrapped = wraps * period - Ps::from(self.count);
             self.updated = self.since + wrapped * step;
@@ -168,14 +182,38 @@ impl Timer {
             return;
         }
         self.sr |= UIF;
-        self.request |= self.dier & UDE != 0;
+        self.update_waits |= self.dier & UDE != 0;
     }
 
-    /// The next update that somebody will hear of.
+    /// The next update or match that somebody will hear of.
     pub(super) fn next(&self, clock: Ps) -> Option<Ps> {
-        let heard = self.counts_time() && self.dier & (UIE | UDE) != 0;
-        let left = (Ps::from(self.active[1]) + 1).saturating_sub(Ps::from(self.count));
-        heard.then(|| self.since + left.max(1) * self.step(clock))
+        let (period, count) = (Ps::from(self.active[1]) + 1, Ps::from(self.count));
+        let update = (self.dier & (UIE | UDE) != 0).then(|| period.saturating_sub(count).max(1));
+        let compare = Ps::from(self.ccr[0]);
+        let compares = self.dier & CC1DE != 0 && compare < period;
+        let compare = compares.then(|| match compare.checked_sub(count) {
+            None | Some(0) => (period + compare).saturating_sub(count).max(1),
+            Some(left) => left,
+        });
+        let left = update.into_iter().chain(compare).min();
+        let left = left.filter(|_| self.counts_time());
+        left.map(|left| self.since + left * self.step(clock))
+    }
+
+    /// Whether a signal of its waits for the DMA.
+    pub(super) const fn requests(&self, signal: ByteSignal) -> bool {
+        match signal {
+            ByteSignal::Update => self.update_waits,
+            ByteSignal::Compare => self.match_waits,
+        }
+    }
+
+    /// It waits no more.
+    pub(super) const fn serve(&mut self, signal: ByteSignal) {
+        match signal {
+            ByteSignal::Update => self.update_waits = false,
+            ByteSignal::Compare => self.match_waits = false,
+        }
     }
 
     pub(super) const fn interrupts(&self) -> bool {
@@ -247,10 +285,12 @@ impl Timer {
             // The other modes of synchronisation are not modelled.
             SMCR if !matches!(value, 0 | 3) => return false,
             SMCR => self.smcr = value,
-            DIER if value & !(UIE | UDE) != 0 => return false,
+            DIER if value & !(UIE | UDE | CC1DE) != 0 => return false,
+            DIER if value & CC1DE != 0 && !self.has(CCR1) => return false,
             DIER => {
                 self.dier = value;
-                self.request &= value & UDE != 0;
+                self.update_waits &= value & UDE != 0;
+                self.match_waits &= value & CC1DE != 0;
             }
             SR => self.sr &= value,
             EGR => {

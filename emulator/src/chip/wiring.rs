@@ -4,6 +4,8 @@
 //! sheets. Each is held against another source, the description that stm32-metapac makes
 //! from ST's configuration tool: `cargo xtask descriptions`.
 
+use super::rcc::Bus;
+
 /// A pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Pin {
@@ -35,13 +37,14 @@ pub(super) struct Side {
     pub(super) spi: [Pin; 3],
     /// /SS of the sensor.
     pub(super) select: Pin,
-    /// The timer whose update asks for the next byte of a frame.
+    /// The timer that asks for the next byte of a frame, and by what.
     pub(super) byte_timer: usize,
+    pub(super) byte_signal: ByteSignal,
     /// The DMA controller that moves the bytes, DMA1 first.
     pub(super) dma: usize,
     /// Reception by the SPI.
     pub(super) rx: Request,
-    /// Update of the byte timer.
+    /// The byte timer's signal.
     pub(super) tx: Request,
     /// The interrupt of the rx stream in the NVIC.
     pub(super) end_of_frame: u16,
@@ -52,6 +55,40 @@ pub(super) struct Side {
     pub(super) encoder_function: u32,
     /// Direction of the H-bridge.
     pub(super) direction: Pin,
+}
+
+/// What of a timer asks for a byte.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ByteSignal {
+    /// Its update.
+    Update,
+    /// A match of its channel 1.
+    Compare,
+}
+
+impl ByteSignal {
+    /// The manuals' name.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Update => "UP",
+            Self::Compare => "CH1",
+        }
+    }
+}
+
+/// The serial port that the ST-LINK is on.
+#[derive(Debug)]
+pub(super) struct SerialPort {
+    /// The bus whose clock it divides.
+    pub(super) bus: Bus,
+    pub(super) tx: Pin,
+    pub(super) rx: Pin,
+    /// The alternate function of both.
+    pub(super) function: u32,
+    /// The DMA controller that moves the bytes, DMA1 first.
+    pub(super) dma: usize,
+    pub(super) rx_request: Request,
+    pub(super) tx_request: Request,
 }
 
 /// Everything that a board has wired.
@@ -67,6 +104,7 @@ pub(super) struct Wiring {
     /// The alternate functions of the pins of PWM and SPIs.
     pub(super) pwm_function: u32,
     pub(super) spi_function: u32,
+    pub(super) serial: SerialPort,
 }
 
 /// What messages and the log call the sides.
@@ -79,6 +117,9 @@ pub(super) const PWM: [Pin; 3] = [Pin::new('A', 8), Pin::new('A', 9), Pin::new('
 pub(super) const ENABLES: [Pin; 3] = [Pin::new('C', 10), Pin::new('C', 11), Pin::new('C', 12)];
 /// The user button, low while it is pressed.
 pub(super) const BUTTON: Pin = Pin::new('C', 13);
+/// What USART2 sends and receives, and the pins of contact and of decisions.
+pub(super) const SERIAL: [Pin; 2] = [Pin::new('A', 2), Pin::new('A', 3)];
+pub(super) const SIGNALS: [Pin; 2] = [Pin::new('B', 8), Pin::new('B', 9)];
 /// Hall sensors of a brushless motor.
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];
 

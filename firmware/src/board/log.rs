@@ -158,10 +158,17 @@ pub(crate) struct Health {
     pub(crate) dropped: u32,
 }
 
+impl Health {
+    /// The longest tick, tenths of a microsecond.
+    pub(crate) const fn worst_tenths(&self) -> u32 {
+        // In two steps, lest ten times the worst overflow.
+        self.worst / US * 10 + self.worst % US * 10 / US
+    }
+}
+
 /// Once a second: the longest tick, and the limits that were passed since `before`.
 pub(crate) fn health(now: &Health, before: &Health) {
-    // In two steps, lest ten times the worst overflow.
-    let tenths = now.worst / US * 10 + now.worst % US * 10 / US;
+    let tenths = now.worst_tenths();
     defmt::info!(
         "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
         tenths / 10,

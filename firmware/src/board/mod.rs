@@ -4,10 +4,10 @@
 //! A board has a file of its own beside this one, which is `crate::here`. It
 //! names three things: its clocks; the peripherals and pins of each side, a
 //! table by the types of [`wiring`]; and which of the drivers that exist in
-//! several versions (`gpio_*`, `spi_*`, `dma_*`, `power_*`) fit its chip. The scene's types
+//! several versions (`gpio_*`, `spi_*`, `dma_*`, `power_*` and more) fit its chip. The scene's types
 //! and settings come from the build script into [`scene`]; nothing else depends
 //! on the scene but the `cfg`s `right_side`, by which a board gives that side its
-//! clocks and its interrupt, and `telemetry`. See docs/boards.md for how to add a board.
+//! clocks and its interrupt, and `telemetry` and `serial`. See docs/boards.md for how to add a board.
 //!
 //! Register-level throughout: for time, safety and size, and because that is
 //! what the families share. All `unsafe` of the firmware is in here.
@@ -41,6 +41,13 @@ pub(crate) mod retained;
 pub(crate) mod rtt;
 pub(crate) mod scene;
 pub(crate) mod sensor;
+#[cfg(not(serial))]
+#[path = "serial/off.rs"]
+pub(crate) mod serial;
+#[cfg(serial)]
+#[path = "serial/on.rs"]
+pub(crate) mod serial;
+pub(crate) mod signal_pins;
 pub(crate) mod supply;
 pub(crate) mod systick;
 #[cfg(not(telemetry))]

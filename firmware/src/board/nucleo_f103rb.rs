@@ -38,6 +38,7 @@ pub(crate) const CLOCKS: Clocks = Clocks {
     tick_timer_hz: 2 * APB1_HZ,
     counter_hz: CORE_HZ,
     pwm_hz: CORE_HZ,
+    serial_hz: APB1_HZ,
     watchdog_hz: [30_000, 40_000, 60_000],
 }
 .checked();
@@ -45,6 +46,9 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 // 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_649);
 
+#[cfg(target_os = "none")]
+#[path = "byte_compare.rs"]
+pub(crate) mod byte_request;
 #[cfg(target_os = "none")]
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
@@ -55,8 +59,14 @@ pub(crate) mod gpio;
 #[path = "power_f1.rs"]
 pub(crate) mod power;
 #[cfg(target_os = "none")]
+#[path = "serial_channels.rs"]
+pub(crate) mod serial_dma;
+#[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
+#[cfg(target_os = "none")]
+#[path = "usart_v1.rs"]
+pub(crate) mod usart;
 
 #[cfg(target_os = "none")]
 pub(crate) use chip::*;
@@ -71,9 +81,11 @@ mod chip {
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
-    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4};
+    use stm32_metapac::usart::Usart;
+    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4, USART2};
 
     use super::dma::Route;
+    use super::serial_dma::SerialRoute;
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{ClockError, wait};
@@ -91,6 +103,13 @@ mod chip {
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = ONLY;
 
+    /// The ST-LINK's serial port: USART2 by DMA1.
+    pub(crate) const SERIAL_USART: Usart = USART2;
+    /// Channels 6 and 7: USART2_RX, USART2_TX (RM0008, table 78).
+    pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 5, tx: 6 };
+    /// Alternate function of its pins.
+    pub(crate) const SERIAL_FUNCTION: AlternateFunction = ONLY;
+
     /// The whisker: SPI1 by TIM4 and DMA1, PWM 1, TIM2.
     pub(crate) static LEFT: Side = Side {
         sensor: SensorPort {
@@ -101,8 +120,8 @@ mod chip {
             // chapters 15 and 17).
             byte_timer: unsafe { TimBasic::from_ptr(TIM4.as_ptr()) },
             byte_timer_divider: 1,
-            // Channels 2 and 7: SPI1_RX, TIM4_UP (RM0008, table 78).
-            dma: Route { rx: 1, tx: 6 },
+            // Channels 2 and 1: SPI1_RX, TIM4_CH1 (RM0008, table 78).
+            dma: Route { rx: 1, tx: 0 },
             received: {
                 static RECEIVED: Received = Received::new();
                 &RECEIVED
@@ -190,6 +209,12 @@ mod chip {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_tim4en(true));
         RCC.apb2enr().modify(|w| w.set_spi1en(true));
+    }
+
+    /// Clock for the serial port.
+    pub(crate) fn clock_serial() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apb1enr().modify(|w| w.set_usart2en(true));
     }
 
     /// The SPI, of which there is one, as after a reset.

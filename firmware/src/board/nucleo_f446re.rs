@@ -48,6 +48,7 @@ pub(crate) const CLOCKS: Clocks = Clocks {
     tick_timer_hz: 2 * APB1_HZ,
     counter_hz: 2 * APB1_HZ,
     pwm_hz: 2 * APB2_HZ,
+    serial_hz: APB1_HZ,
     watchdog_hz: [17_000, 32_000, 47_000],
 }
 .checked();
@@ -55,6 +56,9 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 // 25.6 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 75.6 µs at 1 kHz.
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 4_000 && CLOCKS.slot_counts(1_000) == 6_048);
 
+#[cfg(target_os = "none")]
+#[path = "byte_update.rs"]
+pub(crate) mod byte_request;
 #[cfg(target_os = "none")]
 #[path = "dma_streams.rs"]
 pub(crate) mod dma;
@@ -65,8 +69,14 @@ pub(crate) mod gpio;
 #[path = "power_f4.rs"]
 pub(crate) mod power;
 #[cfg(target_os = "none")]
+#[path = "serial_streams.rs"]
+pub(crate) mod serial_dma;
+#[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
+#[cfg(target_os = "none")]
+#[path = "usart_v1.rs"]
+pub(crate) mod usart;
 
 #[cfg(target_os = "none")]
 pub(crate) use chip::*;
@@ -80,10 +90,12 @@ mod chip {
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::{TimBasic, TimGp16};
-    use stm32_metapac::{DBGMCU, DMA1, DMA2, FLASH, RCC, SPI1, SPI2};
+    use stm32_metapac::usart::Usart;
+    use stm32_metapac::{DBGMCU, DMA1, DMA2, FLASH, RCC, SPI1, SPI2, USART2};
     use stm32_metapac::{TIM2, TIM3, TIM5, TIM6, TIM7, TIM8};
 
     use super::dma::Route;
+    use super::serial_dma::SerialRoute;
     use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
     use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
@@ -97,6 +109,17 @@ mod chip {
     pub(crate) const TICK_TIMER: TimBasic = TIM7;
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
+
+    /// The ST-LINK's serial port: USART2 by DMA1.
+    pub(crate) const SERIAL_USART: Usart = USART2;
+    /// USART2_RX, USART2_TX.
+    pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute {
+        dma: DMA1,
+        rx: (5, 4),
+        tx: (6, 4),
+    };
+    /// Alternate function of its pins.
+    pub(crate) const SERIAL_FUNCTION: AlternateFunction = 7;
 
     /// The left whisker: SPI1 by TIM8 and DMA2, PWM 1, TIM2.
     pub(crate) static LEFT: Side = Side {
@@ -290,6 +313,13 @@ mod chip {
                 w.set_spi2en(true);
             });
         }
+        settle();
+    }
+
+    /// Clock for the serial port.
+    pub(crate) fn clock_serial() {
+        RCC.ahb1enr().modify(|w| w.set_dma1en(true));
+        RCC.apb1enr().modify(|w| w.set_usart2en(true));
         settle();
     }
 

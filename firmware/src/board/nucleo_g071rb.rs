@@ -40,6 +40,7 @@ pub(crate) const CLOCKS: Clocks = Clocks {
     tick_timer_hz: CORE_HZ,
     counter_hz: CORE_HZ,
     pwm_hz: CORE_HZ,
+    serial_hz: CORE_HZ,
     watchdog_hz: [29_500, 32_000, 34_000],
 }
 .checked();
@@ -47,6 +48,9 @@ pub(crate) const CLOCKS: Clocks = Clocks {
 // 32 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 82 µs at 1 kHz.
 const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_200 && CLOCKS.slot_counts(1_000) == 5_248);
 
+#[cfg(target_os = "none")]
+#[path = "byte_update.rs"]
+pub(crate) mod byte_request;
 #[cfg(target_os = "none")]
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
@@ -57,8 +61,14 @@ pub(crate) mod gpio;
 #[path = "power_g0.rs"]
 pub(crate) mod power;
 #[cfg(target_os = "none")]
+#[path = "serial_channels.rs"]
+pub(crate) mod serial_dma;
+#[cfg(target_os = "none")]
 #[path = "spi_v2.rs"]
 pub(crate) mod spi;
+#[cfg(target_os = "none")]
+#[path = "usart_v2.rs"]
+pub(crate) mod usart;
 
 #[cfg(target_os = "none")]
 pub(crate) use chip::*;
@@ -71,9 +81,11 @@ mod chip {
     use stm32_metapac::spi::Spi;
     use stm32_metapac::spi::vals::Br;
     use stm32_metapac::timer::TimGp16;
-    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, SYSCFG, TIM2, TIM3, TIM6};
+    use stm32_metapac::usart::Usart;
+    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, SYSCFG, TIM2, TIM3, TIM6, USART2};
 
     use super::dma::Route;
+    use super::serial_dma::SerialRoute;
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{ClockError, settle, wait};
@@ -94,8 +106,19 @@ mod chip {
     const SPI1_RX: u8 = 16;
     /// Of TIM6_UP.
     const TIM6_UP: u8 = 38;
+    /// Of USART2_RX.
+    const USART2_RX: u8 = 52;
+    /// Of USART2_TX.
+    const USART2_TX: u8 = 53;
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
+
+    /// The ST-LINK's serial port: USART2 by DMA1.
+    pub(crate) const SERIAL_USART: Usart = USART2;
+    /// DMA1 channels 3 and 4.
+    pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 2, tx: 3 };
+    /// Alternate function of its pins.
+    pub(crate) const SERIAL_FUNCTION: AlternateFunction = 1;
 
     /// The whisker: SPI1 by TIM6 and DMA1, PWM 1, TIM2.
     pub(crate) static LEFT: Side = Side {
@@ -204,6 +227,20 @@ mod chip {
         settle();
         DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
         DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
+    }
+
+    /// Clock for the serial port, and the routes of its DMA requests. Its USART has the
+    /// bus's clock after a reset.
+    pub(crate) fn clock_serial() {
+        RCC.ahbenr().modify(|w| w.set_dma1en(true));
+        RCC.apbenr1().modify(|w| w.set_usart2en(true));
+        settle();
+        DMAMUX1
+            .ccr(SERIAL_ROUTE.rx)
+            .write(|w| w.set_dmareq_id(USART2_RX));
+        DMAMUX1
+            .ccr(SERIAL_ROUTE.tx)
+            .write(|w| w.set_dmareq_id(USART2_TX));
     }
 
     /// The SPI, of which there is one, as after a reset.

@@ -20,6 +20,8 @@ use super::inner::Inner;
 use super::integrity::Integrity;
 use super::scene::{self, Names, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
+use super::serial::{self, Serial};
+use super::signal_pins::SignalPins;
 use super::telemetry::{self, Telemetry};
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
@@ -86,6 +88,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     let cause = here::reset_cause();
     let start = retained::start(cause);
     log::start(cause, &start);
+    serial::started(cause, &start);
     supply::start();
     if let Err(error) = here::start_clocks() {
         faults::die(number::NO_CLOCK, || log::clock(error));
@@ -112,7 +115,10 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     if scene::HAS_MOTOR {
         match start.may_arm(scene::ARMS_AT_START) {
             Ok(()) => inner.arm(true),
-            Err(reason) => log::not_armed(reason),
+            Err(reason) => {
+                log::not_armed(reason);
+                serial::not_armed(reason);
+            }
         }
     }
 
@@ -219,6 +225,8 @@ pub(crate) struct Idle {
     names: Names,
     watchdog: Watchdog,
     button: UserButton,
+    serial: Serial,
+    pins: SignalPins,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
     logged: u32,
@@ -233,6 +241,8 @@ impl Idle {
             names,
             watchdog: Watchdog::start(),
             button: UserButton::start(),
+            serial: Serial::start(),
+            pins: SignalPins::start(),
             fed: 0,
             logged: 0,
             before: log::Health::default(),
@@ -247,7 +257,12 @@ impl Idle {
         }
         self.fed = now;
         // A tick queues its events before it counts itself.
-        core::iter::from_fn(take).for_each(|event| write(event, &self.names));
+        for event in core::iter::from_fn(take) {
+            self.pins.note(&event, now);
+            write(event, &self.names);
+            self.serial.tell(&event, &self.names);
+        }
+        self.pins.show(now);
         telemetry::hear();
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
@@ -255,6 +270,7 @@ impl Idle {
         if scene::HAS_MOTOR && self.button.is_pressed() {
             REQUEST.make();
             log::armed();
+            self.serial.armed();
         }
         if now.wrapping_sub(self.logged) >= TICK_HZ {
             self.logged = now;
@@ -264,8 +280,10 @@ impl Idle {
                 dropped: DROPPED.get(),
             };
             log::health(&health, &self.before);
+            self.serial.health(&health, &self.before);
             self.before = health;
         }
+        self.serial.serve(now);
     }
 }
 

@@ -12,6 +12,7 @@
 //!   that no sample changes, the model's bytes first; `AWAITS_MODEL`: whether that lies apart
 //!   from the program.
 //! - `Names`, `names`, `class_name`: the names of the classes.
+//! - `HAS_SERIAL`, `SERIAL_BAUD`, `HAS_PINS`: what it tells without a probe.
 //! - `HEARS_SEVERAL`: whether by more than one whisker.
 #![allow(
     clippy::trivially_copy_pass_by_ref,

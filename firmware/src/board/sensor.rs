@@ -3,7 +3,7 @@
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
-//! - *byte timer*: each of its updates requests the tx DMA; the first comes one
+//! - *byte timer*: requests the tx DMA once a period; the first request comes one
 //!   slot after /SS went low.
 //! - *tx DMA*: writes one 0xFF into the SPI's data register at each request.
 //! - *rx DMA*: moves each received byte to memory and interrupts after the eighth.
@@ -12,8 +12,8 @@
 //! one, [`Frames::end_of_frame`] in the interrupt of the rx DMA raises /SS, and
 //! [`FrameSource::take`] in the next tick returns the bytes. They share no state but the
 //! hardware's own flags. When to start one is the module's business, which leaves
-//! the sensor alone for a while after a bad frame. What differs between chips is in `spi_*.rs` and
-//! `dma_*.rs`.
+//! the sensor alone for a while after a bad frame. What differs between chips is in `spi_*.rs`,
+//! `dma_*.rs` and `byte_*.rs`.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
@@ -26,7 +26,7 @@ use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::scene::SENSORS_ARE_SLOW;
 use super::wiring::SensorPort;
-use crate::here::{dma::Transfers, reset_spi, spi};
+use crate::here::{byte_request, dma::Transfers, reset_spi, spi};
 
 /// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
@@ -49,6 +49,7 @@ impl Frames {
         timer
             .arr()
             .write(|w| w.set_arr(slot_counts.saturating_sub(1)));
+        byte_request::set_up(slot_counts);
         // The divider takes effect with an update.
         timer.egr().write(|w| w.set_ug(true));
         // Pointers have 32 bits on these chips.
@@ -165,7 +166,7 @@ impl FrameSource for Frames {
         let timer = self.port.byte_timer;
         timer.cnt().write(|_| {});
         timer.sr().write(|_| {});
-        timer.dier().write(|w| w.set_ude(true));
+        byte_request::begin(timer);
         timer.cr1().write(|w| w.set_cen(true));
         self.running = true;
     }

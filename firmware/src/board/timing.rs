@@ -26,6 +26,8 @@ pub(crate) struct Clocks {
     pub(crate) counter_hz: u32,
     /// What the timer of the motor's PWM counts.
     pub(crate) pwm_hz: u32,
+    /// What the serial port divides.
+    pub(crate) serial_hz: u32,
     /// The watchdog's oscillator: least, nominal, most (the chip's data sheet).
     pub(crate) watchdog_hz: [u32; 3],
 }
@@ -46,6 +48,19 @@ pub(crate) const PWM_HZ: u32 = 20_000;
 
 /// The watchdog's divider.
 const WATCHDOG_DIVIDER: u32 = 4;
+
+/// How far the serial port may be from its baud, thousandths: an asynchronous receiver bears
+/// 4 % over both ends (RM0390, chapter 25.4.5), and the G071's oscillator takes 1 % of it.
+const BAUD_ERROR_PERMILLE: u64 = 15;
+
+/// Bytes that the serial port holds of what comes, until idle has read it.
+pub(crate) const RECEIVED_BYTES: usize = 256;
+
+/// Whether what comes in two ticks finds room: idle reads after each, and may miss one.
+pub(crate) const fn serial_keeps_up(baud: u32, tick_hz: u32) -> bool {
+    let bytes = (2 * baud).div_ceil(10 * tick_hz);
+    bytes < RECEIVED_BYTES as u32
+}
 
 /// Loops to wait for a clock before giving up: over a second at the 8 or 16 MHz
 /// a chip starts with, because the ST-LINK gives its clock only once it is awake.
@@ -89,6 +104,7 @@ impl Clocks {
             tick_timer_hz: self.tick_timer_hz / 2,
             counter_hz: self.counter_hz / 2,
             pwm_hz: self.pwm_hz / 2,
+            serial_hz: self.serial_hz / 2,
             watchdog_hz: self.watchdog_hz,
         }
     }
@@ -167,6 +183,28 @@ impl Clocks {
     /// Counts of the PWM's timer in a period; the duty has this many steps.
     pub(crate) const fn pwm_counts(&self) -> u16 {
         (self.pwm_hz / PWM_HZ) as u16
+    }
+
+    /// What divides the serial port's clock for `baud` bits a second: at least 16, as each
+    /// bit is sampled so often; `None` if that is more than [`BAUD_ERROR_PERMILLE`] off.
+    pub(crate) const fn serial_divider(&self, baud: u32) -> Option<u16> {
+        let divider = (self.serial_hz + baud / 2) / baud;
+        let (hz, wanted) = (self.serial_hz as u64, divider as u64 * baud as u64);
+        let is_near = hz.abs_diff(wanted) * 1_000 <= BAUD_ERROR_PERMILLE * wanted;
+        if is_near && divider >= 16 && divider <= u16::MAX as u32 {
+            Some(divider as u16)
+        } else {
+            None
+        }
+    }
+
+    /// The same for a baud that the build script takes. For constants: does not compile for
+    /// another.
+    pub(crate) const fn serial_divider_of(&self, baud: u32) -> u16 {
+        let Some(divider) = self.serial_divider(baud) else {
+            panic!("the serial port's clock cannot be divided for this baud");
+        };
+        divider
     }
 
     /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is

@@ -120,5 +120,9 @@ pub(crate) const PWMS: [PinName; 3] = [pin('A', 8), pin('A', 9), pin('A', 10)];
 pub(crate) const ENABLES: [PinName; 3] = [pin('C', 10), pin('C', 11), pin('C', 12)];
 /// The user button B1, low while it is pressed, with a pull-up on the board (UM1724, UM2324).
 pub(crate) const USER_BUTTON: PinName = pin('C', 13);
+/// The ST-LINK's serial port: what the board sends, and what it receives (UM1724, UM2324).
+pub(crate) const SERIAL: [PinName; 2] = [pin('A', 2), pin('A', 3)];
+/// Contact, and that a decision fell: D15 and D14 of every board (UM1724, UM2324).
+pub(crate) const SIGNALS: [PinName; 2] = [pin('B', 8), pin('B', 9)];
 /// Hall sensors of the brushless motor.
 pub(crate) const HALLS: [PinName; 3] = [pin('A', 15), pin('B', 3), pin('B', 10)];

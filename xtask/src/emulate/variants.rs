@@ -1,6 +1,6 @@
 //! Scenes made from others for the emulated board: one with a single whisker a side,
-//! which is what a board carries; one in fixed point; one with slow sensors; one with both
-//! sides; one with another seed.
+//! which is what a board carries; one in fixed point; one with slow sensors; one with a serial
+//! port; one with both sides; one with another seed.
 
 use std::path::{Path, PathBuf};
 
@@ -75,6 +75,29 @@ pub(super) fn without_telemetry(path: &Path, folder: &Path) -> Result<PathBuf, F
     let (scene, mut table) = read(path)?;
     let rtt = Table::from_iter([("rtt".to_owned(), Value::from(false))]);
     table.insert("telemetry".to_owned(), rtt.into());
+    write(path, &scene, table, folder)
+}
+
+/// The whiskers of the scene in `path`.
+///
+/// # Errors
+/// If it is wrong.
+pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
+    read(path).map(|(scene, _)| scene.whiskers())
+}
+
+/// Writes `path` as a scene with a serial port at `baud`, and with pins where it classifies,
+/// into `folder` and returns its path.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn with_serial(path: &Path, baud: u32, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    let telemetry = Table::from_iter([
+        ("serial_baud".to_owned(), Value::from(i64::from(baud))),
+        ("pins".to_owned(), scene.classifier.is_some().into()),
+    ]);
+    table.insert("telemetry".to_owned(), telemetry.into());
     write(path, &scene, table, folder)
 }
 

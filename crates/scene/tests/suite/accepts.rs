@@ -39,7 +39,11 @@ fn every_key_reaches_its_field() {
             jump_per_s: 1500.0,
             model: SensorModel::Mlx90333,
         },
-        telemetry: TelemetrySection { rtt: true },
+        telemetry: TelemetrySection {
+            rtt: true,
+            serial_baud: None,
+            pins: false,
+        },
         whisking: Some(WhiskingSection {
             frequency_hz: 2.0,
             integrator: Integrator::Exact,

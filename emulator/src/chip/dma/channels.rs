@@ -1,5 +1,5 @@
 //! A DMA controller whose channels move single bytes on request (STM32F1 and STM32G0;
-//! RM0008, chapter 13; RM0444, chapter 10): not circular, not from memory to memory.
+//! RM0008, chapter 13; RM0444, chapter 10): not from memory to memory.
 
 use super::moved::Move;
 use crate::chip::fields::{Field, field, whole};
@@ -19,9 +19,10 @@ const EN: u32 = 1 << 0;
 const TCIE: u32 = 1 << 1;
 const TEIE: u32 = 1 << 3;
 const DIR_FROM_MEMORY: u32 = 1 << 4;
+const CIRC: u32 = 1 << 5;
 const MINC: u32 = 1 << 7;
 /// And the priority: the rest is not modelled.
-const MODELLED: u32 = EN | TCIE | TEIE | DIR_FROM_MEMORY | MINC | 3 << 12;
+const MODELLED: u32 = EN | TCIE | TEIE | DIR_FROM_MEMORY | CIRC | MINC | 3 << 12;
 
 /// Flags of a channel, which has four bits in ISR.
 const GIF: u32 = 1 << 0;
@@ -29,7 +30,7 @@ const TCIF: u32 = 1 << 1;
 const HTIF: u32 = 1 << 2;
 const ALL: u32 = 15;
 
-pub(super) const FIELDS: [Field; 14] = [
+pub(super) const FIELDS: [Field; 15] = [
     field("ISR", ISR, "GIF1", GIF),
     field("ISR", ISR, "TCIF1", TCIF),
     field("ISR", ISR, "HTIF1", HTIF),
@@ -39,6 +40,7 @@ pub(super) const FIELDS: [Field; 14] = [
     field("CCR1", CHANNELS + CCR, "TCIE", TCIE),
     field("CCR1", CHANNELS + CCR, "TEIE", TEIE),
     field("CCR1", CHANNELS + CCR, "DIR", DIR_FROM_MEMORY),
+    field("CCR1", CHANNELS + CCR, "CIRC", CIRC),
     field("CCR1", CHANNELS + CCR, "MINC", MINC),
     whole("CNDTR1", CHANNELS + CNDTR),
     whole("CPAR1", CHANNELS + CPAR),
@@ -92,8 +94,12 @@ impl Channels {
             flags |= GIF | HTIF;
         }
         if c.cndtr == 0 {
-            // It stays enabled, and moves nothing more.
+            // It stays enabled, and begins anew or moves nothing more.
             flags |= GIF | TCIF;
+            if c.ccr & CIRC != 0 {
+                c.cndtr = c.length;
+                c.done = 0;
+            }
         }
         self.isr |= flags << (4 * channel);
         Some(moved)

@@ -1,5 +1,5 @@
 //! A DMA controller whose streams move single bytes on request (STM32F4; RM0390,
-//! chapter 9): direct mode, no double buffer, no circular mode, no bursts.
+//! chapter 9): direct mode, no double buffer, no bursts.
 
 use super::moved::Move;
 use crate::chip::fields::{Field, field, whole};
@@ -20,18 +20,19 @@ const M0AR: u32 = 0x0C;
 const EN: u32 = 1 << 0;
 const TCIE: u32 = 1 << 4;
 const DIR_FROM_MEMORY: u32 = 1 << 6;
+const CIRC: u32 = 1 << 8;
 const MINC: u32 = 1 << 10;
 const PL: u32 = 3 << 16;
 const CHSEL: u32 = 7 << 25;
-/// DMEIE, TEIE, TCIE, DIR to memory or from it, MINC, priority and channel: the rest is not
+/// DMEIE, TEIE, TCIE, DIR to memory or from it, CIRC, MINC, priority and channel: the rest is not
 /// modelled.
-const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | MINC | PL | CHSEL;
+const MODELLED: u32 = EN | 0b10110 | DIR_FROM_MEMORY | CIRC | MINC | PL | CHSEL;
 
 /// The flags of a stream in LISR or HISR begin at these bits; TCIF is the sixth.
 const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
 const TCIF: u32 = 1 << 5;
 
-pub(super) const FIELDS: [Field; 15] = [
+pub(super) const FIELDS: [Field; 16] = [
     field("LISR", LISR, "TCIF0", TCIF << FLAGS_AT[0]),
     field("LISR", LISR, "TCIF1", TCIF << FLAGS_AT[1]),
     field("LISR", LISR, "TCIF3", TCIF << FLAGS_AT[3]),
@@ -40,6 +41,7 @@ pub(super) const FIELDS: [Field; 15] = [
     field("S0CR", STREAMS + CR, "EN", EN),
     field("S0CR", STREAMS + CR, "TCIE", TCIE),
     field("S0CR", STREAMS + CR, "DIR", DIR_FROM_MEMORY),
+    field("S0CR", STREAMS + CR, "CIRC", CIRC),
     field("S0CR", STREAMS + CR, "MINC", MINC),
     field("S0CR", STREAMS + CR, "PL", PL),
     field("S0CR", STREAMS + CR, "CHSEL", CHSEL),
@@ -85,7 +87,11 @@ impl Streams {
         let memory = s.m0ar.wrapping_add(if s.cr & MINC != 0 { done } else { 0 });
         s.ndtr -= 1;
         if s.ndtr == 0 {
-            s.cr &= !EN;
+            if s.cr & CIRC != 0 {
+                s.ndtr = s.length;
+            } else {
+                s.cr &= !EN;
+            }
             self.flags[stream] |= TCIF;
         }
         Some(Move {

@@ -9,8 +9,10 @@ use crate::chip::power;
 use crate::chip::rcc::{Bus, f1};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
+use crate::chip::usart;
 use crate::chip::wiring::{
-    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SERIAL, SerialPort,
+    Side, Wiring,
 };
 
 /// The places of the timers.
@@ -35,6 +37,7 @@ pub(crate) static F103: Model = Model {
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
         (Unit::Tim(TIM4), 0x4000_0800, Some((Bus::Apb1, 2))),
         (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Usart, 0x4000_4400, Some((Bus::Apb1, 17))),
         (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Remap, 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Lines, 0x4001_0400, None),
@@ -58,6 +61,7 @@ pub(crate) static F103: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::One,
+    usart_version: usart::Version::One,
     spis: &[Bus::Apb2],
     dmas: &[Version::Channels],
     has_mux: false,
@@ -75,6 +79,21 @@ pub(crate) static F103: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 0,
         spi_function: 0,
+        serial: SerialPort {
+            bus: Bus::Apb1,
+            tx: SERIAL[0],
+            rx: SERIAL[1],
+            function: 0,
+            dma: 0,
+            rx_request: Request {
+                stream: 5,
+                channel: WIRED,
+            },
+            tx_request: Request {
+                stream: 6,
+                channel: WIRED,
+            },
+        },
     },
 };
 
@@ -82,13 +101,14 @@ const LEFT: Side = Side {
     spi: LEFT_SPI,
     select: LEFT_SELECT,
     byte_timer: TIM4,
+    byte_signal: ByteSignal::Compare,
     dma: 0,
     rx: Request {
         stream: 1,
         channel: WIRED,
     },
     tx: Request {
-        stream: 6,
+        stream: 0,
         channel: WIRED,
     },
     end_of_frame: 12,

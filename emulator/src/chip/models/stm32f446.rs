@@ -9,8 +9,10 @@ use crate::chip::power;
 use crate::chip::rcc::{Bus, f4};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
+use crate::chip::usart;
 use crate::chip::wiring::{
-    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
+    SerialPort, Side, Wiring,
 };
 
 /// The places of the timers.
@@ -38,6 +40,7 @@ pub(crate) static F446: Model = Model {
         (Unit::Tim(TIM7), 0x4000_1400, Some((Bus::Apb1, 5))),
         (Unit::Watchdog, 0x4000_3000, None),
         (Unit::Spi(1), 0x4000_3800, Some((Bus::Apb1, 14))),
+        (Unit::Usart, 0x4000_4400, Some((Bus::Apb1, 17))),
         (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Tim(TIM1), 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM8), 0x4001_0400, Some((Bus::Apb2, 1))),
@@ -65,6 +68,7 @@ pub(crate) static F446: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::One,
+    usart_version: usart::Version::One,
     spis: &[Bus::Apb2, Bus::Apb1],
     dmas: &[Version::Streams; 2],
     has_mux: false,
@@ -91,6 +95,21 @@ pub(crate) static F446: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 1,
         spi_function: 5,
+        serial: SerialPort {
+            bus: Bus::Apb1,
+            tx: SERIAL[0],
+            rx: SERIAL[1],
+            function: 7,
+            dma: 0,
+            rx_request: Request {
+                stream: 5,
+                channel: 4,
+            },
+            tx_request: Request {
+                stream: 6,
+                channel: 4,
+            },
+        },
     },
 };
 
@@ -98,6 +117,7 @@ const LEFT: Side = Side {
     spi: LEFT_SPI,
     select: LEFT_SELECT,
     byte_timer: TIM8,
+    byte_signal: ByteSignal::Update,
     dma: 1,
     rx: Request {
         stream: 0,
@@ -118,6 +138,7 @@ const RIGHT: Side = Side {
     spi: [Pin::new('B', 13), Pin::new('B', 14), Pin::new('B', 15)],
     select: Pin::new('B', 12),
     byte_timer: TIM6,
+    byte_signal: ByteSignal::Update,
     dma: 0,
     rx: Request {
         stream: 3,

@@ -9,8 +9,10 @@ use crate::chip::power;
 use crate::chip::rcc::{Bus, g0};
 use crate::chip::spi;
 use crate::chip::timers::Kind;
+use crate::chip::usart;
 use crate::chip::wiring::{
-    LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SERIAL, SerialPort,
+    Side, Wiring,
 };
 
 /// The places of the timers.
@@ -32,6 +34,7 @@ pub(crate) static G071: Model = Model {
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),
         (Unit::Tim(TIM6), 0x4000_1000, Some((Bus::Apb1, 4))),
         (Unit::Watchdog, 0x4000_3000, None),
+        (Unit::Usart, 0x4000_4400, Some((Bus::Apb1, 17))),
         (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::System, 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM1), 0x4001_2C00, Some((Bus::Apb2, 11))),
@@ -56,6 +59,7 @@ pub(crate) static G071: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::Queues,
+    usart_version: usart::Version::Two,
     spis: &[Bus::Apb2],
     dmas: &[Version::Channels],
     has_mux: true,
@@ -77,6 +81,21 @@ pub(crate) static G071: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 2,
         spi_function: 0,
+        serial: SerialPort {
+            bus: Bus::Apb1,
+            tx: SERIAL[0],
+            rx: SERIAL[1],
+            function: 1,
+            dma: 0,
+            rx_request: Request {
+                stream: 2,
+                channel: 52,
+            },
+            tx_request: Request {
+                stream: 3,
+                channel: 53,
+            },
+        },
     },
 };
 
@@ -84,6 +103,7 @@ const LEFT: Side = Side {
     spi: LEFT_SPI,
     select: LEFT_SELECT,
     byte_timer: TIM6,
+    byte_signal: ByteSignal::Update,
     dma: 0,
     // SPI1_RX and TIM6_UP in DMAMUX.
     rx: Request {

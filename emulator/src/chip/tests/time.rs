@@ -2,7 +2,9 @@
 
 use super::{MS, RCC, Rig, US};
 use crate::chip::ResetCause;
+use crate::chip::wiring::ByteSignal;
 
+const TIM2: u32 = 0x4000_0000;
 const TIM7: u32 = 0x4000_1400;
 const TIM5: u32 = 0x4000_0C00;
 const IWDG: u32 = 0x4000_3000;
@@ -13,6 +15,7 @@ const EGR: u32 = 0x14;
 const CNT: u32 = 0x24;
 const PSC: u32 = 0x28;
 const ARR: u32 = 0x2C;
+const CCR1: u32 = 0x34;
 
 fn ticks(rig: &Rig) -> bool {
     rig.chip.interrupts().next().is_some_and(|(_, up)| up)
@@ -113,4 +116,31 @@ fn the_cause_of_a_reset_is_kept_until_it_is_cleared() {
     assert_eq!(cause(&mut rig), 0b1_1010, "and software");
     assert_eq!(rig.chip.cycle(), 62_500, "back on 16 MHz");
     assert_eq!(rig.chip.watchdog.bites(), None);
+}
+
+#[test]
+fn a_match_of_a_channel_asks_for_a_byte_once_a_period() {
+    let count = US / 80;
+    let mut rig = Rig::clocked();
+    rig.run_fast();
+    rig.write(TIM2 + ARR, 99);
+    rig.write(TIM2 + CCR1, 99);
+    rig.write(TIM2 + DIER, 1 << 9);
+    rig.write(TIM2 + CR1, 1);
+    let asks = |rig: &Rig| rig.chip.timers[0].requests(ByteSignal::Compare);
+    rig.pass(99 * count - 1);
+    assert!(!asks(&rig));
+    rig.pass(1);
+    assert!(asks(&rig), "as the last count begins");
+    rig.chip.timers[0].serve(ByteSignal::Compare);
+    rig.pass(100 * count - 1);
+    assert!(!asks(&rig), "once a period");
+    rig.pass(1);
+    assert!(asks(&rig));
+    rig.write(TIM2 + DIER, 0);
+    assert!(!asks(&rig), "withdrawn");
+    assert!(
+        rig.try_write(TIM7 + DIER, 1 << 9).is_err(),
+        "it has no channel"
+    );
 }

@@ -3,12 +3,12 @@
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use firmware::{About, Event, Link, ModelState, Notes, PacketSink};
-use wire::{PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
+use wire::{Command, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
 
 use crate::board::inner::Inner;
 use crate::board::log;
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
-use crate::board::scene::{NAME, Settings, TICK_HZ};
+use crate::board::scene::{HAS_SERIAL, NAME, Settings, TICK_HZ};
 
 /// A request from idle to the tick: its words but for the sum, which is right.
 static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
@@ -16,6 +16,13 @@ static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
 /// Whether one lies there. Idle sets it, the tick clears it; loads and stores will do, as idle
 /// cannot interrupt the tick.
 static IS_FULL: AtomicBool = AtomicBool::new(false);
+
+/// Whether that came by the serial port, and is answered there.
+static IS_BY_SERIAL: AtomicBool = AtomicBool::new(false);
+
+/// Whether packets go by the serial port: whoever has asked for records last reads them.
+/// Only idle has it.
+static SERIAL_READS: AtomicBool = AtomicBool::new(false);
 
 /// Whether the tick has anything to do for the link.
 static IS_BUSY: AtomicBool = AtomicBool::new(false);
@@ -47,14 +54,85 @@ fn next() {
         return;
     };
     DOWN.has_read(at as u32);
+    SERIAL_READS.store(false, Ordering::Relaxed);
+    post(words, false);
+}
+
+/// Hands a request to the tick.
+fn post(words: [u32; 2], is_by_serial: bool) {
     if let Ok(request) = TaggedCommand::from_words(words) {
         log::requested(request.command);
     }
     for (place, word) in INBOX.iter().zip(words) {
         place.store(word, Ordering::Relaxed);
     }
+    IS_BY_SERIAL.store(is_by_serial, Ordering::Relaxed);
     IS_FULL.store(true, Ordering::Release);
     IS_BUSY.store(true, Ordering::Release);
+}
+
+/// Hands a request of the serial port to the tick; whether that could take it. Whoever asks
+/// for records there has them from then on, and no probe.
+pub(crate) fn ask_by_serial(words: [u32; 2]) -> bool {
+    if IS_FULL.load(Ordering::Relaxed) {
+        return false;
+    }
+    let request = TaggedCommand::from_words(words);
+    if request.is_ok_and(|request| request.command == Command::Stream(true)) {
+        UP.has_read(UP.writer());
+        SERIAL_READS.store(true, Ordering::Relaxed);
+    }
+    post(words, true);
+    true
+}
+
+/// The next packet, if packets go by the serial port.
+pub(crate) fn packet_for_serial() -> Option<[u32; PACKET_WORDS]> {
+    if !SERIAL_READS.load(Ordering::Relaxed) || (UP.waiting() as usize) < PACKET_BYTES {
+        return None;
+    }
+    let packet = PACKETS.get(UP.reader() as usize / PACKET_BYTES)?;
+    Some(packet.each_ref().map(|word| word.load(Ordering::Relaxed)))
+}
+
+/// That packet is sent.
+pub(crate) fn has_taken_packet() {
+    let next = UP.reader() as usize / PACKET_BYTES + 1;
+    let next = if next < PACKETS_COUNT { next } else { 0 };
+    UP.has_read((next * PACKET_BYTES) as u32);
+}
+
+/// The answer to the serial port's last request, from the tick to idle.
+static ANSWER: [AtomicU32; PACKET_WORDS] = [const { AtomicU32::new(0) }; PACKET_WORDS];
+
+/// Whether one lies there. The tick sets it, idle clears it.
+static IS_ANSWERED: AtomicBool = AtomicBool::new(false);
+
+/// It, once it is there.
+pub(crate) fn answer_for_serial() -> Option<[u32; PACKET_WORDS]> {
+    let is_answered = IS_ANSWERED.load(Ordering::Acquire);
+    is_answered.then(|| ANSWER.each_ref().map(|word| word.load(Ordering::Relaxed)))
+}
+
+/// It is sent.
+pub(crate) fn has_taken_answer() {
+    IS_ANSWERED.store(false, Ordering::Release);
+}
+
+/// The tick's end of the answer to the serial port.
+struct SerialAnswer;
+
+impl PacketSink for SerialAnswer {
+    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+        if IS_ANSWERED.load(Ordering::Acquire) {
+            return false;
+        }
+        for (place, word) in ANSWER.iter().zip(make()) {
+            place.store(word, Ordering::Relaxed);
+        }
+        IS_ANSWERED.store(true, Ordering::Release);
+        true
+    }
 }
 
 /// Whether there is something to be done after a tick.
@@ -78,6 +156,8 @@ pub(crate) struct Telemetry {
     link: Link,
     packets: Packets,
     about: About<'static>,
+    /// What is to be answered came by the serial port.
+    is_by_serial: bool,
 }
 
 impl Telemetry {
@@ -91,6 +171,7 @@ impl Telemetry {
                 tick_hz: TICK_HZ,
                 model,
             },
+            is_by_serial: false,
         }
     }
 
@@ -107,26 +188,32 @@ impl Telemetry {
     /// Answers what was asked for, and carries out what is.
     #[cold]
     fn talk(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
-        let Self {
-            link,
-            packets,
-            about,
-        } = self;
-        link.answer(packets);
+        self.answer();
+        let Self { link, about, .. } = self;
         if link.is_free() && IS_FULL.load(Ordering::Acquire) {
             let [first, value] = &INBOX;
             let words = [first, value].map(|word| word.load(Ordering::Relaxed));
             // Erased too: no command has the number 0.
             first.store(0, Ordering::Relaxed);
+            self.is_by_serial = IS_BY_SERIAL.load(Ordering::Relaxed);
             IS_FULL.store(false, Ordering::Release);
             match TaggedCommand::from_words(words) {
                 Ok(request) => link.carry_out(module, settings, request, *about, tick),
                 Err(unknown) => link.refuse(unknown, tick),
             }
-            link.answer(packets);
+            self.answer();
         }
-        let is_busy = link.is_busy() || IS_FULL.load(Ordering::Relaxed);
+        let is_busy = self.link.is_busy() || IS_FULL.load(Ordering::Relaxed);
         IS_BUSY.store(is_busy, Ordering::Relaxed);
+    }
+
+    /// Answers whoever has asked.
+    fn answer(&mut self) {
+        if HAS_SERIAL && self.is_by_serial {
+            self.link.answer(&mut SerialAnswer);
+        } else {
+            self.link.answer(&mut self.packets);
+        }
     }
 }
 

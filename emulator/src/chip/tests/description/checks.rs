@@ -10,7 +10,7 @@ use crate::chip::map::Unit;
 use crate::chip::rcc::Bus::{Apb1, Apb2};
 use crate::chip::tests::Rig;
 use crate::chip::timers::Kind;
-use crate::chip::wiring::{ENABLES, HALLS, PWM, Pin};
+use crate::chip::wiring::{ENABLES, HALLS, PWM, Pin, SERIAL, SIGNALS};
 use crate::chip::{SUPPLY_IRQ, dma, spi};
 
 const SPIS: [&str; 2] = ["SPI1", "SPI2"];
@@ -52,6 +52,7 @@ fn name(unit: Unit) -> &'static str {
         Unit::Debug => "DBGMCU",
         Unit::Power => "PWR",
         Unit::Lines => "EXTI",
+        Unit::Usart => "USART2",
     }
 }
 
@@ -155,6 +156,7 @@ fn timers_and_spis_have_their_kind_and_their_bus() {
 #[test]
 fn no_pin_is_used_twice() {
     let mut pins: Vec<Pin> = [PWM, ENABLES, HALLS].concat();
+    pins.extend([SERIAL, SIGNALS].concat());
     for side in MODEL.wiring.sides {
         pins.extend(side.spi);
         pins.extend(side.encoder);

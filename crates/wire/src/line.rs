@@ -1,0 +1,158 @@
+//! A line of text that is put together without an allocator and without a panic.
+
+/// Most bytes of a line, its end included.
+pub const LINE_BYTES: usize = 240;
+
+/// The end of every line: a terminal goes on at the left.
+const END: [u8; 2] = *b"\r\n";
+
+// Lines are rare and put together in many places: their parts stand in flash once.
+/// A line of text; what does not fit is left out.
+#[derive(Debug, Clone, Copy)]
+pub struct Line {
+    bytes: [u8; LINE_BYTES],
+    length: usize,
+}
+
+impl Line {
+    /// An empty line.
+    pub const fn new() -> Self {
+        Self {
+            bytes: [0; LINE_BYTES],
+            length: 0,
+        }
+    }
+
+    /// Appends a byte, which is no line's end, if it fits before that.
+    #[inline(never)]
+    fn put(&mut self, byte: u8) {
+        if self.length < LINE_BYTES - END.len()
+            && let Some(place) = self.bytes.get_mut(self.length)
+        {
+            *place = byte;
+            self.length += 1;
+        }
+    }
+
+    /// Appends text.
+    #[inline(never)]
+    pub fn text(&mut self, text: &str) -> &mut Self {
+        text.bytes().for_each(|byte| self.put(byte));
+        self
+    }
+
+    /// Appends what somebody else has written: a question mark for what is not to be seen.
+    #[inline(never)]
+    pub fn shown(&mut self, bytes: &[u8]) -> &mut Self {
+        for &byte in bytes {
+            self.put(if byte.is_ascii_graphic() { byte } else { b'?' });
+        }
+        self
+    }
+
+    /// Appends a space and text.
+    #[inline(never)]
+    pub fn word(&mut self, text: &str) -> &mut Self {
+        self.put(b' ');
+        self.text(text)
+    }
+
+    /// Appends a space and a whole number.
+    #[inline(never)]
+    pub fn field(&mut self, number: u32) -> &mut Self {
+        self.word("").number(number)
+    }
+
+    /// Appends a whole number.
+    #[inline(never)]
+    pub fn number(&mut self, number: u32) -> &mut Self {
+        self.digits(number, 1)
+    }
+
+    /// Appends a number of so many decimals, at most nine, given in units of the last.
+    #[inline(never)]
+    pub fn fixed(&mut self, number: u32, decimals: u32) -> &mut Self {
+        let one = (0..decimals.min(9)).fold(1_u32, |one, _| one * 10);
+        self.digits(number / one, 1);
+        if one > 1 {
+            self.put(b'.');
+            self.digits(number % one, decimals as usize);
+        }
+        self
+    }
+
+    /// Appends at least so many digits.
+    #[inline(never)]
+    fn digits(&mut self, number: u32, least: usize) -> &mut Self {
+        // The last first.
+        let mut digits = [b'0'; 10];
+        let (mut rest, mut count) = (number, 0);
+        for digit in &mut digits {
+            *digit = b'0' + (rest % 10) as u8;
+            rest /= 10;
+            count += 1;
+            if rest == 0 && count >= least {
+                break;
+            }
+        }
+        digits
+            .iter()
+            .take(count)
+            .rev()
+            .for_each(|&digit| self.put(digit));
+        self
+    }
+
+    /// The line with its end.
+    #[inline(never)]
+    pub fn ended(&mut self) -> &[u8] {
+        let rest = self.bytes.get_mut(self.length..).unwrap_or_default();
+        for (place, byte) in rest.iter_mut().zip(END) {
+            *place = byte;
+        }
+        let length = self.length + END.len();
+        self.bytes.get(..length).unwrap_or_default()
+    }
+}
+
+impl Default for Line {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{LINE_BYTES, Line};
+
+    fn text(line: &mut Line) -> String {
+        String::from_utf8(line.ended().to_vec()).expect("text")
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_are_written_as_std_writes_them(number: u32, decimals in 0..=9_usize) {
+            let mut line = Line::new();
+            let one = 10_u32.pow(decimals as u32);
+            line.number(number).text(" ").fixed(number, decimals as u32);
+            let fixed = match decimals {
+                0 => number.to_string(),
+                _ => format!("{}.{:0decimals$}", number / one, number % one),
+            };
+            prop_assert_eq!(text(&mut line), format!("{number} {fixed}\r\n"));
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_cut_and_the_line_ends_all_the_same() {
+        let mut line = Line::new();
+        line.text(&"a".repeat(2 * LINE_BYTES)).number(7);
+        let found = text(&mut line);
+        assert_eq!(found.len(), LINE_BYTES);
+        assert!(found.ends_with("aa\r\n"));
+        // Asked for twice it is the same.
+        assert_eq!(text(&mut line), found);
+    }
+}

@@ -1,0 +1,239 @@
+//! A USART with eight bits, no parity and one stop bit, each bit sampled sixteen times, both
+//! ways by DMA (RM0390, chapter 25; RM0008, chapter 27; RM0444, chapter 33). Interrupts, other
+//! formats, other clocks than the bus's and what comes while nobody listens are not modelled.
+
+use super::fields::{Field, field, whole};
+use super::time::Ps;
+
+const UE_ONE: u32 = 1 << 13;
+const TE: u32 = 1 << 3;
+const RE: u32 = 1 << 2;
+const UE_TWO: u32 = 1 << 0;
+const DMAR: u32 = 1 << 6;
+const DMAT: u32 = 1 << 7;
+const OVRDIS: u32 = 1 << 12;
+
+const ORE: u32 = 1 << 3;
+const RXNE: u32 = 1 << 5;
+const TC: u32 = 1 << 6;
+const TXE: u32 = 1 << 7;
+
+/// Start, eight bits and stop.
+const BITS: Ps = 10;
+
+/// Which USART.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Version {
+    /// One data register (STM32F1, STM32F4).
+    #[default]
+    One,
+    /// One each way (STM32G0).
+    Two,
+}
+
+/// Where the registers of a version are.
+struct Layout {
+    status: u32,
+    received: u32,
+    sent: u32,
+    brr: u32,
+    cr1: u32,
+    cr2: u32,
+    cr3: u32,
+    /// The bit that switches it on, and those of CR3 that are modelled.
+    ue: u32,
+    cr3_modelled: u32,
+}
+
+const fn layout(version: Version) -> Layout {
+    match version {
+        Version::One => Layout {
+            status: 0x00,
+            received: 0x04,
+            sent: 0x04,
+            brr: 0x08,
+            cr1: 0x0C,
+            cr2: 0x10,
+            cr3: 0x14,
+            ue: UE_ONE,
+            cr3_modelled: DMAR | DMAT,
+        },
+        Version::Two => Layout {
+            status: 0x1C,
+            received: 0x24,
+            sent: 0x28,
+            brr: 0x0C,
+            cr1: 0x00,
+            cr2: 0x04,
+            cr3: 0x08,
+            ue: UE_TWO,
+            cr3_modelled: DMAR | DMAT | OVRDIS,
+        },
+    }
+}
+
+/// What is known of the registers of that version.
+pub(super) fn fields(version: Version) -> Vec<Field> {
+    let at = layout(version);
+    let mut fields = vec![
+        whole("BRR", at.brr),
+        field("CR1", at.cr1, "UE", at.ue),
+        field("CR1", at.cr1, "TE", TE),
+        field("CR1", at.cr1, "RE", RE),
+        field("CR3", at.cr3, "DMAR", DMAR),
+        field("CR3", at.cr3, "DMAT", DMAT),
+    ];
+    let flags = [("ORE", ORE), ("RXNE", RXNE), ("TC", TC), ("TXE", TXE)];
+    let status = match version {
+        Version::One => "SR",
+        Version::Two => "ISR",
+    };
+    fields.extend(flags.map(|(name, bit)| field(status, at.status, name, bit)));
+    match version {
+        Version::One => fields.push(whole("DR", at.sent)),
+        Version::Two => fields.extend([
+            whole("RDR", at.received),
+            whole("TDR", at.sent),
+            field("CR3", at.cr3, "OVRDIS", OVRDIS),
+        ]),
+    }
+    fields
+}
+
+/// A byte on its way out.
+#[derive(Debug, Clone, Copy)]
+struct Shift {
+    byte: u8,
+    ends: Ps,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct Usart {
+    version: Version,
+    cr1: u32,
+    cr3: u32,
+    brr: u32,
+    shift: Option<Shift>,
+    /// The byte that waits to be sent.
+    waiting: Option<u8>,
+    /// The byte that waits to be read.
+    received: Option<u8>,
+    last: u8,
+    overrun: bool,
+}
+
+impl Usart {
+    pub(super) fn new(version: Version) -> Self {
+        Self {
+            version,
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        *self = Self::new(self.version);
+    }
+
+    const fn does(&self, what: u32) -> bool {
+        let ue = layout(self.version).ue;
+        self.cr1 & (ue | what) == ue | what
+    }
+
+    /// A bit, by the clock of its bus.
+    pub(super) fn bit(&self, bus: Ps) -> Ps {
+        bus * Ps::from(self.brr)
+    }
+
+    /// Whether it would take a byte from the line.
+    pub(super) const fn listens(&self) -> bool {
+        self.does(RE)
+    }
+
+    /// A byte has come.
+    pub(super) const fn receive(&mut self, byte: u8) {
+        if self.received.is_some() {
+            self.overrun = self.cr3 & OVRDIS == 0;
+            if self.overrun {
+                return;
+            }
+        }
+        self.received = Some(byte);
+    }
+
+    /// When the byte on its way out has gone.
+    pub(super) fn sends_until(&self) -> Option<Ps> {
+        self.shift.map(|shift| shift.ends)
+    }
+
+    /// The byte that has gone by `now`; the one that waits follows.
+    pub(super) fn sent(&mut self, now: Ps, bus: Ps) -> Option<u8> {
+        let gone = self.shift.take_if(|shift| shift.ends <= now)?;
+        self.begin(now, bus);
+        Some(gone.byte)
+    }
+
+    fn begin(&mut self, now: Ps, bus: Ps) {
+        if self.shift.is_none()
+            && self.does(TE)
+            && let Some(byte) = self.waiting.take()
+        {
+            let ends = now + BITS * self.bit(bus);
+            self.shift = Some(Shift { byte, ends });
+        }
+    }
+
+    /// Whether a byte that came asks the DMA to fetch it.
+    pub(super) const fn requests_fetch(&self) -> bool {
+        self.received.is_some() && self.cr3 & DMAR != 0
+    }
+
+    /// Whether there is room for a byte that the DMA is to bring.
+    pub(super) const fn requests_byte(&self) -> bool {
+        self.waiting.is_none() && self.cr3 & DMAT != 0 && self.does(TE)
+    }
+
+    pub(super) fn read(&mut self, offset: u32) -> Option<u32> {
+        let at = layout(self.version);
+        let flag = |on: bool, bit: u32| if on { bit } else { 0 };
+        Some(match offset {
+            _ if offset == at.status => {
+                flag(self.overrun, ORE)
+                    | flag(self.received.is_some(), RXNE)
+                    | flag(self.shift.is_none() && self.waiting.is_none(), TC)
+                    | flag(self.waiting.is_none(), TXE)
+            }
+            _ if offset == at.received => {
+                self.last = self.received.take().unwrap_or(self.last);
+                self.overrun &= self.version == Version::Two;
+                self.last.into()
+            }
+            _ if offset == at.brr => self.brr,
+            _ if offset == at.cr1 => self.cr1,
+            _ if offset == at.cr2 => 0,
+            _ if offset == at.cr3 => self.cr3,
+            _ => return None,
+        })
+    }
+
+    /// Whether register and setting are modelled.
+    pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, bus: Ps) -> bool {
+        let at = layout(self.version);
+        match offset {
+            _ if offset == at.sent => {
+                self.waiting = Some(value as u8);
+                self.begin(now, bus);
+            }
+            // Below 16 there is no bit to be sampled so often.
+            _ if offset == at.brr && (16..=0xFFFF).contains(&value) => self.brr = value,
+            _ if offset == at.cr1 && value & !(at.ue | TE | RE) == 0 => {
+                let is_set_up = value & at.ue == 0 || self.brr >= 16;
+                self.cr1 = value;
+                return is_set_up;
+            }
+            _ if offset == at.cr2 => return value == 0,
+            _ if offset == at.cr3 && value & !at.cr3_modelled == 0 => self.cr3 = value,
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,175 @@
+//! Touches and decisions that a board tells as lines, and its pins, beside those of the same
+//! module on the PC.
+
+use firmware::{Event, Place};
+use host_sim::Error;
+use scene::Scene;
+
+use super::ear::Heard;
+use super::{Talk, wrong};
+
+/// For how long, s: some touches of every texture.
+const TOLD_S: f64 = 3.0;
+
+/// For how long the pin of decisions is high, s.
+const PULSE_S: f64 = 0.01;
+
+/// How late a line may be complete after its tick: most of a health line of the same tick
+/// before it, and it itself, at any baud that carries records.
+const LATE_S: f64 = 0.003;
+
+/// A line that is due.
+struct Due {
+    /// The tick of its event.
+    tick: u32,
+    /// What follows the time.
+    text: String,
+    /// The tick after which it had come.
+    came: Option<u32>,
+}
+
+/// Lets both run; every touch and decision on the PC must be told by the board, in time, and
+/// shown by its pins.
+pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
+    let ticks = (TOLD_S * f64::from(scene.tick_hz)) as u32;
+    let pulse = (PULSE_S * f64::from(scene.tick_hz)) as u32;
+    let mut due: Vec<Due> = Vec::new();
+    let (mut at, mut healths) = (0, 0);
+    let mut shown = [false; 2];
+    let (mut touching, mut decided) = (Vec::new(), None);
+    let mut raised = 0;
+    for _ in 0..ticks {
+        talk.pair.host.tick();
+        let tick = talk.ticks + 1;
+        due.extend(expected(talk, tick));
+        for heard in talk.pass(1)? {
+            let Heard::Line(line) = heard else {
+                return wrong(format!("nobody has asked for {heard:?}"));
+            };
+            let Some((time, text)) = line.split_once(' ') else {
+                return wrong(format!("a line without a time: {line:?}"));
+            };
+            if text.starts_with("start ") || text.starts_with("health ") {
+                healths += u32::from(text.starts_with("health "));
+                first_or_healthy(text, scene)?;
+                continue;
+            }
+            let Some(next) = due.get_mut(at) else {
+                return wrong(format!("told, and not so on the PC: {line:?}"));
+            };
+            let ms = u64::from(next.tick) * 1_000 / u64::from(scene.tick_hz);
+            let expected = format!("{}.{:03}", ms / 1_000, ms % 1_000);
+            if text != next.text || time != expected {
+                return wrong(format!("told {line:?}, on the PC {expected} {}", next.text));
+            }
+            next.came = Some(tick);
+            at += 1;
+        }
+        // Idle, which follows the tick, had brought the pins to what was so in the last one.
+        if scene.telemetry.pins {
+            let found = talk.pair.target.module_mut().board.signals();
+            if found != shown {
+                return wrong(format!(
+                    "in tick {tick} the pins are {found:?}, not {shown:?}"
+                ));
+            }
+            note(talk.pair.host.events(), tick, &mut touching, &mut decided);
+            let is_decided = decided.is_some_and(|then| tick - then < pulse);
+            shown = [!touching.is_empty(), is_decided];
+            raised += u32::from(is_decided);
+        }
+    }
+    let late = (LATE_S * f64::from(scene.tick_hz)) as u32;
+    let overdue = due
+        .iter()
+        .find(|line| line.came.unwrap_or(talk.ticks) > line.tick + late);
+    if let Some(line) = overdue {
+        return wrong(format!(
+            "{:?} of tick {}: {:?}",
+            line.text, line.tick, line.came
+        ));
+    }
+    let of = |word: &str| {
+        due.iter()
+            .filter(|line| line.text.starts_with(word))
+            .count()
+    };
+    let (touches, decisions) = (of("touch "), of("decision "));
+    if touches == 0 || decisions == 0 || healths + 1 < TOLD_S as u32 {
+        return wrong(format!(
+            "{touches} touches, {decisions} decisions, {healths} times health"
+        ));
+    }
+    let took = due
+        .iter()
+        .filter_map(|line| Some(line.came? - line.tick))
+        .max();
+    let pins = if scene.telemetry.pins {
+        format!("; pins as on the PC, {raised} ticks with a decision")
+    } else {
+        String::new()
+    };
+    Ok(format!(
+        "{touches} touches and {decisions} decisions told as on the PC, each within {} ticks{pins}",
+        took.unwrap_or(0)
+    ))
+}
+
+/// The lines of the PC's last tick.
+fn expected(talk: &Talk, tick: u32) -> Vec<Due> {
+    let host = &talk.pair.host;
+    let mut decisions = host.decisions();
+    let side = |place: Place| ["left", "right"][usize::from(place.side)];
+    let lines = host.events().iter().filter_map(|event| {
+        Some(match *event {
+            Event::Touch { place, number } => format!("touch {} {number}", side(place)),
+            Event::TouchEnd { place, number } => format!("end {} {number}", side(place)),
+            Event::Decision(place, _) => {
+                let decided = decisions.next()?;
+                // Rounded down, to four decimals of a percent.
+                let percent = (decided.posterior * 1e6).floor() / 1e4;
+                let (name, samples) = (decided.decision, decided.samples);
+                format!("decision {} {name} {percent:.4} {samples}", side(place))
+            }
+            _ => return None,
+        })
+    });
+    let came = None;
+    lines.map(|text| Due { tick, text, came }).collect()
+}
+
+/// Notes what touches and decisions of a tick show.
+fn note(events: &[Event], tick: u32, touching: &mut Vec<Place>, decided: &mut Option<u32>) {
+    for event in events {
+        match event {
+            Event::Touch { place, .. } => touching.push(*place),
+            Event::TouchEnd { place, .. } => touching.retain(|touched| touched != place),
+            Event::Decision(..) => *decided = Some(tick),
+            _ => {}
+        }
+    }
+}
+
+/// The line of the start names version, scene and rate; that of health misses nothing.
+fn first_or_healthy(text: &str, scene: &Scene) -> Result<(), Error> {
+    let fields: Vec<&str> = text.split(' ').collect();
+    let (version, hz) = (env!("CARGO_PKG_VERSION"), scene.tick_hz.to_string());
+    let period = (1_000_000 / scene.tick_hz).to_string();
+    let is_right = match fields[..] {
+        ["start", found, name, rate, "power-up", "1", "0"] => {
+            (found, name, rate) == (version, &*scene.name, &*hz)
+        }
+        ["health", worst, found, "0", "0", "0"] => {
+            found == period
+                && worst
+                    .parse()
+                    .is_ok_and(|worst: f64| worst > 1.0 && worst < 500.0)
+        }
+        _ => false,
+    };
+    if is_right {
+        Ok(())
+    } else {
+        wrong(format!("{text:?}"))
+    }
+}
