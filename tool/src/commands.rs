@@ -1,5 +1,7 @@
 //! The commands, one file for each.
 
+#[cfg(unix)]
+pub(crate) mod board;
 pub(crate) mod capture;
 pub(crate) mod deploy;
 pub(crate) mod doctor;

@@ -30,7 +30,7 @@ use host_sim::{Error, report};
 /// Reads the log and the records of a whisker module, and captures textures for it to learn.
 ///
 /// The module is a simulated one (--sim), the program of a board on an emulated chip
-/// (--emulated), or a board behind its debug probe (--probe).
+/// (--emulated), a board behind its debug probe (--probe), or one on a serial port (--port).
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
 #[derive(Parser)]
@@ -70,6 +70,9 @@ enum Command {
     Status(commands::order::ToAll),
     /// Gives a module a model to decide by, without building its program anew
     Deploy(commands::deploy::Arguments),
+    /// Runs a board's program on an emulated chip, with its serial port as a pseudo-terminal
+    #[cfg(unix)]
+    Board(commands::board::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -93,6 +96,8 @@ fn main() -> ExitCode {
             Command::Home(to) => commands::order::home(&to),
             Command::Status(of) => commands::order::status(&of),
             Command::Deploy(arguments) => commands::deploy::deploy(&arguments),
+            #[cfg(unix)]
+            Command::Board(arguments) => commands::board::board(&arguments),
         }
     })
 }

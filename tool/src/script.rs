@@ -4,16 +4,10 @@ use std::collections::VecDeque;
 use std::path::Path;
 
 use host_sim::Error;
-use wire::{Command, CommandStatus, Packet, WhiskerId};
+use wire::text::{self, ALLOWED, Spoken};
+use wire::{Command, CommandStatus, Packet};
 
 use crate::conversation::Conversation;
-
-/// What can be commanded, as a message has it.
-const ALLOWED: &str = "arm, stop, clear SIDE, home SIDE, gain SIDE VALUE (0 to 2), setpoint SIDE \
-                       DEGREES, release SIDE";
-
-/// 1 in Q24.
-const ONE: f64 = 16_777_216.0;
 
 /// A command at its time.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,44 +100,24 @@ impl Script {
 }
 
 fn entry(words: &str) -> Result<Entry, String> {
-    let mut words = words.split_whitespace();
-    let mut next = || words.next().unwrap_or_default();
-    let time = next();
+    let words: Vec<&str> = words.split_whitespace().collect();
+    let (time, said) = words.split_first().unwrap_or((&"", &[]));
     let at_s = time.parse().ok();
     let at_s = at_s.filter(|at_s: &f64| *at_s >= 0.0 && *at_s <= 1e6);
     let at_s = at_s.ok_or_else(|| format!("found the time {time:?}, allowed: 0 to 1000000 s"))?;
-    let [name, side, value, more] = [next(), next(), next(), next()];
-    let whisker = match side {
-        "left" => Some(0),
-        "right" => Some(1),
-        _ => None,
-    };
-    let whisker = whisker.map(|side| WhiskerId { side, number: 0 });
-    let number = value.parse().ok();
-    let number = number.filter(|number: &f64| number.abs() <= 1e4);
-    let q24 = |value: f64| (value * ONE).round() as i32;
-    let command = match (name, whisker, number) {
-        ("arm", None, None) if side.is_empty() => Some(Command::Arm),
-        ("stop", None, None) if side.is_empty() => Some(Command::Stop),
-        ("clear", Some(whisker), None) if value.is_empty() => Some(Command::Clear(whisker)),
-        ("home", Some(whisker), None) if value.is_empty() => Some(Command::Home(whisker)),
-        ("release", Some(whisker), None) if value.is_empty() => Some(Command::Release(whisker)),
-        ("gain", Some(whisker), Some(gain)) => Some(Command::Gain(whisker, q24(gain))),
-        ("setpoint", Some(whisker), Some(degrees)) => {
-            let protraction = (degrees - 50.0) / 100.0;
-            Some(Command::Setpoint(whisker, q24(protraction)))
+    let text = said.join(" ");
+    let why = match text::parse(text.as_bytes()) {
+        Ok(Spoken::Command(command)) => {
+            return Ok(Entry {
+                at_s,
+                text,
+                command,
+            });
         }
-        _ => None,
+        Ok(Spoken::Nothing | Spoken::Help) => "no command".to_owned(),
+        Err((_, fault)) => fault.to_string(),
     };
-    let text = [name, side, value].join(" ");
-    let text = text.trim_end().to_owned();
-    let command = command.filter(|_| more.is_empty());
-    let command = command.ok_or_else(|| format!("found {text:?}, allowed: {ALLOWED}"))?;
-    Ok(Entry {
-        at_s,
-        text,
-        command,
-    })
+    Err(format!("found {text:?}, {why}; allowed: {ALLOWED}"))
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ mod choice;
 mod emulated;
 mod flash;
 mod person;
+mod port;
+mod port_line;
 mod program;
 mod room;
 mod simulated;
@@ -14,6 +16,8 @@ pub(crate) use choice::{SourceChoice, seconds};
 #[cfg(feature = "probe")]
 pub(crate) use person::Person;
 pub(crate) use program::{BoardName, build};
+#[cfg(unix)]
+pub(crate) use texture::texture;
 
 use std::path::Path;
 

@@ -10,6 +10,7 @@ use host_sim::commands::run::Loaded;
 use super::Source;
 use super::emulated::Emulated;
 use super::flash::Flash;
+use super::port::Port;
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
 use crate::probe;
@@ -55,6 +56,12 @@ pub(crate) struct SourceChoice {
     /// board does; made where there is none
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
     flash: Option<PathBuf>,
+    /// A board on this serial port, of a scene whose telemetry has a serial_baud
+    #[arg(long, value_name = "PATH", group = "source", conflicts_with_all = ["program", "board", "world", "flash", "seed"])]
+    port: Option<PathBuf>,
+    /// The scene's serial_baud
+    #[arg(long, value_name = "N", requires = "port", default_value_t = 115_200)]
+    baud: u32,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
     seed: Option<u64>,
@@ -76,11 +83,15 @@ impl SourceChoice {
         if let Some(serial) = &self.probe {
             return probe::open(serial, self.board, self.program.as_deref());
         }
+        if let Some(port) = &self.port {
+            return Ok(Box::new(Port::open(port, self.baud)?));
+        }
         let (Some(path), simulates) = (
             self.sim.as_ref().or(self.emulated.as_ref()),
             self.sim.is_some(),
         ) else {
-            let fault = "which module? allowed: --sim SCENE, --emulated SCENE, --probe";
+            let fault =
+                "which module? allowed: --sim SCENE, --emulated SCENE, --probe, --port PATH";
             return Err(Error::Input(fault.to_owned()));
         };
         let mut loaded = Loaded::new(path)?;

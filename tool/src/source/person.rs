@@ -8,10 +8,6 @@ use host_sim::{Error, report};
 
 /// A person before a keyboard. Their answers are read beside the work: the module goes on while
 /// a sample is exchanged, and what it tells must be fetched.
-#[cfg_attr(
-    not(feature = "probe"),
-    allow(dead_code, reason = "of sources of a real module")
-)]
 #[derive(Debug)]
 pub(crate) struct Person {
     answers: Receiver<io::Result<()>>,
@@ -22,10 +18,6 @@ pub(crate) struct Person {
     asked: Option<String>,
 }
 
-#[cfg_attr(
-    not(feature = "probe"),
-    allow(dead_code, reason = "of sources of a real module")
-)]
 impl Person {
     /// Whoever is at standard input.
     pub(crate) fn at_standard_input() -> Self {

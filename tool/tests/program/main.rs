@@ -9,5 +9,6 @@ mod log;
 mod messages;
 mod monitor;
 mod order;
+mod port;
 mod records;
 mod script;

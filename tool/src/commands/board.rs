@@ -1,0 +1,143 @@
+//! `whisker board`: an emulated board whose serial port is a pseudo-terminal.
+
+use std::ffi::CString;
+use std::io::BufRead;
+use std::os::fd::OwnedFd;
+use std::path::PathBuf;
+use std::sync::mpsc::{self, Receiver};
+
+use clap::Args;
+use emulator::session::Session;
+use host_sim::commands::run::Loaded;
+use host_sim::{Error, report};
+use rustix::fs::{Mode, OFlags};
+use rustix::io::Errno;
+use rustix::pty::OpenptFlags;
+
+use crate::source::{BoardName, build, texture};
+
+/// Which board.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The scene, whose telemetry has a serial_baud
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    /// The program's file, which must be of the same scene; without it it is built (minutes,
+    /// the first time)
+    #[arg(long, value_name = "ELF", conflicts_with = "board")]
+    program: Option<PathBuf>,
+    /// The board whose program is built
+    #[arg(long, value_enum, default_value = "nucleo-f446re")]
+    board: BoardName,
+}
+
+/// Bytes that wait for whoever has the terminal open, at most.
+const MOST_WAITING: usize = 1 << 20;
+
+/// The board's end of a pseudo-terminal.
+struct Terminal {
+    master: OwnedFd,
+    path: CString,
+    /// What finds no room yet.
+    waiting: Vec<u8>,
+}
+
+fn wrong(error: Errno) -> Error {
+    Error::Work(format!("pseudo-terminal: {error}"))
+}
+
+impl Terminal {
+    fn open() -> Result<Self, Error> {
+        let master = rustix::pty::openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY);
+        let master = master.map_err(wrong)?;
+        rustix::pty::grantpt(&master).map_err(wrong)?;
+        rustix::pty::unlockpt(&master).map_err(wrong)?;
+        let path = rustix::pty::ptsname(&master, Vec::new()).map_err(wrong)?;
+        rustix::io::ioctl_fionbio(&master, true).map_err(wrong)?;
+        // Opened and closed: from now on it says whether somebody is there.
+        let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC;
+        drop(rustix::fs::open(&path, flags, Mode::empty()).map_err(wrong)?);
+        Ok(Self {
+            master,
+            path,
+            waiting: Vec::new(),
+        })
+    }
+
+    /// What somebody has written; what the board says is theirs, or nobody's.
+    fn exchange(&mut self, said: &[u8]) -> Result<Vec<u8>, Error> {
+        let mut heard = vec![0; 1024];
+        match rustix::io::read(&self.master, &mut heard) {
+            Ok(count) => heard.truncate(count),
+            Err(Errno::AGAIN) => heard.clear(),
+            // Nobody has it open.
+            Err(Errno::IO) => {
+                self.waiting.clear();
+                return Ok(Vec::new());
+            }
+            Err(error) => return Err(wrong(error)),
+        }
+        self.waiting.extend(said);
+        if self.waiting.len() > MOST_WAITING {
+            // As much as nobody will read.
+            self.waiting.clear();
+        }
+        match rustix::io::write(&self.master, &self.waiting) {
+            Ok(count) => drop(self.waiting.drain(..count)),
+            Err(Errno::AGAIN | Errno::IO) => {}
+            Err(error) => return Err(wrong(error)),
+        }
+        Ok(heard)
+    }
+}
+
+/// The lines of standard input, as they come.
+fn lines() -> Receiver<String> {
+    let (send, lines) = mpsc::channel();
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if send.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+/// Runs until it is interrupted.
+pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
+    let path = &arguments.scene;
+    let loaded = Loaded::new(path)?;
+    let scene = &loaded.scene;
+    let Some(baud) = scene.telemetry.serial_baud else {
+        let fault = "it has no serial port; allowed: [telemetry] serial_baud, such as 115200";
+        return Err(Error::file(path, fault));
+    };
+    let program = match &arguments.program {
+        Some(program) => program.clone(),
+        None => build(arguments.board, path)?,
+    };
+    let mut session = Session::open(scene, &program)?;
+    let mut terminal = Terminal::open()?;
+    report::say(format_args!("{} {baud}", terminal.path.to_string_lossy()));
+    report::warn("lines `lay NAME` lay a texture before the whisker; Ctrl-C ends it");
+    let commands = lines();
+    loop {
+        session.tick()?;
+        let said = session.serial_read();
+        let heard = terminal.exchange(&said)?;
+        if !heard.is_empty() {
+            session.serial_write(&heard);
+        }
+        for line in commands.try_iter() {
+            let laid = match line.split_whitespace().collect::<Vec<_>>()[..] {
+                ["lay", name] => texture(name, scene).map(|found| session.lay(found)),
+                [] => Ok(()),
+                _ => Err(Error::Input(format!("found {line:?}, allowed: lay NAME"))),
+            };
+            if let Err(error) = laid {
+                report::warn(error);
+            }
+        }
+    }
+}

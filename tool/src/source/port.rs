@@ -1,0 +1,182 @@
+//! A board at the other end of a serial port.
+
+use std::io::ErrorKind;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use host_sim::Error;
+use host_sim::origin::Origin;
+use serial2::SerialPort;
+use wire::{Framed, LINE_BYTES, Packet, Piece, Splitter, TaggedCommand};
+
+use super::person::Person;
+use super::port_line::{Said, logged};
+use super::{Heard, Source};
+
+/// For how long a read waits for something.
+const WAIT: Duration = Duration::from_millis(50);
+
+/// For how long nothing may come. A board says how it fares every second of its time, of which
+/// an emulated one may take some.
+const SILENCE: Duration = Duration::from_secs(20);
+
+/// The board's time, from when it was heard first.
+#[derive(Debug, Clone, Copy, Default)]
+struct BoardTime {
+    elapsed_s: f64,
+    last_s: Option<f64>,
+}
+
+impl BoardTime {
+    /// It says that so much has passed since its start, which may be a new one.
+    fn is(&mut self, t_s: f64) {
+        let since = self.last_s.map_or(0.0, |last_s| t_s - last_s);
+        self.elapsed_s += since.max(0.0);
+        self.last_s = Some(t_s);
+    }
+}
+
+/// A board, talked with through a port.
+pub(super) struct Port {
+    line: SerialPort,
+    name: String,
+    splitter: Splitter<LINE_BYTES>,
+    person: Person,
+    /// When something has come last.
+    heard: Instant,
+    time: BoardTime,
+    tick_hz: Option<u32>,
+    version: Option<String>,
+}
+
+impl Port {
+    /// Opens the port at `path` and asks who is there.
+    pub(super) fn open(path: &Path, baud: u32) -> Result<Self, Error> {
+        let wrong = |error: std::io::Error| Error::file(path, error);
+        let mut line = SerialPort::open(path, baud).map_err(wrong)?;
+        line.set_read_timeout(WAIT).map_err(wrong)?;
+        line.discard_buffers().map_err(wrong)?;
+        let mut port = Self {
+            line,
+            name: path.display().to_string(),
+            splitter: Splitter::new(),
+            person: Person::at_standard_input(),
+            heard: Instant::now(),
+            time: BoardTime::default(),
+            tick_hz: None,
+            version: None,
+        };
+        // An end of a line before it: whatever the board has heard so far is none of it.
+        port.write(b"\nhello\n")?;
+        while port.tick_hz.is_none() {
+            port.next().map_err(|error| {
+                Error::Work(format!(
+                    "{error}; is it a board whose scene has telemetry.serial_baud = {baud}?"
+                ))
+            })?;
+        }
+        Ok(port)
+    }
+
+    fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        let written = self.line.write_all(bytes);
+        written.map_err(|error| Error::Work(format!("{}: {error}", self.name)))
+    }
+
+    /// Takes a line; what a log has of it.
+    fn take(&mut self, line: &[u8]) -> Option<String> {
+        let line = String::from_utf8_lossy(line);
+        match logged(&line) {
+            Said::Hello { tick_hz, version } => {
+                self.tick_hz = Some(tick_hz);
+                self.version = Some(version.to_owned());
+                None
+            }
+            Said::Logged { t_s, text } => {
+                self.time.is(t_s);
+                Some(text)
+            }
+            Said::Other => Some(line.into_owned()),
+        }
+    }
+}
+
+impl Source for Port {
+    fn next(&mut self) -> Result<Heard, Error> {
+        let mut heard = Heard::default();
+        let mut bytes = [0; 4096];
+        let count = match self.line.read(&mut bytes) {
+            Ok(count) => count,
+            Err(error) if error.kind() == ErrorKind::TimedOut => 0,
+            Err(error) => return Err(Error::Work(format!("{}: {error}", self.name))),
+        };
+        let now = Instant::now();
+        if count > 0 {
+            self.heard = now;
+        } else if now - self.heard > SILENCE {
+            return Err(Error::Work(format!(
+                "{}: nothing has come for {} s",
+                self.name,
+                SILENCE.as_secs()
+            )));
+        }
+        for byte in bytes.iter().take(count) {
+            let line = match self.splitter.push(*byte) {
+                Some(Piece::Frame(frame)) => {
+                    if let Ok(packet) = frame.try_into().map(Packet::from_bytes) {
+                        heard.packets.push(packet);
+                    }
+                    continue;
+                }
+                Some(Piece::Line(line)) => line.to_vec(),
+                // Of the first line, which was under way as the port was opened, or lost.
+                Some(Piece::Garbled(_)) | None => continue,
+            };
+            heard.lines.extend(self.take(&line));
+        }
+        if let (Some(tick_hz), Some(last)) = (self.tick_hz, heard.packets.last()) {
+            let sequence = match last {
+                Packet::Record(record) => record.sequence,
+                Packet::Answer(answer) => answer.sequence,
+            };
+            self.time
+                .is(f64::from(sequence) / f64::from(tick_hz.max(1)));
+        }
+        Ok(heard)
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.write(Framed::request(&request).bytes())
+    }
+
+    fn has(&self, _: &str) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.person.lay(sample);
+        Ok(())
+    }
+
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        self.person.is_laid()
+    }
+
+    fn is_laid_by_hand(&self) -> bool {
+        true
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.time.elapsed_s
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        None
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::default()
+            .with("board", format_args!("at {}", self.name))
+            .with("firmware", self.version.as_deref().unwrap_or("unknown"))
+    }
+}

@@ -1,0 +1,100 @@
+//! A board on a serial port: an emulated one, whose port is a pseudo-terminal.
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, Command, Stdio};
+
+use crate::common::{BENCH, Place};
+
+/// A board that is served; it ends when dropped.
+struct Served {
+    board: Child,
+    /// `--port PATH --baud N`.
+    port: String,
+}
+
+impl Served {
+    fn new(place: &Place) -> Self {
+        let scene = format!("{BENCH}[telemetry]\nserial_baud = 921600\n");
+        place.write("serial.toml", &scene);
+        let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
+            .arg("board")
+            .arg(place.path("serial.toml"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        let mut said = BufReader::new(board.stdout.take().unwrap());
+        said.read_line(&mut line).unwrap();
+        let (path, baud) = line.trim().split_once(' ').unwrap();
+        let port = format!("--port {path} --baud {baud}");
+        Self { board, port }
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.board.kill();
+        let _ = self.board.wait();
+    }
+}
+
+#[test]
+fn a_board_on_a_port_is_talked_with_as_any_other() {
+    let place = Place::new();
+    let mut served = Served::new(&place);
+    let port = served.port.clone();
+
+    let ran = place.done(&format!("records {port} --seconds 1 --out r.csv"));
+    assert!(
+        ran.stdout
+            .contains(" records at 2000 ticks a second, 0 lost"),
+        "{}",
+        ran.stdout
+    );
+    let table = place.text("r.csv");
+    assert!(table.contains("# scene = bench\n"), "{table}");
+    assert!(table.contains("# firmware = 0.1.0\n"), "{table}");
+    let rows = table
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
+    let sequences = rows.map(|row| row.split(',').next().unwrap().parse::<u32>().unwrap());
+    let sequences: Vec<u32> = sequences.collect();
+    assert!(sequences.len() >= 1_900, "{}", sequences.len());
+    assert!(sequences.is_sorted_by(|a, b| a + 1 == *b));
+
+    place.write(
+        "script",
+        "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n",
+    );
+    let ran = place.run(&format!("log {port} --seconds 1.5 --script script"));
+    assert_eq!(ran.status, Some(1), "{}", ran.stderr);
+    for said in [
+        "gain left 0.5: done\n",
+        "gain left 3: value out of range\n",
+        "setpoint left 70: done\n",
+        " us of 500; missed 0, events dropped 0\n",
+    ] {
+        assert!(ran.stdout.contains(said), "{said}{}", ran.stdout);
+    }
+
+    // The person at this bench writes down what was done; the board is told by hand.
+    writeln!(served.board.stdin.as_mut().unwrap(), "lay carpet").unwrap();
+    let ran = place.done(&format!("records {port} --seconds 0.2 --out again.csv"));
+    assert!(ran.stdout.contains(", 0 lost"), "{}", ran.stdout);
+}
+
+#[test]
+fn ports_and_scenes_that_are_none_are_refused() {
+    let place = Place::new();
+    let told = place.refused("log --port no-such-port --seconds 1");
+    assert!(told.contains("no-such-port"), "{told}");
+    let told = place.refused("board bench.toml");
+    assert!(
+        told.contains("it has no serial port; allowed: [telemetry] serial_baud"),
+        "{told}"
+    );
+    let told = place.refused("log --port a --sim bench.toml");
+    assert!(told.contains("cannot be used with"), "{told}");
+}
