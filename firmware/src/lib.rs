@@ -44,6 +44,8 @@ mod telemetry;
 #[cfg(feature = "tmag5170")]
 mod tilt;
 mod timing;
+mod tunable;
+mod tuning;
 
 pub use active::{Active, ActiveConfig, StopAll};
 pub use button::{Button, ButtonLimits};
@@ -55,7 +57,7 @@ pub use module::{Config, Module};
 pub use motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
     Classifying, ClassifyingConfig, CodeClassifier, Deployed, MODEL_LAST_WORDS, ModelLimits,
-    ModelState, NotCodes, Perception, Refusal, Sample, SampleClassifier, shifts,
+    ModelState, NotCodes, Perception, Refusal, Sample, SampleClassifier, TakesRule, shifts,
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
@@ -66,3 +68,5 @@ pub use telemetry::{About, Link, Notes, PacketSink};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;
+pub use tunable::{TUNABLE_COUNT, Tunable, Visitor, number as tunable_number, tunable_name};
+pub use tuning::Tuning;

@@ -7,7 +7,7 @@ mod deployed;
 use crate::Event;
 use crate::sensing::Reading;
 
-pub use classifying::{Classifying, ClassifyingConfig, Sample, SampleClassifier};
+pub use classifying::{Classifying, ClassifyingConfig, Sample, SampleClassifier, TakesRule};
 pub use codes::{CodeClassifier, NotCodes, shifts};
 pub use deployed::{Deployed, MODEL_LAST_WORDS, ModelLimits, ModelState, Refusal};
 
@@ -22,6 +22,9 @@ pub trait Perception<R, C, const S: usize, const N: usize> {
         readings: &[[Reading; N]; S],
         events: &mut impl FnMut(Event),
     );
+
+    /// The constants have changed between two ticks: what was made of them is made anew.
+    fn retune(&mut self, config: &C);
 }
 
 /// No perception.
@@ -35,6 +38,8 @@ impl<R, const S: usize, const N: usize> Perception<R, (), S, N> for () {
         _events: &mut impl FnMut(Event),
     ) {
     }
+
+    fn retune(&mut self, (): &()) {}
 }
 
 /// Perception that lies elsewhere.
@@ -51,6 +56,10 @@ where
         events: &mut impl FnMut(Event),
     ) {
         (**self).step(config, contact, readings, events);
+    }
+
+    fn retune(&mut self, config: &C) {
+        (**self).retune(config);
     }
 }
 
@@ -70,6 +79,12 @@ where
     ) {
         if let (Some(perception), Some(config)) = (self, config) {
             perception.step(config, contact, readings, events);
+        }
+    }
+
+    fn retune(&mut self, config: &Option<C>) {
+        if let (Some(perception), Some(config)) = (self, config) {
+            perception.retune(config);
         }
     }
 }

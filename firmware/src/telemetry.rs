@@ -203,6 +203,10 @@ impl Link {
                 }
                 ModelState::NotHere => Err(CommandStatus::NotHere),
             },
+            // By `Tuning`.
+            Said::Constant(_) | Said::Stage(..) | Said::Apply(_) | Said::Forget => {
+                Err(CommandStatus::NotHere)
+            }
         };
         self.reply(Answer {
             sequence,
@@ -224,7 +228,8 @@ impl Link {
         });
     }
 
-    const fn reply(&mut self, answer: Answer) {
+    /// Keeps an answer until it is sent.
+    pub const fn reply(&mut self, answer: Answer) {
         self.answer = Some(answer);
     }
 

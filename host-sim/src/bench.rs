@@ -1,27 +1,31 @@
 //! A module of any shape behind one interface: the firmware's [`Module`] on
 //! mock hardware.
 
+mod config;
 mod line;
 mod sensor;
+mod tunable;
 
-use firmware::design_parameters::{Plausible, retry, sensor_limits};
+pub use config::RunsOn;
+pub use tunable::{ConstantWords, TunableConstant, TunableConstants, tunable_constants};
+
 use firmware::{
-    Active, ActiveConfig, Classifying, ClassifyingConfig, Clock, Command, Config, Event,
-    ModelState, Module, NoActiveWhisker, Place, Refusal, Servo, ServoConfig, StopAll,
+    Active, Classifying, Clock, Command, Event, ModelState, Module, NoActiveWhisker, Perception,
+    Place, Refusal, Servo,
 };
-use mlx90333::Decoder;
 use plan::NumberFormat;
-use scene::{Arm, Deciding, PlantKind, Scene, SensorModel};
-use whisking::motor::{GuardSettings, HomingConfig, StallConfig};
-use whisking::{Fix, Real, Start, filter};
+use scene::{Arm, Deciding, Scene, SensorModel};
+use whisking::motor::StallConfig;
+use whisking::{Fix, Real, Start};
 use wire::{Packet, TaggedCommand};
 
 use crate::Error;
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
-use crate::classifier::{Classifier, GATE, Tap};
+use crate::classifier::{Classifier, Tap};
 use crate::drive::{self, AnyAngle, AnyMotor};
 use crate::motor::Pins;
+use config::{HostConfig, broken};
 use line::Line;
 use sensor::AnySensor;
 
@@ -121,15 +125,11 @@ type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyA
 type Ears<const S: usize, const N: usize> = Option<Classifying<Tap, S, N>>;
 type Sensors<const S: usize, const N: usize> = [[AnySensor; N]; S];
 
-type HostConfig<R> = Config<
-    Option<ActiveConfig<R, whisking::Config<R>, Option<StopAll>, Option<HomingConfig>>>,
-    Option<ClassifyingConfig<Option<R>, ()>>,
-    Option<filter::Config<R>>,
->;
-
 struct Shaped<R: Real, const S: usize, const N: usize> {
     module: Module<R, AnySensor, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
     config: HostConfig<R>,
+    /// As the scene has it.
+    built_with: HostConfig<R>,
     start: Option<Start<R, S, N>>,
     arms_at_start: bool,
     model: SensorModel,
@@ -208,6 +208,7 @@ where
     Self: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
+        self.config = self.built_with;
         let stall = self
             .config
             .motion
@@ -218,7 +219,8 @@ where
             _ => None,
         };
         let perception = self.module.perception_mut().take();
-        let perception = perception.map(Classifying::restarted);
+        let mut perception = perception.map(Classifying::restarted);
+        Perception::<R, _, S, N>::retune(&mut perception, &self.config.perception);
         let sensors = sensors(self.model, seed)?;
         self.module = Module::new(sensors, motors, perception, NoClock);
         self.module.arm(self.arms_at_start);
@@ -255,23 +257,11 @@ where
 
     fn request(&mut self, request: TaggedCommand) {
         let (line, module) = (&mut self.line, &mut self.module);
-        line.carry_out(module, &self.config, request);
+        line.carry_out(module, &mut self.config, request);
     }
 
     fn take_packets(&mut self) -> Vec<Packet> {
         self.line.take()
-    }
-}
-
-/// What the readings of a scene's sensors can be.
-fn plausible(scene: &Scene) -> Plausible {
-    Plausible {
-        frozen_s: scene.sensor.frozen_s,
-        // By BIOTACT eq. 11 contact with a stiff obstacle is a step.
-        jump_per_s: match scene.plant.kind {
-            PlantKind::Ideal => f64::INFINITY,
-            PlantKind::Textured | PlantKind::Whisker => scene.sensor.jump_per_s,
-        },
     }
 }
 
@@ -353,57 +343,15 @@ fn shaped<R: Real, const S: usize, const N: usize>(
 where
     Shaped<R, S, N>: Send + 'static,
 {
-    let broken = |mismatch: plan::Mismatch| match mismatch {
-        mismatch @ (plan::Mismatch::Unstable(_) | plan::Mismatch::Gate { .. }) => {
-            Error::Input(mismatch.to_string())
-        }
-        mismatch => Error::Work(mismatch.to_string()),
-    };
-    let tick_hz = f64::from(scene.tick_hz);
     let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
-
-    // The trace shows contact wherever there is something to touch.
     let tap = Tap::new(classifier, heard(scene));
-    let touch = tap.touch_rule();
+    let gate = tap.touch_rule().map(|touch| touch.gate);
     let model = tap.model();
-    let contact_min = plan::contact_min(scene, touch.map(|touch| touch.gate)).map_err(broken)?;
-    // A recording has the touches that a model of it will know.
-    let records = tap.is_recording() && scene.plant.obstacle.is_some();
-    let contact_min = contact_min.or(records.then_some(GATE));
-    let contact = match plan::contact(scene, contact_min.is_some()).map_err(broken)? {
-        None if scene.plant.obstacle.is_some() => {
-            let h50 = filter::Config::new(filter::CORNER_HZ, tick_hz);
-            Some(h50.map_err(|error| Error::Work(error.to_string()))?)
-        }
-        contact => contact,
+    let runs_on = RunsOn::Simulation {
+        records: tap.is_recording(),
     };
+    let config = config::config(scene, plan.as_ref(), gate, runs_on)?;
     let start = plan.as_ref().map(|plan| plan.start);
-    let config = Config {
-        decoder: Decoder::new(),
-        sensor_limits: sensor_limits(scene.tick_hz, plausible(scene)),
-        contact,
-        motion: plan.map(|plan| ActiveConfig {
-            whisking: plan.whisking,
-            servo: ServoConfig {
-                pd: plan.pd,
-                retry: retry(scene.tick_hz),
-                // An ideal motor is where it should be whatever it is driven with.
-                guards: match scene.plant.kind {
-                    PlantKind::Ideal => GuardSettings::NONE.build(tick_hz),
-                    PlantKind::Textured | PlantKind::Whisker => plan.guards,
-                },
-                approach: plan.approach,
-                // Nor has it a stop.
-                homing: plan.homing.filter(|_| scene.plant.kind != PlantKind::Ideal),
-            },
-            stop_all: plan.stop_all.then_some(StopAll),
-        }),
-        perception: Some(ClassifyingConfig {
-            contact_min: contact_min.map(R::from_f64),
-            rule: (),
-        }),
-        period: 0,
-    };
     let motors = match (&start, &config.motion) {
         (Some(start), Some(motion)) => {
             Some(motors(start, motion.servo.guards.stall, scene.seed, pins)?)
@@ -424,6 +372,7 @@ where
     Ok(Box::new(Shaped {
         module,
         config,
+        built_with: config,
         start,
         arms_at_start,
         model: scene.sensor.model,

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use firmware::{
-    CodeClassifier, Deployed, ModelLimits, ModelState, Refusal, Sample, SampleClassifier,
+    CodeClassifier, Deployed, ModelLimits, ModelState, Refusal, Sample, SampleClassifier, TakesRule,
 };
 use scene::{Deciding, Rule, Scene};
 use tactile::{
@@ -155,6 +155,24 @@ impl SampleClassifier for Classifier {
     }
 }
 
+impl TakesRule<AnyRuleSettings> for Classifier {
+    fn set_rule(&mut self, settings: &AnyRuleSettings) {
+        match (&mut self.judge, settings) {
+            (Judge::Each(codes), settings) => codes.set_rule(settings),
+            (Judge::Together(codes), AnyRuleSettings::Sequential(threshold)) => {
+                codes.set_rule(threshold);
+            }
+            // There is no such classifier.
+            (Judge::Together(_), AnyRuleSettings::Window(_)) => {}
+        }
+    }
+}
+
+/// One whose rule stays as it was made.
+impl TakesRule<()> for Classifier {
+    fn set_rule(&mut self, (): &()) {}
+}
+
 /// What stands between the whiskers that are heard and their classifier, if there is one:
 /// it keeps the last samples, for recordings.
 pub struct Tap {
@@ -223,6 +241,14 @@ impl SampleClassifier for Tap {
     }
 }
 
+impl TakesRule<Option<AnyRuleSettings>> for Tap {
+    fn set_rule(&mut self, settings: &Option<AnyRuleSettings>) {
+        if let (Some(classifier), Some(settings)) = (&mut self.classifier, settings) {
+            classifier.set_rule(settings);
+        }
+    }
+}
+
 /// How the two channels of a whisker are quantised.
 pub(crate) fn quantisers(model: &ModelBuf) -> Result<[Quantiser; 2], Fault> {
     match (model.quantiser(0), model.quantiser(1), model.channels()) {
@@ -274,7 +300,7 @@ pub fn deployed(
     })
 }
 
-fn settings(rule: Rule) -> Result<AnyRuleSettings, Fault> {
+pub(crate) fn settings(rule: Rule) -> Result<AnyRuleSettings, Fault> {
     Ok(match rule {
         Rule::Sequential { threshold } => {
             AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)

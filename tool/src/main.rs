@@ -16,10 +16,12 @@ mod monitor;
 mod probe;
 mod record_file;
 mod resting;
+mod scene_file;
 mod script;
 mod source;
 mod table;
 mod tally;
+mod tuning;
 
 use std::process::ExitCode;
 
@@ -73,6 +75,12 @@ enum Command {
     /// Runs a board's program on an emulated chip, with its serial port as a pseudo-terminal
     #[cfg(unix)]
     Board(commands::board::Arguments),
+    /// Prints what the module has for keys of its scene, beside what the scene says
+    Get(commands::get::Arguments),
+    /// Sets keys of the scene in the module while it runs
+    Set(commands::set::Arguments),
+    /// Writes what the module has into its scene file
+    Save(commands::save::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -98,6 +106,9 @@ fn main() -> ExitCode {
             Command::Deploy(arguments) => commands::deploy::deploy(&arguments),
             #[cfg(unix)]
             Command::Board(arguments) => commands::board::board(&arguments),
+            Command::Get(arguments) => commands::get::get(&arguments),
+            Command::Set(arguments) => commands::set::set(&arguments),
+            Command::Save(arguments) => commands::save::save(&arguments),
         }
     })
 }

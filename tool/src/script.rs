@@ -1,13 +1,16 @@
-//! Commands at their times: lines `TIME COMMAND [SIDE [VALUE]]`.
+//! Commands at their times: lines `TIME COMMAND [SIDE [VALUE]]`, or `TIME set KEY VALUE`.
 
 use std::collections::VecDeque;
 use std::path::Path;
 
 use host_sim::Error;
-use wire::text::{self, ALLOWED, Spoken};
+use scene::Override;
+use wire::text::{self, Spoken};
 use wire::{Command, CommandStatus, Packet};
 
 use crate::conversation::Conversation;
+use crate::source::SourceChoice;
+use crate::tuning::{Tuner, live_key};
 
 /// A command at its time.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +19,16 @@ struct Entry {
     at_s: f64,
     /// As it stands there.
     text: String,
-    command: Command,
+    action: Action,
+}
+
+/// What is done.
+#[derive(Debug, Clone, PartialEq)]
+enum Action {
+    /// A command is given.
+    Give(Command),
+    /// A key of the scene is set.
+    Set(Override),
 }
 
 /// Commands that are still to be given, and what became of the others.
@@ -29,6 +41,8 @@ pub(crate) struct Script {
     pending: Option<(u16, String)>,
     /// Commands that were refused.
     refused: u32,
+    /// Who sets keys, where any is set.
+    tuner: Option<Tuner>,
 }
 
 impl Script {
@@ -59,8 +73,33 @@ impl Script {
         })
     }
 
-    /// Gives the next command if it is due and the last was answered.
-    pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<(), Error> {
+    /// Makes ready for the module of this choice.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a key that cannot be set in it.
+    pub(crate) fn prepare(&mut self, source: &SourceChoice) -> Result<(), Error> {
+        let sets = self.entries.iter().filter_map(|entry| match &entry.action {
+            Action::Set(set) => Some(set.key()),
+            Action::Give(_) => None,
+        });
+        let keys: Vec<&str> = sets.collect();
+        if keys.is_empty() {
+            return Ok(());
+        }
+        let file = source.scene().ok_or_else(|| {
+            Error::Input("set: nothing says which scene the module's program is of".to_owned())
+        })?;
+        let tuner = Tuner::open(file, source.is_simulated())?;
+        for key in keys {
+            live_key(key, tuner.scene()).map_err(Error::Input)?;
+        }
+        self.tuner = Some(tuner);
+        Ok(())
+    }
+
+    /// Gives the next command if it is due and the last was answered. Returns the line of a key
+    /// that was set, or was refused.
+    pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<Option<String>, Error> {
         let now_s = module.source().now_s();
         let begun_s = *self.begun_s.get_or_insert(now_s);
         let is_due = |entry: &Entry| now_s - begun_s >= entry.at_s;
@@ -68,9 +107,37 @@ impl Script {
             && self.entries.front().is_some_and(is_due)
             && let Some(entry) = self.entries.pop_front()
         {
-            self.pending = Some((module.send(entry.command)?, entry.text));
+            match entry.action {
+                Action::Give(command) => {
+                    self.pending = Some((module.send(command)?, entry.text));
+                }
+                Action::Set(set) => return self.set(module, set, &entry.text).map(Some),
+            }
         }
-        Ok(())
+        Ok(None)
+    }
+
+    /// Sets a key; the line of what became of it.
+    fn set(
+        &mut self,
+        module: &mut Conversation,
+        set: Override,
+        text: &str,
+    ) -> Result<String, Error> {
+        let done = match &self.tuner {
+            Some(tuner) => tuner.set(module, &[set]).map(drop),
+            None => Err(Error::Input("nothing says of which scene".to_owned())),
+        };
+        let t_s = module.source().now_s();
+        let became = match done {
+            Ok(()) => "done".to_owned(),
+            Err(Error::Input(fault)) => {
+                self.refused += 1;
+                fault
+            }
+            Err(error) => return Err(error),
+        };
+        Ok(format!("{t_s:.3} {text}: {became}"))
     }
 
     /// The line of an answer, at so many ticks a second, if the packet is one to the script.
@@ -106,38 +173,55 @@ fn entry(words: &str) -> Result<Entry, String> {
     let at_s = at_s.filter(|at_s: &f64| *at_s >= 0.0 && *at_s <= 1e6);
     let at_s = at_s.ok_or_else(|| format!("found the time {time:?}, allowed: 0 to 1000000 s"))?;
     let text = said.join(" ");
+    if let ["set", key, value] = said {
+        let action = Action::Set(Override::new(text.clone(), key, value));
+        return Ok(Entry { at_s, text, action });
+    }
     let why = match text::parse(text.as_bytes()) {
         Ok(Spoken::Command(command)) => {
-            return Ok(Entry {
-                at_s,
-                text,
-                command,
-            });
+            let action = Action::Give(command);
+            return Ok(Entry { at_s, text, action });
         }
         Ok(Spoken::Nothing | Spoken::Help) => "no command".to_owned(),
         Err((_, fault)) => fault.to_string(),
     };
-    Err(format!("found {text:?}, {why}; allowed: {ALLOWED}"))
+    let allowed = text::ALLOWED;
+    Err(format!(
+        "found {text:?}, {why}; allowed: {allowed}, set KEY VALUE"
+    ))
 }
 
 #[cfg(test)]
 mod tests {
+    use scene::Override;
     use wire::{Command, WhiskerId};
 
-    use super::Script;
+    use super::{Action, Script};
 
     #[test]
     fn lines_are_commands_at_their_times() {
-        let text = "# a remark\n0 arm\n0.5 gain left 0.5 # half\n\n1 setpoint right 75\n";
+        let text = "# a remark\n0 arm\n0.5 gain left 0.5 # half\n\n1 setpoint right 75\n1 set motor.kp 0.1\n";
         let script = Script::parse(text).unwrap();
         let [left, right] = [0, 1].map(|side| WhiskerId { side, number: 0 });
-        let found: Vec<_> = script.entries.iter().map(|e| (e.at_s, e.command)).collect();
+        let found: Vec<_> = script
+            .entries
+            .iter()
+            .map(|e| (e.at_s, e.action.clone()))
+            .collect();
         assert_eq!(
             found,
             [
-                (0.0, Command::Arm),
-                (0.5, Command::Gain(left, 1 << 23)),
-                (1.0, Command::Setpoint(right, 1 << 22)),
+                (0.0, Action::Give(Command::Arm)),
+                (0.5, Action::Give(Command::Gain(left, 1 << 23))),
+                (1.0, Action::Give(Command::Setpoint(right, 1 << 22))),
+                (
+                    1.0,
+                    Action::Set(Override::new(
+                        "set motor.kp 0.1".to_owned(),
+                        "motor.kp",
+                        "0.1"
+                    ))
+                ),
             ]
         );
     }
@@ -157,6 +241,8 @@ mod tests {
             "0 gain left nan",
             "0 gain left 1 2",
             "0 jump",
+            "0 set motor.kp",
+            "0 set motor.kp 1 2",
         ] {
             assert!(fault(text).starts_with("line 1: found"), "{text}");
         }

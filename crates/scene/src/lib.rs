@@ -34,6 +34,7 @@
 //! ```
 
 mod choice;
+mod facts;
 mod key;
 mod keys;
 mod kind;
@@ -54,6 +55,7 @@ mod value;
 mod values;
 mod world;
 
+pub use facts::{KeyFacts, key_facts};
 pub use overriding::Override;
 pub use places::Places;
 pub use problem::{Problem, Problems};

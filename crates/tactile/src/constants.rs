@@ -23,4 +23,14 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
         let rule = R::new(&model, settings)?;
         Ok(Self { model, rule })
     }
+
+    /// Another rule for the model.
+    ///
+    /// # Errors
+    ///
+    /// As [`Constants::new`]; nothing has changed.
+    pub(crate) fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
+        self.rule = R::new(&self.model, settings)?;
+        Ok(())
+    }
 }

@@ -138,6 +138,10 @@ impl<R: DecisionRule, W: Words> Streams for NaiveBayes<R, W> {
         self.interrupt();
     }
 
+    fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
+        self.constants.set_rule(settings)
+    }
+
     fn restart(&mut self) {
         self.reset();
     }

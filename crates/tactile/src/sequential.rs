@@ -59,6 +59,30 @@ impl Threshold {
         };
         Ok(Self { bound, gain })
     }
+
+    /// It as two words.
+    pub const fn words(self) -> [u32; 2] {
+        [self.bound, self.gain as u32]
+    }
+
+    /// The threshold of two [words](Self::words); none if [`new`](Self::new) makes none like
+    /// it, but for its rounding.
+    pub const fn from_words([bound, gain]: [u32; 2]) -> Option<Self> {
+        let most = if gain == 0 { MAX_ODDS } else { ONE / 2 };
+        // Odds of 1e-12 have a gain of 38.
+        if bound > ONE / 4 && bound <= most && gain <= 38 {
+            let gain = gain as u8;
+            Some(Self { bound, gain })
+        } else {
+            None
+        }
+    }
+
+    /// (1 − θ)/θ, rounded up.
+    pub fn odds(self) -> f64 {
+        // 2 to the power of 26 and the gain.
+        f64::from(self.bound) / f64::from_bits((1023 + 26 + u64::from(self.gain)) << 52)
+    }
 }
 
 /// A sequential classifier, made from a model and a threshold.
@@ -236,6 +260,30 @@ mod tests {
     use super::*;
 
     const AT_COMPILE_TIME: Result<Threshold, SetupError> = Threshold::new(0.5);
+
+    #[test]
+    fn thresholds_come_back_from_their_words() {
+        for theta in [f64::MIN_POSITIVE, 0.01, 0.5, 0.79, 0.8, 0.99, 1.0 - 1e-12] {
+            let threshold = Threshold::new(theta).unwrap();
+            assert_eq!(
+                Threshold::from_words(threshold.words()),
+                Some(threshold),
+                "{theta}"
+            );
+        }
+        let odds = Threshold::new(0.8).unwrap().odds();
+        assert!((odds - 0.25).abs() < 1e-7, "{odds}");
+        for words in [
+            [0, 0],
+            [ONE / 4, 0],
+            [ONE, 1],
+            [MAX_ODDS + 1, 0],
+            [ONE / 2, 39],
+            [ONE, 256],
+        ] {
+            assert_eq!(Threshold::from_words(words), None, "{words:?}");
+        }
+    }
 
     #[test]
     fn thresholds_are_checked() {

@@ -199,6 +199,10 @@ impl<V: DecidesBy<R>, R: DecisionRule, W: Words, const K: usize> Streams for Sev
         }
     }
 
+    fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
+        self.constants.set_rule(settings)
+    }
+
     fn restart(&mut self) {
         for stream in &mut self.streams {
             *stream = StreamState::new(&self.constants.rule);

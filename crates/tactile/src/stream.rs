@@ -6,6 +6,7 @@ use core::fmt;
 
 use crate::constants::Constants;
 use crate::decision::Decision;
+use crate::error::SetupError;
 use crate::model::Model;
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
@@ -151,7 +152,7 @@ pub trait Streams {
     /// Where the model lies.
     type Words: Words;
     /// By which they decide.
-    type Rule;
+    type Rule: DecisionRule;
 
     /// What no sample changes.
     fn constants(&self) -> &Constants<Self::Rule, Self::Words>;
@@ -184,6 +185,16 @@ pub trait Streams {
 
     /// Samples of a stream are missing, as [`crate::NaiveBayes::interrupt`].
     fn interrupt_stream(&mut self, stream: usize);
+
+    /// Other settings of the rule take effect; evidence stays.
+    ///
+    /// # Errors
+    ///
+    /// They do not fit the model; nothing has changed.
+    fn set_rule(
+        &mut self,
+        settings: <Self::Rule as DecisionRule>::Settings,
+    ) -> Result<(), SetupError>;
 
     /// Forgets all evidence.
     fn restart(&mut self);

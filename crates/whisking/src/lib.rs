@@ -51,6 +51,7 @@ mod start;
 mod state;
 mod step;
 mod voted;
+mod words;
 
 #[cfg(feature = "bake")]
 pub use bake::Source;
@@ -58,11 +59,12 @@ pub use elementary::Elementary;
 pub use error::{Error, Parameter};
 pub use integrator::Integrator;
 pub use optional::{Absent, Optional, Present};
-pub use real::{Constant, Factor, Factors, FineFactor, Fix, Real};
+pub use real::{Constant, Factor, Factors, FineFactor, Fix, FormatCode, Real};
 pub use settings::{GateSettings, Settings};
 pub use state::{Start, State, Whisker};
 pub use step::{Config, PatternGenerator};
 pub use voted::Voted;
+pub use words::{AsWords, Bound, WordRow};
 
 /// Degrees of the motor per unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
 pub const DEGREES_PER_UNIT: f64 = 100.0;

@@ -9,6 +9,9 @@
 pub trait Optional<T> {
     /// The part, if there is one.
     fn part(&self) -> Option<&T>;
+
+    /// The same, to be changed.
+    fn part_mut(&mut self) -> Option<&mut T>;
 }
 
 /// A part that is there.
@@ -37,11 +40,21 @@ impl<T> Optional<T> for Present<T> {
     fn part(&self) -> Option<&T> {
         Some(&self.0)
     }
+
+    #[inline]
+    fn part_mut(&mut self) -> Option<&mut T> {
+        Some(&mut self.0)
+    }
 }
 
 impl<T> Optional<T> for Absent {
     #[inline]
     fn part(&self) -> Option<&T> {
+        None
+    }
+
+    #[inline]
+    fn part_mut(&mut self) -> Option<&mut T> {
         None
     }
 }
@@ -50,5 +63,10 @@ impl<T> Optional<T> for Option<T> {
     #[inline]
     fn part(&self) -> Option<&T> {
         self.as_ref()
+    }
+
+    #[inline]
+    fn part_mut(&mut self) -> Option<&mut T> {
+        self.as_mut()
     }
 }

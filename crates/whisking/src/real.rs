@@ -8,7 +8,7 @@ mod float;
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::Elementary;
+use crate::{AsWords, Elementary, WordRow};
 
 pub use fix::{Factor, Factors, FineFactor, Fix};
 
@@ -29,6 +29,17 @@ pub trait Constant:
 #[cfg(feature = "bake")]
 impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize> Constant for T {}
 
+/// Which number format it is, with the number by which a PC knows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormatCode {
+    /// `f32`.
+    Single = 1,
+    /// `f64`.
+    Double = 2,
+    /// [`Fix`].
+    Fixed = 3,
+}
+
 /// A number format of the tick.
 ///
 /// States lie within ±4. Constants of the tick have types of their own,
@@ -36,6 +47,7 @@ impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize
 /// of its own.
 pub trait Real:
     Constant
+    + AsWords
     + Elementary
     + Default
     + PartialOrd
@@ -45,17 +57,19 @@ pub trait Real:
     + Neg<Output = Self>
 {
     /// A factor; relative error up to 3.1e-5 in fixed point.
-    type Coefficient: Constant;
+    type Coefficient: Constant + AsWords;
 
     /// A factor below one whose error would accumulate over many ticks.
-    type Fine: Constant;
+    type Fine: Constant + AsWords;
 
     /// `K` factors below one that are used together and share a scale.
-    type Row<const K: usize>: Constant;
+    type Row<const K: usize>: Constant + WordRow;
 
     /// Rounding error that a long sum carries along.
     type Carry: Copy + Debug + Default + PartialEq + 'static;
 
+    /// Which it is.
+    const FORMAT: FormatCode;
     /// 0.
     const ZERO: Self;
     /// 1.

@@ -33,7 +33,8 @@ pub use line::{LINE_BYTES, Line};
 pub use packet::Packet;
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{
-    Command, REQUEST_BYTES, REQUEST_WORDS, TaggedCommand, UnknownCommand, WhiskerId, summed,
+    Command, REQUEST_BYTES, REQUEST_WORDS, SECOND_WORD, SETTINGS_DIFFER, TaggedCommand,
+    UnknownCommand, WhiskerId, summed, word_sum,
 };
 pub use splitter::{Garbled, Piece, Splitter};
 pub use words::{PACKET_BYTES, PACKET_WORDS};

@@ -17,6 +17,21 @@ pub struct WhiskerId {
     pub number: u8,
 }
 
+impl WhiskerId {
+    /// Of its byte in a request.
+    const fn from_byte(byte: u8) -> Self {
+        Self {
+            side: byte >> 4,
+            number: byte & 15,
+        }
+    }
+
+    /// Its byte in a request.
+    const fn byte(self) -> u8 {
+        (self.side & 15) << 4 | self.number & 15
+    }
+}
+
 /// What a module can be told. Between two ticks it is carried out, or refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Command {
@@ -52,6 +67,33 @@ pub enum Command {
     /// Says which model it decides by: the CRC-32 at the end of the model's file and the number
     /// of its classes; or 0 and the negative number of why there is none.
     Model,
+    /// Says a constant of the settings, by its number: its two words. Number 0 says the number
+    /// format, with [`SETTINGS_DIFFER`] in it, and a sum of all constants.
+    Constant(u8),
+    /// Puts a word of a constant aside, until all that belong together are there: the
+    /// constant's number, plus [`SECOND_WORD`] for its second word.
+    Stage(u8, u32),
+    /// Has all words that were put aside take effect between two ticks, if this is their
+    /// [sum](word_sum), in the order of their numbers.
+    Apply(u32),
+    /// Forgets what was put aside.
+    Forget,
+}
+
+/// What the number of a constant's second word has more than that of its first.
+pub const SECOND_WORD: u8 = 1 << 7;
+
+/// In the first value of constant 0, beside the number format in its lowest byte: constants
+/// differ from those that the program was built with.
+pub const SETTINGS_DIFFER: u32 = 1 << 8;
+
+/// The sum of numbered words: FNV-1a by words, which any change of one word changes, and a word
+/// more or less.
+pub fn word_sum(words: impl Iterator<Item = (u8, u32)>) -> u32 {
+    words.fold(0x811C_9DC5, |sum, (number, word)| {
+        let add = |sum: u32, word: u32| (sum ^ word).wrapping_mul(0x0100_0193);
+        add(add(sum, number.into()), word)
+    })
 }
 
 /// A command with its tag.
@@ -90,6 +132,10 @@ impl Command {
             Self::Release(_) => 11,
             Self::Version => 12,
             Self::Model => 13,
+            Self::Constant(_) => 14,
+            Self::Stage(..) => 15,
+            Self::Apply(_) => 18,
+            Self::Forget => 19,
         }
     }
 
@@ -109,6 +155,10 @@ impl Command {
             Self::Release(_) => "release",
             Self::Version => "version",
             Self::Model => "model",
+            Self::Constant(_) => "constant",
+            Self::Stage(..) => "stage",
+            Self::Apply(_) => "apply",
+            Self::Forget => "forget",
         }
     }
 
@@ -116,9 +166,16 @@ impl Command {
     const fn parts(self) -> (WhiskerId, i32) {
         const ALL: WhiskerId = WhiskerId { side: 0, number: 0 };
         match self {
-            Self::Hello | Self::Status | Self::Arm | Self::Stop | Self::Version | Self::Model => {
-                (ALL, 0)
-            }
+            Self::Hello
+            | Self::Status
+            | Self::Arm
+            | Self::Stop
+            | Self::Version
+            | Self::Model
+            | Self::Forget => (ALL, 0),
+            Self::Constant(number) => (WhiskerId::from_byte(number), 0),
+            Self::Stage(number, word) => (WhiskerId::from_byte(number), word.cast_signed()),
+            Self::Apply(sum) => (ALL, sum.cast_signed()),
             Self::Name(from) => (ALL, from as i32),
             Self::Stream(on) => (ALL, on as i32),
             Self::Clear(whisker) | Self::Home(whisker) | Self::Release(whisker) => (whisker, 0),
@@ -142,6 +199,10 @@ impl Command {
             11 => Self::Release(whisker),
             12 => Self::Version,
             13 => Self::Model,
+            14 => Self::Constant(whisker.byte()),
+            15 => Self::Stage(whisker.byte(), value.cast_unsigned()),
+            18 => Self::Apply(value.cast_unsigned()),
+            19 => Self::Forget,
             _ => return None,
         })
     }
@@ -151,8 +212,10 @@ impl TaggedCommand {
     /// As it is sent: tag, number and whisker; value; sum.
     pub const fn words(&self) -> [u32; REQUEST_WORDS] {
         let (whisker, value) = self.command.parts();
-        let place = (whisker.side & 15) << 4 | whisker.number & 15;
-        let first = word(self.tag, u16::from_le_bytes([self.command.number(), place]));
+        let first = word(
+            self.tag,
+            u16::from_le_bytes([self.command.number(), whisker.byte()]),
+        );
         let value = value.cast_unsigned();
         [first, value, sum(first, value)]
     }
@@ -181,10 +244,7 @@ impl TaggedCommand {
         let [first, value] = words;
         let [tag, what] = halves(first);
         let [command, place] = what.to_le_bytes();
-        let whisker = WhiskerId {
-            side: place >> 4,
-            number: place & 15,
-        };
+        let whisker = WhiskerId::from_byte(place);
         let known = Command::from_parts(command, whisker, value.cast_signed());
         known
             .map(|command| Self { tag, command })
@@ -212,12 +272,15 @@ const fn sum(first: u32, value: u32) -> u32 {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{Command, REQUEST_BYTES, TaggedCommand, UnknownCommand, WhiskerId, summed};
+    use super::{
+        Command, REQUEST_BYTES, TaggedCommand, UnknownCommand, WhiskerId, summed, word_sum,
+    };
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
-        (0..13_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+        (0..17_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
+            let word = value.cast_unsigned();
             match which {
                 0 => Command::Hello,
                 1 => Command::Status,
@@ -231,7 +294,11 @@ mod tests {
                 9 => Command::Setpoint(whisker, value),
                 10 => Command::Release(whisker),
                 11 => Command::Version,
-                _ => Command::Model,
+                12 => Command::Model,
+                13 => Command::Constant(name),
+                14 => Command::Stage(name, word.rotate_left(8)),
+                15 => Command::Apply(word),
+                _ => Command::Forget,
             }
         })
     }
@@ -283,6 +350,22 @@ mod tests {
             command: Command::Arm,
         };
         assert_eq!(request.words()[2], PYTHON);
+    }
+
+    #[test]
+    fn every_word_and_its_number_are_in_the_sum() {
+        let words = [(6, 0x40E0_0000), (134, 1)];
+        let sum = |words: &[(u8, u32)]| word_sum(words.iter().copied());
+        // Worked out in Python: s = (s ^ x) * 0x01000193 & 0xFFFFFFFF for 6, 0x40E00000, 134, 1.
+        assert_eq!(sum(&words), 0x96A5_35B2);
+        for others in [
+            &words[..1],
+            &[],
+            &[words[1], words[0]],
+            &[(7, 0x40E0_0000), (134, 1)],
+        ] {
+            assert_ne!(sum(others), sum(&words), "{others:?}");
+        }
     }
 
     /// See the test.

@@ -2,8 +2,14 @@
 //! made of it: checked by a sum while the core is idle. A mismatch is a fault of the board,
 //! and a reset makes anew what is in RAM.
 //!
+//! A command may change settings, and the rule of the classifier with them. Then the tick that
+//! carries it out holds both against their sums just before, and gives them new ones just after
+//! ([`Changed`]): nothing else renews a sum.
+//!
 //! Some words of each are looked at in every tick: settings of 150 words once in ten ticks, a
 //! model of 12 KiB once in 200.
+
+use core::sync::atomic::{AtomicU32, Ordering};
 
 use firmware::faults::number;
 
@@ -63,19 +69,73 @@ impl Region {
         })
     }
 
-    /// Looks at some words more. Does not come back from a fault.
-    fn step(&mut self) {
+    /// Looks at some words more, after so many [`CHANGES`]. Does not come back from a fault.
+    fn step(&mut self, changes: u32) {
         let end = self.span.words.min(self.next.saturating_add(WORDS));
         self.so_far = self.add(self.so_far, self.next..end);
         self.next = end;
         if end < self.span.words {
             return;
         }
-        if self.so_far != self.sum {
-            faults::die(self.fault, || {});
-        }
+        let is_whole = self.so_far == self.sum;
         self.next = 0;
         self.so_far = 0;
+        // A tick that has changed it meanwhile has done so before it counted.
+        if !is_whole && CHANGES.load(Ordering::Relaxed) == changes {
+            faults::die(self.fault, || {});
+        }
+    }
+
+    /// Whether all of it is as it was, at once.
+    fn holds(&self) -> bool {
+        self.add(0, 0..self.span.words) == self.sum
+    }
+
+    /// Begins anew with another sum.
+    const fn renew(&mut self, sum: u32) {
+        self.sum = sum;
+        self.next = 0;
+        self.so_far = 0;
+    }
+}
+
+/// How often the tick has changed what is to stay as it is, and the sums of settings and
+/// classifier since. Idle reads them, the tick, which idle cannot interrupt, writes them.
+static CHANGES: AtomicU32 = AtomicU32::new(0);
+static SUMS: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+
+/// How often settings were changed by command.
+pub(crate) fn changes() -> u32 {
+    CHANGES.load(Ordering::Relaxed)
+}
+
+/// Settings and classifier around a change by the tick.
+pub(crate) struct Changed([Region; 2]);
+
+impl Changed {
+    /// Their sums as they are at the start.
+    pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
+        let [_, classifier, _] = scene::constants(perception);
+        Self([
+            Region::new(Span::of(settings), number::SETTINGS),
+            Region::new(classifier, number::MODEL),
+        ])
+    }
+
+    /// Before a change: whether both are what they were after the last. Where they are not,
+    /// nothing must change, and idle's walk will find the fault.
+    pub(crate) fn holds(&self) -> bool {
+        self.0.iter().all(Region::holds)
+    }
+
+    /// After it: their sums are renewed.
+    pub(crate) fn after(&mut self) {
+        for (region, sum) in self.0.iter_mut().zip(&SUMS) {
+            region.renew(region.add(0, 0..region.span.words));
+            sum.store(region.sum, Ordering::Relaxed);
+        }
+        let changes = CHANGES.load(Ordering::Relaxed);
+        CHANGES.store(changes.wrapping_add(1), Ordering::Release);
     }
 }
 
@@ -98,25 +158,39 @@ fn word(address: usize) -> u32 {
     word
 }
 
-/// The walk over all.
-pub(crate) struct Integrity([Region; 4]);
+/// The walk over all, the settings and the classifier first.
+pub(crate) struct Integrity {
+    regions: [Region; 4],
+    /// Of [`CHANGES`], those whose sums it has.
+    changes: u32,
+}
 
 impl Integrity {
     /// Their sums as they are now; both stay where they are.
     pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
         let [model, classifier, factors] = scene::constants(perception);
-        Self([
-            Region::new(Span::of(settings), number::SETTINGS),
-            Region::new(model, number::MODEL),
-            Region::new(classifier, number::MODEL),
-            Region::new(factors, number::MODEL),
-        ])
+        Self {
+            regions: [
+                Region::new(Span::of(settings), number::SETTINGS),
+                Region::new(classifier, number::MODEL),
+                Region::new(model, number::MODEL),
+                Region::new(factors, number::MODEL),
+            ],
+            changes: 0,
+        }
     }
 
     /// Looks at some words more of each. Does not come back from a fault.
     pub(crate) fn step(&mut self) {
-        for region in &mut self.0 {
-            region.step();
+        let changes = CHANGES.load(Ordering::Acquire);
+        if changes != self.changes {
+            self.changes = changes;
+            for (region, sum) in self.regions.iter_mut().zip(&SUMS) {
+                region.renew(sum.load(Ordering::Relaxed));
+            }
+        }
+        for region in &mut self.regions {
+            region.step(changes);
         }
     }
 }

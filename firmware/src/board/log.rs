@@ -107,7 +107,49 @@ pub(crate) fn requested(command: wire::Command) {
     match command {
         wire::Command::Arm => defmt::info!("to be armed, by command"),
         wire::Command::Stop => defmt::info!("to be stopped, by command"),
+        wire::Command::Stage(number, word) => staged(number, word),
         _ => {}
+    }
+}
+
+macro_rules! names {
+    ($($number:literal $constant:ident: $name:literal;)*) => {
+        /// What a constant is, or the first of those that it belongs to.
+        fn constant_name(number: u8) -> defmt::Str {
+            let mut name = defmt::intern!("unknown");
+            $(if number >= $number {
+                name = defmt::intern!($name);
+            })*
+            name
+        }
+    };
+}
+firmware::tunable_table!(names);
+
+/// A word of a constant was put aside.
+fn staged(number: u8, word: u32) {
+    let constant = number & !wire::SECOND_WORD;
+    let which = if constant == number {
+        ""
+    } else {
+        ", second word"
+    };
+    let name = constant_name(constant);
+    defmt::info!(
+        "to be set: constant {=u8} ({=istr}){=str}: {=u32:#010x}",
+        constant,
+        name,
+        which,
+        word
+    );
+}
+
+/// Settings were changed by command, or were some time ago.
+pub(crate) fn tuned(differ: bool) {
+    if differ {
+        defmt::warn!("settings differ from the scene's: whisker get says which");
+    } else {
+        defmt::info!("settings are the scene's");
     }
 }
 

@@ -35,7 +35,7 @@ pub struct Module {
     inner: Inner,
     telemetry: Telemetry,
     /// In RAM, where they can be changed.
-    settings: &'static Settings,
+    settings: &'static mut Settings,
     /// The next full second, in [`TICKS`].
     second: u32,
 }
@@ -111,6 +111,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     let model = scene::model(perception);
     log::model(model);
     let counter = Counter::start(core);
+    let telemetry = Telemetry::new(settings, perception, model);
     let mut inner = firmware::Module::new(sources, motion, perception, counter);
     if scene::HAS_MOTOR {
         match start.may_arm(scene::ARMS_AT_START) {
@@ -126,7 +127,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     cortex_m::asm::delay(CLOCKS.start_up_cycles());
     let module = Module {
         inner,
-        telemetry: Telemetry::new(model),
+        telemetry,
         settings,
         second: TICK_HZ,
     };
@@ -231,6 +232,7 @@ pub(crate) struct Idle {
     fed: u32,
     logged: u32,
     before: log::Health,
+    tuned: telemetry::Tuned,
 }
 
 impl Idle {
@@ -246,6 +248,7 @@ impl Idle {
             fed: 0,
             logged: 0,
             before: log::Health::default(),
+            tuned: telemetry::Tuned::new(),
         }
     }
 
@@ -264,6 +267,7 @@ impl Idle {
         }
         self.pins.show(now);
         telemetry::hear();
+        self.tuned.tell(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();

@@ -41,13 +41,20 @@ pub trait SampleClassifier {
     fn reset(&mut self);
 }
 
+/// A classifier whose rule has settings `D`.
+pub trait TakesRule<D> {
+    /// Another setting of its rule takes effect; evidence stays.
+    fn set_rule(&mut self, settings: &D);
+}
+
 /// Constants of [`Classifying`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClassifyingConfig<T, D> {
     /// Samples count only while the contact of their whisker is at least this;
     /// absent: always.
     pub contact_min: T,
-    /// Settings of the decision rule, with which the classifier is made.
+    /// Settings of the decision rule, with which the classifier is made; where they change,
+    /// it is to be [told](Perception::retune).
     pub rule: D,
 }
 
@@ -154,7 +161,7 @@ impl<R, T, D, L, const A: usize, const B: usize, const S: usize, const N: usize>
 where
     R: Real,
     T: Optional<R>,
-    L: SampleClassifier,
+    L: SampleClassifier + TakesRule<D>,
 {
     #[inline]
     fn step(
@@ -188,5 +195,9 @@ where
                 }
             }
         }
+    }
+
+    fn retune(&mut self, config: &ClassifyingConfig<T, D>) {
+        self.classifier.set_rule(&config.rule);
     }
 }

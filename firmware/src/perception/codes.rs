@@ -1,8 +1,8 @@
 //! A classifier of the sensors' codes.
 
-use tactile::{Constants, Decision, Model, Streams, Words};
+use tactile::{Constants, Decision, DecisionRule, Model, Streams, Words};
 
-use super::{Sample, SampleClassifier};
+use super::{Sample, SampleClassifier, TakesRule};
 
 /// Naive Bayes on the codes of sensors; `B` says of how many whiskers, and how they
 /// decide ([`tactile::NaiveBayes`], [`tactile::Each`], [`tactile::Together`]).
@@ -56,6 +56,16 @@ impl<B: Streams> CodeClassifier<B> {
     /// What no sample changes: its model and rule, and the factors of its codes.
     pub fn constants(&self) -> (&Constants<B::Rule, B::Words>, &[i32; 2]) {
         (self.bayes.constants(), &self.factors)
+    }
+}
+
+impl<B: Streams, D: Copy> TakesRule<D> for CodeClassifier<B>
+where
+    B::Rule: DecisionRule<Settings = D>,
+{
+    fn set_rule(&mut self, settings: &D) {
+        // What does not fit the model changes nothing.
+        let _ = self.bayes.set_rule(*settings);
     }
 }
 

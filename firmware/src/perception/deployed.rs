@@ -3,7 +3,7 @@
 
 use tactile::{Decision, Model, ModelError, SetupError, Streams, Words};
 
-use super::{CodeClassifier, Sample, SampleClassifier};
+use super::{CodeClassifier, Sample, SampleClassifier, TakesRule};
 
 macro_rules! refusals {
     ($($(#[doc = $doc:literal])+ $name:ident = $code:literal: $text:literal;)*) => {
@@ -181,6 +181,18 @@ impl<B: Streams> Deployed<B> {
         match &self.0 {
             Ok(classifier) => ModelState::of(classifier.bayes().model()),
             Err(refusal) => ModelState::Refused(*refusal),
+        }
+    }
+}
+
+/// Without a model there is no rule to set.
+impl<B, D> TakesRule<D> for Deployed<B>
+where
+    CodeClassifier<B>: TakesRule<D>,
+{
+    fn set_rule(&mut self, settings: &D) {
+        if let Ok(classifier) = &mut self.0 {
+            classifier.set_rule(settings);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use firmware::{
     About, Clock, Config, Event, Link, ModelState, Module, Motion, MotorControl, Notes, PacketSink,
-    WordSource,
+    Perception, Tunable, Tuning, WordSource,
 };
 use scene::Scene;
 use whisking::{Optional, Real, filter};
@@ -12,6 +12,7 @@ use wire::{PACKET_WORDS, Packet, TaggedCommand};
 pub(super) struct Line {
     link: Link,
     notes: Notes,
+    tuning: Tuning,
     ticks: u32,
     sent: Sent,
     name: String,
@@ -36,6 +37,7 @@ impl Line {
         Self {
             link: Link::new(),
             notes: Notes::new(),
+            tuning: Tuning::new(),
             ticks: 0,
             sent: Sent::default(),
             name: scene.name.clone(),
@@ -48,6 +50,7 @@ impl Line {
     pub(super) fn restart(&mut self) {
         self.link = Link::new();
         self.notes = Notes::new();
+        self.tuning = Tuning::new();
         self.ticks = 0;
         self.sent.0.clear();
     }
@@ -79,14 +82,21 @@ impl Line {
     pub(super) fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
         &mut self,
         module: &mut Module<R, F, M, P, C, S, N>,
-        config: &Config<MC, PC, H>,
+        config: &mut Config<MC, PC, H>,
         request: TaggedCommand,
     ) where
         R: Real,
         F: WordSource,
         M: Motion<R, MC, S, N> + MotorControl<R>,
+        P: Perception<R, PC, S, N>,
         C: Clock,
+        Config<MC, PC, H>: Tunable<R>,
     {
+        let tuned = self.tuning.carry_out(module, config, request, self.ticks);
+        if let Some(answer) = tuned {
+            self.link.reply(answer);
+            return;
+        }
         let about = About {
             name: &self.name,
             tick_hz: self.tick_hz,

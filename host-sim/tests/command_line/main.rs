@@ -18,3 +18,4 @@ mod refuses_models;
 mod refuses_recordings;
 mod refuses_scenes;
 mod settings;
+mod tuning;

@@ -18,7 +18,8 @@ pub(crate) struct Arguments {
     /// For how long; without it as long as the scene lasts
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
-    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]], such as 1.5 gain left 0.5;
+    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]] or TIME set KEY VALUE, such as
+    /// 1.5 gain left 0.5;
     /// what became of each is printed
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
@@ -28,6 +29,7 @@ pub(crate) struct Arguments {
 pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     let script = arguments.script.as_deref().map(Script::load);
     let mut script = script.transpose()?.unwrap_or_default();
+    script.prepare(&arguments.source)?;
     let mut module = Conversation::new(arguments.source.open(0)?);
     module.source().has_log()?;
     let most = arguments.seconds.or(module.source().duration_s());
@@ -39,7 +41,10 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     };
     let mut lines = 0_u64;
     while most.is_none_or(|most| module.source().now_s() - begun < most) {
-        script.play(&mut module)?;
+        if let Some(line) = script.play(&mut module)? {
+            lines += 1;
+            report::say(line);
+        }
         let heard = module.hear()?;
         let answers = heard.packets.iter();
         let answers = answers.filter_map(|packet| script.answered(packet, tick_hz));

@@ -34,7 +34,8 @@ pub(crate) struct Arguments {
         required_unless_present = "file"
     )]
     out: Option<PathBuf>,
-    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]], such as 1.5 gain left 0.5;
+    /// Commands for the module: lines TIME COMMAND [SIDE [VALUE]] or TIME set KEY VALUE, such as
+    /// 1.5 gain left 0.5;
     /// what became of each is printed
     #[arg(long, value_name = "FILE", conflicts_with = "file")]
     script: Option<PathBuf>,
@@ -67,6 +68,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     };
     let script = arguments.script.as_deref().map(Script::load);
     let mut script = script.transpose()?.unwrap_or_default();
+    script.prepare(&arguments.source)?;
     let mut module = Conversation::new(arguments.source.open(0)?);
     let most = arguments.seconds.or(module.source().duration_s());
     if most.is_none() {
@@ -85,7 +87,9 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
     let mut first = None;
     'heard: loop {
-        script.play(&mut module)?;
+        if let Some(line) = script.play(&mut module)? {
+            progress.pause(|| say(line));
+        }
         let heard = module.hear()?;
         for packet in &heard.packets {
             if let Some(line) = script.answered(packet, about.tick_hz) {

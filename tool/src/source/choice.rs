@@ -125,6 +125,13 @@ impl SourceChoice {
     }
 }
 
+impl SourceChoice {
+    /// Whether the module is a simulated one.
+    pub(crate) const fn is_simulated(&self) -> bool {
+        self.sim.is_some()
+    }
+}
+
 /// A time in seconds, as an option has it.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();

@@ -12,3 +12,4 @@ mod order;
 mod port;
 mod records;
 mod script;
+mod tuning;

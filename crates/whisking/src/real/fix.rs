@@ -8,13 +8,14 @@
 mod factor;
 #[cfg(test)]
 mod tests;
+mod words;
 
 use core::ops::{Add, Mul, Neg, Sub};
 
 use factor::{FRACTION, SATURATED};
 pub use factor::{Factor, Factors, FineFactor};
 
-use super::Real;
+use super::{FormatCode, Real};
 use crate::Elementary;
 use crate::math::fixed;
 use crate::math::product::{by_top, high_rounded};
@@ -77,6 +78,7 @@ impl Real for Fix {
     type Row<const K: usize> = Factors<K>;
     /// The bits below the last one of the sum.
     type Carry = i64;
+    const FORMAT: FormatCode = FormatCode::Fixed;
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1 << FRACTION);
     const TWO: Self = Self(2 << FRACTION);

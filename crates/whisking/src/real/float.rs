@@ -1,6 +1,6 @@
 //! f32 and f64 as number formats of the tick.
 
-use super::Real;
+use super::{FormatCode, Real};
 use crate::Elementary;
 use crate::math::single;
 
@@ -123,6 +123,7 @@ macro_rules! float {
 }
 
 impl Real for f32 {
+    const FORMAT: FormatCode = FormatCode::Single;
     float!(f32);
 }
 
@@ -131,6 +132,7 @@ impl Real for f32 {
     reason = "one macro serves both widths; integers are exact in the wider"
 )]
 impl Real for f64 {
+    const FORMAT: FormatCode = FormatCode::Double;
     float!(f64);
 }
 

@@ -16,3 +16,4 @@ mod oscillator_terms;
 mod phase_noise;
 mod pins;
 mod settings;
+mod words;

@@ -3,7 +3,7 @@
 use firmware::{Event, ModelState};
 
 use crate::board::inner::Inner;
-use crate::board::scene::Settings;
+use crate::board::scene::{Perception, Settings};
 
 /// There is nothing to hear.
 pub(crate) fn hear() {}
@@ -22,9 +22,20 @@ pub(crate) fn note(_: &Event) {}
 pub(crate) struct Telemetry;
 
 impl Telemetry {
-    pub(crate) const fn new(_: ModelState) -> Self {
+    pub(crate) const fn new(_: &Settings, _: &Perception, _: ModelState) -> Self {
         Self
     }
 
-    pub(crate) fn work(&mut self, _: &mut Inner, _: &Settings, _: u32) {}
+    pub(crate) fn work(&mut self, _: &mut Inner, _: &mut Settings, _: u32) {}
+}
+
+/// Nothing changes settings.
+pub(crate) struct Tuned;
+
+impl Tuned {
+    pub(crate) const fn new() -> Self {
+        Self
+    }
+
+    pub(crate) fn tell(&mut self, _: u32) {}
 }

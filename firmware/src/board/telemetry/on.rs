@@ -2,13 +2,14 @@
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use firmware::{About, Event, Link, ModelState, Notes, PacketSink};
-use wire::{Command, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
+use firmware::{About, Event, Link, ModelState, Notes, PacketSink, Tuning};
+use wire::{Command, CommandStatus, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
 
 use crate::board::inner::Inner;
+use crate::board::integrity::{self, Changed};
 use crate::board::log;
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
-use crate::board::scene::{HAS_SERIAL, NAME, Settings, TICK_HZ};
+use crate::board::scene::{HAS_SERIAL, NAME, Perception, Settings, TICK_HZ};
 
 /// A request from idle to the tick: its words but for the sum, which is right.
 static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
@@ -151,6 +152,20 @@ pub(crate) fn note(event: &Event) {
     NOTES.note(event);
 }
 
+/// Whether settings differ from the scene's.
+static DIFFER: AtomicBool = AtomicBool::new(false);
+
+/// How often the log says so, s.
+const AGAIN_S: u32 = 60;
+
+/// Whether a command is about constants.
+const fn is_tuning(command: Command) -> bool {
+    matches!(
+        command,
+        Command::Constant(_) | Command::Stage(..) | Command::Apply(_) | Command::Forget
+    )
+}
+
 /// The module's end of the link.
 pub(crate) struct Telemetry {
     link: Link,
@@ -158,11 +173,14 @@ pub(crate) struct Telemetry {
     about: About<'static>,
     /// What is to be answered came by the serial port.
     is_by_serial: bool,
+    tuning: Tuning,
+    changed: Changed,
 }
 
 impl Telemetry {
-    /// Of a module that decides by this model.
-    pub(crate) const fn new(model: ModelState) -> Self {
+    /// Of a module with these settings and this perception, which stay where they are, and
+    /// which decides by this model.
+    pub(crate) fn new(settings: &Settings, perception: &Perception, model: ModelState) -> Self {
         Self {
             link: Link::new(),
             packets: Packets::new(),
@@ -172,12 +190,14 @@ impl Telemetry {
                 model,
             },
             is_by_serial: false,
+            tuning: Tuning::new(),
+            changed: Changed::new(settings, perception),
         }
     }
 
     /// Sends what is to be told after a tick, the `tick`-th since the start, and carries out
     /// what was asked for.
-    pub(crate) fn work(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
+    pub(crate) fn work(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
         let Self { link, packets, .. } = self;
         link.send(module, settings, tick, &NOTES, packets);
         if !link.is_free() || IS_FULL.load(Ordering::Relaxed) {
@@ -187,10 +207,9 @@ impl Telemetry {
 
     /// Answers what was asked for, and carries out what is.
     #[cold]
-    fn talk(&mut self, module: &mut Inner, settings: &Settings, tick: u32) {
+    fn talk(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
         self.answer();
-        let Self { link, about, .. } = self;
-        if link.is_free() && IS_FULL.load(Ordering::Acquire) {
+        if self.link.is_free() && IS_FULL.load(Ordering::Acquire) {
             let [first, value] = &INBOX;
             let words = [first, value].map(|word| word.load(Ordering::Relaxed));
             // Erased too: no command has the number 0.
@@ -198,8 +217,14 @@ impl Telemetry {
             self.is_by_serial = IS_BY_SERIAL.load(Ordering::Relaxed);
             IS_FULL.store(false, Ordering::Release);
             match TaggedCommand::from_words(words) {
-                Ok(request) => link.carry_out(module, settings, request, *about, tick),
-                Err(unknown) => link.refuse(unknown, tick),
+                Ok(request) if is_tuning(request.command) => {
+                    self.tune(module, settings, request, tick);
+                }
+                Ok(request) => {
+                    let about = self.about;
+                    self.link.carry_out(module, settings, request, about, tick);
+                }
+                Err(unknown) => self.link.refuse(unknown, tick),
             }
             self.answer();
         }
@@ -213,6 +238,62 @@ impl Telemetry {
             self.link.answer(&mut SerialAnswer);
         } else {
             self.link.answer(&mut self.packets);
+        }
+    }
+
+    /// Reads or changes constants.
+    fn tune(
+        &mut self,
+        module: &mut Inner,
+        settings: &mut Settings,
+        request: TaggedCommand,
+        tick: u32,
+    ) {
+        let Self {
+            link,
+            tuning,
+            changed,
+            ..
+        } = self;
+        let changes = matches!(request.command, Command::Apply(_));
+        // The last thing that is asked for: idle resets the board.
+        if changes && !changed.holds() {
+            return;
+        }
+        let Some(answer) = tuning.carry_out(module, settings, request, tick) else {
+            return;
+        };
+        if changes && answer.status == CommandStatus::Done {
+            changed.after();
+            DIFFER.store(tuning.differs(), Ordering::Relaxed);
+        }
+        link.reply(answer);
+    }
+}
+
+/// What the log says of settings that were changed; for idle.
+pub(crate) struct Tuned {
+    /// How often they were when it said so last, and in which tick that was.
+    changes: u32,
+    told: u32,
+}
+
+impl Tuned {
+    pub(crate) const fn new() -> Self {
+        Self {
+            changes: 0,
+            told: 0,
+        }
+    }
+
+    /// Says it after every change, and once a minute while settings differ from the scene's.
+    pub(crate) fn tell(&mut self, now: u32) {
+        let changes = integrity::changes();
+        let differ = DIFFER.load(Ordering::Relaxed);
+        let is_due = differ && now.wrapping_sub(self.told) >= AGAIN_S.wrapping_mul(TICK_HZ);
+        if changes != self.changes || is_due {
+            (self.changes, self.told) = (changes, now);
+            log::tuned(differ);
         }
     }
 }

@@ -1,0 +1,115 @@
+//! `whisker get`: what a module has beside what its scene says.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use host_sim::{Error, report};
+use scene::key_facts;
+
+use crate::conversation::Conversation;
+use crate::source::SourceChoice;
+use crate::tuning::{LIVE, Tuner, live_key};
+
+/// Which module, and which scene its program is of.
+#[derive(Debug, Args)]
+pub(crate) struct Which {
+    #[command(flatten)]
+    pub(super) source: SourceChoice,
+    /// The scene file of the module's program; without it that of the module's option
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
+}
+
+impl Which {
+    /// Its scene file.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if nothing says which.
+    pub(super) fn scene_file(&self) -> Result<&Path, Error> {
+        let file = self.scene.as_deref().or(self.source.scene());
+        file.ok_or_else(|| {
+            let fault = "which scene is the module's program of? allowed: --scene FILE";
+            Error::Input(fault.to_owned())
+        })
+    }
+
+    /// Who sets its keys.
+    pub(super) fn tuner(&self) -> Result<Tuner, Error> {
+        Tuner::open(self.scene_file()?, self.source.is_simulated())
+    }
+}
+
+/// What is asked for.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    /// Which keys; without any all that can be set
+    #[arg(value_name = "KEY")]
+    keys: Vec<String>,
+    /// Prints the table of all keys that can be set; asks no module
+    #[arg(long, group = "source", conflicts_with_all = ["keys", "scene"])]
+    list: bool,
+    #[command(flatten)]
+    which: Which,
+}
+
+/// Prints what the module has.
+pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
+    if arguments.list {
+        report::say(list().trim_end());
+        return Ok(());
+    }
+    let tuner = arguments.which.tuner()?;
+    for key in &arguments.keys {
+        live_key(key, tuner.scene()).map_err(Error::Input)?;
+    }
+    let mut module = Conversation::new(arguments.which.source.open(0)?);
+    let has = tuner.look(&mut module)?;
+    let values = has.values(tuner.scene());
+    let keys: Vec<&str> = arguments.keys.iter().map(String::as_str).collect();
+    for key in &keys {
+        if !values.iter().any(|(known, ..)| known == key) {
+            let fault = format!("{key}: its part is not in the module's program");
+            return Err(Error::Input(fault));
+        }
+    }
+    report::say(table(&values, &keys));
+    if let Some(unexplained) = has.unexplained() {
+        report::say(unexplained);
+    }
+    Ok(())
+}
+
+/// The table of all keys that can be set, in Markdown.
+fn list() -> String {
+    let mut text = String::from("| key | value | unit | what to watch |\n|---|---|---|---|\n");
+    for live in LIVE {
+        let facts = key_facts(live.key);
+        let (allowed, unit) =
+            facts.map_or_else(Default::default, |facts| (facts.allowed, facts.unit));
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "| `{}` | {allowed} | {unit} | {} |",
+            live.key, live.watch
+        );
+    }
+    text
+}
+
+/// Lines of keys with the values of scene and module: of `keys`, or of all.
+pub(super) fn table(values: &[(&str, f64, f64)], keys: &[&str]) -> String {
+    let mut text = format!("{:<26}{:>12}{:>12}", "key", "scene", "module");
+    for (key, file, module) in values {
+        if !keys.is_empty() && !keys.contains(key) {
+            continue;
+        }
+        let unit = key_facts(key).map_or("", |facts| facts.unit);
+        let differs = if file == module { "" } else { "differs" };
+        let line = format!("{key:<26}{file:>12}{module:>12}  {differs:<8}{unit}");
+        // Writing to a string does not fail.
+        let _ = write!(text, "\n{}", line.trim_end());
+    }
+    text
+}

@@ -1,0 +1,109 @@
+//! Values put into the text of a scene file, whose comments and order stay.
+
+use host_sim::Error;
+use scene::{Override, Scene};
+use toml_edit::{DocumentMut, Item, TableLike, Value};
+
+/// The text of `file` with these values in it, which is read again as the scene that they come
+/// to.
+///
+/// # Errors
+/// [`Error::Input`] for values that the scene refuses.
+pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String, Error> {
+    let refused = |problems: scene::Problems| Error::Input(problems.to_string());
+    // What is wrong is told by its key and value.
+    let (wanted, _) = Scene::from_str_with(file, text, values).map_err(refused)?;
+    plan::check(&wanted).map_err(|fault| Error::Input(format!("{file}: {fault}")))?;
+    let wrong = |fault: String| Error::Work(format!("{file}: {fault}; nothing was saved"));
+    let mut document: DocumentMut = text
+        .parse()
+        .map_err(|fault: toml_edit::TomlError| wrong(fault.to_string()))?;
+    for one in values {
+        let value = value(one.value());
+        put(&mut document, one.key(), value).map_err(wrong)?;
+    }
+    let edited = document.to_string();
+    let found = Scene::from_str(file, &edited).map_err(refused)?;
+    if found == wanted {
+        Ok(edited)
+    } else {
+        Err(wrong(
+            "its text could not be edited as it should be".to_owned(),
+        ))
+    }
+}
+
+/// TOML, or a word without its quotes.
+fn value(text: &str) -> Value {
+    text.parse().unwrap_or_else(|_| Value::from(text))
+}
+
+fn put(document: &mut DocumentMut, path: &str, value: Value) -> Result<(), String> {
+    let (section, key) = path.split_once('.').unwrap_or(("", path));
+    let table: &mut dyn TableLike = if section.is_empty() {
+        document.as_table_mut()
+    } else {
+        let item = document.entry(section).or_insert_with(toml_edit::table);
+        let fault = || format!("{section} is no table");
+        item.as_table_like_mut().ok_or_else(fault)?
+    };
+    match table.get_mut(key).and_then(Item::as_value_mut) {
+        Some(place) => {
+            // A remark behind it stays.
+            let decor = place.decor().clone();
+            *place = value;
+            *place.decor_mut() = decor;
+        }
+        None => {
+            table.insert(key, Item::Value(value));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use scene::Override;
+
+    use super::edit;
+
+    const SCENE: &str = "# A scene.\nname = 'a'\ntick_hz = 2000 # Hz\nduration_s = 1\nseed = 1\n\
+                         head = { whiskers_per_side = 1, sides = 'left' }\n\
+                         plant.kind = 'ideal'\n\n# It whisks.\n[whisking]\nfrequency_hz = 2.0  # slow\n\
+                         integrator = 'exact'\ncoupling = false\nnoise = 0.0\ngain = 1.0\n\
+                         start = [[1.0, 0.0]]\n";
+
+    fn edited(values: &[&str]) -> Result<String, String> {
+        let values: Vec<Override> = values.iter().map(|value| value.parse().unwrap()).collect();
+        edit("a.toml", SCENE, &values).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn comments_and_order_stay() {
+        let found = edited(&["whisking.frequency_hz=3.5", "tick_hz=1000"]).unwrap();
+        let expected = SCENE.replace("frequency_hz = 2.0 ", "frequency_hz = 3.5 ");
+        assert_eq!(found, expected.replace("2000", "1000"));
+    }
+
+    #[test]
+    fn what_is_not_there_is_added_to_its_table() {
+        let found = edited(&["motor.kp=0.07", "motor.kd=0.001"]).unwrap();
+        assert_eq!(found, format!("{SCENE}\n[motor]\nkp = 0.07\nkd = 0.001\n"));
+        let found = edited(&["whisking.numbers=fixed"]).unwrap();
+        assert_eq!(found, format!("{SCENE}numbers = \"fixed\"\n"));
+        let found = edited(&["plant.obstacle_deg=[100.0]", "plant.stiffness=0.1"]).unwrap();
+        let added = "plant.kind = 'ideal'\nplant.obstacle_deg = [100.0]\nplant.stiffness = 0.1\n";
+        assert_eq!(found, SCENE.replace("plant.kind = 'ideal'\n", added));
+    }
+
+    #[test]
+    fn what_the_scene_refuses_is_told_by_its_key() {
+        let fault = edited(&["whisking.frequency_hz=99"]).unwrap_err();
+        assert!(
+            fault.contains("whisking.frequency_hz: found 99; allowed: a number from 0.05 to 25"),
+            "{fault}"
+        );
+        let fault = edited(&["motor.min_deg=170"]).unwrap_err();
+        assert!(fault.contains("allowed: below max_deg"), "{fault}");
+    }
+}
