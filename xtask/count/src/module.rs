@@ -11,7 +11,7 @@ use firmware::{
     CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
 };
 use mlx90333::{Decoder, FRAME_LEN};
-use tactile::{Model, Sequential};
+use tactile::{Model, Sequential, Threshold};
 use whisking::motor::HBridge;
 use whisking::{Absent, Present, Start, State, filter, muscle, oscillator};
 
@@ -110,8 +110,11 @@ type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>
 type Perception = Classifying<CodeClassifier<Sequential>>;
 
 type Whisking<R> = Generator<R, oscillator::Exact<R>, muscle::Exact<R>>;
-type Settings<R> =
-    Config<ActiveConfig<R, Whisking<R>>, ClassifyingConfig<Absent, ()>, Present<filter::Config<R>>>;
+type Settings<R> = Config<
+    ActiveConfig<R, Whisking<R>>,
+    ClassifyingConfig<Absent, Threshold>,
+    Present<filter::Config<R>>,
+>;
 
 /// A module and the last event that it told.
 #[derive(Debug)]
@@ -142,7 +145,7 @@ impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
         },
         perception: ClassifyingConfig {
             contact_min: Absent,
-            rule: (),
+            rule: THRESHOLD,
         },
         period: PERIOD,
     };
