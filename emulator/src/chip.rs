@@ -28,6 +28,7 @@ mod requests;
 mod reset;
 mod sensor_lines;
 mod serial_line;
+mod serial_port;
 mod spi;
 mod time;
 mod timer;

@@ -3,6 +3,7 @@
 
 mod cost;
 mod ear;
+mod talk;
 mod told;
 
 use std::path::Path;
@@ -10,13 +11,12 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use scene::Scene;
-use wire::{
-    Answer, Command, CommandStatus, Flags, Framed, Packet, TaggedCommand, TickRecord, WhiskerId,
-};
+use wire::{Command, CommandStatus, Flags, Framed, Packet, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::compare::Pair;
 use crate::program::Program;
-use ear::{Ear, Heard};
+use ear::Ear;
+use talk::{Talk, wrong};
 
 /// For how long an answer is waited for, and the records of a part are taken, s.
 const PART_S: f64 = 0.1;
@@ -36,67 +36,6 @@ pub fn talk(path: &Path, [program, slow, without]: [&Path; 3]) -> Result<Vec<Str
     said.push(refuse_records(path, &Program::load(slow)?)?);
     said.extend(cost::cost(path, program, without)?);
     Ok(said)
-}
-
-fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
-    Err(Error::Work(what.into()))
-}
-
-/// The board and the PC, and what the board has sent.
-struct Talk {
-    pair: Pair,
-    ear: Ear,
-    /// Ticks of the board.
-    ticks: u32,
-    /// Ticks of a part.
-    part: u32,
-    tag: u16,
-}
-
-impl Talk {
-    /// Lets so many ticks pass on the board alone.
-    fn pass(&mut self, ticks: u32) -> Result<Vec<Heard>, Error> {
-        let mut all = Vec::new();
-        for _ in 0..ticks {
-            self.pair.target.tick();
-            self.ticks += 1;
-            let emulated = self.pair.target.module_mut();
-            emulated.check()?;
-            let bytes = emulated.board.serial_read();
-            all.extend(self.ear.hear(&bytes)?);
-        }
-        Ok(all)
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        self.pair.target.module_mut().board.serial_write(bytes);
-    }
-
-    /// Says a line; the lines that are no tick's.
-    fn say(&mut self, line: &str) -> Result<Vec<String>, Error> {
-        self.write(line.as_bytes());
-        self.write(b"\n");
-        let heard = self.pass(self.part)?;
-        Ok(ear::replies(&heard))
-    }
-
-    /// Asks by a frame; the answer, and the records that came meanwhile.
-    fn ask(&mut self, command: Command) -> Result<(Answer, Vec<TickRecord>), Error> {
-        self.tag += 1;
-        let tag = self.tag;
-        let request = TaggedCommand { tag, command };
-        self.write(Framed::request(&request).bytes());
-        let heard = self.pass(self.part)?;
-        let records = ear::records(&heard);
-        let mut answers = heard.iter().filter_map(|heard| match heard {
-            Heard::Packet(Packet::Answer(answer)) if answer.tag == tag => Some(*answer),
-            _ => None,
-        });
-        match (answers.next(), answers.next()) {
-            (Some(answer), None) => Ok((answer, records)),
-            (found, _) => wrong(format!("{command:?}: answered {found:?}, or twice")),
-        }
-    }
 }
 
 /// All that is said at a baud that carries records.

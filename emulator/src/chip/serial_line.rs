@@ -1,125 +1,25 @@
-//! The serial port's two wires, and whoever is at their other end: the ST-LINK, with a baud
-//! of its own.
+//! Whoever is at the other end of the serial port's wires: the ST-LINK, with a baud of its own.
 
 use std::collections::VecDeque;
 
-use super::fault::Fault;
-use super::map::Unit;
 use super::time::Ps;
-use super::{Chip, Memory};
-
-/// A second.
-const SECOND: Ps = 1_000_000_000_000;
-
-/// Start, eight bits and stop.
-const BITS: Ps = 10;
-
-/// By how many thousandths the chip's bits may differ from those of the other end: what the
-/// board's build allows, and what the picosecond clock rounds.
-const OFF_PERMILLE: Ps = 16;
 
 /// The other end.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SerialLine {
     /// A bit at the other end; none: nobody is there.
-    bit: Option<Ps>,
+    pub(super) bit: Option<Ps>,
     /// What it is to send.
-    sending: VecDeque<u8>,
+    pub(super) sending: VecDeque<u8>,
     /// When the first of that has gone.
-    ends: Ps,
+    pub(super) ends: Ps,
     /// What it has received.
-    heard: Vec<u8>,
+    pub(super) heard: Vec<u8>,
 }
 
 impl SerialLine {
     /// When a byte of the other end has come.
     pub(super) fn next(&self) -> Option<Ps> {
         (!self.sending.is_empty()).then_some(self.ends)
-    }
-}
-
-impl Chip {
-    /// Somebody is at the other end of the serial line, at so many bits a second.
-    pub(crate) const fn attach_serial(&mut self, baud: u32) {
-        self.serial.bit = Some(SECOND / baud as Ps);
-    }
-
-    /// Has the other end send bytes, one after the other from now on.
-    pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
-        let Some(bit) = self.serial.bit else {
-            return;
-        };
-        if self.serial.sending.is_empty() {
-            self.serial.ends = self.now + BITS * bit;
-        }
-        self.serial.sending.extend(bytes);
-    }
-
-    /// What the other end has received since the last call.
-    pub(crate) fn serial_read(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.serial.heard)
-    }
-
-    /// The clock of the USART, that of its bus.
-    pub(super) fn serial_clock(&self) -> Ps {
-        self.clocks.bus(self.model.wiring.serial.bus)
-    }
-
-    /// Whether the USART's bits are those of the other end.
-    fn agrees(&self, bit: Ps) -> Result<(), Fault> {
-        let found = self.usart.bit(self.serial_clock());
-        if found.abs_diff(bit) * 1_000 <= OFF_PERMILLE * bit {
-            return Ok(());
-        }
-        Err(Fault::Misused {
-            peripheral: "USART2",
-            what: "its bits are not as long as those of the other end",
-        })
-    }
-
-    /// Brings the bytes that are due now over the line.
-    ///
-    /// # Errors
-    /// If the two ends differ in the length of a bit.
-    pub(super) fn carry_serial(&mut self) -> Result<(), Fault> {
-        let now = self.now;
-        let wires = &self.model.wiring.serial;
-        let clock = self.serial_clock();
-        if let Some(byte) = self.usart.sent(now, clock)
-            && self.drives(&[wires.tx], wires.function)
-            && let Some(bit) = self.serial.bit
-        {
-            self.agrees(bit)?;
-            self.serial.heard.push(byte);
-        }
-        if self.serial.next().is_none_or(|ends| ends > now) {
-            return Ok(());
-        }
-        let (Some(byte), Some(bit)) = (self.serial.sending.pop_front(), self.serial.bit) else {
-            return Ok(());
-        };
-        self.serial.ends += BITS * bit;
-        let is_clocked = self.is_clocked(Unit::Usart);
-        if is_clocked && self.usart.listens() && self.hears(&[wires.rx], wires.function) {
-            self.agrees(bit)?;
-            self.usart.receive(byte);
-        }
-        Ok(())
-    }
-
-    /// Moves bytes between memory and the USART; whether it has moved one.
-    pub(super) fn serve_serial(&mut self, memory: &dyn Memory) -> Result<bool, Fault> {
-        let wires = &self.model.wiring.serial;
-        let fetched = self.usart.requests_fetch();
-        let fetched = fetched.then(|| self.moves(wires.dma, wires.rx_request));
-        let moved = fetched.flatten().or_else(|| {
-            let brought = self.usart.requests_byte();
-            brought.then(|| self.moves(wires.dma, wires.tx_request))?
-        });
-        let Some(moved) = moved else {
-            return Ok(false);
-        };
-        self.move_byte(wires.dma, moved, memory)?;
-        Ok(true)
     }
 }

@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use wire::{Command, Framed, TaggedCommand};
 
-use super::wrong;
+use super::talk::wrong;
 use crate::emulate::start;
 use crate::program::Program;
 

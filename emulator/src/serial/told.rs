@@ -6,7 +6,7 @@ use host_sim::Error;
 use scene::Scene;
 
 use super::ear::Heard;
-use super::{Talk, wrong};
+use super::talk::{Talk, wrong};
 
 /// For how long, s: some touches of every texture.
 const TOLD_S: f64 = 3.0;
