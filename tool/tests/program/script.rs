@@ -74,7 +74,7 @@ fn what_is_refused_is_said_and_fails() {
     place.write("bad.txt", "0.1 gain left 1\n0.2 jump\n");
     let said = place.refused("log --sim bench.toml --script bad.txt");
     assert!(
-        said.contains("bad.txt: line 2: found \"jump\", allowed: arm, stop"),
+        said.contains("bad.txt: line 2: found \"jump\", unknown command, try help; allowed: arm"),
         "{said}"
     );
 }

@@ -33,7 +33,9 @@ pub(super) fn steps(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> boo
     let is_literal = |at: u64| literals.contains(&(at & !3));
     let mut steps = Vec::new();
     for (number, code) in instructions.iter().enumerate() {
-        steps.extend(code.step());
+        let before = number.checked_sub(1).map(|before| instructions[before]);
+        let frame = before.and_then(|before| code.frame(before, |at| word(body, begin, at)));
+        steps.extend(frame.map(Step::Push).or_else(|| code.step()));
         let loads = number.checked_sub(2).map(|before| instructions[before]);
         if let Some(jump) = code.jump(loads) {
             let table = jump::table(body, &place, code.end(), &is_instruction, is_literal);
@@ -42,6 +44,13 @@ pub(super) fn steps(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> boo
         }
     }
     steps
+}
+
+/// The word at an address of `body`.
+fn word(body: &[u8], begin: u64, address: u64) -> Option<i32> {
+    let at = usize::try_from(address.checked_sub(begin)?).ok()?;
+    let bytes = body.get(at..)?.first_chunk()?;
+    Some(i32::from_le_bytes(*bytes))
 }
 
 /// An instruction.
@@ -91,6 +100,19 @@ impl Instruction {
             Some(second) => wide(self.first, second, self.address),
             None => narrow(self.first, self.address),
         }
+    }
+
+    /// The bytes of stack that it takes by ADD SP, register, where `before` loads that register
+    /// with a constant below zero: how a core without SUBW takes a large frame.
+    fn frame(self, before: Self, word: impl Fn(u64) -> Option<i32>) -> Option<u64> {
+        let is_add = self.second.is_none() && self.first & 0xFF87 == 0x4485;
+        let is_load = before.second.is_none() && before.first >> 11 == 0b01001;
+        let same = self.first >> 3 & 0xF == before.first >> 8 & 7;
+        if !(is_add && is_load && same) {
+            return None;
+        }
+        let moved = word(before.literal()?)?;
+        (moved < 0).then(|| moved.unsigned_abs().into())
     }
 
     /// The constant that it loads from beside the code: LDR and VLDR relative to PC.

@@ -67,11 +67,11 @@ pub(crate) fn blocks(text: &str) -> Result<Vec<Block>, Fault> {
                 before.shown = Some(inside);
                 continue;
             }
-            "text" | "toml" | "rust" | "csv" => continue,
+            "text" | "toml" | "rust" | "csv" | "python" => continue,
             other => {
                 return Err(format!(
                     "{line}: found ```{other}; allowed: sh, sh nightly, sh hardware, \
-                     text output, text, toml, rust, csv"
+                     text output, text, toml, rust, csv, python"
                 ));
             }
         };

@@ -24,6 +24,23 @@ fn what_moves_the_stack_is_read() {
 }
 
 #[test]
+fn a_large_frame_is_read_from_its_constant() {
+    // ldr r6, [pc, #0]; add sp, r6; the constant.
+    let cases: [(u16, [u8; 4], Step); 3] = [
+        (0x44B5, [0x14, 0xF8, 0xFF, 0xFF], Step::Push(2028)),
+        // Upwards, and another register.
+        (0x44B5, [0x14, 0x08, 0, 0], Step::Open),
+        (0x44AD, [0x14, 0xF8, 0xFF, 0xFF], Step::Open),
+    ];
+    for (add, constant, expected) in cases {
+        let code = [0x4E00, add].map(u16::to_le_bytes);
+        let bytes = [code.as_flattened(), &constant].concat();
+        let found = steps(&bytes, 0x0800_0000, |at| at < 0x0800_0004);
+        assert_eq!(found, [expected], "{add:04x} {constant:02x?}");
+    }
+}
+
+#[test]
 fn where_branches_go_is_read() {
     let cases: [(&[u16], u64); 8] = [
         (&[0xF000, 0xF801], 0x0800_0006), // bl +2
