@@ -20,6 +20,9 @@ const WAIT: Duration = Duration::from_millis(50);
 /// an emulated one may take some.
 const SILENCE: Duration = Duration::from_secs(20);
 
+/// When an unanswered `hello` is said again.
+const ASK_AGAIN: Duration = Duration::from_secs(1);
+
 /// The board's time, from when it was heard first.
 #[derive(Debug, Clone, Copy, Default)]
 struct BoardTime {
@@ -66,16 +69,34 @@ impl Port {
             tick_hz: None,
             version: None,
         };
-        // An end of a line before it: whatever the board has heard so far is none of it.
-        port.write(b"\nhello\n")?;
-        while port.tick_hz.is_none() {
-            port.next().map_err(|error| {
-                Error::Work(format!(
-                    "{error}; is it a board whose scene has telemetry.serial_baud = {baud}?"
-                ))
-            })?;
-        }
+        port.greet().map_err(|error| {
+            Error::Work(format!(
+                "{error}; is it a board whose scene has telemetry.serial_baud = {baud}?"
+            ))
+        })?;
         Ok(port)
+    }
+
+    /// Asks who is there, until it is answered.
+    fn greet(&mut self) -> Result<(), Error> {
+        // An end of a line before it: whatever the board has heard so far is none of it.
+        self.write(b"\nhello\n")?;
+        let begun = Instant::now();
+        let mut asked = begun;
+        while self.tick_hz.is_none() {
+            self.next()?;
+            if begun.elapsed() > SILENCE {
+                let fault = format!("{}: `hello` is not answered", self.name);
+                return Err(Error::Work(fault));
+            }
+            if asked.elapsed() > ASK_AGAIN {
+                // Whoever talked with it last may have left it within a frame, which a zero
+                // ends; where it begins one, the next time ends that.
+                self.write(b"\0\nhello\n")?;
+                asked = Instant::now();
+            }
+        }
+        Ok(())
     }
 
     fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
