@@ -44,8 +44,9 @@ impl Drop for Served {
 fn a_board_on_a_port_is_talked_with_as_any_other() {
     let place = Place::new();
     let mut served = Served::new(&place);
-    let port = served.port.clone();
-
+    // The person at this bench writes down what was done; the board is told by hand.
+    writeln!(served.board.stdin.as_mut().unwrap(), "lay carpet").unwrap();
+    let port = &served.port;
     let ran = place.done(&format!("records {port} --seconds 1 --out r.csv"));
     assert!(
         ran.stdout
@@ -63,7 +64,13 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     let sequences: Vec<u32> = sequences.collect();
     assert!(sequences.len() >= 1_900, "{}", sequences.len());
     assert!(sequences.is_sorted_by(|a, b| a + 1 == *b));
+}
 
+#[test]
+fn commands_over_a_port_are_answered() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let port = &served.port;
     place.write(
         "script",
         "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n",
@@ -78,11 +85,6 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     ] {
         assert!(ran.stdout.contains(said), "{said}{}", ran.stdout);
     }
-
-    // The person at this bench writes down what was done; the board is told by hand.
-    writeln!(served.board.stdin.as_mut().unwrap(), "lay carpet").unwrap();
-    let ran = place.done(&format!("records {port} --seconds 0.2 --out again.csv"));
-    assert!(ran.stdout.contains(", 0 lost"), "{}", ran.stdout);
 }
 
 #[test]
