@@ -123,9 +123,11 @@ impl<const N: usize> Splitter<N> {
         is_cut.then_some(Piece::Garbled(Garbled::Line))
     }
 
-    /// Nothing has come for longer than a frame takes: one that was begun is none.
+    /// Nothing has come for longer than a frame takes: one that was begun is none, and what
+    /// follows is text until a zero comes. Without that the empty line of a person who presses
+    /// Enter behind a frame would begin another: its end is below 32.
     pub const fn pause(&mut self) {
-        if matches!(self.within, Within::Frame(_)) {
+        if matches!(self.within, Within::Frame(_) | Within::Nothing) {
             self.within = Within::Text;
             self.length = 0;
         }
@@ -193,6 +195,17 @@ mod tests {
     }
 
     #[test]
+    fn behind_a_frame_a_line_may_be_empty_after_a_pause_and_not_before() {
+        let mut splitter = Splitter::<20>::new();
+        pieces(&mut splitter, Framed::request(&ARM).bytes());
+        assert!(pieces(&mut splitter, b"\nstop\n").is_empty());
+        pieces(&mut splitter, Framed::request(&ARM).bytes());
+        splitter.pause();
+        let expected = [('l', Vec::new()), ('l', b"stop".to_vec())];
+        assert_eq!(pieces(&mut splitter, b"\nstop\n"), expected);
+    }
+
+    #[test]
     fn what_is_too_long_is_told_once() {
         let mut splitter = Splitter::<4>::new();
         let found = pieces(&mut splitter, b"status\narm\n");
@@ -217,6 +230,16 @@ mod tests {
             let request = TaggedCommand { tag, ..ARM };
             let found = pieces(&mut splitter, Framed::request(&request).bytes());
             prop_assert_eq!(found, [('f', request.bytes().to_vec())]);
+        }
+
+        #[test]
+        fn whatever_came_before_a_line_behind_a_zero_is_understood(
+            noise in proptest::collection::vec(any::<u8>(), 0..80),
+        ) {
+            let mut splitter = Splitter::<20>::new();
+            pieces(&mut splitter, &noise);
+            let found = pieces(&mut splitter, b"\0hello\n");
+            prop_assert_eq!(found.last(), Some(&('l', b"hello".to_vec())));
         }
 
         #[test]

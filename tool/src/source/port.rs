@@ -79,21 +79,19 @@ impl Port {
 
     /// Asks who is there, until it is answered.
     fn greet(&mut self) -> Result<(), Error> {
-        // An end of a line before it: whatever the board has heard so far is none of it.
-        self.write(b"\nhello\n")?;
         let begun = Instant::now();
-        let mut asked = begun;
+        let mut asked = None;
         while self.tick_hz.is_none() {
+            if asked.is_none_or(|asked: Instant| asked.elapsed() > ASK_AGAIN) {
+                // A zero ends whatever the board has heard so far, of whomever; behind it the
+                // end of a line would begin a frame.
+                self.write(b"\0hello\n")?;
+                asked = Some(Instant::now());
+            }
             self.next()?;
             if begun.elapsed() > SILENCE {
                 let fault = format!("{}: `hello` is not answered", self.name);
                 return Err(Error::Work(fault));
-            }
-            if asked.elapsed() > ASK_AGAIN {
-                // Whoever talked with it last may have left it within a frame, which a zero
-                // ends; where it begins one, the next time ends that.
-                self.write(b"\0\nhello\n")?;
-                asked = Instant::now();
             }
         }
         Ok(())

@@ -64,13 +64,8 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     let sequences: Vec<u32> = sequences.collect();
     assert!(sequences.len() >= 1_900, "{}", sequences.len());
     assert!(sequences.is_sorted_by(|a, b| a + 1 == *b));
-}
 
-#[test]
-fn commands_over_a_port_are_answered() {
-    let place = Place::new();
-    let served = Served::new(&place);
-    let port = &served.port;
+    // The board is the next client's as it was the first's.
     place.write(
         "script",
         "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n",
