@@ -7,6 +7,7 @@ use host_sim::Error;
 use host_sim::commands::run::{Loaded, play};
 use host_sim::motor::Pins;
 use host_sim::output::Output;
+use host_sim::plot::{self, Film};
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use host_sim::world::World;
@@ -70,8 +71,8 @@ pub(crate) fn start(
 }
 
 /// Runs the scene in `path` on the board that `program` was built for; writes
-/// `out/trace.csv`, `out/log.txt`, and `out/decisions.csv` where the scene
-/// classifies. Returns the score of the decisions, where there are any to score.
+/// `out/trace.csv` and its picture, `out/trace.svg`, `out/log.txt`, and `out/decisions.csv`
+/// where the scene classifies. Returns the score of the decisions, where there are any to score.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene or model that is wrong, [`Error::Work`] for
@@ -88,8 +89,12 @@ pub fn emulate(
     let mut decoder = program.log_decoder()?;
     let run = start(&loaded.scene, classes, &program)?;
     let written = Output::create(&out.join("log.txt"))?;
+    let drawn = Output::create(&out.join("trace.svg"))?;
+    let mut film = Film::default();
     let mut log = String::new();
-    let done = play(run, &loaded.scene, out, verbosity, |run, _| {
+    let scene = &loaded.scene;
+    let done = play(run, scene, out, verbosity, |run, _| {
+        film.take(run);
         let board = run.module_mut();
         for line in decoder.lines(&board.take_log()) {
             // Writing to a string does not fail.
@@ -99,5 +104,9 @@ pub fn emulate(
     });
     // Where something went wrong the log tells what led to it.
     written.whole(log.as_bytes())?;
-    done.map(|played| played.summary())
+    let played = done?;
+    let title = plot::title(&scene.name, scene.duration_s);
+    let picture = film.picture(&title, &played.classes, &played.decided);
+    drawn.whole(picture.svg()?.as_bytes())?;
+    Ok(played.summary())
 }

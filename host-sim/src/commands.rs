@@ -1,5 +1,6 @@
 //! The commands of the command line, one file for each.
 
+mod ahead;
 pub mod choice;
 pub mod classify;
 pub mod columns;

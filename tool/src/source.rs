@@ -4,6 +4,7 @@ mod board;
 mod choice;
 mod emulated;
 mod flash;
+mod laying;
 mod person;
 mod port;
 mod port_line;
@@ -13,8 +14,7 @@ mod simulated;
 mod texture;
 
 pub(crate) use choice::{SourceChoice, seconds};
-#[cfg(feature = "probe")]
-pub(crate) use person::Person;
+pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build};
 #[cfg(unix)]
 pub(crate) use texture::texture;
@@ -48,18 +48,29 @@ pub(crate) trait Source {
         Ok(())
     }
 
-    /// Whether it has a sample of that name; where a person lays it any name will do.
-    fn has(&self, sample: &str) -> Result<(), Error>;
+    /// Who lays samples on a real bench; none: its world is simulated, and does.
+    fn laying(&mut self) -> Option<&mut Laying> {
+        None
+    }
+
+    /// Whether it has a sample of that name; on a real bench any name will do.
+    fn has(&self, _sample: &str) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// Has a sample laid before the whisker, in place of what lies there.
-    fn lay(&mut self, sample: &str) -> Result<(), Error>;
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.laying().map_or(Ok(()), |laying| laying.lay(sample))
+    }
 
     /// Whether it lies there. Waits for nobody.
-    fn is_laid(&mut self) -> Result<bool, Error>;
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        self.laying().map_or(Ok(true), Laying::is_laid)
+    }
 
-    /// Whether a person lays it, who takes their time and is told when it counts.
-    fn is_laid_by_hand(&self) -> bool {
-        false
+    /// Whether somebody lays it who takes their time, and is told when it counts.
+    fn is_laid_by_hand(&mut self) -> bool {
+        self.laying().is_some()
     }
 
     /// The time where the module is, by another clock than its own, s.

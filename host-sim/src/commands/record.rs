@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use scene::Scene;
+use scene::{Deciding, Scene};
 
+use super::ahead;
 use super::choice::SceneChoice;
 use crate::Error;
 use crate::files;
@@ -11,6 +12,9 @@ use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
+
+/// About how many bytes a row of a recording has, as of the scenes of the project.
+const ROW_BYTES: u64 = 28;
 
 /// Runs a scene and writes what its whiskers feel that are heard to `out`:
 /// a recording for `host-sim train`, the air included. Its classifier, if any, is not
@@ -30,6 +34,13 @@ pub fn record(
     plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
     scene.seed = seed.unwrap_or(scene.seed);
     let output = Output::create_or_stdout(out)?;
+    let listened = scene.classifier.as_ref().map(|c| c.whiskers);
+    let rows = match listened {
+        None | Some(Deciding::First) => 1,
+        Some(Deciding::Each | Deciding::Together) => scene.whiskers() as u64,
+    };
+    let recording = ("the recording", ROW_BYTES * rows);
+    ahead::tell(&scene, 1, Some(recording), verbosity);
     let streams = streams(&scene, verbosity)?;
     files::write_recording(output, &streams)?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();

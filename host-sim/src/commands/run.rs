@@ -8,7 +8,7 @@ use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
 use super::choice::{SceneChoice, seed};
-use super::{any_picture, ends_in};
+use super::{ahead, any_picture, ends_in};
 use crate::bench::{self, Bench};
 use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
@@ -93,9 +93,8 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     let pictures: Vec<&Path> = pictures.chain(plot).collect();
     let drawn = pictures.iter().map(|path| Output::create(path));
     let drawn: Vec<Output> = drawn.collect::<Result<_, Error>>()?;
-    if verbosity == Verbosity::Normal {
-        tell_size(scene);
-    }
+    let row_bytes = TraceShape::of(scene).row_bytes();
+    ahead::tell(scene, 1, Some(("the trace", row_bytes)), verbosity);
     let mut film = Film::default();
     let played = play(run, scene, out, verbosity, |run, _| {
         if !pictures.is_empty() {
@@ -134,20 +133,6 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
         told.push_str("; what each column is: host-sim columns");
     }
     Ok(told)
-}
-
-/// Says how much a run is that is not short.
-fn tell_size(scene: &Scene) {
-    /// Ticks of a run that is done before anyone wonders.
-    const SHORT: u64 = 2_000_000;
-    let (ticks, duration_s) = (scene.ticks(), scene.duration_s);
-    if ticks > SHORT {
-        let megabytes = TraceShape::of(scene).row_bytes() * ticks / 1_000_000;
-        report::warn(format_args!(
-            "{}: {duration_s} s to simulate, {ticks} ticks; the trace will have about {megabytes} MB",
-            scene.name
-        ));
-    }
 }
 
 /// A scene that has been checked, and the model that it names.

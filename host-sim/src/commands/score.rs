@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use scene::{Deciding, Rule, Scene};
 
 use crate::classifier::{Classifier, Fault};
+use crate::commands::ahead;
 use crate::commands::choice::SceneChoice;
 use crate::commands::record;
 use crate::commands::train::{How, TrainedModel};
@@ -87,6 +88,8 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         tactile::Threshold::new(threshold).map_err(wrong)?;
     }
 
+    // One more is trained on.
+    ahead::tell(&scene, seeds.end - seeds.start + 1, None, verbosity);
     let trained = train(&scene, train_seed, &how, arguments, verbosity)?;
     let deciding = scene.classifier.as_ref().map(|c| c.whiskers);
     let deciding = deciding.unwrap_or(Deciding::First);

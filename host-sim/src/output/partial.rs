@@ -55,18 +55,21 @@ impl Drop for Partial {
     }
 }
 
-/// From here on an interrupt (SIGINT, SIGTERM) removes what is not complete before it ends
+/// From here on an interrupt (SIGINT, SIGTERM, and SIGHUP where it ends programs) removes what is not complete before it ends
 /// the program, as it would have without this. To be called once, at the start of a program.
 ///
 /// # Errors
 /// If the system does not let signals be handled, or no thread be made.
 #[cfg(unix)]
 pub fn remove_on_interrupt() -> io::Result<()> {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    if !is_ignored(SIGHUP) {
+        signals.add_signal(SIGHUP)?;
+    }
     let wait = move || {
         for signal in signals.forever() {
             // Held to the end: no file comes or is renamed after this.
@@ -82,6 +85,16 @@ pub fn remove_on_interrupt() -> io::Result<()> {
     };
     let thread = std::thread::Builder::new().name("interrupt".to_owned());
     thread.spawn(wait).map(drop)
+}
+
+/// Whether whoever started the program has it ignore a signal, as `nohup` does; so too where
+/// the system does not say.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_none_or(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 /// Elsewhere an interrupt leaves what is not complete.

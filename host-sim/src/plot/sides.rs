@@ -64,8 +64,8 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), 
     let style = ("sans-serif", 18).into_font().color(&SETPOINT);
     let area = area.titled(&panel.title, style)?;
     let axes = Axes {
-        x: None,
-        y: "degrees",
+        x: Some("time, s"),
+        y: "angle, degrees",
         room: (64, 6),
         legend: true,
     };

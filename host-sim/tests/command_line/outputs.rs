@@ -143,7 +143,7 @@ fn partial(place: &Place) -> Vec<(PathBuf, u64)> {
 
 #[test]
 fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
-    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+    for (signal, number) in [("HUP", 1), ("INT", 2), ("TERM", 15)] {
         let long =
             format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
         let place = Place::with(&[("s.toml", &long), ("out/trace.csv", "older")]);

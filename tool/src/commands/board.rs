@@ -1,9 +1,10 @@
 //! `whisker board`: an emulated board whose serial port is a pseudo-terminal.
 
-use std::ffi::CString;
-use std::io::BufRead;
+use std::ffi::{CString, OsStr};
+use std::io::{BufRead, ErrorKind};
 use std::os::fd::OwnedFd;
-use std::path::PathBuf;
+use std::os::unix::ffi::OsStrExt;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 
 use clap::Args;
@@ -29,6 +30,13 @@ pub(crate) struct Arguments {
     /// The board whose program is built
     #[arg(long, value_enum, default_value = "nucleo-f446re")]
     board: BoardName,
+    /// The scene in whose world the board is: what it meets, for how long, and the seed
+    #[arg(long, value_name = "SCENE")]
+    world: Option<PathBuf>,
+    /// A name for the terminal, whose own is another each time: a symbolic link, which replaces
+    /// another and nothing else
+    #[arg(long, value_name = "PATH")]
+    link: Option<PathBuf>,
 }
 
 /// Bytes that wait for whoever has the terminal open, at most.
@@ -62,6 +70,19 @@ impl Terminal {
             path,
             waiting: Vec::new(),
         })
+    }
+
+    /// Has a symbolic link at `link` lead here, in place of one that is there.
+    fn link(&self, link: &Path) -> Result<(), Error> {
+        let wrong = |error| Error::file(link, error);
+        match std::fs::symlink_metadata(link) {
+            Ok(there) if there.is_symlink() => std::fs::remove_file(link).map_err(wrong)?,
+            Ok(_) => return Err(Error::file(link, "is there, and no symbolic link")),
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(wrong(error)),
+        }
+        let path = OsStr::from_bytes(self.path.as_bytes());
+        std::os::unix::fs::symlink(path, link).map_err(wrong)
     }
 
     /// What somebody has written; what the board says is theirs, or nobody's.
@@ -107,7 +128,10 @@ fn lines() -> Receiver<String> {
 /// Runs until it is interrupted.
 pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     let path = &arguments.scene;
-    let loaded = Loaded::new(path)?;
+    let mut loaded = Loaded::new(path)?;
+    if let Some(world) = &arguments.world {
+        loaded = loaded.in_world(world)?;
+    }
     let scene = &loaded.scene;
     let Some(baud) = scene.telemetry.serial_baud else {
         let fault = "it has no serial port; allowed: [telemetry] serial_baud, such as 115200";
@@ -119,6 +143,9 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     };
     let mut session = Session::open(scene, &program)?;
     let mut terminal = Terminal::open()?;
+    if let Some(link) = &arguments.link {
+        terminal.link(link)?;
+    }
     report::say(format_args!("{} {baud}", terminal.path.to_string_lossy()));
     report::warn("lines `lay NAME` lay a texture before the whisker; Ctrl-C ends it");
     let commands = lines();

@@ -9,7 +9,7 @@ use host_sim::progress::Verbosity;
 use super::log;
 use crate::conversation::Conversation;
 use crate::probe;
-use crate::source::{BoardName, build};
+use crate::source::{BoardName, Laying, build};
 
 /// Which program, and onto which board.
 #[derive(Debug, Args)]
@@ -43,7 +43,7 @@ pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), E
     };
     probe::flash(probe, *board, &elf, verbosity)?;
     if arguments.log {
-        let module = Conversation::new(probe::open(probe, *board, Some(&elf))?);
+        let module = Conversation::new(probe::open(probe, *board, Some(&elf), Laying::by(None))?);
         log::stream(module)?;
     }
     Ok(())

@@ -11,7 +11,7 @@ use wire::{Packet, TaggedCommand};
 
 use super::find;
 use super::memory::MemoryPort;
-use crate::source::{BoardName, Heard, Person, Source};
+use crate::source::{BoardName, Heard, Laying, Source};
 
 /// Between two looks where nothing has come: a sixth of the time in which the ring of packets
 /// fills.
@@ -25,11 +25,13 @@ pub(crate) fn open(
     selector: &str,
     board: BoardName,
     program: Option<&Path>,
+    laying: Laying,
 ) -> Result<Box<dyn Source>, Error> {
     Ok(Box::new(Behind::new(
         find::open(selector)?,
         board,
         program,
+        laying,
     )?))
 }
 
@@ -41,7 +43,7 @@ pub(super) struct Behind {
     /// Of packets and requests; none where its scene has no telemetry.
     rings: Option<[Ring; 2]>,
     decoder: Option<LogDecoder>,
-    person: Person,
+    laying: Laying,
     since: Instant,
 }
 
@@ -50,6 +52,7 @@ impl Behind {
         probe: probe_rs::probe::Probe,
         board: BoardName,
         program: Option<&Path>,
+        laying: Laying,
     ) -> Result<Self, Error> {
         let mut memory = MemoryPort::of(probe)?;
         memory.check(board)?;
@@ -80,7 +83,7 @@ impl Behind {
             rtt,
             rings,
             decoder,
-            person: Person::at_standard_input(),
+            laying,
             since: Instant::now(),
         })
     }
@@ -139,21 +142,8 @@ impl Source for Behind {
         }
     }
 
-    fn has(&self, _: &str) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.person.lay(sample);
-        Ok(())
-    }
-
-    fn is_laid(&mut self) -> Result<bool, Error> {
-        self.person.is_laid()
-    }
-
-    fn is_laid_by_hand(&self) -> bool {
-        true
+    fn laying(&mut self) -> Option<&mut Laying> {
+        Some(&mut self.laying)
     }
 
     fn now_s(&mut self) -> f64 {

@@ -15,7 +15,7 @@ use super::behind::Behind;
 use super::find;
 use super::memory::{MemoryPort, chain};
 use crate::conversation::Conversation;
-use crate::source::BoardName;
+use crate::source::{BoardName, Laying};
 
 /// Stops the motors of what runs there, programs the ELF file, compares it, and resets the chip.
 ///
@@ -29,7 +29,7 @@ pub(crate) fn flash(
 ) -> Result<(), Error> {
     MemoryPort::of(find::open(selector)?)?.check(board)?;
     // The core is halted next, and a motor would be driven on meanwhile.
-    match Behind::new(find::open(selector)?, board, None)
+    match Behind::new(find::open(selector)?, board, None, Laying::by(None))
         .and_then(|module| Conversation::new(Box::new(module)).ask(Command::Stop))
     {
         Ok(_) => report::warn("the module that runs has stopped its motors"),

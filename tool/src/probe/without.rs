@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 use super::SeenProbe;
-use crate::source::{BoardName, Source};
+use crate::source::{BoardName, Laying, Source};
 
 const WITHOUT: &str = "this whisker was built without probes; the one that has them is built by \
                        cargo build -p whisker --features probe";
@@ -16,7 +16,12 @@ fn without<T>() -> Result<T, Error> {
 }
 
 /// Refuses.
-pub(crate) fn open(_: &str, _: BoardName, _: Option<&Path>) -> Result<Box<dyn Source>, Error> {
+pub(crate) fn open(
+    _: &str,
+    _: BoardName,
+    _: Option<&Path>,
+    _: Laying,
+) -> Result<Box<dyn Source>, Error> {
     without()
 }
 

@@ -10,6 +10,7 @@ use host_sim::commands::run::Loaded;
 use super::Source;
 use super::emulated::Emulated;
 use super::flash::Flash;
+use super::laying::Laying;
 use super::port::Port;
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
@@ -62,6 +63,10 @@ pub(crate) struct SourceChoice {
     /// The scene's serial_baud
     #[arg(long, value_name = "N", requires = "port", default_value_t = 115_200)]
     baud: u32,
+    /// Lays samples on a real bench, in place of a person: a command for the shell, which finds
+    /// the sample's name in $SAMPLE, and ends once it lies there
+    #[arg(long, value_name = "COMMAND", conflicts_with_all = ["sim", "emulated"])]
+    lay_by: Option<String>,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
     seed: Option<u64>,
@@ -80,11 +85,12 @@ impl SourceChoice {
 
     /// Opens it, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
+        let laying = || Laying::by(self.lay_by.as_deref());
         if let Some(serial) = &self.probe {
-            return probe::open(serial, self.board, self.program.as_deref());
+            return probe::open(serial, self.board, self.program.as_deref(), laying());
         }
         if let Some(port) = &self.port {
-            return Ok(Box::new(Port::open(port, self.baud)?));
+            return Ok(Box::new(Port::open(port, self.baud, laying())?));
         }
         let (Some(path), simulates) = (
             self.sim.as_ref().or(self.emulated.as_ref()),

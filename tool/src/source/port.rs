@@ -9,7 +9,7 @@ use host_sim::origin::Origin;
 use serial2::SerialPort;
 use wire::{Framed, LINE_BYTES, Packet, Piece, Splitter, TaggedCommand};
 
-use super::person::Person;
+use super::laying::Laying;
 use super::port_line::{Said, logged};
 use super::{Heard, Source};
 
@@ -44,7 +44,7 @@ pub(super) struct Port {
     line: SerialPort,
     name: String,
     splitter: Splitter<LINE_BYTES>,
-    person: Person,
+    laying: Laying,
     /// When something has come last.
     heard: Instant,
     time: BoardTime,
@@ -54,7 +54,7 @@ pub(super) struct Port {
 
 impl Port {
     /// Opens the port at `path` and asks who is there.
-    pub(super) fn open(path: &Path, baud: u32) -> Result<Self, Error> {
+    pub(super) fn open(path: &Path, baud: u32, laying: Laying) -> Result<Self, Error> {
         let wrong = |error: std::io::Error| Error::file(path, error);
         let mut line = SerialPort::open(path, baud).map_err(wrong)?;
         line.set_read_timeout(WAIT).map_err(wrong)?;
@@ -63,7 +63,7 @@ impl Port {
             line,
             name: path.display().to_string(),
             splitter: Splitter::new(),
-            person: Person::at_standard_input(),
+            laying,
             heard: Instant::now(),
             time: BoardTime::default(),
             tick_hz: None,
@@ -168,21 +168,8 @@ impl Source for Port {
         self.write(Framed::request(&request).bytes())
     }
 
-    fn has(&self, _: &str) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.person.lay(sample);
-        Ok(())
-    }
-
-    fn is_laid(&mut self) -> Result<bool, Error> {
-        self.person.is_laid()
-    }
-
-    fn is_laid_by_hand(&self) -> bool {
-        true
+    fn laying(&mut self) -> Option<&mut Laying> {
+        Some(&mut self.laying)
     }
 
     fn now_s(&mut self) -> f64 {

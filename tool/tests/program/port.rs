@@ -20,6 +20,8 @@ impl Served {
         let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
             .arg("board")
             .arg(place.path("serial.toml"))
+            .arg("--link")
+            .arg(place.path("port"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -28,7 +30,8 @@ impl Served {
         let mut said = BufReader::new(board.stdout.take().unwrap());
         said.read_line(&mut line).unwrap();
         let (path, baud) = line.trim().split_once(' ').unwrap();
-        let port = format!("--port {path} --baud {baud}");
+        assert!(path.starts_with("/dev/"), "{path}");
+        let port = format!("--port port --baud {baud}");
         Self { board, port }
     }
 }

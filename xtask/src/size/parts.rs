@@ -55,7 +55,8 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "roughness" | "roughness or floors" => !is_single,
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
-        "single precision" => computes && !is_fixed,
+        // What a deployed model says of touches is in single precision, and read at the start.
+        "single precision" => computes && (awaits || !is_fixed),
         "fixed point" => computes && is_fixed,
         _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
     })

@@ -55,7 +55,7 @@ impl Source for Bad {
         Ok(self.module.is_laid()? && self.module.now_s() >= self.laid_s)
     }
 
-    fn is_laid_by_hand(&self) -> bool {
+    fn is_laid_by_hand(&mut self) -> bool {
         self.laid_s > 0.0
     }
 
