@@ -172,6 +172,7 @@ fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Resul
         stack: stack::worst(board, elf)?,
         model: model_bytes(scene)?.map_or(0, |model| model.len() as u64),
         is_active: scene.whisking.is_some(),
+        has_serial: scene.telemetry.serial_baud.is_some(),
         heard: heard(scene),
         host_ns: host,
     })
