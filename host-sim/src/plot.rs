@@ -1,13 +1,15 @@
 //! Pictures: of a run, position, contact and what was decided; of both sides of some runs;
-//! and of a calibration.
+//! of what was measured at a bench; and of how far a classifier's certainty can be relied on.
 
 mod curves;
 mod decided;
 mod pixels;
 mod sides;
+mod strips;
 mod whiskers;
 
 pub use sides::{Panel, sides};
+pub use strips::{Ink, Strip, Strips};
 
 use plotters::prelude::*;
 use tactile::score::Interval;
@@ -96,6 +98,10 @@ pub struct Picture<'a> {
 }
 
 type Fault = Box<dyn std::error::Error>;
+
+fn failed(fault: &dyn std::error::Error) -> Error {
+    Error::Work(format!("plot: {fault}"))
+}
 
 const SIZE: (u32, u32) = (1000, 760);
 const SETPOINT: RGBColor = RGBColor(150, 150, 150);

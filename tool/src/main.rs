@@ -7,6 +7,7 @@
 //! - *recording*: samples with labels, which `host-sim train` reads;
 //! - *sample* of a texture: the piece that is laid before the whisker.
 
+mod calibrate;
 mod capture;
 mod commands;
 mod conversation;
@@ -56,6 +57,9 @@ enum Command {
     Monitor(Box<commands::monitor::Arguments>),
     /// Records textures, label by label, as many touches of each: what host-sim train reads
     Capture(commands::capture::Arguments),
+    /// Finds a whisker's zero, range and stops, its motor's direction and friction, and gains that
+    /// fit; moves it, gently
+    Calibrate(commands::calibrate::Arguments),
     /// Programs a board through its debug probe with a scene
     Flash(commands::flash::Arguments),
     /// Says what this PC lacks to work with a board, and the command that mends it
@@ -86,13 +90,20 @@ enum Command {
 fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
     let verbosity = Verbosity::of(quiet);
-    if let Command::Monitor(arguments) = &command {
-        // An interrupt stops the motors there before it ends the program.
-        return report::ended("whisker", commands::monitor::monitor(arguments));
+    // An interrupt stops the motors there before it ends the program.
+    match &command {
+        Command::Monitor(arguments) => {
+            return report::ended("whisker", commands::monitor::monitor(arguments));
+        }
+        Command::Calibrate(arguments) => {
+            return report::ended("whisker", commands::calibrate::calibrate(arguments));
+        }
+        _ => {}
     }
     report::program("whisker", || -> Result<(), Error> {
         match command {
             Command::Monitor(arguments) => commands::monitor::monitor(&arguments),
+            Command::Calibrate(arguments) => commands::calibrate::calibrate(&arguments),
             Command::Log(arguments) => commands::log::log(&arguments),
             Command::Records(arguments) => commands::records::records(&arguments, verbosity),
             Command::Capture(arguments) => commands::capture::capture(&arguments, verbosity),

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use super::curves::{Axes, Curve, Sign, curves, envelope, range, with_legend};
 use super::decided::{decisions, names_width};
 use super::pixels::Pixels;
-use super::{CONTACT, Fault, MEASURED, Picture, SETPOINT, SIZE};
+use super::{CONTACT, Fault, MEASURED, Picture, SETPOINT, SIZE, failed};
 use crate::Error;
 use crate::trace::Row;
 
@@ -94,10 +94,6 @@ impl Picture<'_> {
         root.present()?;
         Ok(())
     }
-}
-
-fn failed(fault: &dyn std::error::Error) -> Error {
-    Error::Work(format!("plot: {fault}"))
 }
 
 /// A quantity of each side: its names, its colours and where it is in a row.

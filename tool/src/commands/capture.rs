@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use wire::{Command, Packet};
 
+use super::order::SideName;
 use crate::capture::{Checks, Label, Recording, Sampler, Touches};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
@@ -38,14 +39,6 @@ pub(crate) struct Arguments {
     /// The recording to write; an existing file is not overwritten
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum SideName {
-    /// The left one
-    Left,
-    /// The right one
-    Right,
 }
 
 /// Captures what is missing; each label is in the file once it is complete.
@@ -114,7 +107,7 @@ fn complete(
         module,
         sampler: Sampler::default(),
         tally: Tally::default(),
-        side: usize::from(arguments.side == SideName::Right),
+        side: usize::from(arguments.side.number()),
         tick_hz: about.tick_hz,
         patience_s: arguments.patience,
         progress: Progress::new(verbosity, "touches", total as u64),

@@ -26,18 +26,29 @@ pub(crate) struct ToSide {
     source: SourceChoice,
 }
 
+/// A side, as options have it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum SideName {
+pub(super) enum SideName {
     /// The left one
     Left,
     /// The right one
     Right,
 }
 
+impl SideName {
+    /// 0 left, 1 right.
+    pub(super) const fn number(self) -> u8 {
+        match self {
+            Self::Left => 0,
+            Self::Right => 1,
+        }
+    }
+}
+
 impl ToSide {
     fn whisker(&self) -> WhiskerId {
         WhiskerId {
-            side: u8::from(self.side == SideName::Right),
+            side: self.side.number(),
             number: 0,
         }
     }

@@ -1,0 +1,131 @@
+//! Quantities over time, one below the other: a picture of what was measured at a bench.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::curves::{Axes, Curve, Sign, curves, range, with_legend};
+use super::pixels::Pixels;
+use super::{CONTACT, Fault, MEASURED, SETPOINT, failed};
+use crate::Error;
+
+/// Width of the picture, and height of a strip, pixels.
+const WIDTH: u32 = 1000;
+const HEIGHT: u32 = 230;
+/// More points of a curve than this are not seen.
+const POINTS: usize = 4_000;
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ink {
+    /// As what should be.
+    Wanted,
+    /// As what is.
+    Found,
+    /// As another that is.
+    Other,
+}
+
+/// A quantity, or some of the same unit.
+#[derive(Debug, Clone)]
+pub struct Strip {
+    /// Quantity and unit.
+    pub y: &'static str,
+    /// What the axis spans at least.
+    pub least: f64,
+    /// Names and points, s and the unit.
+    pub curves: Vec<(&'static str, Ink, Vec<(f64, f64)>)>,
+}
+
+/// Strips with one time.
+#[derive(Debug, Clone)]
+pub struct Strips {
+    /// What they show.
+    pub title: String,
+    /// From above.
+    pub strips: Vec<Strip>,
+}
+
+impl Strips {
+    /// As an SVG document.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the drawing library fails.
+    pub fn svg(&self) -> Result<String, Error> {
+        let mut svg = String::new();
+        let area = SVGBackend::with_string(&mut svg, self.size()).into_drawing_area();
+        self.drawn(&area).map_err(|fault| failed(&*fault))?;
+        drop(area);
+        Ok(svg)
+    }
+
+    /// As a PNG file.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the drawing library fails.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let mut pixels = Pixels::new(self.size())?;
+        let area = (&mut pixels).into_drawing_area();
+        self.drawn(&area).map_err(|fault| failed(&*fault))?;
+        drop(area);
+        pixels.png()
+    }
+
+    fn size(&self) -> (u32, u32) {
+        (WIDTH, 40 + HEIGHT * self.strips.len() as u32)
+    }
+
+    fn drawn<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), Fault>
+    where
+        DB::ErrorType: 'static,
+    {
+        root.fill(&WHITE)?;
+        let root = root.titled(&self.title, ("sans-serif", 20))?;
+        let areas = root.split_evenly((self.strips.len(), 1));
+        let times = self.strips.iter().flat_map(|strip| &strip.curves);
+        let times = || {
+            times
+                .clone()
+                .flat_map(|(_, _, points)| points)
+                .map(|(t_s, _)| *t_s)
+        };
+        let from = times().fold(f64::INFINITY, f64::min);
+        let to = times().fold(f64::NEG_INFINITY, f64::max);
+        let span = if from < to { (from, to) } else { (0.0, 1.0) };
+        for (n, (area, strip)) in areas.iter().zip(&self.strips).enumerate() {
+            let shown: Vec<Curve> = strip
+                .curves
+                .iter()
+                .map(|(name, ink, points)| (*name, ink.colour(), thinned(points)))
+                .collect();
+            let entries = shown
+                .iter()
+                .map(|(name, colour, _)| (Sign::Line(*colour), *name));
+            let area = with_legend(area, &entries.collect::<Vec<_>>())?;
+            let is_last = n + 1 == self.strips.len();
+            let axes = Axes {
+                x: is_last.then_some("time, s"),
+                y: strip.y,
+                room: (64, 16),
+                legend: false,
+            };
+            curves(&area, axes, span, range(&shown, strip.least), shown)?;
+        }
+        root.present()?;
+        Ok(())
+    }
+}
+
+impl Ink {
+    const fn colour(self) -> RGBColor {
+        match self {
+            Self::Wanted => SETPOINT,
+            Self::Found => MEASURED,
+            Self::Other => CONTACT,
+        }
+    }
+}
+
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let each = points.len().div_ceil(POINTS).max(1);
+    points.iter().copied().step_by(each).collect()
+}

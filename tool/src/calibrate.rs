@@ -1,0 +1,12 @@
+//! What `whisker calibrate` and `whisker check` do with a module: moving one whisker and
+//! listening to it, and what is read from that.
+
+mod identify;
+mod listening;
+mod moves;
+mod rest;
+
+pub(crate) use identify::{Gains, Motor, identify, suggest};
+pub(crate) use listening::{Listening, Sample};
+pub(crate) use moves::{Push, lead, push, steps};
+pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero};

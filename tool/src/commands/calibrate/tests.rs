@@ -1,0 +1,137 @@
+//! Calibrating whiskers whose motor, encoder and way are known.
+
+use host_sim::commands::run::Loaded;
+use host_sim::motor::Wire;
+use host_sim::origin::Origin;
+use host_sim::run::Run;
+use wire::TaggedCommand;
+
+use super::*;
+use crate::source::{Heard, Source};
+
+const SCENE: &str = r#"name = "free"
+tick_hz = 2000
+duration_s = 60.0
+seed = 1
+[head]
+whiskers_per_side = 1
+sides = "left"
+[whisking]
+frequency_hz = 2.0
+integrator = "exact"
+coupling = false
+noise = 0.005
+gain = 1.0
+start = [[1.0, 0.0]]
+"#;
+
+/// A simulated module, of which a wire can be exchanged.
+struct Wired(Run);
+
+impl Source for Wired {
+    fn next(&mut self) -> Result<Heard, Error> {
+        self.0.tick();
+        Ok(Heard {
+            packets: self.0.module_mut().take_packets(),
+            lines: Vec::new(),
+        })
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.0.module_mut().request(request);
+        Ok(())
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.0.row().t_s
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        None
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::default()
+    }
+}
+
+/// What a calibration of the scene with `more` says, with that wire the wrong way.
+fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), Error> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
+    let loaded = Loaded::new(&path).unwrap();
+    let tuner = Tuner::open(&path, true).unwrap();
+    let motor = tuner.scene().motor.as_ref().unwrap();
+    let mut run = Run::new(&loaded.scene, None).unwrap();
+    if let Some(wire) = wire {
+        run.motor_mut(0).unwrap().cut(wire);
+    }
+    let module = Conversation::new(Box::new(Wired(run)));
+    let mut whisker = Listening::new(module, 0).unwrap();
+    let mut results = Results::default();
+    let samples = all(&mut whisker, &tuner, motor, &mut results)?;
+    // Nothing is driven then.
+    whisker.module().ask(Command::Stream(true)).unwrap();
+    let last = whisker.watch(0.05, |_| true).unwrap();
+    assert_eq!(last.last().unwrap().duty, 0.0);
+    Ok((results, samples))
+}
+
+fn near(found: f64, expected: f64, share: f64) {
+    assert!(
+        (found / expected - 1.0).abs() < share,
+        "{found}, expected {expected}"
+    );
+}
+
+#[test]
+fn the_simulated_motor_is_found_as_it_was_made() {
+    let (results, samples) = calibrated("", None).unwrap();
+    let motor = results.motor.unwrap();
+    // k U/R ÷ (k²/R + b), at the whisker; J ÷ (k²/R + b); τ_c R/(k U): of the motor's settings.
+    near(motor.speed_deg_s, 12_449.0, 0.03);
+    near(motor.tau_s, 0.0481, 0.03);
+    near(motor.friction, 0.05, 0.04);
+    // Friction over kp = 1 degree is what it can be away from its setpoint at rest.
+    assert!((0.2..1.1).contains(&results.left_deg.unwrap()));
+    assert_eq!(results.range_deg, Some([30.0, 160.0]));
+    let zero = results.zero.unwrap();
+    for channel in &zero.channels {
+        assert!(channel.offset().abs() < 0.01, "{channel:?}");
+        assert!((0.3..30.0).contains(&channel.sd), "{channel:?}");
+    }
+    assert_eq!(zero.invalid, 0);
+    assert!(samples.len() > 6_000);
+    assert!(table(&samples).lines().count() == samples.len() + 1);
+}
+
+#[test]
+fn a_stop_within_the_range_is_found_and_kept_away_from() {
+    let motor = "[motor]\nrest = \"find\"\nstop_deg = 40.0\n";
+    let (results, samples) = calibrated(motor, None).unwrap();
+    let [low, high] = results.range_deg.unwrap();
+    assert!((low - 40.0).abs() < 1.0, "{low}");
+    assert_eq!(high, 160.0);
+    assert!(samples.iter().all(|sample| sample.setpoint_deg > 41.0));
+}
+
+#[test]
+fn an_encoder_or_a_motor_the_wrong_way_round_ends_it() {
+    for wire in [Wire::EncoderChannels, Wire::Windings] {
+        let told = calibrated("", Some(wire)).unwrap_err().to_string();
+        assert!(told.starts_with("direction: moved "), "{wire:?}: {told}");
+        assert!(told.contains("exchange the encoder's channels"), "{told}");
+    }
+}
+
+#[test]
+fn a_motor_that_is_not_connected_ends_it() {
+    for wire in [Wire::Winding(0), Wire::Encoder] {
+        let told = calibrated("", Some(wire)).unwrap_err().to_string();
+        assert!(
+            told.starts_with("direction: stays where it is") || told.starts_with("a fault: "),
+            "{wire:?}: {told}"
+        );
+    }
+}
