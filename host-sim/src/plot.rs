@@ -9,7 +9,7 @@ mod strips;
 mod whiskers;
 
 pub use sides::{Panel, sides};
-pub use strips::{Ink, Strip, Strips};
+pub use strips::{Ink, Points, Strip, Strips};
 
 use plotters::prelude::*;
 use tactile::score::Interval;

@@ -1,12 +1,16 @@
 //! What `whisker calibrate` and `whisker check` do with a module: moving one whisker and
 //! listening to it, and what is read from that.
 
+mod findings;
 mod identify;
 mod listening;
 mod moves;
 mod rest;
+mod watched;
 
+pub(crate) use findings::{Finding, findings, table};
 pub(crate) use identify::{Gains, Motor, identify, suggest};
 pub(crate) use listening::{Listening, Sample};
 pub(crate) use moves::{Push, lead, push, steps};
 pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero};
+pub(crate) use watched::{Watched, watch};

@@ -4,6 +4,7 @@
 pub(crate) mod board;
 pub(crate) mod calibrate;
 pub(crate) mod capture;
+pub(crate) mod check;
 pub(crate) mod deploy;
 pub(crate) mod doctor;
 pub(crate) mod flash;

@@ -48,6 +48,11 @@ impl Conversation {
         }
     }
 
+    /// What came while answers were waited for, and was not heard yet.
+    pub(crate) fn take_kept(&mut self) -> VecDeque<Heard> {
+        std::mem::take(&mut self.kept)
+    }
+
     /// Asks for something, without waiting; the answer has the tag that is returned.
     pub(crate) fn send(&mut self, command: Command) -> Result<u16, Error> {
         self.tag = self.tag.wrapping_add(1);

@@ -60,6 +60,9 @@ enum Command {
     /// Finds a whisker's zero, range and stops, its motor's direction and friction, and gains that
     /// fit; moves it, gently
     Calibrate(commands::calibrate::Arguments),
+    /// Watches a whisker for a minute and writes a report: what is not as its simulation has it,
+    /// and what that is a sign of
+    Check(commands::check::Arguments),
     /// Programs a board through its debug probe with a scene
     Flash(commands::flash::Arguments),
     /// Says what this PC lacks to work with a board, and the command that mends it
@@ -98,12 +101,16 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => {
             return report::ended("whisker", commands::calibrate::calibrate(arguments));
         }
+        Command::Check(arguments) => {
+            return report::ended("whisker", commands::check::check(arguments));
+        }
         _ => {}
     }
     report::program("whisker", || -> Result<(), Error> {
         match command {
             Command::Monitor(arguments) => commands::monitor::monitor(&arguments),
             Command::Calibrate(arguments) => commands::calibrate::calibrate(&arguments),
+            Command::Check(arguments) => commands::check::check(&arguments),
             Command::Log(arguments) => commands::log::log(&arguments),
             Command::Records(arguments) => commands::records::records(&arguments, verbosity),
             Command::Capture(arguments) => commands::capture::capture(&arguments, verbosity),

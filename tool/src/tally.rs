@@ -34,6 +34,11 @@ pub(crate) fn side(record: &TickRecord) -> usize {
 }
 
 impl Tally {
+    /// What comes next follows nothing: records between were not asked for.
+    pub(crate) const fn skip(&mut self) {
+        self.last = [None; 2];
+    }
+
     /// Counts a record; tells what is before it.
     pub(crate) fn take(&mut self, record: &TickRecord) -> Before {
         self.records += 1;

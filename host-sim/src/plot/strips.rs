@@ -32,9 +32,12 @@ pub struct Strip {
     pub y: &'static str,
     /// What the axis spans at least.
     pub least: f64,
-    /// Names and points, s and the unit.
-    pub curves: Vec<(&'static str, Ink, Vec<(f64, f64)>)>,
+    /// Each with its name.
+    pub curves: Vec<(&'static str, Ink, Points)>,
 }
+
+/// Points of a curve: s, and the unit of its strip.
+pub type Points = Vec<(f64, f64)>;
 
 /// Strips with one time.
 #[derive(Debug, Clone)]
@@ -125,7 +128,7 @@ impl Ink {
     }
 }
 
-fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+fn thinned(points: &[(f64, f64)]) -> Points {
     let each = points.len().div_ceil(POINTS).max(1);
     points.iter().copied().step_by(each).collect()
 }

@@ -121,6 +121,19 @@ impl Listening {
         self.module.ask(Command::Stop).map(drop)
     }
 
+    /// Has records sent again, where somebody has asked for none meanwhile: goes on with the
+    /// first of them.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the module does not answer.
+    pub(crate) fn go_on(&mut self) -> Result<(), Error> {
+        let kept = self.module.take_kept();
+        self.log
+            .extend(kept.into_iter().flat_map(|heard| heard.lines));
+        self.tally.skip();
+        self.module.ask(Command::Stream(true)).map(drop)
+    }
+
     /// Listens for so many seconds of the module's time; `each` is given every sample, and ends
     /// it with `false`.
     ///
@@ -195,9 +208,9 @@ impl Listening {
         }
         // The line about it may come after its record.
         self.watch(0.05, |_| true)?;
-        let lines = self.log.iter().filter(|line| line.contains("fault"));
+        let mut lines = self.log.iter().filter(|line| line.contains("fault"));
         let line = lines
-            .last()
+            .next_back()
             .map_or("whisker log tells which", String::as_str);
         Err(Error::Work(format!(
             "a fault: {line}; the motors were stopped"

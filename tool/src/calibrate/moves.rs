@@ -101,10 +101,9 @@ fn led(whisker: &mut Listening, [from, to]: [f64; 2]) -> Result<Option<f64>, Err
         };
         match behind {
             Some(since) if last.t_s - since >= BEHIND_S => return Ok(Some(last.measured_deg)),
-            // It may still catch up.
-            Some(_) => {}
             None if piece >= pieces => return Ok(None),
-            None => {}
+            // It may still catch up, or is on its way.
+            _ => {}
         }
     }
 }

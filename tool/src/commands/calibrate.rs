@@ -20,7 +20,6 @@ use crate::conversation::Conversation;
 use crate::resting::rest;
 use crate::tuning::Tuner;
 use results::Results;
-use wire::Command;
 
 /// Which whisker, and where the results go.
 #[derive(Debug, Args)]
@@ -143,7 +142,7 @@ fn limit(whisker: &mut Listening, tuner: &Tuner, duties: [f64; 2]) -> Result<(),
 /// The sensor at rest in free air, its motor off.
 fn zero(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
     rest(whisker.module())?;
-    whisker.module().ask(Command::Stream(true))?;
+    whisker.go_on()?;
     whisker.watch(0.2, |_| true)?;
     let samples = whisker.watch(REST_S, |_| true)?;
     let zero = Zero::of(&samples).ok_or_else(|| {

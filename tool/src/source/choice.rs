@@ -132,6 +132,12 @@ impl SourceChoice {
 }
 
 impl SourceChoice {
+    /// The simulation of a scene in its own world.
+    pub(crate) fn simulation(scene: &Path) -> Result<Box<dyn Source>, Error> {
+        let flash = Flash::open(None)?;
+        Ok(Box::new(Simulated::open(Loaded::new(scene)?, flash)?))
+    }
+
     /// Whether the module is a simulated one.
     pub(crate) const fn is_simulated(&self) -> bool {
         self.sim.is_some()

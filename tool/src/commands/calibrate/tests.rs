@@ -72,7 +72,7 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
     let mut results = Results::default();
     let samples = all(&mut whisker, &tuner, motor, &mut results)?;
     // Nothing is driven then.
-    whisker.module().ask(Command::Stream(true)).unwrap();
+    whisker.go_on().unwrap();
     let last = whisker.watch(0.05, |_| true).unwrap();
     assert_eq!(last.last().unwrap().duty, 0.0);
     Ok((results, samples))

@@ -1,0 +1,163 @@
+//! `whisker check`: a minute with a module, and a report on it.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::Args;
+use host_sim::origin::Origin;
+use host_sim::output::Output;
+use host_sim::plot::{Ink, Strip, Strips};
+use host_sim::{Error, report};
+
+use super::get::Which;
+use super::order::SideName;
+use crate::calibrate::{Finding, Listening, Watched, findings, table, watch};
+use crate::conversation::Conversation;
+use crate::source::{Source, SourceChoice, seconds};
+
+/// Which whisker, for how long, and where the report goes.
+#[derive(Debug, Args)]
+#[command(group(clap::ArgGroup::new("source").required(true)))]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    which: Which,
+    /// The side whose whisker it is
+    #[arg(long, value_enum, default_value = "left")]
+    side: SideName,
+    /// For how long, rest included
+    #[arg(long, value_name = "S", default_value = "60", value_parser = seconds)]
+    seconds: f64,
+    /// The folder for check.md, check.svg and check.png
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Lines of the log that a report has, at most.
+const LOG_LINES: usize = 40;
+
+/// Watches the module and its scene's simulation, and writes what differs; the motors are off at
+/// the end, however it ends.
+pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
+    let scene = arguments.which.scene_file()?;
+    let simulation = SourceChoice::simulation(scene)?;
+    let file = |name: &str| Output::create(&arguments.out.join(name));
+    let [md, svg, png] = [file("check.md")?, file("check.svg")?, file("check.png")?];
+    report::warn(format_args!(
+        "keep away what the whisker could touch; it is watched for {} s at rest and whisking. \
+         Ctrl-C stops it",
+        arguments.seconds
+    ));
+    let module = arguments.which.source.open(0)?;
+    let seen = Seen::of(module, arguments)?;
+    let simulated = Seen::of(simulation, arguments)?;
+    let found = findings(&seen.watched, &simulated.watched);
+    let off: Vec<&Finding> = found.iter().filter(|finding| finding.is_off()).collect();
+
+    let origin = seen.origin.clone().with("scene", scene.display());
+    let text = seen.report(&origin, &found);
+    md.whole(text.as_bytes())?;
+    let picture = picture(&seen.watched);
+    svg.whole(picture.svg()?.as_bytes())?;
+    png.whole(&picture.png()?)?;
+    for finding in &off {
+        report::say(format_args!(
+            "{}: {:.2} {}, at most {:.2}: {}",
+            finding.name, finding.found, finding.unit, finding.most, finding.sign
+        ));
+    }
+    let out = arguments.out.display();
+    report::say(format_args!(
+        "{} of {} figures need a look; in {out}: check.md, check.svg, check.png",
+        off.len(),
+        found.len()
+    ));
+    if off.is_empty() && seen.faults().is_empty() {
+        return Ok(());
+    }
+    Err(Error::Work(format!(
+        "not as its simulation; docs/calibrating.md says what to do, and {out}/check.md is what \
+         to send with a question"
+    )))
+}
+
+/// What came of watching.
+struct Seen {
+    watched: Watched,
+    log: Vec<String>,
+    origin: Origin,
+}
+
+impl Seen {
+    fn of(module: Box<dyn Source>, arguments: &Arguments) -> Result<Self, Error> {
+        let has_motor = arguments.which.tuner()?.scene().motor.is_some();
+        let origin = module.origin();
+        let mut whisker = Listening::new(Conversation::new(module), arguments.side.number())?;
+        let watched = watch(&mut whisker, arguments.seconds, has_motor)?;
+        Ok(Self {
+            watched,
+            log: std::mem::take(&mut whisker.log),
+            origin,
+        })
+    }
+
+    /// What the log says of faults and limits.
+    fn faults(&self) -> Vec<&str> {
+        let lines = self.log.iter().map(String::as_str);
+        let of_faults = |line: &&str| line.contains("fault ") || line.contains("limit ");
+        lines.filter(of_faults).take(LOG_LINES).collect()
+    }
+
+    fn report(&self, origin: &Origin, found: &[Finding]) -> String {
+        let mut text = format!(
+            "# Check of a whisker\n\nwhisker {}",
+            env!("CARGO_PKG_VERSION")
+        );
+        for (key, value) in origin.iter() {
+            // Writing to a string does not fail.
+            let _ = write!(text, ", {key}: {value}");
+        }
+        text += "\n\n";
+        text += &table(found);
+        text += "\nAt most: from which a figure needs a look on, from that of the simulation of the \
+                 same scene.\n\n## Faults and limits in the log\n\n";
+        let faults = self.faults();
+        if faults.is_empty() {
+            text += "None.\n";
+        }
+        for line in faults {
+            let _ = writeln!(text, "- `{}`", line.replace('`', "'"));
+        }
+        text
+    }
+}
+
+fn picture(watched: &Watched) -> Strips {
+    let samples = &watched.samples;
+    let points = |of: &dyn Fn(&crate::calibrate::Sample) -> f64| {
+        samples.iter().map(|s| (s.t_s, of(s))).collect::<Vec<_>>()
+    };
+    Strips {
+        title: "check: at rest, whisking, at rest".to_owned(),
+        strips: vec![
+            Strip {
+                y: "sensor, codes",
+                least: 100.0,
+                curves: vec![
+                    ("x", Ink::Found, points(&|s| s.codes[0].into())),
+                    ("y", Ink::Other, points(&|s| s.codes[1].into())),
+                ],
+            },
+            Strip {
+                y: "angle θ′, degrees",
+                least: 10.0,
+                curves: vec![
+                    ("setpoint", Ink::Wanted, points(&|s| s.setpoint_deg)),
+                    ("measured", Ink::Found, points(&|s| s.measured_deg)),
+                ],
+            },
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,167 @@
+//! Modules with one thing wrong, each of which is named.
+
+use std::f64::consts::TAU;
+use std::path::PathBuf;
+
+use clap::Parser;
+use wire::{Flags, Packet, TaggedCommand, TickRecord};
+
+use super::*;
+use crate::source::Heard;
+
+const SCENE: &str = r#"name = "free"
+tick_hz = 2000
+duration_s = 60.0
+seed = 1
+[head]
+whiskers_per_side = 1
+sides = "left"
+[whisking]
+frequency_hz = 2.0
+integrator = "exact"
+coupling = false
+noise = 0.005
+gain = 1.0
+start = [[1.0, 0.0]]
+"#;
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    arguments: Arguments,
+}
+
+/// A module whose records are spoilt on their way; false: that one is lost.
+struct Spoilt {
+    module: Box<dyn Source>,
+    spoils: fn(&mut TickRecord, f64) -> bool,
+}
+
+impl Source for Spoilt {
+    fn next(&mut self) -> Result<Heard, Error> {
+        let mut heard = self.module.next()?;
+        let t_s = self.module.now_s();
+        heard.packets.retain_mut(|packet| match packet {
+            Packet::Record(record) => (self.spoils)(record, t_s),
+            Packet::Answer(_) => true,
+        });
+        Ok(heard)
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.module.request(request)
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.module.now_s()
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        None
+    }
+
+    fn origin(&self) -> Origin {
+        self.module.origin()
+    }
+}
+
+/// The signs of what is found of such a module.
+fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
+    let folder = tempfile::tempdir().unwrap();
+    let scene: PathBuf = folder.path().join("scene.toml");
+    std::fs::write(&scene, SCENE).unwrap();
+    let words = ["check", "--seconds", "12", "--out", "unused", "--sim"];
+    let words = words.iter().map(std::ffi::OsString::from);
+    let Line { arguments } = Line::parse_from(words.chain([scene.clone().into_os_string()]));
+    let simulation = || SourceChoice::simulation(&scene).unwrap();
+    let module = Box::new(Spoilt {
+        module: simulation(),
+        spoils,
+    });
+    let seen = Seen::of(module, &arguments).unwrap();
+    let simulated = Seen::of(simulation(), &arguments).unwrap();
+    let found = findings(&seen.watched, &simulated.watched);
+    let text = seen.report(&seen.origin, &found);
+    let mut signs: Vec<&str> = Vec::new();
+    for finding in found.iter().filter(|finding| finding.is_off()) {
+        assert!(text.contains(finding.sign), "{text}");
+        let sign = finding.sign.split(':').next().unwrap();
+        if !signs.contains(&sign) {
+            signs.push(sign);
+        }
+    }
+    signs
+}
+
+/// Another code of x.
+fn shift(record: &mut TickRecord, codes: f64) {
+    let [x, _] = record.codes();
+    let code = (f64::from(x) + codes).round().clamp(0.0, 16_383.0);
+    record.x = (code as u16) << 2;
+}
+
+/// A number between −1 and 1 that differs from tick to tick.
+fn noise(record: &TickRecord) -> f64 {
+    let mixed = record.sequence.wrapping_mul(0x9E37_79B9).rotate_left(15);
+    f64::from(mixed.wrapping_mul(0x85EB_CA6B)) / f64::from(u32::MAX) * 2.0 - 1.0
+}
+
+#[test]
+fn a_module_as_its_simulation_has_nothing_to_be_told() {
+    assert_eq!(signs(|_, _| true), Vec::<&str>::new());
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let tilted = signs(|record, _| {
+        shift(record, 900.0);
+        true
+    });
+    assert_eq!(tilted, ["tilt"]);
+    let weak = signs(|record, _| {
+        shift(record, 40.0 * noise(record));
+        true
+    });
+    assert_eq!(weak[0], "gap", "{weak:?}");
+    let mains = signs(|record, t_s| {
+        shift(record, 12.0 * (TAU * 6.0 * t_s).sin());
+        true
+    });
+    assert!(mains.contains(&"a field that changes"), "{mains:?}");
+    let drifts = signs(|record, t_s| {
+        shift(record, 6.0 * t_s);
+        true
+    });
+    assert!(drifts.contains(&"drift"), "{drifts:?}");
+    let neighbour = signs(|record, _| {
+        shift(
+            record,
+            2.0 * f64::from(wire::degrees(record.measured)) - 100.0,
+        );
+        true
+    });
+    assert!(
+        neighbour.contains(&"a neighbour's field, or a magnet off the axis"),
+        "{neighbour:?}"
+    );
+    let saturated = signs(|record, _| {
+        if record.sequence % 50 == 0 {
+            shift(record, 16_383.0);
+        }
+        true
+    });
+    assert!(saturated.contains(&"saturation"), "{saturated:?}");
+    let noisy_line = signs(|record, _| {
+        if record.sequence % 100 == 0 {
+            record.flags = record.flags.without(Flags::VALID);
+        }
+        true
+    });
+    assert_eq!(noisy_line, ["line errors"]);
+}
+
+#[test]
+fn records_that_are_lost_are_counted() {
+    let lost = signs(|record, _| record.sequence % 1_000 != 0);
+    assert_eq!(lost, ["the PC or the line does not keep up"]);
+}
