@@ -12,6 +12,7 @@ mod dma;
 mod facts;
 mod fault;
 mod fields;
+mod flash;
 mod gpio;
 mod lines;
 mod map;
@@ -50,6 +51,7 @@ pub(crate) use time::Ps;
 pub(crate) use wiring::SIDE_NAMES;
 
 use dma::Dma;
+use flash::Flash;
 use gpio::Gpio;
 use lines::Lines;
 use mux::Mux;
@@ -78,7 +80,7 @@ pub(crate) struct Chip {
     clocks: Clocks,
     power: Power,
     exti: Lines,
-    flash: Plain,
+    flash: Flash,
     /// What switches the pull-downs of USB-C pins off, on the G071.
     system: Plain,
     debug: Plain,
@@ -113,7 +115,7 @@ impl Chip {
             clocks,
             power: Power::new(model.power),
             exti: Lines::new(model.lines),
-            flash: Plain::new(model.flash_registers),
+            flash: Flash::new(model.flash_registers, model.flash_sectors),
             system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),
@@ -256,6 +258,21 @@ impl Chip {
     fn timer_clock(&self, n: usize) -> Ps {
         let (_, bus) = self.model.timers[n];
         self.clocks.timer(bus)
+    }
+
+    /// Takes a store of so many bytes into flash, by its offset; whether it is programmed.
+    pub(crate) fn store_flash(&mut self, offset: u32, bytes: usize) -> bool {
+        self.flash.store(offset, bytes, self.now)
+    }
+
+    /// Offsets of the flash that has begun to be erased since the last call.
+    pub(crate) fn take_erased(&mut self) -> Option<std::ops::Range<u32>> {
+        self.flash.take_erased()
+    }
+
+    /// Until when the core waits for its flash.
+    pub(crate) fn flash_busy_until(&self) -> Ps {
+        self.flash.busy_until()
     }
 
     /// Keeps the first fault of an access for [`Chip::advance`] to tell.

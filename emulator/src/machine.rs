@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
 use crate::core::{Core, EXCEPTION};
-use crate::memory::{Memories, Shared};
+use crate::memory::{FLASH, Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
 use crate::upset::{Planned, Upset};
@@ -75,6 +75,8 @@ pub(crate) struct Machine {
     pub(crate) cycle: Ps,
     exception: u32,
     ready: bool,
+    /// Until when the core waits for its flash.
+    stalled: Ps,
     /// Nothing but a reset gets the core on.
     is_locked_up: bool,
     /// The supply holds the chip in reset.
@@ -106,6 +108,7 @@ impl Machine {
             shared,
             exception: 0,
             ready: false,
+            stalled: 0,
             is_locked_up: false,
             held: false,
             planned: Planned::default(),
@@ -198,6 +201,10 @@ impl Machine {
                 self.sleep(until, 0)?;
                 continue;
             }
+            if self.stalled > self.now {
+                self.stall(until);
+                continue;
+            }
             let cycles = self.core.step();
             let was_asleep = std::mem::replace(&mut asleep, self.core.is_asleep());
             if was_asleep && asleep {
@@ -225,6 +232,15 @@ impl Machine {
         self.core.pass(slept.saturating_sub(counted), self.cycle);
         self.shared.set_now(self.now);
         Ok(())
+    }
+
+    /// The flash is erased or written, and the core gets no instruction.
+    fn stall(&mut self, until: Ps) {
+        let due = self.due.unwrap_or(Ps::MAX);
+        let waited = self.stalled.min(until).min(due).saturating_sub(self.now);
+        self.now += waited;
+        self.core.pass(waited, self.cycle);
+        self.shared.set_now(self.now);
     }
 
     /// The time is up. A reset that the core asks for touches no peripheral, and so is seen
@@ -286,7 +302,13 @@ impl Machine {
             }
             Err(fault) => return Err(fault),
         };
+        let erased = chip.take_erased();
+        self.stalled = chip.flash_busy_until();
         drop(chip);
+        if let Some(place) = erased {
+            self.memories
+                .erase(FLASH + place.start..FLASH + place.end)?;
+        }
         self.core.check()?;
         self.follow_chip();
         if self.core.reset_requested() {
@@ -310,6 +332,7 @@ impl Machine {
         self.exception = 0;
         self.ready = false;
         self.is_locked_up = false;
+        self.stalled = 0;
         Ok(())
     }
 

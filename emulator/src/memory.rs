@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rsemu::core::space::{
-    AddressSpace, MemAttrs, MemOps, MemResult, RamStore, Region, UnassignedPolicy,
+    AddressSpace, Mapping, MemAttrs, MemOps, MemResult, Perms, RamStore, Region, UnassignedPolicy,
 };
 
 use crate::chip::{Chip, Fault, Memory, Model, Ps};
@@ -110,6 +110,30 @@ impl MemOps for Registers {
     }
 }
 
+/// What the core stores into flash.
+#[derive(Debug)]
+struct FlashStores {
+    shared: Arc<Shared>,
+    memories: Memories,
+}
+
+impl MemOps for FlashStores {
+    fn read(&self, offset: u64, bytes: &mut [u8], _: MemAttrs) -> MemResult {
+        self.memories.flash.read_at(offset, bytes).map(drop)
+    }
+
+    fn write(&self, offset: u64, bytes: &[u8], _: MemAttrs) -> MemResult {
+        let offset = offset as u32;
+        let mut chip = self.shared.access();
+        if chip.store_flash(offset, bytes.len())
+            && let Err(fault) = self.memories.program(FLASH + offset, bytes)
+        {
+            chip.keep(fault);
+        }
+        Ok(())
+    }
+}
+
 /// Flash and RAM.
 #[derive(Debug, Clone)]
 pub(crate) struct Memories {
@@ -166,8 +190,20 @@ impl Memories {
             };
             let mut map = space.topology();
             let (flash, ram) = (Arc::clone(&self.flash), Arc::clone(&self.ram));
-            map.map(Region::ram("flash", flash), FLASH.into())
-                .map_err(refused)?;
+            // Read as memory; what is stored goes to the flash interface.
+            let read = Mapping::new(Region::ram("flash", flash), FLASH.into());
+            map.map_with(read.with_perms(Perms::RX)).map_err(refused)?;
+            let stores = Arc::new(FlashStores {
+                shared: Arc::clone(shared),
+                memories: self.clone(),
+            });
+            let stores = Region::io("stores into flash", self.flash_len.into(), stores);
+            map.map_with(
+                Mapping::new(stores, FLASH.into())
+                    .with_perms(Perms::WRITE)
+                    .with_priority(-1),
+            )
+            .map_err(refused)?;
             map.map(Region::ram("ram", ram), RAM.into())
                 .map_err(refused)?;
             for (name, base, length) in PERIPHERALS {

@@ -4,14 +4,13 @@
 use std::ops::Range;
 use std::path::Path;
 
-use firmware::MODEL_LAST_WORDS;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::{Packet, TaggedCommand};
+use wire::{Packet, TaggedCommand, load_order};
 
 use crate::board::Emulated;
-use crate::chip::ResetCause;
+use crate::chip::{Ps, ResetCause};
 use crate::emulate::start;
 use crate::program::Program;
 use rtt::LogDecoder;
@@ -27,6 +26,8 @@ pub struct Session {
     /// Where a model is deployed to, and most classes of it.
     place: Range<u32>,
     classes: usize,
+    /// Longer than any tick takes.
+    most_wait: Ps,
 }
 
 impl Session {
@@ -54,6 +55,8 @@ impl Session {
             board: program.model()?.program,
             place: program.model_place()?,
             classes: program.model_classes()?,
+            // Ticks are not equally long.
+            most_wait: (1.5 * PS / f64::from(scene.tick_hz)) as Ps,
         })
     }
 
@@ -116,13 +119,31 @@ impl Session {
         }
         let memories = &board.machine.memories;
         memories.erase(self.place.clone())?;
-        let addressed: Vec<(u32, &[u8; 4])> = (self.place.start..).step_by(4).zip(all).collect();
-        let (last, first) = addressed.split_at(MODEL_LAST_WORDS.min(addressed.len()));
-        for (address, word) in first.iter().chain(last.iter().rev()).take(words) {
-            memories.program(*address, *word)?;
+        let count = all.len() as u32;
+        for number in (0..count).take(words) {
+            let at = load_order(number, count);
+            if let Some(word) = all.get(at as usize) {
+                memories.program(self.place.start + 4 * at, word)?;
+            }
         }
         board.start_anew(ResetCause::Software)?;
         Ok(())
+    }
+
+    /// From now on a reset that the program or the watchdog makes is no fault, and the world
+    /// moves on where no tick ends; or no more.
+    pub fn bear_resets(&mut self, bears: bool) {
+        let emulated = self.run.module_mut();
+        emulated.bears_resets = bears;
+        emulated.board.world_waits = bears.then_some(self.most_wait);
+        if !bears {
+            emulated.board.reset = None;
+        }
+    }
+
+    /// Whether the board was reset since the last call.
+    pub fn was_reset(&mut self) -> bool {
+        self.run.module_mut().board.reset.take().is_some()
     }
 
     /// One tick of the board, and of the world around it.

@@ -56,15 +56,15 @@ pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Config, Module};
 pub use motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker, Passive};
 pub use perception::{
-    Classifying, ClassifyingConfig, CodeClassifier, Deployed, MODEL_LAST_WORDS, ModelLimits,
-    ModelState, NotCodes, Perception, Refusal, Sample, SampleClassifier, TakesRule, shifts,
+    Classifying, ClassifyingConfig, CodeClassifier, Deployed, ModelLimits, ModelState, NotCodes,
+    Perception, Refusal, Sample, SampleClassifier, TakesRule, shifts,
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
-pub use telemetry::{About, Link, Notes, PacketSink};
+pub use telemetry::{About, Link, Notes, PacketSink, may_load};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

@@ -9,7 +9,7 @@ use crate::sensing::Reading;
 
 pub use classifying::{Classifying, ClassifyingConfig, Sample, SampleClassifier, TakesRule};
 pub use codes::{CodeClassifier, NotCodes, shifts};
-pub use deployed::{Deployed, MODEL_LAST_WORDS, ModelLimits, ModelState, Refusal};
+pub use deployed::{Deployed, ModelLimits, ModelState, Refusal};
 
 /// Decides from the readings of a module by the constants `C`, or does not.
 pub trait Perception<R, C, const S: usize, const N: usize> {

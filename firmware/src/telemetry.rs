@@ -203,10 +203,14 @@ impl Link {
                 }
                 ModelState::NotHere => Err(CommandStatus::NotHere),
             },
-            // By `Tuning`.
-            Said::Constant(_) | Said::Stage(..) | Said::Apply(_) | Said::Forget => {
-                Err(CommandStatus::NotHere)
-            }
+            // By `Tuning`, or by a board's loader.
+            Said::Constant(_)
+            | Said::Stage(..)
+            | Said::Apply(_)
+            | Said::Forget
+            | Said::Load(_)
+            | Said::Word(..)
+            | Said::Restart => Err(CommandStatus::NotHere),
         };
         self.reply(Answer {
             sequence,
@@ -277,6 +281,36 @@ impl Link {
                 }
             }
         }
+    }
+}
+
+/// Whether a board may write a model of so many `words` into its flash, which has `room` for
+/// some: with motors that are off, as nothing moves them meanwhile.
+///
+/// # Errors
+/// [`CommandStatus::Armed`], or [`CommandStatus::OutOfRange`].
+pub fn may_load<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+    module: &Module<R, F, M, P, C, S, N>,
+    config: &Config<MC, PC, H>,
+    words: u32,
+    room: u32,
+) -> Result<(), CommandStatus>
+where
+    R: Real,
+    F: WordSource,
+    M: Motion<R, MC, S, N>,
+    C: Clock,
+{
+    let is_armed = |side, whisker| {
+        let told = module.motion().told(&config.motion, side, whisker);
+        told.flags.contains(Flags::ARMED)
+    };
+    if (0..S).any(|side| (0..N).any(|whisker| is_armed(side, whisker))) {
+        Err(CommandStatus::Armed)
+    } else if (1..=room).contains(&words) {
+        Ok(())
+    } else {
+        Err(CommandStatus::OutOfRange)
     }
 }
 

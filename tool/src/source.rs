@@ -5,6 +5,7 @@ mod choice;
 mod emulated;
 mod flash;
 mod laying;
+mod loading;
 mod person;
 mod port;
 mod port_line;
@@ -14,6 +15,8 @@ mod simulated;
 mod texture;
 
 pub(crate) use choice::{SourceChoice, seconds};
+#[cfg(unix)]
+pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build};
 #[cfg(unix)]
@@ -89,10 +92,9 @@ pub(crate) trait Source {
     }
 
     /// Writes a model where the module looks for one, its first words last
-    /// ([`firmware::MODEL_LAST_WORDS`]), and has it start anew; comes back once it has. Its
-    /// motors are off already: what halts a core leaves them as they are.
-    fn deploy(&mut self, _model: &ModelBuf) -> Result<(), Error> {
-        let fault = "a model cannot be deployed to this module yet; allowed: --sim, --emulated";
-        Err(Error::Input(fault.to_owned()))
+    /// ([`wire::load_order`]), and has it start anew; comes back once it has. Its motors are off
+    /// already.
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
+        loading::load(self, model)
     }
 }

@@ -34,6 +34,10 @@ pub enum CommandStatus {
     NotHere,
     /// The serial line cannot carry what was asked for.
     TooSlow,
+    /// A motor is armed.
+    Armed,
+    /// The model's flash did not take what was written.
+    NotWritten,
     /// A number that this version does not know.
     Other(u8),
 }
@@ -48,6 +52,8 @@ impl CommandStatus {
             Self::OutOfRange => 3,
             Self::NotHere => 4,
             Self::TooSlow => 5,
+            Self::Armed => 6,
+            Self::NotWritten => 7,
             Self::Other(code) => code,
         }
     }
@@ -61,6 +67,8 @@ impl CommandStatus {
             Self::OutOfRange => "value out of range",
             Self::NotHere => "not in this program",
             Self::TooSlow => "too much for this baud",
+            Self::Armed => "a motor is armed",
+            Self::NotWritten => "the flash did not take it",
             Self::Other(_) => "a status of a later version",
         }
     }
@@ -74,6 +82,8 @@ impl CommandStatus {
             3 => Self::OutOfRange,
             4 => Self::NotHere,
             5 => Self::TooSlow,
+            6 => Self::Armed,
+            7 => Self::NotWritten,
             code => Self::Other(code),
         }
     }

@@ -78,6 +78,15 @@ pub enum Command {
     Apply(u32),
     /// Forgets what was put aside.
     Forget,
+    /// Ends the module's work and erases the flash of the model, of which so many words are to
+    /// come; by the serial port, and with all motors off. From then on until it starts anew
+    /// there are [`Command::Word`] and [`Command::Restart`] alone.
+    Load(u32),
+    /// The next word of the model, with the lowest byte of its number; they come in
+    /// [`load_order`](crate::load_order).
+    Word(u8, u32),
+    /// Starts anew, with what was loaded.
+    Restart,
 }
 
 /// What the number of a constant's second word has more than that of its first.
@@ -134,8 +143,11 @@ impl Command {
             Self::Model => 13,
             Self::Constant(_) => 14,
             Self::Stage(..) => 15,
+            Self::Load(_) => 16,
+            Self::Word(..) => 17,
             Self::Apply(_) => 18,
             Self::Forget => 19,
+            Self::Restart => 20,
         }
     }
 
@@ -159,6 +171,9 @@ impl Command {
             Self::Stage(..) => "stage",
             Self::Apply(_) => "apply",
             Self::Forget => "forget",
+            Self::Load(_) => "load",
+            Self::Word(..) => "word",
+            Self::Restart => "restart",
         }
     }
 
@@ -172,10 +187,13 @@ impl Command {
             | Self::Stop
             | Self::Version
             | Self::Model
-            | Self::Forget => (ALL, 0),
+            | Self::Forget
+            | Self::Restart => (ALL, 0),
             Self::Constant(number) => (WhiskerId::from_byte(number), 0),
-            Self::Stage(number, word) => (WhiskerId::from_byte(number), word.cast_signed()),
-            Self::Apply(sum) => (ALL, sum.cast_signed()),
+            Self::Stage(number, word) | Self::Word(number, word) => {
+                (WhiskerId::from_byte(number), word.cast_signed())
+            }
+            Self::Apply(value) | Self::Load(value) => (ALL, value.cast_signed()),
             Self::Name(from) => (ALL, from as i32),
             Self::Stream(on) => (ALL, on as i32),
             Self::Clear(whisker) | Self::Home(whisker) | Self::Release(whisker) => (whisker, 0),
@@ -201,8 +219,11 @@ impl Command {
             13 => Self::Model,
             14 => Self::Constant(whisker.byte()),
             15 => Self::Stage(whisker.byte(), value.cast_unsigned()),
+            16 => Self::Load(value.cast_unsigned()),
+            17 => Self::Word(whisker.byte(), value.cast_unsigned()),
             18 => Self::Apply(value.cast_unsigned()),
             19 => Self::Forget,
+            20 => Self::Restart,
             _ => return None,
         })
     }
@@ -278,7 +299,7 @@ mod tests {
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
-        (0..17_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+        (0..20_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
             let word = value.cast_unsigned();
             match which {
@@ -298,6 +319,9 @@ mod tests {
                 13 => Command::Constant(name),
                 14 => Command::Stage(name, word.rotate_left(8)),
                 15 => Command::Apply(word),
+                16 => Command::Load(word),
+                17 => Command::Word(name, word.rotate_left(8)),
+                18 => Command::Restart,
                 _ => Command::Forget,
             }
         })

@@ -2,11 +2,11 @@
 //! their gates, interrupts, pins and requests, and the bits of their registers. Every value is
 //! the one that the models use.
 
-use super::fields::{Field, whole};
+use super::fields::Field;
 use super::map::Unit;
 use super::rcc::Bus;
 use super::wiring::{PWM, Pin, Request, SERIAL};
-use super::{Model, dma, gpio, lines, mux, power, remap, spi, timer, usart, watchdog};
+use super::{Model, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog};
 
 /// What a fact is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +94,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Rcc => model.rcc.fields(),
         Unit::Flash => power::options(model.power)
             .into_iter()
-            .chain([whole("ACR", 0)])
+            .chain(flash::fields(!model.flash_sectors.is_empty()))
             .collect(),
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),

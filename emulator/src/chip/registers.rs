@@ -50,7 +50,7 @@ impl Chip {
                 Unit::Flash => self
                     .power
                     .options(offset)
-                    .or_else(|| self.flash.read(offset)),
+                    .or_else(|| self.flash.read(offset, now)),
                 Unit::Power => self.power.read(offset),
                 Unit::Lines => self.exti.read(offset),
                 Unit::Usart => self.usart.read(offset),
@@ -111,7 +111,7 @@ impl Chip {
             }
             Unit::Gpio(n) => self.gpio[n].write(offset, value),
             Unit::Rcc => self.rcc.write(offset, value),
-            Unit::Flash => self.flash.write(offset, value),
+            Unit::Flash => self.flash.write(offset, value, now),
             Unit::Power => self.power.write(offset, value),
             Unit::Lines => self.exti.write(offset, value),
             Unit::Usart => {

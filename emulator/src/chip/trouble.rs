@@ -62,7 +62,7 @@ impl Chip {
     /// [`Fault::Clock`] if they make none, or it does not.
     pub(super) fn follow_clocks(&mut self) -> Result<(), Fault> {
         let clocks = self.rcc.clocks()?;
-        let wait_states = self.flash.read(0).unwrap_or(0) & LATENCY;
+        let wait_states = self.flash.read(0, self.now).unwrap_or(0) & LATENCY;
         let supply_mv = self.power.supply_mv;
         let mut steps = self.model.flash_hz.iter();
         let step = steps.find(|(from_mv, _)| supply_mv >= *from_mv);

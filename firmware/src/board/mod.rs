@@ -26,6 +26,7 @@ pub(crate) mod faults;
 pub(crate) mod gpio;
 pub(crate) mod inner;
 pub(crate) mod integrity;
+pub(crate) mod loading;
 pub(crate) mod log;
 pub(crate) mod logger;
 pub(crate) mod model_place;

@@ -53,6 +53,9 @@ pub(crate) mod byte_request;
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
 #[cfg(target_os = "none")]
+#[path = "flash_none.rs"]
+pub(crate) mod flash;
+#[cfg(target_os = "none")]
 #[path = "gpio_v1.rs"]
 pub(crate) mod gpio;
 #[cfg(target_os = "none")]
@@ -75,6 +78,7 @@ pub(crate) use chip::*;
 mod chip {
     use cortex_m::peripheral::SCB;
     use firmware::StartCause;
+    use stm32_metapac::Interrupt;
     use stm32_metapac::afio::vals::SwjCfg;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Hpre, Pllmul, Pllsrc, Ppre, Sw};
@@ -97,6 +101,8 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
+    /// Its interrupt.
+    pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
     /// Each pin has one alternate function without remapping.
     const ONLY: AlternateFunction = 0;

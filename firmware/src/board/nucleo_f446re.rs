@@ -63,6 +63,9 @@ pub(crate) mod byte_request;
 #[path = "dma_streams.rs"]
 pub(crate) mod dma;
 #[cfg(target_os = "none")]
+#[path = "flash_f4.rs"]
+pub(crate) mod flash;
+#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
 #[cfg(target_os = "none")]
@@ -85,6 +88,7 @@ pub(crate) use chip::*;
 mod chip {
     use cortex_m::peripheral::SCB;
     use firmware::{Clock, StartCause};
+    use stm32_metapac::Interrupt;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Hpre, Pllp, Pllsrc, Ppre, Sw};
     use stm32_metapac::spi::Spi;
@@ -107,6 +111,8 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimBasic = TIM7;
+    /// Its interrupt.
+    pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM7;
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
 

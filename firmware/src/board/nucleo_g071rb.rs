@@ -55,6 +55,9 @@ pub(crate) mod byte_request;
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
 #[cfg(target_os = "none")]
+#[path = "flash_none.rs"]
+pub(crate) mod flash;
+#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
 #[cfg(target_os = "none")]
@@ -76,6 +79,7 @@ pub(crate) use chip::*;
 #[cfg(target_os = "none")]
 mod chip {
     use firmware::StartCause;
+    use stm32_metapac::Interrupt;
     use stm32_metapac::flash::vals::Latency;
     use stm32_metapac::rcc::vals::{Hpre, Pllm, Plln, Pllr, Pllsrc, Sw};
     use stm32_metapac::spi::Spi;
@@ -97,6 +101,8 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
+    /// Its interrupt.
+    pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
     /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
     const RX_DMA: usize = 0;

@@ -267,6 +267,7 @@ impl Idle {
         }
         self.pins.show(now);
         telemetry::hear();
+        telemetry::load(&mut self.serial);
         self.tuned.tell(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.

@@ -24,6 +24,12 @@ impl TickTimer {
     /// Acknowledges the interrupt.
     #[inline]
     pub(crate) fn acknowledge(&mut self) {
-        TICK_TIMER.sr().write(|w| w.set_uif(false));
+        acknowledge();
     }
+}
+
+/// Acknowledges the interrupt, where whoever does it has the chip for itself.
+#[inline]
+pub(crate) fn acknowledge() {
+    TICK_TIMER.sr().write(|w| w.set_uif(false));
 }

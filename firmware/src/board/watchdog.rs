@@ -6,6 +6,9 @@ use stm32_metapac::iwdg::vals::{Key, Pr};
 
 use super::CLOCKS;
 
+/// Its counts while flash is erased and written, of 256 periods of its oscillator.
+const SLOW_COUNTS: u16 = (4 * CLOCKS.watchdog_hz[2] / 256) as u16;
+
 /// The running watchdog.
 pub(crate) struct Watchdog(());
 
@@ -23,6 +26,21 @@ impl Watchdog {
         let mut dog = Self(());
         dog.feed();
         dog
+    }
+
+    /// Has it wait longer than the flash takes to be erased, which is 2 s at most: 4 s where
+    /// its oscillator is fastest, 11 s where it is slowest.
+    pub(crate) fn slow_down() {
+        key(Key::ENABLE);
+        IWDG.pr().write(|w| w.set_pr(Pr::DIVIDE_BY256));
+        IWDG.rlr().write(|w| w.set_rl(SLOW_COUNTS - 1));
+        let _ = (0..100_000).any(|_| IWDG.sr().read().0 == 0);
+        key(Key::RESET);
+    }
+
+    /// Restarts its count, where whoever does it has the chip for itself.
+    pub(crate) fn feed_slow() {
+        key(Key::RESET);
     }
 
     /// Restarts its count.

@@ -115,11 +115,6 @@ pub struct ModelLimits {
 #[derive(Debug, Clone)]
 pub struct Deployed<B>(Result<CodeClassifier<B>, Refusal>);
 
-/// Words at the beginning of a model that whoever deploys it writes last, the first of all in
-/// the end: until then its place counts as empty. Two, which is what the flash of an STM32G0
-/// is programmed by.
-pub const MODEL_LAST_WORDS: usize = 2;
-
 /// A word of flash that is erased.
 const ERASED: u32 = u32::MAX;
 

@@ -15,7 +15,7 @@ use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;
 use rustix::pty::OpenptFlags;
 
-use crate::source::{BoardName, build, texture};
+use crate::source::{BoardName, Flash, build, texture};
 
 /// Which board.
 #[derive(Debug, Args)]
@@ -33,6 +33,10 @@ pub(crate) struct Arguments {
     /// The scene in whose world the board is: what it meets, for how long, and the seed
     #[arg(long, value_name = "SCENE")]
     world: Option<PathBuf>,
+    /// The file that keeps the board's flash for a model, as a board does; made where there is
+    /// none
+    #[arg(long, value_name = "FILE")]
+    flash: Option<PathBuf>,
     /// A name for the terminal, whose own is another each time: a symbolic link, which replaces
     /// another and nothing else
     #[arg(long, value_name = "PATH")]
@@ -141,7 +145,11 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
         Some(program) => program.clone(),
         None => build(arguments.board, path)?,
     };
-    let mut session = Session::open(scene, &program)?;
+    let flash = Flash::open(arguments.flash.as_deref())?;
+    let mut session = Session::flashed(scene, &program, flash.contents())?;
+    let mut flash = flash.of_size(session.model_room())?;
+    // Whoever deploys a model has the board start anew.
+    session.bear_resets(true);
     let mut terminal = Terminal::open()?;
     if let Some(link) = &arguments.link {
         terminal.link(link)?;
@@ -151,6 +159,10 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     let commands = lines();
     loop {
         session.tick()?;
+        if session.was_reset() {
+            report::warn("the board was reset");
+            flash.store(&session.flash()?)?;
+        }
         let said = session.serial_read();
         let heard = terminal.exchange(&said)?;
         if !heard.is_empty() {

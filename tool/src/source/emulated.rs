@@ -10,6 +10,7 @@ use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
+use super::loading::load;
 use super::room::{ModelRoom, fits};
 use super::texture::texture;
 use super::{Heard, Source};
@@ -96,9 +97,10 @@ impl Source for Emulated {
     }
 
     fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
-        self.session.deploy(model.as_bytes())?;
+        self.session.bear_resets(true);
+        let loaded = load(self, model);
+        self.session.bear_resets(false);
         self.flash.store(&self.session.flash()?)?;
-        // It starts, and does its first tick.
-        self.session.tick()
+        loaded
     }
 }

@@ -12,14 +12,14 @@ const ERASED: u8 = 0xFF;
 
 /// Such a file, or flash that nobody keeps.
 #[derive(Debug)]
-pub(super) struct Flash {
+pub(crate) struct Flash {
     path: Option<PathBuf>,
     contents: Vec<u8>,
 }
 
 impl Flash {
     /// What the file has; nothing where there is none yet.
-    pub(super) fn open(path: Option<&Path>) -> Result<Self, Error> {
+    pub(crate) fn open(path: Option<&Path>) -> Result<Self, Error> {
         let contents = match path.map(std::fs::read) {
             Some(Ok(contents)) => contents,
             Some(Err(error)) if error.kind() == ErrorKind::NotFound => Vec::new(),
@@ -32,7 +32,7 @@ impl Flash {
 
     /// The same for a board with so many bytes of it: erased, and written to the file, if that
     /// was not there.
-    pub(super) fn of_size(mut self, bytes: usize) -> Result<Self, Error> {
+    pub(crate) fn of_size(mut self, bytes: usize) -> Result<Self, Error> {
         if self.contents.is_empty() {
             self.store(&vec![ERASED; bytes])?;
         }
@@ -49,7 +49,7 @@ impl Flash {
         }
     }
 
-    pub(super) fn contents(&self) -> &[u8] {
+    pub(crate) fn contents(&self) -> &[u8] {
         &self.contents
     }
 
@@ -59,7 +59,7 @@ impl Flash {
     }
 
     /// Keeps other contents.
-    pub(super) fn store(&mut self, contents: &[u8]) -> Result<(), Error> {
+    pub(crate) fn store(&mut self, contents: &[u8]) -> Result<(), Error> {
         self.contents = contents.to_vec();
         let path = self.path.as_deref();
         path.map_or(Ok(()), |path| write_whole(path, contents))

@@ -68,6 +68,7 @@ pub(crate) static F103: Model = Model {
     ports: [Reset::V1; 3],
     lsi_hz: 40_000,
     has_window: false,
+    flash_sectors: &[],
     flash_registers: &[(0x00, 0x30)],
     // RM0008, chapter 3.3.3.
     flash_hz: &[(2_000, 24_000_000)],

@@ -79,6 +79,8 @@ pub(crate) static F446: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: false,
+    // RM0390, flash module organization.
+    flash_sectors: &[16, 16, 16, 16, 64, 128, 128, 128],
     flash_registers: &[(0x00, 0)],
     // RM0390, table 5.
     flash_hz: &[

@@ -70,6 +70,7 @@ pub(crate) static G071: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: true,
+    flash_sectors: &[],
     flash_registers: &[(0x00, 0x0004_0600)],
     // RM0444, table of the wait states in range 1.
     flash_hz: &[(1_700, 24_000_000)],

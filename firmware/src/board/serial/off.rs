@@ -1,7 +1,9 @@
 //! The serial port of a scene that has none: nothing.
 
 use firmware::{Event, NotArmed, StartCause, Startup};
+use wire::{Answer, TaggedCommand};
 
+use crate::board::loading::LoaderLine;
 use crate::board::log::Health;
 use crate::board::scene::Names;
 
@@ -26,4 +28,16 @@ impl Serial {
     pub(crate) fn health(&mut self, _: &Health, _: &Health) {}
 
     pub(crate) fn serve(&mut self, _: u32) {}
+}
+
+impl LoaderLine for Serial {
+    fn next(&mut self) -> Option<TaggedCommand> {
+        None
+    }
+
+    fn reply(&mut self, _: &Answer) {}
+
+    fn has_sent(&mut self) -> bool {
+        true
+    }
 }

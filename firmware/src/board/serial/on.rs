@@ -17,6 +17,7 @@ use wire::{
 
 use crate::board::CLOCKS;
 use crate::board::counters::TICKS;
+use crate::board::loading::LoaderLine;
 use crate::board::log::Health;
 use crate::board::pin_config::{Mode, PinConfig};
 use crate::board::scene::{self, NAME, Names, SERIAL_BAUD, SIDES, TICK_HZ};
@@ -245,6 +246,31 @@ impl Serial {
             self.transfers.send(address, bytes);
             self.sending = bytes;
         }
+    }
+}
+
+impl LoaderLine for Serial {
+    fn next(&mut self) -> Option<TaggedCommand> {
+        let left = self.transfers.left();
+        while let Some(byte) = self.received.next(left) {
+            // Lines are passed over.
+            if let Some(Piece::Frame(bytes)) = self.splitter.push(byte)
+                && let Some(words) = bytes.as_array().and_then(wire::summed)
+                && let Ok(request) = TaggedCommand::from_words(words)
+            {
+                return Some(request);
+            }
+        }
+        None
+    }
+
+    fn reply(&mut self, answer: &Answer) {
+        sent::answer(Framed::packet(answer.words()).bytes());
+    }
+
+    fn has_sent(&mut self) -> bool {
+        self.send();
+        !self.transfers.is_sending() && sent::piece().is_none()
     }
 }
 

@@ -4,9 +4,13 @@ use firmware::{Event, ModelState};
 
 use crate::board::inner::Inner;
 use crate::board::scene::{Perception, Settings};
+use crate::board::serial::Serial;
 
 /// There is nothing to hear.
 pub(crate) fn hear() {}
+
+/// There is nothing to load.
+pub(crate) fn load(_: &mut Serial) {}
 
 /// There is nothing to do.
 #[inline]

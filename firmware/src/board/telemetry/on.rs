@@ -3,13 +3,18 @@
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use firmware::{About, Event, Link, ModelState, Notes, PacketSink, Tuning};
-use wire::{Command, CommandStatus, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand};
+use wire::{
+    Answer, Command, CommandStatus, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand,
+};
 
 use crate::board::inner::Inner;
 use crate::board::integrity::{self, Changed};
+use crate::board::loading::{self, LoaderLine};
 use crate::board::log;
+use crate::board::model_place::{self, LOADS};
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
 use crate::board::scene::{HAS_SERIAL, NAME, Perception, Settings, TICK_HZ};
+use crate::board::serial::Serial;
 
 /// A request from idle to the tick: its words but for the sum, which is right.
 static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
@@ -36,10 +41,18 @@ pub(crate) fn hear() {
     }
 }
 
-/// The next request. Bytes that are none are passed over with all that was written by then:
-/// nobody knows where the next begins.
+/// Hands the next request to the tick.
 #[cold]
 fn next() {
+    if let Some(words) = read_request() {
+        SERIAL_READS.store(false, Ordering::Relaxed);
+        post(words, false);
+    }
+}
+
+/// The next request. Bytes that are none are passed over with all that was written by then:
+/// nobody knows where the next begins.
+fn read_request() -> Option<[u32; 2]> {
     let mut at = DOWN.reader() as usize;
     let mut bytes = [0; REQUEST_BYTES];
     for byte in &mut bytes {
@@ -50,13 +63,10 @@ fn next() {
         }
         at = if at + 1 < REQUESTS.len() { at + 1 } else { 0 };
     }
-    let Some(words) = wire::summed(&bytes) else {
-        DOWN.has_read(DOWN.writer());
-        return;
-    };
-    DOWN.has_read(at as u32);
-    SERIAL_READS.store(false, Ordering::Relaxed);
-    post(words, false);
+    let words = wire::summed(&bytes);
+    let read = words.map_or_else(|| DOWN.writer(), |_| at as u32);
+    DOWN.has_read(read);
+    words
 }
 
 /// Hands a request to the tick.
@@ -118,6 +128,59 @@ pub(crate) fn answer_for_serial() -> Option<[u32; PACKET_WORDS]> {
 /// It is sent.
 pub(crate) fn has_taken_answer() {
     IS_ANSWERED.store(false, Ordering::Release);
+}
+
+/// Who wants a model loaded, whose answer lies there then: nobody, somebody at the serial port,
+/// or at a probe.
+static TO_LOAD: AtomicU32 = AtomicU32::new(0);
+const BY_SERIAL: u32 = 1;
+const BY_PROBE: u32 = 2;
+
+/// Loads a model if somebody wants that, and does not come back then; for idle.
+pub(crate) fn load(serial: &mut Serial) {
+    if !LOADS {
+        return;
+    }
+    let by = TO_LOAD.load(Ordering::Acquire);
+    if by != BY_SERIAL && by != BY_PROBE {
+        return;
+    }
+    let answer = ANSWER.each_ref().map(|word| word.load(Ordering::Relaxed));
+    let answer = Answer::from_words(answer);
+    if HAS_SERIAL && by == BY_SERIAL {
+        loading::run(serial, answer);
+    }
+    loading::run(&mut ProbeLine::new(), answer);
+}
+
+/// The probe's end of a loader, to which nobody else listens any more.
+struct ProbeLine(Packets);
+
+impl ProbeLine {
+    /// From the next packet on.
+    fn new() -> Self {
+        Self(Packets {
+            next: UP.writer() as usize / PACKET_BYTES,
+            room: 0,
+        })
+    }
+}
+
+impl LoaderLine for ProbeLine {
+    fn next(&mut self) -> Option<TaggedCommand> {
+        if (DOWN.waiting() as usize) < REQUEST_BYTES {
+            return None;
+        }
+        TaggedCommand::from_words(read_request()?).ok()
+    }
+
+    fn reply(&mut self, answer: &Answer) {
+        self.0.put(|| answer.words());
+    }
+
+    fn has_sent(&mut self) -> bool {
+        UP.waiting() == 0
+    }
 }
 
 /// The tick's end of the answer to the serial port.
@@ -220,6 +283,9 @@ impl Telemetry {
                 Ok(request) if is_tuning(request.command) => {
                     self.tune(module, settings, request, tick);
                 }
+                Ok(request) if let (true, Command::Load(words)) = (LOADS, request.command) => {
+                    self.load(module, settings, request, words, tick);
+                }
                 Ok(request) => {
                     let about = self.about;
                     self.link.carry_out(module, settings, request, about, tick);
@@ -239,6 +305,38 @@ impl Telemetry {
         } else {
             self.link.answer(&mut self.packets);
         }
+    }
+
+    /// Has idle load a model, which answers then, or says why not.
+    fn load(
+        &mut self,
+        module: &Inner,
+        settings: &Settings,
+        request: TaggedCommand,
+        words: u32,
+        tick: u32,
+    ) {
+        let may = firmware::may_load(module, settings, words, model_place::words());
+        let answer = Answer {
+            sequence: tick,
+            tag: request.tag,
+            command: request.command.number(),
+            status: may.err().unwrap_or(CommandStatus::Done),
+            values: [words.cast_signed(), 0],
+        };
+        if may.is_err() {
+            self.link.reply(answer);
+            return;
+        }
+        for (place, word) in ANSWER.iter().zip(answer.words()) {
+            place.store(word, Ordering::Relaxed);
+        }
+        let by = if self.is_by_serial {
+            BY_SERIAL
+        } else {
+            BY_PROBE
+        };
+        TO_LOAD.store(by, Ordering::Release);
     }
 
     /// Reads or changes constants.

@@ -1,0 +1,143 @@
+//! The loader: takes a model by the serial port or from a probe's memory, word by word, and
+//! writes it into its flash.
+//!
+//! It has the chip for itself, from [`Command::Load`] to the reset: motors off, interrupts
+//! masked, the old model read no more. The watchdog is slow then, and fed by each
+//! request: when none comes any more it starts the board anew, without a model, as the first
+//! words are written last.
+
+use cortex_m::peripheral::{NVIC, SCB};
+use wire::{Answer, Command, CommandStatus, TaggedCommand, load_order};
+
+use super::scene::TICK_HZ;
+use super::watchdog::Watchdog;
+use super::{CLOCKS, model_place, outputs, tick_timer};
+use crate::here::{TICK_INTERRUPT, flash};
+
+/// Ticks in which the last answer may be fetched: 0.1 s.
+const LAST_TICKS: u32 = TICK_HZ / 10;
+
+/// What a serial port still sends when its DMA is done: 4 ms, two bytes at 5,000 baud.
+const LAST_BYTES_CYCLES: u32 = CLOCKS.core_hz / 250;
+
+/// By which requests come, and answers go.
+pub(crate) trait LoaderLine {
+    /// The next request.
+    fn next(&mut self) -> Option<TaggedCommand>;
+
+    /// Sends an answer. Whoever asks waits for it before they ask again: there is room.
+    fn reply(&mut self, answer: &Answer);
+
+    /// Goes on sending; whether nothing is left.
+    fn has_sent(&mut self) -> bool;
+}
+
+/// A model of so many words, and how many of them are written.
+struct Loading {
+    words: u32,
+    written: u32,
+    last: u32,
+}
+
+/// Erases, writes what comes, and starts the chip anew. `answer` is that to the request for it,
+/// which says how many words there are.
+pub(crate) fn run(line: &mut impl LoaderLine, mut answer: Answer) -> ! {
+    cortex_m::interrupt::disable();
+    outputs::off();
+    leave_the_tick();
+    Watchdog::slow_down();
+    let mut loading = Loading {
+        words: answer.values[0].cast_unsigned(),
+        written: 0,
+        last: 0,
+    };
+    answer.status = written(flash::erase_model());
+    Watchdog::feed_slow();
+    line.reply(&answer);
+    loop {
+        line.has_sent();
+        sleep();
+        let Some(request) = line.next() else {
+            continue;
+        };
+        Watchdog::feed_slow();
+        let status = match request.command {
+            Command::Word(number, word) => loading.word(number, word),
+            Command::Restart => CommandStatus::Done,
+            _ => CommandStatus::NotHere,
+        };
+        line.reply(&Answer {
+            sequence: answer.sequence,
+            tag: request.tag,
+            command: request.command.number(),
+            status,
+            values: [loading.written.cast_signed(), loading.words.cast_signed()],
+        });
+        if request.command == Command::Restart {
+            start_anew(line);
+        }
+    }
+}
+
+const fn written(well: bool) -> CommandStatus {
+    if well {
+        CommandStatus::Done
+    } else {
+        CommandStatus::NotWritten
+    }
+}
+
+/// Lets the last answer be fetched, and resets the chip.
+fn start_anew(line: &mut impl LoaderLine) -> ! {
+    for _ in 0..LAST_TICKS {
+        if line.has_sent() {
+            break;
+        }
+        sleep();
+    }
+    cortex_m::asm::delay(LAST_BYTES_CYCLES);
+    SCB::sys_reset();
+}
+
+/// Has no interrupt wake the core but that of the tick: those of frames that were under way stay
+/// pending.
+fn leave_the_tick() {
+    #[allow(unsafe_code, reason = "the NVIC has an owner in another type")]
+    // SAFETY: this is the NVIC, whose registers are set with single stores; interrupts are
+    // masked for good, and so no code relies on which of them are enabled.
+    unsafe {
+        let nvic = &*NVIC::PTR;
+        for register in &nvic.icer {
+            register.write(u32::MAX);
+        }
+        NVIC::unmask(TICK_INTERRUPT);
+    }
+}
+
+/// Sleeps until the next tick would be. A masked interrupt wakes the core all the same, and is
+/// forgotten.
+fn sleep() {
+    cortex_m::asm::wfi();
+    tick_timer::acknowledge();
+    NVIC::unpend(TICK_INTERRUPT);
+}
+
+impl Loading {
+    /// Writes the next word. The last one may be asked for again, by whoever missed the answer.
+    fn word(&mut self, number: u8, word: u32) -> CommandStatus {
+        if number == self.written as u8 && self.written < self.words {
+            if !model_place::write(load_order(self.written, self.words), word) {
+                return CommandStatus::NotWritten;
+            }
+            self.written += 1;
+            self.last = word;
+            return CommandStatus::Done;
+        }
+        let is_last = self.written > 0 && number == (self.written - 1) as u8 && word == self.last;
+        if is_last {
+            CommandStatus::Done
+        } else {
+            CommandStatus::OutOfRange
+        }
+    }
+}
