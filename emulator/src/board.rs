@@ -152,14 +152,6 @@ impl Board {
         self.machine.reset(cause)
     }
 
-    /// Resets the chip now as somebody wants who works with the board: that is no trouble.
-    pub(crate) fn start_anew(&mut self, cause: ResetCause) -> Result<(), Fault> {
-        self.drain()?;
-        self.reset_now(cause)?;
-        self.reset = None;
-        Ok(())
-    }
-
     /// Lets `time` pass on the chip alone; whether the tick ends within it.
     pub(crate) fn run_for(&mut self, time: Ps) -> Result<bool, Fault> {
         let until = self.machine.now + time;

@@ -6,9 +6,10 @@ use firmware::Refusal;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
-use wire::{Command, Packet, TaggedCommand, WhiskerId};
+use wire::{Command, CommandStatus, WhiskerId};
 
 use crate::compare::{Agreement, Circumstances, compare_loaded};
+use crate::loading::{ask, load, must};
 use crate::program::Program;
 use crate::session::Session;
 
@@ -73,7 +74,7 @@ pub fn deploying(bench: Deployment<'_>, model: &Path) -> Result<Vec<String>, Err
 
     let loaded = bench.load()?.with_model(model)?;
     let right = loaded.deployed();
-    told.push(drives_no_motor_while_halted(bench, right)?);
+    told.push(refuses_to_load(bench)?);
     let words = right.len() / 4;
     for written in [0, 1, words / 2, words - 2, words - 1] {
         let said = refuses(bench, right, written, Refusal::Absent)?;
@@ -178,22 +179,6 @@ fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, bool), Erro
     Ok((lines, driven))
 }
 
-/// Asks for something.
-fn ask(session: &mut Session, command: Command) -> Result<[i32; 2], Error> {
-    session.request(TaggedCommand { tag: 1, command })?;
-    for _ in 0..100 {
-        session.tick()?;
-        for packet in session.packets()? {
-            if let Packet::Answer(answer) = packet
-                && answer.command == command.number()
-            {
-                return Ok(answer.values);
-            }
-        }
-    }
-    Err(Error::Work(format!("{command:?}: no answer")))
-}
-
 /// A board whose motor was on, and is off, its whisker at rest.
 fn stopped(bench: Deployment<'_>) -> Result<Session, Error> {
     let mut session = bench.session()?;
@@ -219,20 +204,30 @@ fn says(lines: &[String], refusal: Refusal) -> bool {
     why.is_some_and(|line| line.contains(refusal.text()))
 }
 
-/// Nobody deploys while a motor is driven.
-fn drives_no_motor_while_halted(bench: Deployment<'_>, model: &[u8]) -> Result<String, Error> {
+/// Nothing is loaded while a motor is armed, nor what there is no room for.
+fn refuses_to_load(bench: Deployment<'_>) -> Result<String, Error> {
     let mut session = bench.session()?;
-    let mut ticks = 0;
-    while !session.drives() && ticks < 2_000 {
-        session.tick()?;
-        ticks += 1;
+    must(&mut session, Command::Load(4), CommandStatus::Armed)?;
+    pass(&mut session, 0.5)?;
+    let is_driven = session.drives();
+    must(&mut session, Command::Load(4), CommandStatus::Armed)?;
+    let mut session = stopped(bench)?;
+    let room = session.model_room() as u32 / 4;
+    for words in [0, room + 1, u32::MAX] {
+        must(
+            &mut session,
+            Command::Load(words),
+            CommandStatus::OutOfRange,
+        )?;
     }
-    match session.deploy(model) {
-        Err(refused) => Ok(format!("while a motor is driven: {refused}")),
-        Ok(()) => Err(Error::Work(
-            "deployed while a motor was driven or none ever was".to_owned(),
-        )),
+    must(&mut session, Command::Word(0, 0), CommandStatus::NotHere)?;
+    must(&mut session, Command::Restart, CommandStatus::NotHere)?;
+    if !is_driven {
+        return Err(missing("a motor is driven", &[]));
     }
+    Ok(format!(
+        "nothing is loaded while a motor is armed, or of more than {room} words"
+    ))
 }
 
 /// A board that gets so many words of a model refuses it, whisks on and decides nothing.
@@ -243,13 +238,13 @@ fn refuses(
     refusal: Refusal,
 ) -> Result<String, Error> {
     let mut session = stopped(bench)?;
-    session.deploy_part(model, words)?;
+    load(&mut session, model, words)?;
     let (lines, driven) = pass(&mut session, WATCHED_S)?;
     let has = |what: &str| lines.iter().any(|line| line.contains(what));
     if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
         return Err(missing(refusal.text(), &lines));
     }
-    let answer = ask(&mut session, Command::Model)?;
+    let answer = ask(&mut session, Command::Model)?.values;
     if answer != [0, -i32::from(refusal.code())] {
         return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
     }
@@ -259,10 +254,10 @@ fn refuses(
 /// A board that gets a right model decides by it.
 fn decides(bench: Deployment<'_>, model: &[u8]) -> Result<String, Error> {
     let mut session = stopped(bench)?;
-    session.deploy(model)?;
+    load(&mut session, model, usize::MAX)?;
     let buf = ModelBuf::from_bytes(model).map_err(|error| Error::Work(error.to_string()))?;
     let (lines, _) = pass(&mut session, PATIENCE_S)?;
-    let [crc, classes] = ask(&mut session, Command::Model)?;
+    let [crc, classes] = ask(&mut session, Command::Model)?.values;
     let is_it = crc.cast_unsigned() == buf.crc() && classes as usize == buf.classes();
     let is_named = |line: &&String| {
         let names = buf.names().chain(["unknown"]);

@@ -26,6 +26,7 @@ pub mod deploying;
 pub mod emulate;
 pub mod endurance;
 pub mod latency;
+mod loading;
 mod machine;
 mod memory;
 mod meter;

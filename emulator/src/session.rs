@@ -7,10 +7,10 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::{Packet, TaggedCommand, load_order};
+use wire::{Packet, TaggedCommand};
 
 use crate::board::Emulated;
-use crate::chip::{Ps, ResetCause};
+use crate::chip::Ps;
 use crate::emulate::start;
 use crate::program::Program;
 use rtt::LogDecoder;
@@ -84,50 +84,6 @@ impl Session {
     pub fn flash(&mut self) -> Result<Vec<u8>, Error> {
         let memories = &self.run.module_mut().board.machine.memories;
         Ok(memories.flashed_bytes(self.place.start, self.place.len())?)
-    }
-
-    /// Deploys a model as a probe does: halts the core, erases the model's flash, programs it
-    /// word by word, those at its beginning last, and resets the chip, which starts anew.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if a motor is driven, as it would be driven on while the core is
-    /// halted; or for a file that is not whole words or longer than its place.
-    pub fn deploy(&mut self, model: &[u8]) -> Result<(), Error> {
-        self.deploy_part(model, usize::MAX)
-    }
-
-    /// The same, interrupted after so many `words`: the chip is reset then.
-    ///
-    /// # Errors
-    /// As [`Session::deploy`].
-    pub fn deploy_part(&mut self, model: &[u8], words: usize) -> Result<(), Error> {
-        let refused = |fault: String| Error::Work(format!("deploying: {fault}"));
-        let is_driven = self.drives();
-        let board = &mut self.run.module_mut().board;
-        if is_driven {
-            return Err(refused(
-                "a motor is driven, and would be while the core is halted".to_owned(),
-            ));
-        }
-        let (all, rest) = model.as_chunks::<4>();
-        if !rest.is_empty() || model.len() > self.place.len() {
-            return Err(refused(format!(
-                "found {} bytes, allowed: whole words, at most {} bytes",
-                model.len(),
-                self.place.len()
-            )));
-        }
-        let memories = &board.machine.memories;
-        memories.erase(self.place.clone())?;
-        let count = all.len() as u32;
-        for number in (0..count).take(words) {
-            let at = load_order(number, count);
-            if let Some(word) = all.get(at as usize) {
-                memories.program(self.place.start + 4 * at, word)?;
-            }
-        }
-        board.start_anew(ResetCause::Software)?;
-        Ok(())
     }
 
     /// From now on a reset that the program or the watchdog makes is no fault, and the world

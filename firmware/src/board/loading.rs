@@ -2,9 +2,9 @@
 //! writes it into its flash.
 //!
 //! It has the chip for itself, from [`Command::Load`] to the reset: motors off, interrupts
-//! masked, the old model read no more. The watchdog is slow then, and fed by each
-//! request: when none comes any more it starts the board anew, without a model, as the first
-//! words are written last.
+//! masked, the old model read no more. When no request comes any more it starts the board anew,
+//! without a model, as the first words are written last; the watchdog is slow then, and fed by
+//! each request.
 
 use cortex_m::peripheral::{NVIC, SCB};
 use wire::{Answer, Command, CommandStatus, TaggedCommand, load_order};
@@ -13,6 +13,10 @@ use super::scene::TICK_HZ;
 use super::watchdog::Watchdog;
 use super::{CLOCKS, model_place, outputs, tick_timer};
 use crate::here::{TICK_INTERRUPT, flash};
+
+/// Ticks without a request after which nobody asks any more: 2 s, in which no watchdog bites
+/// that is slowed down.
+const SILENCE: u32 = 2 * TICK_HZ;
 
 /// Ticks in which the last answer may be fetched: 0.1 s.
 const LAST_TICKS: u32 = TICK_HZ / 10;
@@ -54,13 +58,16 @@ pub(crate) fn run(line: &mut impl LoaderLine, mut answer: Answer) -> ! {
     answer.status = written(flash::erase_model());
     Watchdog::feed_slow();
     line.reply(&answer);
-    loop {
+    let mut silent = 0;
+    while silent < SILENCE {
         line.has_sent();
         sleep();
+        silent += 1;
         let Some(request) = line.next() else {
             continue;
         };
         Watchdog::feed_slow();
+        silent = 0;
         let status = match request.command {
             Command::Word(number, word) => loading.word(number, word),
             Command::Restart => CommandStatus::Done,
@@ -74,9 +81,10 @@ pub(crate) fn run(line: &mut impl LoaderLine, mut answer: Answer) -> ! {
             values: [loading.written.cast_signed(), loading.words.cast_signed()],
         });
         if request.command == Command::Restart {
-            start_anew(line);
+            break;
         }
     }
+    start_anew(line)
 }
 
 const fn written(well: bool) -> CommandStatus {

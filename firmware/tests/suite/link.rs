@@ -1,6 +1,6 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
-use firmware::{About, Link, ModelState, Module, Notes, PacketSink, Passive, Refusal};
+use firmware::{About, Link, ModelState, Module, Notes, PacketSink, Passive, Refusal, may_load};
 use wire::{
     Answer, Command, CommandStatus, Flags, PACKET_WORDS, Packet, TaggedCommand, TickRecord,
     UnknownCommand, WhiskerId,
@@ -292,4 +292,34 @@ fn it_says_by_which_model_it_decides() {
     };
     assert_eq!(asked(runs), (CommandStatus::Done, [-0x0123_4568, 4]));
     assert_eq!(asked(ModelState::NotHere), (CommandStatus::NotHere, [0, 0]));
+}
+
+#[test]
+fn a_model_is_loaded_with_motors_off_and_where_there_is_room() {
+    let (mut module, config) = module::<f32>();
+    let armed = may_load(&module, &config, 1, 8);
+    assert_eq!(armed, Err(CommandStatus::Armed));
+    module.arm(false);
+    tick(&mut module, &config);
+    for (words, status) in [
+        (0, Err(CommandStatus::OutOfRange)),
+        (1, Ok(())),
+        (8, Ok(())),
+        (9, Err(CommandStatus::OutOfRange)),
+        (u32::MAX, Err(CommandStatus::OutOfRange)),
+    ] {
+        assert_eq!(may_load(&module, &config, words, 8), status, "{words}");
+    }
+    // What a link alone is asked for, without a board's loader.
+    let mut link = Link::new();
+    for command in [Command::Load(1), Command::Word(0, 0), Command::Restart] {
+        let request = TaggedCommand { tag: 1, command };
+        link.carry_out(&mut module, &config, request, ABOUT, 0);
+        let mut reader = Reader::new(1);
+        link.answer(&mut reader);
+        let [Packet::Answer(answer)] = reader.packets[..] else {
+            panic!("{command:?}");
+        };
+        assert_eq!(answer.status, CommandStatus::NotHere, "{command:?}");
+    }
 }

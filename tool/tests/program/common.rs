@@ -31,6 +31,13 @@ textures = ["smooth", "carpet"]
 present_s = 1.0
 "#;
 
+/// A file of the workspace's scenes.
+pub(crate) fn scenes(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../scenes")
+        .join(name)
+}
+
 /// The scene of the main job.
 pub(crate) fn textures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml")

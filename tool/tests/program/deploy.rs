@@ -1,15 +1,8 @@
 //! `whisker deploy`, and what a module does that has a model deployed, or none.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::common::{Place, textures};
-
-/// A file of the workspace's scenes.
-fn scenes(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../scenes")
-        .join(name)
-}
+use crate::common::{Place, scenes, textures};
 
 /// The bench in the world of the main job, and how its flash is kept.
 fn bench() -> String {

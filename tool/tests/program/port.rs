@@ -2,9 +2,10 @@
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use crate::common::{BENCH, Place};
+use crate::common::{BENCH, Place, scenes, textures};
 
 /// A board that is served; it ends when dropped.
 struct Served {
@@ -17,9 +18,16 @@ impl Served {
     fn new(place: &Place) -> Self {
         let scene = format!("{BENCH}[telemetry]\nserial_baud = 921600\n");
         place.write("serial.toml", &scene);
+        Self::of(place, &place.path("serial.toml"), "")
+    }
+
+    /// Of a scene, with `more` arguments.
+    fn of(place: &Place, scene: &Path, more: &str) -> Self {
         let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
             .arg("board")
-            .arg(place.path("serial.toml"))
+            .arg(scene)
+            .args(more.split_whitespace())
+            .current_dir(place.path(""))
             .arg("--link")
             .arg(place.path("port"))
             .stdin(Stdio::piped())
@@ -83,6 +91,35 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     ] {
         assert!(ran.stdout.contains(said), "{said}{}", ran.stdout);
     }
+}
+
+#[test]
+fn a_board_on_a_port_is_taught_without_a_probe() {
+    let place = Place::new();
+    let scene = scenes("bench.toml");
+    let world = textures();
+    let more = [
+        &*format!("--world {}", world.display()),
+        "--flash kept.flash",
+    ];
+    let served = Served::of(&place, &scene, &more.join(" "));
+    let model = scenes("models/textures.model");
+    let deploy = format!("deploy {} --model {}", served.port, model.display());
+    let ran = place.done(&format!("{deploy} --seconds 3"));
+    let crc = std::fs::read(&model).unwrap();
+    let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
+    for said in [
+        "before, the module decides by no model: none was deployed".to_owned(),
+        format!("now it decides by model {crc:08x}, 4 classes\n"),
+        "decision: ".to_owned(),
+    ] {
+        assert!(ran.stdout.contains(&said), "{said}{}", ran.stdout);
+    }
+    let kept = std::fs::read(place.path("kept.flash")).unwrap();
+    assert!(kept.starts_with(&std::fs::read(&model).unwrap()));
+    // It may be another then.
+    let again = place.done(&deploy);
+    assert!(again.stdout.contains("before, the module decides by model"));
 }
 
 #[test]
