@@ -8,7 +8,7 @@ mod samples;
 mod touches;
 
 pub(crate) use checks::Checks;
-pub(crate) use file::Recording;
+pub(crate) use file::{FIRST_TOUCH, Recording};
 pub(crate) use label::Label;
 pub(crate) use samples::Sampler;
 pub(crate) use touches::Touches;

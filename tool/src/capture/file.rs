@@ -7,11 +7,15 @@ use host_sim::files::read_recording;
 use host_sim::origin::{self, Origin};
 use host_sim::output::{self, Output};
 use host_sim::recording::{self, CHANNELS, Stream};
+use jiff::Timestamp;
 
 use super::touches::count;
 
 /// Parts of the origin that must stay the same in one recording.
 const SAME: [&str; 2] = ["scene", "tick_hz"];
+
+/// When the first touch ended, by the PC's clock.
+pub(crate) const FIRST_TOUCH: &str = "first_touch";
 
 /// A recording, as far as it has come.
 #[derive(Debug)]
@@ -62,6 +66,14 @@ impl Recording {
             }
         }
         Ok(())
+    }
+
+    /// Says when its first touch ended, if that is not said.
+    pub(crate) fn begun_at(&mut self, when: Timestamp) {
+        if self.origin.get(FIRST_TOUCH).is_none() {
+            let origin = std::mem::take(&mut self.origin);
+            self.origin = origin.with(FIRST_TOUCH, format_args!("{when:.0}"));
+        }
     }
 
     fn of<'s>(&'s self, label: &'s str) -> impl Iterator<Item = &'s Stream> {

@@ -202,6 +202,9 @@ fn travel(
     Ok(range)
 }
 
+/// More of its range than a whisker in free air swings over. Chosen.
+const MOST_SWING: f64 = 0.2;
+
 /// What the sensor says while it whisks in free air.
 fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
     whisker.hold(None)?;
@@ -211,10 +214,17 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
         let codes = || samples.iter().map(|sample| sample.codes[axis]);
         let (low, high) = (codes().min().unwrap_or(0), codes().max().unwrap_or(0));
         spans.push([low, high]);
+        let share = f64::from(high - low) / (2.0 * HALF_RANGE);
         report::say(format_args!(
             "range: {name} swings from {low} to {high} in the air, {:.1} % of its range",
-            100.0 * f64::from(high - low) / (2.0 * HALF_RANGE)
+            100.0 * share
         ));
+        if share > MOST_SWING {
+            report::warn(format_args!(
+                "range: {name} swings too far for free air: take away what the whisker touches and \
+                 calibrate anew, or it is loose in its hub"
+            ));
+        }
         if low < NEAR_END || high > 16_383 - NEAR_END {
             report::warn(format_args!(
                 "range: {name} is at the end of its range: the magnet is too near, or the sensor's \

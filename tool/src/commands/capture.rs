@@ -1,10 +1,13 @@
 //! `whisker capture`: textures, label by label.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
+use jiff::Timestamp;
+use toml_edit::DocumentMut;
 use wire::{Command, Packet};
 
 use super::order::SideName;
@@ -36,6 +39,9 @@ pub(crate) struct Arguments {
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     patience: f64,
+    /// What whisker calibrate wrote of this whisker: stands in the recording's header then
+    #[arg(long, value_name = "FILE.toml")]
+    calibration: Option<PathBuf>,
     /// The recording to write; an existing file is not overwritten
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
@@ -81,6 +87,8 @@ fn complete(
     verbosity: Verbosity,
 ) -> Result<usize, Error> {
     let wanted = arguments.touches as usize;
+    let calibration = arguments.calibration.as_deref().map(calibration);
+    let calibration = calibration.transpose()?.unwrap_or_default();
     let mut module = Conversation::new(source);
     for label in missing {
         module.source().has(&label.sample)?;
@@ -92,11 +100,11 @@ fn complete(
     module.ask(Command::Stream(true))?;
     let about = module.about()?;
     let origin = module.source().origin();
-    recording.comes_from(
-        origin
-            .with("scene", &about.scene)
-            .with("tick_hz", about.tick_hz),
-    )?;
+    let origin = origin
+        .with("scene", &about.scene)
+        .with("tick_hz", about.tick_hz);
+    let all = calibration.iter();
+    recording.comes_from(all.fold(origin, |origin, (key, value)| origin.with(key, value)))?;
 
     let already: usize = missing
         .iter()
@@ -112,6 +120,7 @@ fn complete(
         patience_s: arguments.patience,
         progress: Progress::new(verbosity, "touches", total as u64),
         done: 0,
+        first: None,
         told: 0,
     };
     for (n, label) in missing.iter().enumerate() {
@@ -124,6 +133,11 @@ fn complete(
         let felt = touches.felt.len();
         let streams = touches.into_streams();
         let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
+        if let Some((_, when)) = capture.first
+            && !arguments.source.is_simulated()
+        {
+            recording.begun_at(when);
+        }
         recording.add(streams)?;
         capture.progress.pause(|| {
             report::say(format_args!(
@@ -135,13 +149,17 @@ fn complete(
     let Capture {
         mut module,
         tally,
+        first,
         told,
         ..
     } = capture;
     module.ask(Command::Stream(false))?;
+    let began_s = first.map(|(first_s, _)| first_s);
+    let lasted_s = began_s.map_or(0.0, |began_s| module.source().now_s() - began_s);
     let out = recording.path().display();
     report::say(format_args!(
         "{out}: {} samples, {} touches; records lost: {} of {}\n\
+         from the first touch: {lasted_s:.0} s of the module's time\n\
          next: cargo run --release -p host-sim -- train --data {out} --rate {} --out MODEL",
         recording.samples(),
         recording.all_touches(),
@@ -150,6 +168,23 @@ fn complete(
         about.tick_hz
     ));
     Ok(told)
+}
+
+/// What a calibration says, as a recording has it in its header.
+fn calibration(path: &Path) -> Result<Origin, Error> {
+    let wrong = |error: String| Error::file(path, error);
+    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+    let document: DocumentMut = text.parse().map_err(|error| wrong(format!("{error}")))?;
+    if !document.contains_key("zero_codes") {
+        return Err(wrong(
+            "no zero_codes in it, allowed: what whisker calibrate writes".to_owned(),
+        ));
+    }
+    Ok(document
+        .iter()
+        .fold(Origin::default(), |origin, (key, item)| {
+            origin.with(&format!("calibration.{key}"), item.to_string().trim())
+        }))
 }
 
 /// A module that is listened to.
@@ -164,6 +199,8 @@ struct Capture {
     progress: Progress,
     /// Touches so far, of all labels.
     done: u64,
+    /// When the first ended: by the module's clock, s, and by the PC's.
+    first: Option<(f64, Timestamp)>,
     /// Lines about what is wrong.
     told: usize,
 }
@@ -220,6 +257,7 @@ impl Capture {
                 self.tell(checks.sample(&sampled));
                 if touches.take(&sampled) {
                     touched_s = now_s;
+                    self.first.get_or_insert_with(|| (now_s, Timestamp::now()));
                     self.done += 1;
                     self.progress.set(self.done);
                     if touches.felt.len() >= most {

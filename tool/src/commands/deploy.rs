@@ -1,14 +1,16 @@
 //! `whisker deploy`: a model to a module, without a rebuild.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use firmware::Refusal;
 use host_sim::recording::CHANNELS;
-use host_sim::{Error, files, misfit, report};
+use host_sim::{Error, files, misfit, origin, report};
+use jiff::Timestamp;
 use tactile::ModelBuf;
 use wire::{Command, CommandStatus};
 
+use crate::capture::FIRST_TOUCH;
 use crate::conversation::Conversation;
 use crate::resting::rest;
 use crate::source::{SourceChoice, seconds};
@@ -34,7 +36,9 @@ pub(crate) struct Arguments {
 /// Deploys it, once it fits, and says what the module then decides by.
 pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     let (path, model) = files::load_model(&arguments.model)?;
+    let mut begun = None;
     if let Some(data) = &arguments.data {
+        begun = first_touch(data)?;
         let streams = files::read_recording(data, CHANNELS)?;
         for line in misfit::misfits(data, CHANNELS, &model, &streams) {
             report::warn(line);
@@ -57,6 +61,14 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     let after = Decides::ask(&mut module)?;
     report::say(format_args!("now it {after}"));
     after.is(&model)?;
+    if let Some((of, begun)) = begun {
+        let took = Timestamp::now().duration_since(begun).as_secs();
+        report::say(format_args!(
+            "{} min {} s since the first touch of {of}",
+            took / 60,
+            took % 60
+        ));
+    }
     let Some(seconds) = arguments.seconds else {
         return Ok(());
     };
@@ -65,6 +77,14 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
         module.hear()?.lines.iter().for_each(report::say);
     }
     Ok(())
+}
+
+/// When the first touch of a recording was, where it says so.
+fn first_touch(data: &Path) -> Result<Option<(String, Timestamp)>, Error> {
+    let bytes = std::fs::read(data).map_err(|error| Error::file(data, error))?;
+    let (origin, ..) = origin::split(&bytes);
+    let when = origin.get(FIRST_TOUCH).and_then(|when| when.parse().ok());
+    Ok(when.map(|when| (data.display().to_string(), when)))
 }
 
 /// What a module decides by, as it says itself.

@@ -52,7 +52,12 @@ fn labels_have_as_many_touches_as_were_asked_for() {
         "{lines:?}"
     );
     assert!(
-        lines[3].contains("host-sim -- train --data c.csv --rate 2000"),
+        lines[3].starts_with("from the first touch: ")
+            && lines[3].ends_with(" s of the module's time"),
+        "{lines:?}"
+    );
+    assert!(
+        lines[4].contains("host-sim -- train --data c.csv --rate 2000"),
         "{lines:?}"
     );
     // What is clean has nothing to be told.

@@ -117,7 +117,8 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
     );
 
     let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
-    place.write("deaf.toml", &format!("{bench}contact_min = 0.2\n"));
+    let deaf = bench.replace("[classifier]\n", "[classifier]\ncontact_min = 0.2\n");
+    place.write("deaf.toml", &deaf);
     let said = place.refused(&format!(
         "deploy --sim deaf.toml --model {}",
         model.display()
@@ -126,8 +127,8 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
         said.contains("classifier.contact_min: found 0.2; allowed: 0.05"),
         "{said}"
     );
-    let window = bench.replace("\"sequential\"", "\"window\"");
-    place.write("window.toml", &format!("{window}window = 7\n"));
+    let window = bench.replace("\"sequential\"", "\"window\"\nwindow = 7");
+    place.write("window.toml", &window);
     let said = place.refused(&format!(
         "deploy --sim window.toml --model {}",
         model.display()
