@@ -76,8 +76,13 @@ pub(crate) trait Source {
         self.laying().is_some()
     }
 
-    /// The time where the module is, by another clock than its own, s.
+    /// The time where the module is, s.
     fn now_s(&mut self) -> f64;
+
+    /// Whether that is by another clock than the module's own.
+    fn has_clock(&self) -> bool {
+        true
+    }
 
     /// How long its scene lasts, s; none: until it is switched off.
     fn duration_s(&self) -> Option<f64>;

@@ -216,6 +216,7 @@ impl Capture {
         let mut checks = Checks::new(&label.name, self.tick_hz);
         let mut touched_s = self.module.source().now_s();
         let is_by_hand = self.module.source().is_laid_by_hand();
+        let has_clock = self.module.source().has_clock();
         let mut counts = false;
         while touches.felt.len() < most {
             let heard = self.module.hear()?;
@@ -235,7 +236,9 @@ impl Capture {
                 let before = self.tally.take(&record);
                 let sampled = self.sampler.take(&record, before);
                 self.tell(checks.record(&record, before));
-                self.tell(checks.time(record.sequence, now_s));
+                if has_clock {
+                    self.tell(checks.time(record.sequence, now_s));
+                }
                 if before != Before::Nothing {
                     touches.interrupt();
                 }

@@ -23,6 +23,9 @@ const SILENCE: Duration = Duration::from_secs(20);
 /// When an unanswered `hello` is said again.
 const ASK_AGAIN: Duration = Duration::from_secs(1);
 
+/// Most that a line comes behind its time, s.
+const LATE_S: f64 = 1.0;
+
 /// The board's time, from when it was heard first.
 #[derive(Debug, Clone, Copy, Default)]
 struct BoardTime {
@@ -31,11 +34,15 @@ struct BoardTime {
 }
 
 impl BoardTime {
-    /// It says that so much has passed since its start, which may be a new one.
+    /// It says that so much has passed since its start, which may be a new one. A line may be
+    /// older than a record before it.
     fn is(&mut self, t_s: f64) {
         let since = self.last_s.map_or(0.0, |last_s| t_s - last_s);
-        self.elapsed_s += since.max(0.0);
-        self.last_s = Some(t_s);
+        let is_late = (-LATE_S..0.0).contains(&since);
+        if !is_late {
+            self.elapsed_s += since.max(0.0);
+            self.last_s = Some(t_s);
+        }
     }
 }
 
@@ -176,6 +183,11 @@ impl Source for Port {
         self.time.elapsed_s
     }
 
+    fn has_clock(&self) -> bool {
+        // An emulated board takes its time.
+        false
+    }
+
     fn duration_s(&self) -> Option<f64> {
         None
     }
@@ -184,5 +196,28 @@ impl Source for Port {
         Origin::default()
             .with("board", format_args!("at {}", self.name))
             .with("firmware", self.version.as_deref().unwrap_or("unknown"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BoardTime;
+
+    #[test]
+    fn time_goes_on_through_late_lines_and_a_new_start() {
+        let mut time = BoardTime::default();
+        for (t_s, elapsed_s) in [
+            (5.0, 0.0),
+            (6.0, 1.0),
+            // A line that is older than the last record.
+            (5.5, 1.0),
+            (6.5, 1.5),
+            // It has started again.
+            (0.5, 1.5),
+            (1.0, 2.0),
+        ] {
+            time.is(t_s);
+            assert_eq!(time.elapsed_s, elapsed_s, "{t_s}");
+        }
     }
 }
