@@ -8,8 +8,10 @@ use crate::conversation::Conversation;
 
 /// The setpoint at rest, Q24.
 const REST: i32 = 0;
-/// How near to it is near enough, degrees.
+/// How near to it is near enough, degrees, and for how long it must be, s: who passes by goes on
+/// as its motor goes off.
 const NEAR_DEG: f32 = 2.0;
+const NEAR_S: f64 = 0.1;
 /// How long whiskers may take to get there, and motors to go off, s.
 const PATIENCE_S: f64 = 1.0;
 
@@ -19,7 +21,8 @@ const PATIENCE_S: f64 = 1.0;
 /// # Errors
 /// [`Error::Work`] if a motor is still driven, or nothing is answered.
 pub(crate) fn rest(module: &mut Conversation) -> Result<Vec<String>, Error> {
-    let [_, whiskers] = module.ask(Command::Hello)?.values;
+    let [tick_hz, whiskers] = module.ask(Command::Hello)?.values;
+    let near_ticks = (NEAR_S * f64::from(tick_hz)) as u32;
     let whiskers = usize::try_from(whiskers).unwrap_or(0);
     for side in (0..16).take(whiskers) {
         let whisker = WhiskerId { side, number: 0 };
@@ -33,10 +36,10 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<Vec<String>, Error> {
     let mut lines = Vec::new();
     module.ask(Command::Stream(true))?;
     let is_near = |record: &TickRecord| (degrees(record.measured) - degrees(0)).abs() < NEAR_DEG;
-    until(module, whiskers, is_near, &mut lines)?;
+    until(module, whiskers, near_ticks, is_near, &mut lines)?;
     module.ask(Command::Stop)?;
     let is_off = |record: &TickRecord| record.duty == 0 && !record.flags.contains(Flags::ARMED);
-    let are_off = until(module, whiskers, is_off, &mut lines)?;
+    let are_off = until(module, whiskers, 0, is_off, &mut lines)?;
     module.ask(Command::Stream(false))?;
     if are_off {
         return Ok(lines);
@@ -46,13 +49,16 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<Vec<String>, Error> {
     )))
 }
 
-/// Waits until the last record of each whisker is such; whether that is so in time.
+/// Waits until the records of each whisker have been such for so many ticks; whether that is so
+/// in time.
 fn until(
     module: &mut Conversation,
     whiskers: usize,
+    ticks: u32,
     is_such: impl Fn(&TickRecord) -> bool,
     lines: &mut Vec<String>,
 ) -> Result<bool, Error> {
+    let mut since: [Option<u32>; 2] = [None; 2];
     let mut such = [false; 2];
     let begun = module.source().now_s();
     while module.source().now_s() - begun < PATIENCE_S {
@@ -60,7 +66,10 @@ fn until(
         lines.extend(heard.lines);
         for packet in &heard.packets {
             if let Packet::Record(record) = packet {
-                such[usize::from(record.flags.contains(Flags::RIGHT))] = is_such(record);
+                let side = usize::from(record.flags.contains(Flags::RIGHT));
+                let now = record.sequence;
+                since[side] = is_such(record).then(|| since[side].unwrap_or(now));
+                such[side] = since[side].is_some_and(|first| now.wrapping_sub(first) >= ticks);
             }
         }
         if such.iter().filter(|such| **such).count() >= whiskers {

@@ -62,7 +62,41 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     for scene in TRAINED {
         document(scene.model, &scene.train()?, check)?;
     }
+    at_the_bench(check)?;
     studies("report", check)
+}
+
+/// Draws what `whisker` shows and leaves at the bench, of the simulated module.
+fn at_the_bench(check: bool) -> Result<(), Fault> {
+    let folder = target().join("bench");
+    let whisker = || {
+        cargo(&[
+            "run",
+            "--quiet",
+            "-p",
+            "whisker",
+            "--no-default-features",
+            "--",
+        ])
+    };
+    let monitor = "monitor --sim scenes/textures.toml --frames 162 --size 110x36 --snapshot";
+    let monitored = folder.join("monitor.svg");
+    output(whisker().args(monitor.split(' ')).arg(&monitored))?;
+    document("docs/monitor.svg", &read_bytes(&monitored)?, check)?;
+    let calibrate = "calibrate --sim scenes/bench.toml --out";
+    output(whisker().args(calibrate.split(' ')).arg(&folder))?;
+    document(
+        "docs/steps.svg",
+        &read_bytes(&folder.join("steps.svg"))?,
+        check,
+    )?;
+    let watched = "check --sim scenes/bench.toml --seconds 12 --out";
+    output(whisker().args(watched.split(' ')).arg(&folder))?;
+    document(
+        "docs/check.svg",
+        &read_bytes(&folder.join("check.svg"))?,
+        check,
+    )
 }
 
 /// Draws contact-induced asymmetry without CIA and with it, from the emulated board.

@@ -80,6 +80,9 @@ fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
     });
     let seen = Seen::of(module, &arguments).unwrap();
     let simulated = Seen::of(simulation(), &arguments).unwrap();
+    // It was at rest as its motor was switched off, and not on its way.
+    let last = simulated.watched.samples.last().unwrap();
+    assert!((last.measured_deg - 50.0).abs() < 2.0, "{last:?}");
     let found = findings(&seen.watched, &simulated.watched);
     let text = seen.report(&seen.origin, &found);
     let mut signs: Vec<&str> = Vec::new();
