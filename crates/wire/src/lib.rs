@@ -31,7 +31,7 @@ pub use answer::{Answer, CommandStatus};
 pub use flags::Flags;
 pub use framed::{Framed, PACKET_FRAME_BYTES, REQUEST_FRAME_BYTES};
 pub use line::{LINE_BYTES, Line};
-pub use loading::{MODEL_LAST_WORDS, load_order};
+pub use loading::load_order;
 pub use packet::Packet;
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{

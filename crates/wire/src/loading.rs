@@ -2,7 +2,7 @@
 
 /// Words at the beginning of a model that are written last, the first of all in the end: until
 /// then its place counts as empty. Two, which is what the flash of an STM32G0 is programmed by.
-pub const MODEL_LAST_WORDS: u32 = 2;
+const MODEL_LAST_WORDS: u32 = 2;
 
 /// Where the `number`-th word that is written belongs in a model of so many `words`, more than
 /// `number`.
