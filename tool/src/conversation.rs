@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use host_sim::Error;
+use host_sim::origin::Origin;
 use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
 
 use crate::source::{Heard, Source};
@@ -89,6 +90,14 @@ impl Conversation {
             "{command:?}: no answer in {PATIENCE_S} s; is the module's program older than this one, \
              or of a scene with telemetry.rtt = false?"
         )))
+    }
+
+    /// Where the module is, and the version of its firmware.
+    pub(crate) fn origin(&mut self) -> Result<Origin, Error> {
+        let [version, patch] = self.ask(Command::Version)?.values;
+        let (major, minor) = (version >> 16, version & 0xFFFF);
+        let version = format!("{major}.{minor}.{patch}");
+        Ok(self.source.origin().with("firmware", version))
     }
 
     /// Asks the module what it is.

@@ -11,6 +11,7 @@ mod calibrate;
 mod capture;
 mod commands;
 mod conversation;
+mod decides;
 mod doctor;
 mod log_line;
 mod monitor;

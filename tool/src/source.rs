@@ -87,7 +87,7 @@ pub(crate) trait Source {
     /// How long its scene lasts, s; none: until it is switched off.
     fn duration_s(&self) -> Option<f64>;
 
-    /// What is known of it without asking: its board, the version of its firmware.
+    /// Where it is: its board.
     fn origin(&self) -> Origin;
 
     /// Whether its scene and its board take the model in `path`, as far as that is known

@@ -75,7 +75,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     report::say("the motor is off; whisker arm drives it");
 
     let [toml, csv, svg, png] = outputs;
-    let origin = whisker.module().source().origin();
+    let origin = whisker.module().origin()?;
     let origin = origin.with("scene", &tuner.scene().name);
     toml.whole(results.toml(&origin).as_bytes())?;
     csv.whole(table(&samples).as_bytes())?;

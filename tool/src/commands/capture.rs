@@ -99,7 +99,7 @@ fn complete(
     // From the first tick on: what is felt before a touch is learnt from, too.
     module.ask(Command::Stream(true))?;
     let about = module.about()?;
-    let origin = module.source().origin();
+    let origin = module.origin()?;
     let origin = origin
         .with("scene", &about.scene)
         .with("tick_hz", about.tick_hz);

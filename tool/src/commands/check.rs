@@ -90,8 +90,8 @@ struct Seen {
 impl Seen {
     fn of(module: Box<dyn Source>, arguments: &Arguments) -> Result<Self, Error> {
         let has_motor = arguments.which.tuner()?.scene().motor.is_some();
-        let origin = module.origin();
         let mut whisker = Listening::new(Conversation::new(module), arguments.side.number())?;
+        let origin = whisker.module().origin()?;
         let watched = watch(&mut whisker, arguments.seconds, has_motor)?;
         Ok(Self {
             watched,

@@ -3,15 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use firmware::Refusal;
 use host_sim::recording::CHANNELS;
 use host_sim::{Error, files, misfit, origin, report};
 use jiff::Timestamp;
-use tactile::ModelBuf;
-use wire::{Command, CommandStatus};
 
 use crate::capture::FIRST_TOUCH;
 use crate::conversation::Conversation;
+use crate::decides::Decides;
 use crate::resting::rest;
 use crate::source::{SourceChoice, seconds};
 
@@ -85,59 +83,4 @@ fn first_touch(data: &Path) -> Result<Option<(String, Timestamp)>, Error> {
     let (origin, ..) = origin::split(&bytes);
     let when = origin.get(FIRST_TOUCH).and_then(|when| when.parse().ok());
     Ok(when.map(|when| (data.display().to_string(), when)))
-}
-
-/// What a module decides by, as it says itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Decides {
-    /// A model with this checksum and so many classes.
-    By(u32, u32),
-    /// None, for this reason.
-    Not(u8),
-}
-
-impl Decides {
-    fn ask(module: &mut Conversation) -> Result<Self, Error> {
-        let answer = module.answer(Command::Model)?;
-        let why = match answer.status {
-            CommandStatus::Done => {
-                let [crc, number] = answer.values;
-                return Ok(if number > 0 {
-                    Self::By(crc.cast_unsigned(), number.cast_unsigned())
-                } else {
-                    Self::Not(number.unsigned_abs() as u8)
-                });
-            }
-            CommandStatus::NotHere => "its scene has no [classifier]",
-            CommandStatus::Unknown => "its firmware is older than this program",
-            _ => "it says so",
-        };
-        Err(Error::Work(format!("the module takes no model: {why}")))
-    }
-
-    /// Whether it is by `model`.
-    fn is(self, model: &ModelBuf) -> Result<(), Error> {
-        match self {
-            Self::By(crc, _) if crc == model.crc() => Ok(()),
-            Self::By(..) => Err(Error::Work(
-                "it decides by another model than was written: one that is linked into its \
-                 program?"
-                    .to_owned(),
-            )),
-            Self::Not(_) => Err(Error::Work("it has refused the model".to_owned())),
-        }
-    }
-}
-
-impl std::fmt::Display for Decides {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::By(crc, classes) => write!(f, "decides by model {crc:08x}, {classes} classes"),
-            Self::Not(code) => {
-                let why = Refusal::from_code(*code).map(Refusal::text);
-                let why = why.unwrap_or("for a reason that this program does not know");
-                write!(f, "decides by no model: {why}")
-            }
-        }
-    }
 }

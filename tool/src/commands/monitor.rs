@@ -131,7 +131,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Read
     let whiskers = usize::try_from(whiskers).unwrap_or(1);
     let crate::conversation::AboutModule { scene, tick_hz, .. } = module.about()?;
     let listener = known.map(|known| Listener::new(known, tick_hz, whiskers));
-    let origin: Origin = module.source().origin().with("scene", &scene);
+    let origin: Origin = module.origin()?.with("scene", &scene);
     let files = arguments.out.iter();
     let files = files.map(|path| RecordFile::create(path, &origin, tick_hz));
     let files = files.collect::<Result<Vec<_>, _>>()?;

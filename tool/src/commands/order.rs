@@ -5,6 +5,7 @@ use host_sim::{Error, report};
 use wire::{Command, WhiskerId};
 
 use crate::conversation::Conversation;
+use crate::decides::Decides;
 use crate::source::SourceChoice;
 
 /// Which module.
@@ -92,5 +93,14 @@ pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
          missed\n{lost} records found no room",
         about.scene, about.tick_hz, status.sequence
     ));
+    let origin = module.origin()?;
+    report::say(format_args!(
+        "firmware {}",
+        origin.get("firmware").unwrap_or("unknown")
+    ));
+    // A scene without a classifier has nothing to say here.
+    if let Ok(decides) = Decides::ask(&mut module) {
+        report::say(decides);
+    }
     Ok(())
 }

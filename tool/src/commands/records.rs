@@ -81,7 +81,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let about = module.about()?;
     let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
 
-    let origin = module.source().origin().with("scene", &about.scene);
+    let origin = module.origin()?.with("scene", &about.scene);
     let mut kept = RecordFile::create(out, &origin, about.tick_hz)?;
     let mut summary = Summary::default();
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());

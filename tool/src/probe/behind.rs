@@ -155,8 +155,6 @@ impl Source for Behind {
     }
 
     fn origin(&self) -> Origin {
-        Origin::default()
-            .with("board", self.board.name())
-            .with("firmware", "unknown")
+        Origin::default().with("board", self.board.name())
     }
 }

@@ -120,13 +120,11 @@ impl SourceChoice {
                          its log; take that line out";
             return Err(Error::file(path, fault));
         }
-        let (program, version) = if let Some(program) = &self.program {
-            (program.clone(), None)
-        } else {
-            let version = env!("CARGO_PKG_VERSION");
-            (program::build(self.board, path)?, Some(version))
+        let program = match &self.program {
+            Some(program) => program.clone(),
+            None => program::build(self.board, path)?,
         };
-        let emulated = Emulated::open(loaded, &program, version, flash)?;
+        let emulated = Emulated::open(loaded, &program, flash)?;
         Ok(Box::new(emulated))
     }
 }

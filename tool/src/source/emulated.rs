@@ -20,23 +20,15 @@ pub(super) struct Emulated {
     loaded: Loaded,
     session: Session,
     flash: Flash,
-    /// Of its program, where that is known.
-    version: Option<&'static str>,
 }
 
 impl Emulated {
-    pub(super) fn open(
-        loaded: Loaded,
-        program: &Path,
-        version: Option<&'static str>,
-        flash: Flash,
-    ) -> Result<Self, Error> {
+    pub(super) fn open(loaded: Loaded, program: &Path, flash: Flash) -> Result<Self, Error> {
         let session = Session::flashed(&loaded.scene, program, flash.contents())?;
         Ok(Self {
             flash: flash.of_size(session.model_room())?,
             session,
             loaded,
-            version,
         })
     }
 }
@@ -81,9 +73,8 @@ impl Source for Emulated {
     }
 
     fn origin(&self) -> Origin {
-        Origin::default()
-            .with("board", format_args!("{} (emulated)", self.session.board()))
-            .with("firmware", self.version.unwrap_or("unknown"))
+        let board = self.session.board();
+        Origin::default().with("board", format_args!("{board} (emulated)"))
     }
 
     fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error> {

@@ -56,7 +56,6 @@ pub(super) struct Port {
     heard: Instant,
     time: BoardTime,
     tick_hz: Option<u32>,
-    version: Option<String>,
 }
 
 impl Port {
@@ -74,7 +73,6 @@ impl Port {
             heard: Instant::now(),
             time: BoardTime::default(),
             tick_hz: None,
-            version: None,
         };
         port.greet().map_err(|error| {
             Error::Work(format!(
@@ -113,9 +111,8 @@ impl Port {
     fn take(&mut self, line: &[u8]) -> Option<String> {
         let line = String::from_utf8_lossy(line);
         match logged(&line) {
-            Said::Hello { tick_hz, version } => {
+            Said::Hello { tick_hz } => {
                 self.tick_hz = Some(tick_hz);
-                self.version = Some(version.to_owned());
                 None
             }
             Said::Logged { t_s, text } => {
@@ -193,9 +190,7 @@ impl Source for Port {
     }
 
     fn origin(&self) -> Origin {
-        Origin::default()
-            .with("board", format_args!("at {}", self.name))
-            .with("firmware", self.version.as_deref().unwrap_or("unknown"))
+        Origin::default().with("board", format_args!("at {}", self.name))
     }
 }
 

@@ -2,9 +2,9 @@
 
 /// What a line says.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Said<'l> {
-    /// Ticks a second, and the version of the firmware: the reply to `hello`.
-    Hello { tick_hz: u32, version: &'l str },
+pub(super) enum Said {
+    /// Ticks a second: the reply to `hello`.
+    Hello { tick_hz: u32 },
     /// Something at a time, s since the first tick, as the log has it.
     Logged { t_s: f64, text: String },
     /// A reply, or what is no line of this version.
@@ -12,13 +12,13 @@ pub(super) enum Said<'l> {
 }
 
 /// Takes a line.
-pub(super) fn logged(line: &str) -> Said<'_> {
+pub(super) fn logged(line: &str) -> Said {
     let words: Vec<&str> = line.split(' ').collect();
-    if let ["ok", "hello", _, tick_hz, _, version] = words[..]
+    if let ["ok", "hello", _, tick_hz, _, _] = words[..]
         && let Ok(tick_hz) = tick_hz.parse()
         && tick_hz > 0
     {
-        return Said::Hello { tick_hz, version };
+        return Said::Hello { tick_hz };
     }
     let Some((time, text)) = line.split_once(' ') else {
         return Said::Other;
@@ -100,10 +100,7 @@ mod tests {
 
     #[test]
     fn replies_are_told_from_lines_with_a_time() {
-        let hello = Said::Hello {
-            tick_hz: 2000,
-            version: "0.1.0",
-        };
+        let hello = Said::Hello { tick_hz: 2000 };
         assert_eq!(logged("ok hello textures 2000 1 0.1.0"), hello);
         for line in [
             "ok hello x 0 1 0.1.0",

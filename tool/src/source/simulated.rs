@@ -150,9 +150,7 @@ impl Source for Simulated {
     }
 
     fn origin(&self) -> Origin {
-        Origin::default()
-            .with("board", "simulated")
-            .with("firmware", env!("CARGO_PKG_VERSION"))
+        Origin::default().with("board", "simulated")
     }
 
     fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error> {
