@@ -115,7 +115,7 @@ impl Chip {
             clocks,
             power: Power::new(model.power),
             exti: Lines::new(model.lines),
-            flash: Flash::new(model.flash_registers, model.flash_sectors),
+            flash: Flash::new(model.flash_registers, model.flash_version),
             system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),

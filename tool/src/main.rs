@@ -13,6 +13,7 @@ mod commands;
 mod conversation;
 mod decides;
 mod doctor;
+mod loading;
 mod log_line;
 mod monitor;
 mod probe;

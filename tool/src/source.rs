@@ -5,7 +5,6 @@ mod choice;
 mod emulated;
 mod flash;
 mod laying;
-mod loading;
 mod person;
 mod port;
 mod port_line;
@@ -99,7 +98,5 @@ pub(crate) trait Source {
     /// Writes a model where the module looks for one, its first words last
     /// ([`wire::load_order`]), and has it start anew; comes back once it has. Its motors are off
     /// already.
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
-        loading::load(self, model)
-    }
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error>;
 }

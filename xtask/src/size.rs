@@ -173,6 +173,7 @@ fn measured(board: Board, scene: &Scene, elf: &Path, host: Option<u64>) -> Resul
         model: model_bytes(scene)?.map_or(0, |model| model.len() as u64),
         is_active: scene.whisking.is_some(),
         has_serial: scene.telemetry.serial_baud.is_some(),
+        has_loader: scene.awaits_model(),
         heard: heard(scene),
         host_ns: host,
     })

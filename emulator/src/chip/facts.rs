@@ -94,7 +94,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Rcc => model.rcc.fields(),
         Unit::Flash => power::options(model.power)
             .into_iter()
-            .chain(flash::fields(!model.flash_sectors.is_empty()))
+            .chain(flash::fields(model.flash_version))
             .collect(),
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),

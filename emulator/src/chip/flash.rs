@@ -1,242 +1,242 @@
-//! The flash interface: the wait states, and on the STM32F4 how flash is written (RM0390,
-//! chapter 3). Only sectors of 128 KiB are erased, and only words of 32 bits are written.
+//! The flash interface: the wait states, and how a program writes flash (RM0390 and RM0444,
+//! chapters 3; PM0075). What no program here does is refused: other units than the model lies
+//! in, and other widths than its driver's.
+
+mod layout;
 
 use std::ops::Range;
 
-use super::fields::{Field, field, whole};
+use super::fields::Field;
 use super::plain::Plain;
 use super::time::Ps;
-
-const ACR: u32 = 0x00;
-const KEYR: u32 = 0x04;
-const SR: u32 = 0x0C;
-const CR: u32 = 0x10;
+pub(super) use layout::Version;
+use layout::{ACR, Layout, WIDTH, WORDS};
 
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
-const OPERR: u32 = 1 << 1;
-const WRPERR: u32 = 1 << 4;
-const PGAERR: u32 = 1 << 5;
-const PGPERR: u32 = 1 << 6;
-const PGSERR: u32 = 1 << 7;
-const BSY: u32 = 1 << 16;
-const ERRORS: u32 = OPERR | WRPERR | PGAERR | PGPERR | PGSERR;
-
+/// Selects writing, and erasing.
 const PG: u32 = 1 << 0;
-const SER: u32 = 1 << 1;
-const SNB: u32 = 0x1F << 3;
-const PSIZE: u32 = 3 << 8;
-const STRT: u32 = 1 << 16;
-const LOCK: u32 = 1 << 31;
-/// PSIZE of words.
-const WORDS: u32 = 2 << 8;
+const ERASES: u32 = 1 << 1;
 
-/// How long a sector of 128 KiB takes to be erased, and a word to be written, typically
-/// (STM32F446xC/E datasheet, flash memory programming, 32 bits at a time).
-const ERASE: Ps = 1_000_000_000_000;
-const WRITE: Ps = 16_000_000;
+/// Where the flash begins.
+const BASE: u32 = 0x0800_0000;
 
-/// The size of the sectors that can be erased.
-const SECTOR: u32 = 128 * 1024;
-
-const FIELDS: [Field; 14] = [
-    whole("ACR", ACR),
-    whole("KEYR", KEYR),
-    field("SR", SR, "OPERR", OPERR),
-    field("SR", SR, "WRPERR", WRPERR),
-    field("SR", SR, "PGAERR", PGAERR),
-    field("SR", SR, "PGPERR", PGPERR),
-    field("SR", SR, "PGSERR", PGSERR),
-    field("SR", SR, "BSY", BSY),
-    field("CR", CR, "PG", PG),
-    field("CR", CR, "SER", SER),
-    field("CR", CR, "SNB", SNB),
-    field("CR", CR, "PSIZE", PSIZE),
-    field("CR", CR, "STRT", STRT),
-    field("CR", CR, "LOCK", LOCK),
-];
-
-/// What is known of its registers, where it writes and where not.
-pub(super) fn fields(writes: bool) -> impl Iterator<Item = Field> {
-    FIELDS
-        .into_iter()
-        .take(if writes { FIELDS.len() } else { 1 })
+/// What is known of a version's registers.
+pub(super) fn fields(version: Version) -> Vec<Field> {
+    version.layout().fields()
 }
 
 /// The interface.
 #[derive(Debug, Clone)]
 pub(super) struct Flash {
     waits: Plain,
-    writer: Option<Writer>,
-}
-
-/// What writes flash.
-#[derive(Debug, Clone)]
-struct Writer {
-    /// KiB of the sectors, from the beginning.
-    sectors: &'static [u32],
+    layout: &'static Layout,
     /// How many of the keys have come; more than there are: none will do until the next reset.
     keys: usize,
     control: u32,
+    /// The address of a page, where it is told by that.
+    address: u32,
     errors: u32,
+    /// The first of two words, where both are written at once.
+    first: Option<u32>,
     busy_until: Ps,
     /// Offsets of what is being erased.
     erased: Option<Range<u32>>,
 }
 
 impl Flash {
-    /// With registers that only keep what is written; `sectors` are those of a chip whose flash
-    /// can be written.
-    pub(super) fn new(registers: &'static [(u32, u32)], sectors: &'static [u32]) -> Self {
+    /// With registers that only keep what is written.
+    pub(super) fn new(registers: &'static [(u32, u32)], version: Version) -> Self {
+        let layout = version.layout();
         Self {
             waits: Plain::new(registers),
-            writer: (!sectors.is_empty()).then_some(Writer {
-                sectors,
-                keys: 0,
-                control: LOCK,
-                errors: 0,
-                busy_until: 0,
-                erased: None,
-            }),
+            layout,
+            keys: 0,
+            control: layout.lock,
+            address: 0,
+            errors: 0,
+            first: None,
+            busy_until: 0,
+            erased: None,
         }
     }
 
     pub(super) fn reset(&mut self) {
-        self.waits.reset();
-        if let Some(writer) = &mut self.writer {
-            (writer.keys, writer.control, writer.errors) = (0, LOCK, 0);
-            (writer.busy_until, writer.erased) = (0, None);
-        }
+        let mut waits = self.waits.clone();
+        waits.reset();
+        *self = Self {
+            waits,
+            layout: self.layout,
+            keys: 0,
+            control: self.layout.lock,
+            address: 0,
+            errors: 0,
+            first: None,
+            busy_until: 0,
+            erased: None,
+        };
     }
 
     pub(super) fn read(&self, offset: u32, now: Ps) -> Option<u32> {
-        let Some(writer) = self.writer.as_ref().filter(|_| offset != ACR) else {
-            return self.waits.read(offset);
-        };
+        let layout = self.layout;
         Some(match offset {
-            KEYR => 0,
-            SR if now < writer.busy_until => BSY | writer.errors,
-            SR => writer.errors,
-            CR => writer.control,
+            _ if offset == ACR => return self.waits.read(offset),
+            _ if offset == layout.keyr => 0,
+            _ if offset == layout.sr && now < self.busy_until => layout.bsy | self.errors,
+            _ if offset == layout.sr => self.errors,
+            _ if offset == layout.cr => self.control,
+            _ if Some(offset) == layout.ar => self.address,
             _ => return None,
         })
     }
 
     /// Whether the register is modelled, and used as the manual wants it.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps) -> bool {
-        match &mut self.writer {
-            Some(writer) if offset != ACR => writer.write(offset, value, now),
-            _ => self.waits.write(offset, value),
-        }
-    }
-
-    /// Takes a store of the core, `bytes` long; whether it programs flash.
-    pub(super) fn store(&mut self, offset: u32, bytes: usize, now: Ps) -> bool {
-        let Some(writer) = &mut self.writer else {
-            return false;
-        };
-        if writer.control & (PG | LOCK) != PG || now < writer.busy_until {
-            writer.errors |= PGSERR;
-            return false;
-        }
-        if writer.control & PSIZE != WORDS || bytes != 4 || !offset.is_multiple_of(4) {
-            writer.errors |= PGPERR;
-            return false;
-        }
-        writer.busy_until = now + WRITE;
-        true
-    }
-
-    /// Offsets of what has begun to be erased since the last call.
-    pub(super) fn take_erased(&mut self) -> Option<Range<u32>> {
-        self.writer.as_mut()?.erased.take()
-    }
-
-    /// Until when whoever reads flash waits.
-    pub(super) fn busy_until(&self) -> Ps {
-        self.writer.as_ref().map_or(0, |writer| writer.busy_until)
-    }
-}
-
-impl Writer {
-    fn write(&mut self, offset: u32, value: u32, now: Ps) -> bool {
+        let layout = self.layout;
+        let is_ready = self.control & layout.lock == 0 && now >= self.busy_until;
         match offset {
-            KEYR => {
+            _ if offset == ACR => self.waits.write(offset, value),
+            _ if offset == layout.keyr => {
                 let fits = KEYS.get(self.keys) == Some(&value);
                 self.keys = if fits { self.keys + 1 } else { usize::MAX };
                 if self.keys == KEYS.len() {
-                    self.control &= !LOCK;
+                    self.control &= !layout.lock;
                 }
                 fits
             }
-            SR => {
-                self.errors &= !(value & ERRORS);
+            _ if offset == layout.sr => {
+                self.errors &= !value;
                 true
             }
-            CR if self.control & LOCK == 0 && now >= self.busy_until => self.control(value, now),
+            _ if offset == layout.cr && is_ready => self.control(value, now),
+            _ if Some(offset) == layout.ar && is_ready => {
+                self.address = value;
+                true
+            }
             _ => false,
         }
     }
 
     fn control(&mut self, value: u32, now: Ps) -> bool {
-        let known = PG | SER | SNB | PSIZE | STRT | LOCK;
-        self.control = value & !STRT;
-        if value & STRT == 0 {
+        let layout = self.layout;
+        let width = if layout.has_width { WIDTH } else { 0 };
+        let known = PG | ERASES | layout.number | width | layout.strt | layout.lock;
+        self.control = value & !layout.strt;
+        if value & layout.strt == 0 {
             return value & !known == 0;
         }
-        let number = (value & SNB) >> SNB.trailing_zeros();
-        let sizes = self.sectors.iter().map(|kib| kib * 1024);
-        let first: u32 = sizes.clone().take(number as usize).sum();
-        let size = sizes.clone().nth(number as usize);
-        if size != Some(SECTOR) || value & (PG | SER | PSIZE) != SER | WORDS {
+        let number = match layout.ar {
+            Some(_) => self.address.wrapping_sub(BASE) / layout.unit,
+            None => (value & layout.number) >> layout.number.trailing_zeros(),
+        };
+        let place = layout.place(number);
+        let is_erasing = value & (PG | ERASES) == ERASES && value & width == width & WORDS;
+        self.erased = place.filter(|_| is_erasing);
+        self.busy_until = now + layout.erases;
+        self.erased.is_some()
+    }
+
+    /// Takes a store of the core, `bytes` long; whether it programs flash.
+    pub(super) fn store(&mut self, offset: u32, bytes: usize, now: Ps) -> bool {
+        let layout = self.layout;
+        let width = if layout.has_width { WIDTH } else { 0 };
+        let is_set = self.control & (PG | layout.lock | width) == PG | width & WORDS;
+        let fits = bytes == layout.bytes && offset.is_multiple_of(layout.bytes as u32);
+        let begins = self.first.is_none() && offset.is_multiple_of(8);
+        let ends = self.first.take() == offset.checked_sub(4);
+        if !is_set || !fits || now < self.busy_until || layout.in_pairs && !begins && !ends {
+            self.errors |= layout.refused;
             return false;
         }
-        self.erased = Some(first..first + SECTOR);
-        self.busy_until = now + ERASE;
+        if layout.in_pairs && begins {
+            self.first = Some(offset);
+        } else {
+            self.busy_until = now + layout.writes;
+        }
         true
+    }
+
+    /// Offsets of what has begun to be erased since the last call.
+    pub(super) fn take_erased(&mut self) -> Option<Range<u32>> {
+        self.erased.take()
+    }
+
+    /// Until when whoever reads flash waits.
+    pub(super) const fn busy_until(&self) -> Ps {
+        self.busy_until
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{CR, ERASE, Flash, KEYR, KEYS, LOCK, PG, PGSERR, SER, SR, STRT, WORDS, WRITE};
+    use super::{ACR, ERASES, Flash, KEYS, PG, Version, WORDS};
 
-    const SECTORS: [u32; 8] = [16, 16, 16, 16, 64, 128, 128, 128];
-
-    fn unlocked() -> Flash {
-        let mut flash = Flash::new(&[(0, 0)], &SECTORS);
-        assert!(KEYS.iter().all(|key| flash.write(KEYR, *key, 0)));
+    fn unlocked(version: Version) -> Flash {
+        let mut flash = Flash::new(&[(ACR, 0)], version);
+        let keyr = version.layout().keyr;
+        assert!(KEYS.iter().all(|key| flash.write(keyr, *key, 0)));
         flash
     }
 
     #[test]
     fn nothing_is_written_without_both_keys() {
-        let mut flash = Flash::new(&[(0, 0)], &SECTORS);
-        assert!(!flash.write(CR, PG, 0));
-        assert!(!flash.store(0, 4, 0));
-        assert_eq!(flash.read(SR, 0), Some(PGSERR));
-        // After a wrong one neither will do.
-        assert!(!flash.write(KEYR, 1, 0) && !flash.write(KEYR, KEYS[0], 0));
-        assert_eq!(flash.read(CR, 0), Some(LOCK));
+        for version in [Version::F1, Version::F4, Version::G0] {
+            let layout = version.layout();
+            let mut flash = Flash::new(&[(ACR, 0)], version);
+            assert!(!flash.write(layout.cr, PG, 0));
+            assert!(!flash.store(0, layout.bytes, 0));
+            assert_eq!(flash.read(layout.sr, 0), Some(layout.refused));
+            // After a wrong one neither will do.
+            assert!(!flash.write(layout.keyr, 1, 0));
+            assert!(!flash.write(layout.keyr, KEYS[0], 0));
+            assert_eq!(flash.read(layout.cr, 0), Some(layout.lock));
+        }
     }
 
     #[test]
     fn a_sector_is_erased_where_it_lies_and_takes_its_time() {
-        let mut flash = unlocked();
-        assert!(flash.write(CR, SER | 7 << 3 | WORDS | STRT, 5));
+        let mut flash = unlocked(Version::F4);
+        let layout = Version::F4.layout();
+        assert!(flash.write(layout.cr, ERASES | 7 << 3 | WORDS | layout.strt, 5));
         assert_eq!(flash.take_erased(), Some(384 * 1024..512 * 1024));
-        assert_eq!(flash.busy_until(), 5 + ERASE);
-        assert!(!flash.write(CR, PG, ERASE));
-        assert!(flash.write(CR, PG | WORDS, ERASE + 5));
-        assert!(flash.store(8, 4, ERASE + 5));
-        assert_eq!(flash.busy_until(), ERASE + 5 + WRITE);
+        let ready = 5 + layout.erases;
+        assert_eq!(flash.busy_until(), ready);
+        assert!(!flash.write(layout.cr, PG, ready - 1));
+        assert!(flash.write(layout.cr, PG | WORDS, ready));
+        assert!(flash.store(8, 4, ready));
+        assert_eq!(flash.busy_until(), ready + layout.writes);
+        // One that is smaller than those of a model.
+        let mut flash = unlocked(Version::F4);
+        assert!(!flash.write(layout.cr, ERASES | 3 << 3 | WORDS | layout.strt, 5));
     }
 
     #[test]
-    fn only_words_are_written() {
-        let mut flash = unlocked();
-        flash.write(CR, PG | WORDS, 0);
+    fn pages_are_erased_by_address_or_by_number() {
+        let (mut flash, layout) = (unlocked(Version::F1), Version::F1.layout());
+        assert!(flash.write(layout.cr, ERASES, 0));
+        assert!(flash.write(layout.ar.unwrap(), 0x0801_8000, 0));
+        assert!(flash.write(layout.cr, ERASES | layout.strt, 0));
+        assert_eq!(flash.take_erased(), Some(96 * 1024..97 * 1024));
+        let (mut flash, layout) = (unlocked(Version::G0), Version::G0.layout());
+        assert!(flash.write(layout.cr, ERASES | 48 << 3 | layout.strt, 0));
+        assert_eq!(flash.take_erased(), Some(96 * 1024..98 * 1024));
+    }
+
+    #[test]
+    fn only_what_a_chip_writes_at_once_is_written() {
+        let mut flash = unlocked(Version::F4);
+        flash.write(Version::F4.layout().cr, PG | WORDS, 0);
         assert!(!flash.store(2, 2, 0) && !flash.store(2, 4, 0));
+        let mut flash = unlocked(Version::F1);
+        flash.write(Version::F1.layout().cr, PG, 0);
+        assert!(!flash.store(4, 4, 0) && flash.store(4, 2, 0));
+        let mut flash = unlocked(Version::G0);
+        flash.write(Version::G0.layout().cr, PG, 0);
+        // The second word of a pair alone, and then both.
+        assert!(!flash.store(4, 4, 0));
+        assert!(flash.store(8, 4, 0) && flash.store(12, 4, 0));
+        assert!(flash.store(16, 4, flash.busy_until()));
+        assert!(!flash.store(24, 4, flash.busy_until()));
         assert_eq!(flash.take_erased(), None);
     }
 }

@@ -5,7 +5,7 @@ use super::map::Entry;
 use super::rcc::{Bus, Layout};
 use super::timers::Kind;
 use super::wiring::Wiring;
-use super::{dma, gpio, lines, power, spi, usart};
+use super::{dma, flash, gpio, lines, power, spi, usart};
 
 /// What a core can execute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,8 +52,7 @@ pub(crate) struct Model {
     /// The clock that a wait state of the flash adds, Hz, from so many mV of the supply on;
     /// the highest supply first.
     pub(super) flash_hz: &'static [(u32, u64)],
-    /// KiB of the flash's sectors, where the program can write them.
-    pub(super) flash_sectors: &'static [u32],
+    pub(super) flash_version: flash::Version,
     /// Registers that only keep what is written, and their values after a reset: of the
     /// flash interface and of the debug unit.
     pub(super) flash_registers: &'static [(u32, u32)],

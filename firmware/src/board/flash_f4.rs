@@ -1,12 +1,10 @@
 //! Writing the flash of the STM32F4, by the program that runs from it: the core waits where it
 //! reads flash meanwhile (RM0390, chapter 3, embedded flash memory interface).
+#![allow(clippy::unused_self, reason = "the right to write flash is a value")]
 
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::Sr;
 use stm32_metapac::flash::vals::Psize;
-
-/// Whether there is a way.
-pub(crate) const WRITES: bool = true;
 
 /// The sector of the model: the last of eight, of 128 KiB (RM0390, flash module organization).
 const SECTOR: u8 = 7;
@@ -23,51 +21,57 @@ const ERRORS: u32 = 0xF2;
 
 /// Waits until it is ready; whether all went well.
 fn is_done() -> bool {
+    // What was stored is on its way before BSY is looked at.
+    cortex_m::asm::dsb();
     while FLASH.sr().read().bsy() {}
     FLASH.sr().read().0 & ERRORS == 0
 }
 
-/// Erases the sector of the model, which takes up to 2 s (STM32F446xC/E datasheet, flash memory
-/// programming). What the data cache holds of it is forgotten, and it is off until the next
-/// reset.
-pub(crate) fn erase_model() -> bool {
-    if FLASH.cr().read().lock() {
-        for key in KEYS {
-            FLASH.keyr().write_value(key);
+/// What writes it.
+pub(crate) struct Writer(());
+
+impl Writer {
+    /// Ready to write.
+    pub(crate) const fn new() -> Self {
+        Self(())
+    }
+
+    /// Erases the sector of the model, which takes up to 2 s (STM32F446xC/E datasheet, flash
+    /// memory programming); whether all went well. What the data cache holds of it is forgotten,
+    /// and it is off until the next reset.
+    pub(crate) fn erase_model(&mut self) -> bool {
+        if FLASH.cr().read().lock() {
+            for key in KEYS {
+                FLASH.keyr().write_value(key);
+            }
+        }
+        FLASH.acr().modify(|w| w.set_dcen(false));
+        FLASH.acr().modify(|w| w.set_dcrst(true));
+        FLASH.acr().modify(|w| w.set_dcrst(false));
+        FLASH.sr().write_value(Sr(ERRORS));
+        FLASH.cr().write(|w| {
+            w.set_psize(AT_A_TIME);
+            w.set_ser(true);
+            w.set_snb(SECTOR);
+        });
+        FLASH.cr().modify(|w| w.set_strt(true));
+        is_done()
+    }
+
+    /// Writes an erased word; whether it stands there. Its address must be in the sector of the
+    /// model, which nothing else may read any more.
+    pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
+        FLASH.cr().write(|w| {
+            w.set_psize(AT_A_TIME);
+            w.set_pg(true);
+        });
+        let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
+        #[allow(unsafe_code, reason = "flash is programmed by stores")]
+        // SAFETY: a word of the model's place, which the loader sees to; while PG is set the flash
+        // takes the store, and the program has no reference to it that is used.
+        unsafe {
+            to.write_volatile(word);
+            is_done() && to.read_volatile() == word
         }
     }
-    FLASH.acr().modify(|w| w.set_dcen(false));
-    FLASH.acr().modify(|w| w.set_dcrst(true));
-    FLASH.acr().modify(|w| w.set_dcrst(false));
-    FLASH.sr().write_value(Sr(ERRORS));
-    FLASH.cr().write(|w| {
-        w.set_psize(AT_A_TIME);
-        w.set_ser(true);
-        w.set_snb(SECTOR);
-    });
-    FLASH.cr().modify(|w| w.set_strt(true));
-    is_done()
-}
-
-/// Writes an erased word; whether it stands there. Its address must be in the sector of the
-/// model, which nothing else may read any more.
-pub(crate) fn write(address: usize, word: u32) -> bool {
-    FLASH.cr().write(|w| {
-        w.set_psize(AT_A_TIME);
-        w.set_pg(true);
-    });
-    let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
-    #[allow(unsafe_code, reason = "flash is programmed by stores")]
-    // SAFETY: a word of the model's place, by `model_place::write`; while PG is set the flash
-    // takes the store, and the program has no reference to it that is used.
-    let found = unsafe {
-        to.write_volatile(word);
-        // The store is on its way before BSY is looked at.
-        cortex_m::asm::dsb();
-        if !is_done() {
-            return false;
-        }
-        to.read_volatile()
-    };
-    found == word
 }

@@ -9,10 +9,13 @@
 use cortex_m::peripheral::{NVIC, SCB};
 use wire::{Answer, Command, CommandStatus, TaggedCommand, load_order};
 
-use super::scene::TICK_HZ;
+use super::scene::{HAS_SERIAL, TICK_HZ};
+use super::serial::Serial;
+use super::telemetry::ProbeLine;
 use super::watchdog::Watchdog;
 use super::{CLOCKS, model_place, outputs, tick_timer};
-use crate::here::{TICK_INTERRUPT, flash};
+use crate::here::TICK_INTERRUPT;
+use crate::here::flash::Writer;
 
 /// Ticks without a request after which nobody asks any more: 2 s, in which no watchdog bites
 /// that is slowed down.
@@ -25,19 +28,56 @@ const LAST_TICKS: u32 = TICK_HZ / 10;
 const LAST_BYTES_CYCLES: u32 = CLOCKS.core_hz / 250;
 
 /// By which requests come, and answers go.
-pub(crate) trait LoaderLine {
+pub(crate) struct Line<'s> {
+    serial: &'s mut Serial,
+    probe: ProbeLine,
+    is_by_serial: bool,
+}
+
+impl<'s> Line<'s> {
+    /// By the serial port, or by what a probe reads and writes.
+    pub(crate) fn new(serial: &'s mut Serial, is_by_serial: bool) -> Self {
+        Self {
+            serial,
+            probe: ProbeLine::new(),
+            is_by_serial: HAS_SERIAL && is_by_serial,
+        }
+    }
+
     /// The next request.
-    fn next(&mut self) -> Option<TaggedCommand>;
+    // Apart, as are words: together they are a function whose jumps the stack's check cannot
+    // follow.
+    #[inline(never)]
+    fn next(&mut self) -> Option<TaggedCommand> {
+        if self.is_by_serial {
+            self.serial.next()
+        } else {
+            self.probe.next()
+        }
+    }
 
     /// Sends an answer. Whoever asks waits for it before they ask again: there is room.
-    fn reply(&mut self, answer: &Answer);
+    fn reply(&mut self, answer: &Answer) {
+        if self.is_by_serial {
+            self.serial.reply(answer);
+        } else {
+            self.probe.reply(answer);
+        }
+    }
 
     /// Goes on sending; whether nothing is left.
-    fn has_sent(&mut self) -> bool;
+    fn has_sent(&mut self) -> bool {
+        if self.is_by_serial {
+            self.serial.has_sent()
+        } else {
+            self.probe.has_sent()
+        }
+    }
 }
 
 /// A model of so many words, and how many of them are written.
 struct Loading {
+    writer: Writer,
     words: u32,
     written: u32,
     last: u32,
@@ -45,17 +85,18 @@ struct Loading {
 
 /// Erases, writes what comes, and starts the chip anew. `answer` is that to the request for it,
 /// which says how many words there are.
-pub(crate) fn run(line: &mut impl LoaderLine, mut answer: Answer) -> ! {
+pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
     leave_the_tick();
     Watchdog::slow_down();
     let mut loading = Loading {
+        writer: Writer::new(),
         words: answer.values[0].cast_unsigned(),
         written: 0,
         last: 0,
     };
-    answer.status = written(flash::erase_model());
+    answer.status = written(loading.writer.erase_model());
     Watchdog::feed_slow();
     line.reply(&answer);
     let mut silent = 0;
@@ -96,7 +137,7 @@ const fn written(well: bool) -> CommandStatus {
 }
 
 /// Lets the last answer be fetched, and resets the chip.
-fn start_anew(line: &mut impl LoaderLine) -> ! {
+fn start_anew(mut line: Line<'_>) -> ! {
     for _ in 0..LAST_TICKS {
         if line.has_sent() {
             break;
@@ -132,9 +173,10 @@ fn sleep() {
 
 impl Loading {
     /// Writes the next word. The last one may be asked for again, by whoever missed the answer.
+    #[inline(never)]
     fn word(&mut self, number: u8, word: u32) -> CommandStatus {
         if number == self.written as u8 && self.written < self.words {
-            if !model_place::write(load_order(self.written, self.words), word) {
+            if !self.write(load_order(self.written, self.words), word) {
                 return CommandStatus::NotWritten;
             }
             self.written += 1;
@@ -147,5 +189,13 @@ impl Loading {
         } else {
             CommandStatus::OutOfRange
         }
+    }
+
+    /// Writes the `at`-th word of the model's place, which nothing else reads any more; whether
+    /// it stands there.
+    fn write(&mut self, at: u32, word: u32) -> bool {
+        let place = model_place::model_place().as_ptr().addr();
+        let address = place + size_of::<u32>() * at as usize;
+        at < model_place::words() && self.writer.write(address, word)
     }
 }

@@ -53,7 +53,7 @@ pub(crate) mod byte_request;
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
 #[cfg(target_os = "none")]
-#[path = "flash_none.rs"]
+#[path = "flash_f1.rs"]
 pub(crate) mod flash;
 #[cfg(target_os = "none")]
 #[path = "gpio_v1.rs"]

@@ -55,7 +55,7 @@ pub(crate) mod byte_request;
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
 #[cfg(target_os = "none")]
-#[path = "flash_none.rs"]
+#[path = "flash_g0.rs"]
 pub(crate) mod flash;
 #[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]

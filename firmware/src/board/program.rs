@@ -18,6 +18,7 @@ use firmware::faults::number;
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::inner::Inner;
 use super::integrity::Integrity;
+use super::loading::Line;
 use super::scene::{self, Names, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
 use super::sensor::Frames;
 use super::serial::{self, Serial};
@@ -25,7 +26,7 @@ use super::signal_pins::SignalPins;
 use super::telemetry::{self, Telemetry};
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
-use super::{faults, log, outputs, retained, supply};
+use super::{faults, loading, log, outputs, retained, supply};
 use crate::board::CLOCKS;
 use crate::here::{self, Counter};
 
@@ -267,7 +268,9 @@ impl Idle {
         }
         self.pins.show(now);
         telemetry::hear();
-        telemetry::load(&mut self.serial);
+        if let Some((answer, is_by_serial)) = telemetry::to_load() {
+            loading::run(Line::new(&mut self.serial, is_by_serial), answer);
+        }
         self.tuned.tell(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.

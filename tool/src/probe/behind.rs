@@ -7,10 +7,12 @@ use std::time::{Duration, Instant};
 use host_sim::Error;
 use host_sim::origin::Origin;
 use rtt::{LogDecoder, Ram, Ring, Rtt};
+use tactile::ModelBuf;
 use wire::{Packet, TaggedCommand};
 
 use super::find;
 use super::memory::MemoryPort;
+use crate::loading::load;
 use crate::source::{BoardName, Heard, Laying, Source};
 
 /// Between two looks where nothing has come: a sixth of the time in which the ring of packets
@@ -152,6 +154,10 @@ impl Source for Behind {
 
     fn duration_s(&self) -> Option<f64> {
         None
+    }
+
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
+        load(self, model)
     }
 
     fn origin(&self) -> Origin {

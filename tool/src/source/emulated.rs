@@ -10,10 +10,10 @@ use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
-use super::loading::load;
 use super::room::{ModelRoom, fits};
 use super::texture::texture;
 use super::{Heard, Source};
+use crate::loading::load;
 
 /// A board, talked with through the memory that a probe reads and writes.
 pub(super) struct Emulated {

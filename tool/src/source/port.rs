@@ -7,11 +7,13 @@ use std::time::{Duration, Instant};
 use host_sim::Error;
 use host_sim::origin::Origin;
 use serial2::SerialPort;
+use tactile::ModelBuf;
 use wire::{Framed, LINE_BYTES, Packet, Piece, Splitter, TaggedCommand};
 
 use super::laying::Laying;
 use super::port_line::{Said, logged};
 use super::{Heard, Source};
+use crate::loading::load;
 
 /// For how long a read waits for something.
 const WAIT: Duration = Duration::from_millis(50);
@@ -187,6 +189,10 @@ impl Source for Port {
 
     fn duration_s(&self) -> Option<f64> {
         None
+    }
+
+    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
+        load(self, model)
     }
 
     fn origin(&self) -> Origin {

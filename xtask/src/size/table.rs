@@ -32,6 +32,8 @@ const ACTIVE_FLASH: u64 = 48 * 1024;
 /// Flash more of a scene with a serial port: its lines, what it understands, and the text of
 /// every fault, which a log has on the PC.
 const SERIAL_FLASH: u64 = 20 * 1024;
+/// Flash more of a scene whose model is deployed: the loader that writes it.
+const LOADER_FLASH: u64 = 4 * 1024;
 const RAM: u64 = 10 * 1024;
 const STACK: u64 = 3584;
 /// Of each whisker but the first whose samples are classified: a classifier more on its way to
@@ -42,8 +44,9 @@ const STACK_MORE: u64 = 2048;
 pub(crate) fn goals() -> String {
     format!(
         "The goals are {ACTIVE_FLASH} of flash without the model ({PASSIVE_FLASH} for a passive\n\
-         scene, {SERIAL_FLASH} more with a serial port), {RAM} of static RAM, and {STACK} of stack, {STACK_MORE} more for each whisker\n\
-         but the first that is listened to."
+         scene, {SERIAL_FLASH} more with a serial port, {LOADER_FLASH} more with a loader), {RAM} of\n\
+         static RAM, and {STACK} of stack, {STACK_MORE} more for each whisker but the first that is\n\
+         listened to."
     )
 }
 
@@ -62,6 +65,8 @@ pub(super) struct Row {
     pub(super) is_active: bool,
     /// Whether it has a serial port.
     pub(super) has_serial: bool,
+    /// Whether it writes a model into its flash.
+    pub(super) has_loader: bool,
     /// How many whiskers it classifies the samples of.
     pub(super) heard: u64,
     /// What host-sim takes a tick, where that was timed.
@@ -80,7 +85,8 @@ impl Row {
 
     fn missed_goals(&self) -> impl Iterator<Item = String> {
         let flash = [PASSIVE_FLASH, ACTIVE_FLASH][usize::from(self.is_active)]
-            + SERIAL_FLASH * u64::from(self.has_serial);
+            + SERIAL_FLASH * u64::from(self.has_serial)
+            + LOADER_FLASH * u64::from(self.has_loader);
         let program = self.size.flash - self.model;
         let stack = STACK + STACK_MORE * self.heard.saturating_sub(1);
         let goals = [
@@ -150,6 +156,7 @@ mod tests {
             model: 0,
             is_active: true,
             has_serial: false,
+            has_loader: false,
             heard: 1,
             host_ns: None,
         }

@@ -1,6 +1,7 @@
 //! The STM32F103RB on its NUCLEO board (RM0008).
 
 use crate::chip::dma::Version;
+use crate::chip::flash;
 use crate::chip::gpio::Reset;
 use crate::chip::lines;
 use crate::chip::map::Unit;
@@ -68,7 +69,7 @@ pub(crate) static F103: Model = Model {
     ports: [Reset::V1; 3],
     lsi_hz: 40_000,
     has_window: false,
-    flash_sectors: &[],
+    flash_version: flash::Version::F1,
     flash_registers: &[(0x00, 0x30)],
     // RM0008, chapter 3.3.3.
     flash_hz: &[(2_000, 24_000_000)],

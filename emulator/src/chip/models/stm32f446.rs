@@ -1,6 +1,7 @@
 //! The STM32F446RE on its NUCLEO board (RM0390).
 
 use crate::chip::dma::Version;
+use crate::chip::flash;
 use crate::chip::gpio::Reset;
 use crate::chip::lines;
 use crate::chip::map::Unit;
@@ -79,8 +80,7 @@ pub(crate) static F446: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: false,
-    // RM0390, flash module organization.
-    flash_sectors: &[16, 16, 16, 16, 64, 128, 128, 128],
+    flash_version: flash::Version::F4,
     flash_registers: &[(0x00, 0)],
     // RM0390, table 5.
     flash_hz: &[

@@ -1,6 +1,7 @@
 //! The STM32G071RB on its NUCLEO board (RM0444).
 
 use crate::chip::dma::Version;
+use crate::chip::flash;
 use crate::chip::gpio::Reset;
 use crate::chip::lines;
 use crate::chip::map::Unit;
@@ -70,7 +71,7 @@ pub(crate) static G071: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: true,
-    flash_sectors: &[],
+    flash_version: flash::Version::G0,
     flash_registers: &[(0x00, 0x0004_0600)],
     // RM0444, table of the wait states in range 1.
     flash_hz: &[(1_700, 24_000_000)],

@@ -3,7 +3,6 @@
 use firmware::{Event, NotArmed, StartCause, Startup};
 use wire::{Answer, TaggedCommand};
 
-use crate::board::loading::LoaderLine;
 use crate::board::log::Health;
 use crate::board::scene::Names;
 
@@ -30,14 +29,14 @@ impl Serial {
     pub(crate) fn serve(&mut self, _: u32) {}
 }
 
-impl LoaderLine for Serial {
-    fn next(&mut self) -> Option<TaggedCommand> {
+impl Serial {
+    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
         None
     }
 
-    fn reply(&mut self, _: &Answer) {}
+    pub(crate) fn reply(&mut self, _: &Answer) {}
 
-    fn has_sent(&mut self) -> bool {
+    pub(crate) fn has_sent(&mut self) -> bool {
         true
     }
 }

@@ -17,7 +17,6 @@ use wire::{
 
 use crate::board::CLOCKS;
 use crate::board::counters::TICKS;
-use crate::board::loading::LoaderLine;
 use crate::board::log::Health;
 use crate::board::pin_config::{Mode, PinConfig};
 use crate::board::scene::{self, NAME, Names, SERIAL_BAUD, SIDES, TICK_HZ};
@@ -187,6 +186,7 @@ impl Serial {
     }
 
     /// Takes what has come.
+    #[inline(never)]
     fn hear(&mut self, now: u32) {
         let left = self.transfers.left();
         while let Some(byte) = self.received.next(left) {
@@ -249,26 +249,23 @@ impl Serial {
     }
 }
 
-impl LoaderLine for Serial {
-    fn next(&mut self) -> Option<TaggedCommand> {
-        let left = self.transfers.left();
-        while let Some(byte) = self.received.next(left) {
-            // Lines are passed over.
-            if let Some(Piece::Frame(bytes)) = self.splitter.push(byte)
-                && let Some(words) = bytes.as_array().and_then(wire::summed)
-                && let Ok(request) = TaggedCommand::from_words(words)
-            {
-                return Some(request);
-            }
-        }
-        None
+/// What a loader uses, which has the port for itself.
+impl Serial {
+    /// The next request.
+    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
+        // No time passes that would end a frame.
+        self.hear(self.heard);
+        let asked = self.waiting.pop_front()?;
+        TaggedCommand::from_words(asked.words).ok()
     }
 
-    fn reply(&mut self, answer: &Answer) {
+    /// Sends an answer.
+    pub(crate) fn reply(&mut self, answer: &Answer) {
         sent::answer(Framed::packet(answer.words()).bytes());
     }
 
-    fn has_sent(&mut self) -> bool {
+    /// Goes on sending; whether nothing is left.
+    pub(crate) fn has_sent(&mut self) -> bool {
         self.send();
         !self.transfers.is_sending() && sent::piece().is_none()
     }

@@ -1,16 +1,37 @@
 //! Telemetry of a scene that leaves it out: nothing.
 
 use firmware::{Event, ModelState};
+use wire::{Answer, TaggedCommand};
 
 use crate::board::inner::Inner;
 use crate::board::scene::{Perception, Settings};
-use crate::board::serial::Serial;
 
 /// There is nothing to hear.
 pub(crate) fn hear() {}
 
 /// There is nothing to load.
-pub(crate) fn load(_: &mut Serial) {}
+pub(crate) fn to_load() -> Option<(Answer, bool)> {
+    None
+}
+
+/// Nobody asks.
+pub(crate) struct ProbeLine;
+
+impl ProbeLine {
+    pub(crate) const fn new() -> Self {
+        Self
+    }
+
+    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
+        None
+    }
+
+    pub(crate) fn reply(&mut self, _: &Answer) {}
+
+    pub(crate) fn has_sent(&self) -> bool {
+        true
+    }
+}
 
 /// There is nothing to do.
 #[inline]

@@ -9,12 +9,10 @@ use wire::{
 
 use crate::board::inner::Inner;
 use crate::board::integrity::{self, Changed};
-use crate::board::loading::{self, LoaderLine};
 use crate::board::log;
-use crate::board::model_place::{self, LOADS};
+use crate::board::model_place;
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
-use crate::board::scene::{HAS_SERIAL, NAME, Perception, Settings, TICK_HZ};
-use crate::board::serial::Serial;
+use crate::board::scene::{AWAITS_MODEL, HAS_SERIAL, NAME, Perception, Settings, TICK_HZ};
 
 /// A request from idle to the tick: its words but for the sum, which is right.
 static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
@@ -136,29 +134,25 @@ static TO_LOAD: AtomicU32 = AtomicU32::new(0);
 const BY_SERIAL: u32 = 1;
 const BY_PROBE: u32 = 2;
 
-/// Loads a model if somebody wants that, and does not come back then; for idle.
-pub(crate) fn load(serial: &mut Serial) {
-    if !LOADS {
-        return;
+/// The answer to whoever wants a model loaded, and whether that is at the serial port.
+pub(crate) fn to_load() -> Option<(Answer, bool)> {
+    if !AWAITS_MODEL {
+        return None;
     }
     let by = TO_LOAD.load(Ordering::Acquire);
     if by != BY_SERIAL && by != BY_PROBE {
-        return;
+        return None;
     }
     let answer = ANSWER.each_ref().map(|word| word.load(Ordering::Relaxed));
-    let answer = Answer::from_words(answer);
-    if HAS_SERIAL && by == BY_SERIAL {
-        loading::run(serial, answer);
-    }
-    loading::run(&mut ProbeLine::new(), answer);
+    Some((Answer::from_words(answer), by == BY_SERIAL))
 }
 
 /// The probe's end of a loader, to which nobody else listens any more.
-struct ProbeLine(Packets);
+pub(crate) struct ProbeLine(Packets);
 
 impl ProbeLine {
     /// From the next packet on.
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(Packets {
             next: UP.writer() as usize / PACKET_BYTES,
             room: 0,
@@ -166,19 +160,22 @@ impl ProbeLine {
     }
 }
 
-impl LoaderLine for ProbeLine {
-    fn next(&mut self) -> Option<TaggedCommand> {
+impl ProbeLine {
+    /// The next request.
+    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
         if (DOWN.waiting() as usize) < REQUEST_BYTES {
             return None;
         }
         TaggedCommand::from_words(read_request()?).ok()
     }
 
-    fn reply(&mut self, answer: &Answer) {
+    /// Sends an answer.
+    pub(crate) fn reply(&mut self, answer: &Answer) {
         self.0.put(|| answer.words());
     }
 
-    fn has_sent(&mut self) -> bool {
+    /// Whether all was fetched.
+    pub(crate) fn has_sent(&self) -> bool {
         UP.waiting() == 0
     }
 }
@@ -283,7 +280,9 @@ impl Telemetry {
                 Ok(request) if is_tuning(request.command) => {
                     self.tune(module, settings, request, tick);
                 }
-                Ok(request) if let (true, Command::Load(words)) = (LOADS, request.command) => {
+                Ok(request)
+                    if let (true, Command::Load(words)) = (AWAITS_MODEL, request.command) =>
+                {
                     self.load(module, settings, request, words, tick);
                 }
                 Ok(request) => {

@@ -50,6 +50,10 @@ impl Source for Wired {
         None
     }
 
+    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
+        Err(Error::Input(format!("no place for {:08x}", model.crc())))
+    }
+
     fn origin(&self) -> Origin {
         Origin::default()
     }

@@ -67,6 +67,10 @@ impl Source for Bad {
         self.module.duration_s()
     }
 
+    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
+        self.module.deploy(model)
+    }
+
     fn origin(&self) -> Origin {
         self.module.origin()
     }

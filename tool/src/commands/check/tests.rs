@@ -60,6 +60,10 @@ impl Source for Spoilt {
         None
     }
 
+    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
+        self.module.deploy(model)
+    }
+
     fn origin(&self) -> Origin {
         self.module.origin()
     }

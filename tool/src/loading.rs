@@ -6,7 +6,7 @@ use host_sim::Error;
 use tactile::ModelBuf;
 use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand, load_order};
 
-use super::Source;
+use crate::source::Source;
 
 /// After so long without its answer a word is sent again, which changes nothing.
 const AGAIN: Duration = Duration::from_secs(1);
@@ -65,8 +65,8 @@ impl<S: Source + ?Sized> Asking<'_, S> {
 fn refused(command: Command, status: CommandStatus) -> Error {
     let why = match (command, status) {
         (Command::Load(_), CommandStatus::NotHere) => {
-            "this board's program does not write its flash; a NUCLEO-F446RE whose scene has a \
-             [classifier] without a model, and telemetry, does"
+            "this board's program does not write its flash; that of a scene whose [classifier] has \
+             no model does"
         }
         (Command::Load(_), CommandStatus::Unknown) => {
             "its firmware is older than this program: whisker flash"
@@ -82,7 +82,7 @@ fn refused(command: Command, status: CommandStatus) -> Error {
 ///
 /// # Errors
 /// [`Error::Work`] if it does not answer, or refuses.
-pub(super) fn load<S: Source + ?Sized>(source: &mut S, model: &ModelBuf) -> Result<(), Error> {
+pub(crate) fn load<S: Source + ?Sized>(source: &mut S, model: &ModelBuf) -> Result<(), Error> {
     let (words, rest) = model.as_bytes().as_chunks::<4>();
     debug_assert!(rest.is_empty(), "a model is whole words");
     let count = words.len() as u32;

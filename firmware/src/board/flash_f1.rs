@@ -1,0 +1,73 @@
+//! Writing the flash of the STM32F1, by the program that runs from it: the core waits where it
+//! reads flash meanwhile (PM0075, "Flash memory programming").
+#![allow(clippy::unused_self, reason = "the right to write flash is a value")]
+
+use stm32_metapac::FLASH;
+use stm32_metapac::flash::regs::{Ar, Sr};
+
+use crate::board::model_place::model_place;
+
+/// Bytes that are erased at once, on a medium-density chip.
+const PAGE: usize = 1024;
+
+/// Unlocks the control register.
+const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
+
+/// What went wrong: PGERR and WRPRTERR, cleared by writing ones.
+const ERRORS: u32 = 0x14;
+
+/// What writes it.
+pub(crate) struct Writer(());
+
+/// Waits until it is ready; whether all went well.
+fn is_done() -> bool {
+    // BSY is set a cycle after what it is set for.
+    cortex_m::asm::dsb();
+    while FLASH.sr().read().bsy() {}
+    FLASH.sr().read().0 & ERRORS == 0
+}
+
+impl Writer {
+    /// Ready to write.
+    pub(crate) const fn new() -> Self {
+        Self(())
+    }
+
+    /// Erases the pages of the model, each of which takes up to 40 ms (STM32F103x8/B datasheet,
+    /// flash memory); whether all went well.
+    pub(crate) fn erase_model(&mut self) -> bool {
+        if FLASH.cr().read().lock() {
+            for key in KEYS {
+                FLASH.keyr().write_value(key);
+            }
+        }
+        FLASH.sr().write_value(Sr(ERRORS));
+        model_place().chunks(PAGE).all(|page| {
+            FLASH.cr().write(|w| w.set_per(true));
+            // Pointers have 32 bits on these chips.
+            FLASH.ar().write_value(Ar(page.as_ptr().addr() as u32));
+            FLASH.cr().modify(|w| w.set_strt(true));
+            is_done()
+        })
+    }
+
+    /// Writes an erased word, by halves; whether it stands there. Its address must be in the
+    /// pages of the model, which nothing else may read any more.
+    pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
+        FLASH.cr().write(|w| w.set_pg(true));
+        let [low, high] = [word as u16, (word >> 16) as u16];
+        [(address, low), (address + 2, high)]
+            .into_iter()
+            .all(|(address, half)| {
+                let to = core::ptr::with_exposed_provenance_mut::<u16>(address);
+                #[allow(unsafe_code, reason = "flash is programmed by stores")]
+                // SAFETY: half a word of the model's place, which the loader sees to; while PG is
+                // set the flash takes the store, and the program has no reference to it that is
+                // used.
+                unsafe {
+                    to.write_volatile(half);
+                    is_done() && to.read_volatile() == half
+                }
+            })
+    }
+}

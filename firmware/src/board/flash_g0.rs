@@ -1,0 +1,108 @@
+//! Writing the flash of the STM32G0, by the program that runs from it: the core waits where it
+//! reads flash meanwhile (RM0444, chapter 3, embedded flash memory).
+#![allow(clippy::unused_self, reason = "the right to write flash is a value")]
+
+use stm32_metapac::FLASH;
+use stm32_metapac::flash::regs::Sr;
+
+use crate::board::model_place::model_place;
+
+/// Bytes that are erased at once.
+const PAGE: usize = 2048;
+
+/// Where the flash begins.
+const FLASH_BASE: usize = 0x0800_0000;
+
+/// Unlocks the control register.
+const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
+
+/// What went wrong: OPERR, PROGERR, WRPERR, PGAERR, SIZERR, PGSERR, MISERR and FASTERR, cleared
+/// by writing ones.
+const ERRORS: u32 = 0x3FA;
+
+/// What writes it: two words at a time.
+pub(crate) struct Writer {
+    /// A word that waits for the other one of its pair.
+    waiting: Option<(usize, u32)>,
+}
+
+/// Waits until it is ready; whether all went well.
+fn is_done() -> bool {
+    cortex_m::asm::dsb();
+    while FLASH.sr().read().bsy() || FLASH.sr().read().cfgbsy() {}
+    FLASH.sr().read().0 & ERRORS == 0
+}
+
+impl Writer {
+    /// Ready to write.
+    pub(crate) const fn new() -> Self {
+        Self { waiting: None }
+    }
+
+    /// Erases the pages of the model, each of which takes up to 40 ms (STM32G071x8/xB datasheet,
+    /// flash memory); whether all went well.
+    pub(crate) fn erase_model(&mut self) -> bool {
+        if FLASH.cr().read().lock() {
+            for key in KEYS {
+                FLASH.keyr().write_value(key);
+            }
+        }
+        FLASH.sr().write_value(Sr(ERRORS));
+        model_place().chunks(PAGE).all(|page| {
+            let number = (page.as_ptr().addr() - FLASH_BASE) / PAGE;
+            FLASH.cr().write(|w| {
+                w.set_per(true);
+                w.set_pnb(number as u8);
+            });
+            FLASH.cr().modify(|w| w.set_strt(true));
+            is_done()
+        })
+    }
+
+    /// Writes an erased word once the other one of its pair has come, which is the next or comes
+    /// never; whether all that is written stands there. Its address must be in the pages of the
+    /// model, which nothing else may read any more.
+    pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
+        /// What is erased stays so.
+        const ERASED: u32 = u32::MAX;
+        let pair = |address: usize| address & !7;
+        match self.waiting.take() {
+            Some((first, waited)) if pair(first) == pair(address) => {
+                let words = if first < address {
+                    [waited, word]
+                } else {
+                    [word, waited]
+                };
+                write_pair(pair(address), words)
+            }
+            Some((first, waited)) => {
+                self.waiting = Some((address, word));
+                // The last of an odd number.
+                let words = if first == pair(first) {
+                    [waited, ERASED]
+                } else {
+                    [ERASED, waited]
+                };
+                write_pair(pair(first), words)
+            }
+            None => {
+                self.waiting = Some((address, word));
+                true
+            }
+        }
+    }
+}
+
+fn write_pair(address: usize, words: [u32; 2]) -> bool {
+    FLASH.cr().write(|w| w.set_pg(true));
+    let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
+    #[allow(unsafe_code, reason = "flash is programmed by stores")]
+    // SAFETY: two words of the model's place, which is whole pairs, as the loader sees to;
+    // while PG is set the flash takes the stores, and the program has no reference to it that
+    // is used.
+    unsafe {
+        to.write_volatile(words[0]);
+        to.add(1).write_volatile(words[1]);
+        is_done() && [to.read_volatile(), to.add(1).read_volatile()] == words
+    }
+}
