@@ -129,10 +129,10 @@ pub(crate) fn has_taken_answer() {
 }
 
 /// Who wants a model loaded, whose answer lies there then: nobody, somebody at the serial port,
-/// or at a probe.
+/// or at a probe. A flipped bit makes none of these from another, lest it costs the model.
 static TO_LOAD: AtomicU32 = AtomicU32::new(0);
-const BY_SERIAL: u32 = 1;
-const BY_PROBE: u32 = 2;
+const BY_SERIAL: u32 = 0x5A5A_A5A5;
+const BY_PROBE: u32 = 0xC33C_3CC3;
 
 /// The answer to whoever wants a model loaded, and whether that is at the serial port.
 pub(crate) fn to_load() -> Option<(Answer, bool)> {
