@@ -12,5 +12,5 @@ pub(crate) use findings::{Finding, findings, table};
 pub(crate) use identify::{Gains, Motor, identify, suggest};
 pub(crate) use listening::{Listening, Sample};
 pub(crate) use moves::{Push, lead, push, steps};
-pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero};
+pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero, is_at_end};
 pub(crate) use watched::{Watched, watch};

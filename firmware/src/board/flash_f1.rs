@@ -5,13 +5,11 @@
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::{Ar, Sr};
 
+use crate::board::flash_lock;
 use crate::board::model_place::model_place;
 
 /// Bytes that are erased at once, on a medium-density chip.
 const PAGE: usize = 1024;
-
-/// Unlocks the control register.
-const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
 /// What went wrong: PGERR and WRPRTERR, cleared by writing ones.
 const ERRORS: u32 = 0x14;
@@ -36,11 +34,7 @@ impl Writer {
     /// Erases the pages of the model, each of which takes up to 40 ms (STM32F103x8/B datasheet,
     /// flash memory); whether all went well.
     pub(crate) fn erase_model(&mut self) -> bool {
-        if FLASH.cr().read().lock() {
-            for key in KEYS {
-                FLASH.keyr().write_value(key);
-            }
-        }
+        flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
         model_place().chunks(PAGE).all(|page| {
             FLASH.cr().write(|w| w.set_per(true));

@@ -6,15 +6,14 @@ use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::Sr;
 use stm32_metapac::flash::vals::Psize;
 
+use crate::board::flash_lock;
+
 /// The sector of the model: the last of eight, of 128 KiB (RM0390, flash module organization).
 const SECTOR: u8 = 7;
 
 /// 32 bits at a time, for which the supply must be 2.7 V or more, and is 3.3 V (RM0390, "Program
 /// and erase parallelism").
 const AT_A_TIME: Psize = Psize::PSIZE32;
-
-/// Unlocks the control register (RM0390, "Unlocking the flash control register").
-const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
 /// What went wrong: OPERR, WRPERR, PGAERR, PGPERR and PGSERR, cleared by writing ones.
 const ERRORS: u32 = 0xF2;
@@ -40,11 +39,7 @@ impl Writer {
     /// memory programming); whether all went well. What the data cache holds of it is forgotten,
     /// and it is off until the next reset.
     pub(crate) fn erase_model(&mut self) -> bool {
-        if FLASH.cr().read().lock() {
-            for key in KEYS {
-                FLASH.keyr().write_value(key);
-            }
-        }
+        flash_lock::open();
         FLASH.acr().modify(|w| w.set_dcen(false));
         FLASH.acr().modify(|w| w.set_dcrst(true));
         FLASH.acr().modify(|w| w.set_dcrst(false));

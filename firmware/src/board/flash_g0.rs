@@ -5,6 +5,7 @@
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::Sr;
 
+use crate::board::flash_lock;
 use crate::board::model_place::model_place;
 
 /// Bytes that are erased at once.
@@ -12,9 +13,6 @@ const PAGE: usize = 2048;
 
 /// Where the flash begins.
 const FLASH_BASE: usize = 0x0800_0000;
-
-/// Unlocks the control register.
-const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
 /// What went wrong: OPERR, PROGERR, WRPERR, PGAERR, SIZERR, PGSERR, MISERR and FASTERR, cleared
 /// by writing ones.
@@ -42,11 +40,7 @@ impl Writer {
     /// Erases the pages of the model, each of which takes up to 40 ms (STM32G071x8/xB datasheet,
     /// flash memory); whether all went well.
     pub(crate) fn erase_model(&mut self) -> bool {
-        if FLASH.cr().read().lock() {
-            for key in KEYS {
-                FLASH.keyr().write_value(key);
-            }
-        }
+        flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
         model_place().chunks(PAGE).all(|page| {
             let number = (page.as_ptr().addr() - FLASH_BASE) / PAGE;

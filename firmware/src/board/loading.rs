@@ -89,7 +89,7 @@ pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
     leave_the_tick();
-    Watchdog::slow_down();
+    let mut watchdog = Watchdog::slow();
     let mut loading = Loading {
         writer: Writer::new(),
         words: answer.values[0].cast_unsigned(),
@@ -97,7 +97,7 @@ pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
         last: 0,
     };
     answer.status = written(loading.writer.erase_model());
-    Watchdog::feed_slow();
+    watchdog.feed();
     line.reply(&answer);
     let mut silent = 0;
     while silent < SILENCE {
@@ -107,7 +107,7 @@ pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
         let Some(request) = line.next() else {
             continue;
         };
-        Watchdog::feed_slow();
+        watchdog.feed();
         silent = 0;
         let status = match request.command {
             Command::Word(number, word) => loading.word(number, word),

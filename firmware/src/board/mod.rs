@@ -23,6 +23,7 @@
 pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;
+pub(crate) mod flash_lock;
 pub(crate) mod gpio;
 pub(crate) mod inner;
 pub(crate) mod integrity;

@@ -16,31 +16,26 @@ impl Watchdog {
     /// Starts it; nothing but a reset stops it.
     pub(crate) fn start() -> Self {
         key(Key::START);
+        Self::set(Pr::DIVIDE_BY4, CLOCKS.watchdog_counts())
+    }
+
+    /// The one that runs, which from now on waits longer than the flash takes to be erased, 2 s at
+    /// most: 4 s where its oscillator is fastest, 11 s where it is slowest.
+    pub(crate) fn slow() -> Self {
+        Self::set(Pr::DIVIDE_BY256, SLOW_COUNTS)
+    }
+
+    fn set(prescaler: Pr, counts: u16) -> Self {
         key(Key::ENABLE);
-        IWDG.pr().write(|w| w.set_pr(Pr::DIVIDE_BY4));
-        IWDG.rlr().write(|w| w.set_rl(CLOCKS.watchdog_counts() - 1));
+        IWDG.pr().write(|w| w.set_pr(prescaler));
+        IWDG.rlr().write(|w| w.set_rl(counts - 1));
         // The settings cross into the watchdog's clock within five of its
-        // cycles, 300 µs at most. Should they not, the settings after reset
-        // hold, half a second.
+        // cycles, 300 µs at most. Should they not, the settings before
+        // hold: after a reset, half a second.
         let _ = (0..100_000).any(|_| IWDG.sr().read().0 == 0);
         let mut dog = Self(());
         dog.feed();
         dog
-    }
-
-    /// Has it wait longer than the flash takes to be erased, which is 2 s at most: 4 s where
-    /// its oscillator is fastest, 11 s where it is slowest.
-    pub(crate) fn slow_down() {
-        key(Key::ENABLE);
-        IWDG.pr().write(|w| w.set_pr(Pr::DIVIDE_BY256));
-        IWDG.rlr().write(|w| w.set_rl(SLOW_COUNTS - 1));
-        let _ = (0..100_000).any(|_| IWDG.sr().read().0 == 0);
-        key(Key::RESET);
-    }
-
-    /// Restarts its count, where whoever does it has the chip for itself.
-    pub(crate) fn feed_slow() {
-        key(Key::RESET);
     }
 
     /// Restarts its count.

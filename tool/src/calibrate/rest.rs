@@ -7,6 +7,14 @@ pub(crate) const MIDDLE: f64 = 8192.0;
 /// Codes from there to the end of the range.
 pub(crate) const HALF_RANGE: f64 = 8191.0;
 
+/// Codes nearer to an end of the range are at it.
+const NEAR_END: u16 = 64;
+
+/// Whether a code is at an end of the range.
+pub(crate) fn is_at_end(code: u16) -> bool {
+    !(NEAR_END..=16_383 - NEAR_END).contains(&code)
+}
+
 /// One axis of a sensor at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Channel {

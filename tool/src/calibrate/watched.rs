@@ -4,15 +4,13 @@ use host_sim::Error;
 use wire::Command;
 
 use super::listening::{Listening, Sample};
-use super::rest::{Channel, Zero};
+use super::rest::{Channel, Zero, is_at_end};
 use crate::resting::rest;
 
 /// At rest before and after, s.
 const REST_S: f64 = 3.0;
 /// A block whose mean is taken for what is slow, s.
 const BLOCK_S: f64 = 0.02;
-/// Codes nearer to an end of the range are at it.
-const NEAR_END: u16 = 64;
 
 /// What was seen of one whisker.
 #[derive(Debug)]
@@ -72,10 +70,7 @@ pub(crate) fn watch(
     let squares = whisked
         .iter()
         .map(|sample| (sample.setpoint_deg - sample.measured_deg).powi(2));
-    let is_at_end = |sample: &&Sample| {
-        let at_end = |code: u16| !(NEAR_END..=16_383 - NEAR_END).contains(&code);
-        sample.codes.iter().any(|code| at_end(*code))
-    };
+    let ends = |sample: &&Sample| sample.codes.iter().any(|code| is_at_end(*code));
     let zeros = [zero(&before)?, zero(&after)?];
     let all = before.len() + whisked.len() + after.len();
     let parts = [&before, &whisked, &after].into_iter().flatten();
@@ -85,7 +80,7 @@ pub(crate) fn watch(
         zero: zeros,
         air: Zero::of(&whisked),
         follows: [0, 1].map(|axis| follows(&whisked, axis)),
-        at_end: valid().filter(is_at_end).count() as f64 / valid().count().max(1) as f64,
+        at_end: valid().filter(ends).count() as f64 / valid().count().max(1) as f64,
         error_deg: (squares.sum::<f64>() / whisked.len().max(1) as f64).sqrt(),
         invalid: invalid as f64 / all.max(1) as f64,
         lost: whisker.tally.lost,

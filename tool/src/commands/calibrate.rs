@@ -14,7 +14,8 @@ use scene::{MotorSection, Override};
 use super::get::Which;
 use super::order::SideName;
 use crate::calibrate::{
-    HALF_RANGE, Listening, MIDDLE, Push, Sample, Zero, identify, lead, push, steps, suggest,
+    HALF_RANGE, Listening, MIDDLE, Push, Sample, Zero, identify, is_at_end, lead, push, steps,
+    suggest,
 };
 use crate::conversation::Conversation;
 use crate::resting::rest;
@@ -43,8 +44,6 @@ const WHISK_S: f64 = 2.0;
 const GENTLE: f64 = 2.0;
 /// A zero further from the middle of the range takes range away on one side.
 const FAR: f64 = 0.05;
-/// Codes nearer to an end of the range are at it.
-const NEAR_END: u16 = 64;
 
 /// Does all steps; the motors are off at the end, however it ends.
 pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
@@ -225,7 +224,7 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
                  calibrate anew, or it is loose in its hub"
             ));
         }
-        if low < NEAR_END || high > 16_383 - NEAR_END {
+        if is_at_end(low) || is_at_end(high) {
             report::warn(format_args!(
                 "range: {name} is at the end of its range: the magnet is too near, or the sensor's \
                  range too small (docs/mount.md)"
@@ -334,4 +333,4 @@ impl Which {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -27,9 +27,7 @@ impl Serial {
     pub(crate) fn health(&mut self, _: &Health, _: &Health) {}
 
     pub(crate) fn serve(&mut self, _: u32) {}
-}
 
-impl Serial {
     pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
         None
     }

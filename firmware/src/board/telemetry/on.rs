@@ -158,9 +158,7 @@ impl ProbeLine {
             room: 0,
         })
     }
-}
 
-impl ProbeLine {
     /// The next request.
     pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
         if (DOWN.waiting() as usize) < REQUEST_BYTES {

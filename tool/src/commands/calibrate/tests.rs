@@ -9,7 +9,8 @@ use wire::TaggedCommand;
 use super::*;
 use crate::source::{Heard, Source};
 
-const SCENE: &str = r#"name = "free"
+/// A whisker in free air; a motor is added where there is one.
+pub(in crate::commands) const SCENE: &str = r#"name = "free"
 tick_hz = 2000
 duration_s = 60.0
 seed = 1

@@ -7,23 +7,8 @@ use clap::Parser;
 use wire::{Flags, Packet, TaggedCommand, TickRecord};
 
 use super::*;
+use crate::commands::calibrate::tests::SCENE;
 use crate::source::Heard;
-
-const SCENE: &str = r#"name = "free"
-tick_hz = 2000
-duration_s = 60.0
-seed = 1
-[head]
-whiskers_per_side = 1
-sides = "left"
-[whisking]
-frequency_hz = 2.0
-integrator = "exact"
-coupling = false
-noise = 0.005
-gain = 1.0
-start = [[1.0, 0.0]]
-"#;
 
 #[derive(Parser)]
 struct Line {
