@@ -6,7 +6,7 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::commands::run::Loaded;
 use host_sim::trace::Row;
-use scene::{PlantKind, Scene, Sides};
+use scene::{PlantKind, Scene};
 use wire::{Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::board::Board;
@@ -14,11 +14,10 @@ use crate::compare::Pair;
 use crate::emulate::start;
 use crate::program::Program;
 
-/// Most instructions of a tick for the record of the only whisker, where the core has an FPU;
-/// for that of each of two; and for one where the core has no FPU.
+/// Most instructions of a tick for a whisker's record, where the core has an FPU and where it
+/// has none.
 const STREAMING: f64 = 120.0;
-const STREAMING_OF_TWO: f64 = 170.0;
-const STREAMING_NO_FPU: f64 = 300.0;
+const STREAMING_NO_FPU: f64 = 240.0;
 
 /// The same where nobody asks for any.
 const QUIET: f64 = 10.0;
@@ -357,11 +356,12 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         means.push(run.module_mut().meter.figures.tick.mean());
     }
     let has_fpu = Program::load(program)?.model()?.has_fpu();
-    let streaming_most = match scene.head.sides {
-        _ if !has_fpu => STREAMING_NO_FPU,
-        Sides::Left => STREAMING,
-        Sides::Both => 2.0 * STREAMING_OF_TWO,
+    let each = if has_fpu {
+        STREAMING
+    } else {
+        STREAMING_NO_FPU
     };
+    let streaming_most = each * scene.whiskers() as f64;
     let [without, quiet, streaming, full] = means[..] else {
         return Err(Error::Work("four programs".to_owned()));
     };

@@ -111,10 +111,11 @@ where
         let (Some(servo), Some((whisker, z))) = (servo, whiskers) else {
             return MotionRecord::default();
         };
+        let mut motor = servo.told(&config.servo, whisker.muscle.theta);
+        motor.flags = motor.flags | Flags::ARMED.when(self.is_armed);
         MotionRecord {
+            motor,
             z: q13(z.value.to_q24()),
-            flags: Flags::ARMED.when(self.is_armed) | servo.phase(),
-            ..servo.told(&config.servo, whisker.muscle.theta)
         }
     }
 

@@ -54,7 +54,9 @@ pub use event::TiltFault;
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Config, Module};
-pub use motion::{Command, Motion, MotionRecord, MotorControl, NoActiveWhisker, Passive};
+pub use motion::{
+    Command, Motion, MotionRecord, MotorControl, MotorRecord, NoActiveWhisker, Passive,
+};
 pub use perception::{
     Classifying, ClassifyingConfig, CodeClassifier, Deployed, ModelLimits, ModelState, NotCodes,
     Perception, Refusal, Sample, SampleClassifier, TakesRule, shifts,
@@ -64,7 +66,7 @@ pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCa
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
-pub use telemetry::{About, Link, Notes, PacketSink, may_load};
+pub use telemetry::{About, Link, Notes, PacketSink, PacketSlot, may_load};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

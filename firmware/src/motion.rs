@@ -8,15 +8,22 @@ use crate::{Event, Place};
 /// What the last tick has done with a whisker, in the formats of a [`TickRecord`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MotionRecord {
-    /// Where it should be: protraction, Q13.
+    /// Of its motor.
+    pub motor: MotorRecord,
+    /// z of its side, Q13.
+    pub z: i16,
+}
+
+/// What it has done with a motor, alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MotorRecord {
+    /// Where the whisker should be: protraction, Q13.
     pub setpoint: i16,
     /// Where it is: protraction, Q13.
     pub measured: i16,
     /// What drives it, Q15.
     pub duty: i16,
-    /// z of its side, Q13.
-    pub z: i16,
-    /// [`Flags::ARMED`], and what its motor is doing.
+    /// What it is doing, and [`Flags::ARMED`].
     pub flags: Flags,
 }
 

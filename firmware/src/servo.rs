@@ -11,7 +11,7 @@ use whisking::{Absent, Optional, Real, Voted, pd};
 use wire::{Flags, q13};
 
 use crate::io::AngleInput;
-use crate::motion::MotionRecord;
+use crate::motion::MotorRecord;
 use crate::{Event, Place};
 
 /// Constants of a servo; `H` says whether it has [`HomingConfig`].
@@ -165,39 +165,55 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.is_homed = false;
     }
 
-    /// What it is doing, as flags.
-    #[inline]
-    pub const fn phase(&self) -> Flags {
-        match self.state {
-            ServoState::Off => Flags::from_bits(0),
-            ServoState::Homing(_) => Flags::HOMING,
-            ServoState::Running { .. } => Flags::RUNNING,
-            ServoState::Resting { .. } | ServoState::GivenUp => Flags::RESTING,
-        }
-    }
-
-    /// Where it should be after a tick towards protraction `theta`, where it is, and what
-    /// drives it.
+    /// What a tick towards protraction `theta` has done.
     #[inline]
     pub fn told<H: Optional<HomingConfig>>(
         &self,
         config: &ServoConfig<R, H>,
         theta: R,
-    ) -> MotionRecord {
-        let home = self.home.get().unwrap_or(self.counts);
-        let measured = config.pd.measured(self.counts.wrapping_sub(home));
-        let wanted = || config.pd.clamp(self.setpoint().unwrap_or(theta));
-        let (setpoint, duty) = match (&self.state, config.homing.part()) {
-            (ServoState::Running { pd, .. }, _) => (measured + pd.error, pd.duty()),
-            (ServoState::Homing(homing), Some(how)) => (measured, homing.duty(how)),
-            _ => (wanted(), Duty::ZERO),
+    ) -> MotorRecord {
+        let (setpoint, measured, duty, flags) = match &self.state {
+            ServoState::Running { pd, .. } => {
+                let measured = self.measured(config);
+                (measured + pd.error, measured, pd.duty(), Flags::RUNNING)
+            }
+            _ => self.told_without_pd(config, theta),
         };
-        MotionRecord {
+        MotorRecord {
             setpoint: q13(setpoint.to_q24()),
             measured: q13(measured.to_q24()),
             duty: duty.q15(),
-            ..MotionRecord::default()
+            flags,
         }
+    }
+
+    /// Setpoint, measured angle, duty and flags where no PD loop runs.
+    // Apart, as records are of motors that run, and need fewer registers without this.
+    #[cold]
+    #[inline(never)]
+    fn told_without_pd<H: Optional<HomingConfig>>(
+        &self,
+        config: &ServoConfig<R, H>,
+        theta: R,
+    ) -> (R, R, Duty, Flags) {
+        let measured = self.measured(config);
+        let wanted = || config.pd.clamp(self.setpoint().unwrap_or(theta));
+        match (&self.state, config.homing.part()) {
+            (ServoState::Homing(homing), Some(how)) => {
+                (measured, measured, homing.duty(how), Flags::HOMING)
+            }
+            (ServoState::Resting { .. } | ServoState::GivenUp, _) => {
+                (wanted(), measured, Duty::ZERO, Flags::RESTING)
+            }
+            _ => (wanted(), measured, Duty::ZERO, Flags::NONE),
+        }
+    }
+
+    /// Where it is: protraction.
+    #[inline]
+    fn measured<H>(&self, config: &ServoConfig<R, H>) -> R {
+        let home = self.home.get().unwrap_or(self.counts);
+        config.pd.measured(self.counts.wrapping_sub(home))
     }
 
     /// Switches the motor off until the next tick; a rest goes on.

@@ -13,13 +13,41 @@ use wire::{
 
 use crate::sensing::{Reading, Sensor};
 use crate::{
-    Clock, Command, Config, Event, ModelState, Module, Motion, MotorControl, Place, WordSource,
+    Clock, Command, Config, Event, ModelState, Module, Motion, MotionRecord, MotorControl, Place,
+    WordSource,
 };
 
 /// Where packets go.
 pub trait PacketSink {
-    /// Takes the packet that `make` makes, whole, or not at all and unmade; whether it has.
-    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool;
+    /// Has `fill` make a packet where the next one lies, or not at all where there is no room;
+    /// whether it has.
+    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool;
+}
+
+/// Where a packet lies, for a tick that writes it, and whoever reads it between two ticks.
+#[repr(transparent)]
+#[derive(Debug, Default)]
+pub struct PacketSlot([AtomicU32; PACKET_WORDS]);
+
+impl PacketSlot {
+    /// One of zeros.
+    pub const fn new() -> Self {
+        Self([const { AtomicU32::new(0) }; PACKET_WORDS])
+    }
+
+    /// Puts a packet there. Who reads it is told of it afterwards.
+    #[inline]
+    pub fn set(&self, words: [u32; PACKET_WORDS]) {
+        for (place, word) in self.0.iter().zip(words) {
+            place.store(word, Ordering::Relaxed);
+        }
+    }
+
+    /// What lies there.
+    #[inline]
+    pub fn get(&self) -> [u32; PACKET_WORDS] {
+        self.0.each_ref().map(|word| word.load(Ordering::Relaxed))
+    }
 }
 
 /// What a module says of itself.
@@ -110,8 +138,8 @@ pub struct Link {
     streams: bool,
     /// Packets that found no room, since the start.
     lost: u32,
-    /// The next record is the first after some that were lost.
-    has_gap: bool,
+    /// Says so, where the next record is the first after some that were lost.
+    gap: Flags,
     answer: Option<Answer>,
 }
 
@@ -121,7 +149,7 @@ impl Link {
         Self {
             streams: false,
             lost: 0,
-            has_gap: false,
+            gap: Flags::NONE,
             answer: None,
         }
     }
@@ -131,9 +159,9 @@ impl Link {
         self.answer.is_none()
     }
 
-    /// Whether there is something to send after a tick: an answer, or records.
-    pub const fn is_busy(&self) -> bool {
-        self.streams || self.answer.is_some()
+    /// Whether records are sent after every tick.
+    pub const fn streams(&self) -> bool {
+        self.streams
     }
 
     /// Carries out a request between two ticks.
@@ -172,7 +200,7 @@ impl Link {
             }
             Said::Stream(on) => {
                 self.streams = on;
-                self.has_gap = false;
+                self.gap = Flags::NONE;
                 Ok(())
             }
             // What can be cleared can be armed: there is a motor.
@@ -240,7 +268,7 @@ impl Link {
     /// Sends the answer that there is, if it finds room.
     pub fn answer(&mut self, sink: &mut impl PacketSink) {
         if let Some(answer) = &self.answer
-            && sink.put(|| answer.words())
+            && sink.put(|slot| slot.set(answer.words()))
         {
             self.answer = None;
         }
@@ -269,14 +297,14 @@ impl Link {
         for side in 0..S {
             for whisker in 0..N {
                 let place = Place::new(side as u8, whisker as u8);
-                let said = said
-                    | Flags::TOUCHING.when(touching & bit(place) != 0)
-                    | Flags::LOST.when(self.has_gap);
-                let is_sent = sink.put(|| module.packet(config, place, sequence, said));
+                let said = said | Flags::TOUCHING.when(touching & bit(place) != 0) | self.gap;
+                let is_sent = sink.put(|slot| {
+                    module.write_record(config, place, sequence, said, slot);
+                });
                 if is_sent {
-                    self.has_gap = false;
+                    self.gap = Flags::NONE;
                 } else {
-                    self.has_gap = true;
+                    self.gap = Flags::LOST;
                     self.lost = self.lost.wrapping_add(1);
                 }
             }
@@ -303,7 +331,7 @@ where
 {
     let is_armed = |side, whisker| {
         let told = module.motion().told(&config.motion, side, whisker);
-        told.flags.contains(Flags::ARMED)
+        told.motor.flags.contains(Flags::ARMED)
     };
     if (0..S).any(|side| (0..N).any(|whisker| is_armed(side, whisker))) {
         Err(CommandStatus::Armed)
@@ -337,21 +365,21 @@ where
     F: WordSource,
     C: Clock,
 {
-    /// The words of a record.
+    /// Writes a record.
     // Apart: a loop over whiskers would load all of this before it looks for room.
     #[inline(never)]
-    fn packet<MC, PC, H>(
+    fn write_record<MC, PC, H>(
         &self,
         config: &Config<MC, PC, H>,
         place: Place,
         sequence: u32,
         said: Flags,
-    ) -> [u32; PACKET_WORDS]
-    where
+        slot: &PacketSlot,
+    ) where
         M: Motion<R, MC, S, N>,
         H: Optional<filter::Config<R>>,
     {
-        self.record(config, place, sequence, said).words()
+        slot.set(self.record(config, place, sequence, said).words());
     }
 
     /// The record of a whisker after a tick, the `sequence`-th since the start, of which
@@ -369,6 +397,7 @@ where
         H: Optional<filter::Config<R>>,
     {
         let (side, whisker) = (usize::from(place.side), usize::from(place.whisker));
+        let MotionRecord { motor, z } = self.motion().told(&config.motion, side, whisker);
         let sensors = self.sensors().get(side);
         let reading = sensors.and_then(|sensors| sensors.get(whisker));
         let reading = reading.map_or(Reading::REST, Sensor::reading);
@@ -378,17 +407,16 @@ where
             (Some(_), Some(felt)) => q13(felt.to_q24()),
             _ => 0,
         };
-        let told = self.motion().told(&config.motion, side, whisker);
         TickRecord {
             sequence,
             x: reading.x.raw(),
             y: reading.y.raw(),
-            setpoint: told.setpoint,
-            measured: told.measured,
-            duty: told.duty,
-            z: told.z,
+            setpoint: motor.setpoint,
+            measured: motor.measured,
+            duty: motor.duty,
+            z,
             contact,
-            flags: told.flags
+            flags: motor.flags
                 | said
                 | Flags::RIGHT.when(side > 0)
                 | Flags::FRESH.when(reading.fresh)

@@ -108,6 +108,8 @@ fn board() -> Result<(), Fault> {
         Task::SensorLoss,
     ];
     do_all(board, Path::new(emulate::FULL), &one_side)?;
+    // The scene in which records cost most.
+    do_all(board, Path::new(emulate::WORLD), &[Task::Telemetry])?;
     do_all(
         board,
         Path::new(emulate::CIA),

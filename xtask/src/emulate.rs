@@ -189,7 +189,7 @@ pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
 pub(crate) const FULL: &str = "scenes/full.toml";
 /// What a lab flashes, which names no model; a world for it, and a model of that.
 pub(crate) const BENCH: &str = "scenes/bench.toml";
-const WORLD: &str = "scenes/textures.toml";
+pub(crate) const WORLD: &str = "scenes/textures.toml";
 const MODEL: &str = "scenes/models/textures.model";
 /// Both sides, where contact on one excites the other.
 pub(crate) const CIA: &str = "scenes/cia.toml";

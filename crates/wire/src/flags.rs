@@ -7,6 +7,8 @@ use core::ops::BitOr;
 pub struct Flags(u16);
 
 impl Flags {
+    /// None.
+    pub const NONE: Self = Self(0);
     /// The whisker is one of the right side.
     pub const RIGHT: Self = Self(1);
     /// A new frame of the sensor came; otherwise the last good one is held.
@@ -50,7 +52,7 @@ impl Flags {
     /// These if `so`, otherwise none.
     #[inline]
     pub const fn when(self, so: bool) -> Self {
-        if so { self } else { Self(0) }
+        if so { self } else { Self::NONE }
     }
 
     /// These without those of `other`.

@@ -169,7 +169,24 @@ fn tell(module: &mut Module) {
         settings,
         ..
     } = module;
-    telemetry.work(inner, settings, TICKS.get());
+    telemetry.send(inner, settings, TICKS.get());
+    if telemetry::waits() {
+        talk(module);
+    }
+}
+
+/// Carries out what was asked for.
+// Apart, so that records keep their registers.
+#[cold]
+#[inline(never)]
+fn talk(module: &mut Module) {
+    let Module {
+        inner,
+        telemetry,
+        settings,
+        ..
+    } = module;
+    telemetry.talk(inner, settings, TICKS.get());
 }
 
 /// Once a second: for [`Idle`], which has no access to the module, and for the next start.

@@ -14,7 +14,9 @@
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 
 #[cfg(telemetry)]
-use wire::{PACKET_WORDS, REQUEST_BYTES};
+use firmware::PacketSlot;
+#[cfg(telemetry)]
+use wire::REQUEST_BYTES;
 
 /// The log's ring: what idle writes within the 100 ms after which a probe comes by.
 pub(crate) static LOG_BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
@@ -26,8 +28,8 @@ pub(crate) const PACKETS_COUNT: usize = 128;
 
 /// The ring of packets.
 #[cfg(telemetry)]
-pub(crate) static PACKETS: [[AtomicU32; PACKET_WORDS]; PACKETS_COUNT] =
-    [const { [const { AtomicU32::new(0) }; PACKET_WORDS] }; PACKETS_COUNT];
+pub(crate) static PACKETS: [PacketSlot; PACKETS_COUNT] =
+    [const { PacketSlot::new() }; PACKETS_COUNT];
 
 /// The ring of requests: some, as only one is carried out a tick.
 #[cfg(telemetry)]

@@ -1,9 +1,11 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
-use firmware::{About, Link, ModelState, Module, Notes, PacketSink, Passive, Refusal, may_load};
+use firmware::{
+    About, Link, ModelState, Module, Notes, PacketSink, PacketSlot, Passive, Refusal, may_load,
+};
 use wire::{
-    Answer, Command, CommandStatus, Flags, PACKET_WORDS, Packet, TaggedCommand, TickRecord,
-    UnknownCommand, WhiskerId,
+    Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, UnknownCommand,
+    WhiskerId,
 };
 
 use crate::command::{Settable, Whiskers, module, tick};
@@ -39,10 +41,12 @@ impl Reader {
 }
 
 impl PacketSink for Reader {
-    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
         let fits = self.packets.len() < self.room;
         if fits {
-            self.packets.push(Packet::from_words(make()));
+            let slot = PacketSlot::new();
+            fill(&slot);
+            self.packets.push(Packet::from_words(slot.get()));
         }
         fits
     }
@@ -196,7 +200,7 @@ fn records_without_room_are_lost_whole_and_counted() {
     let (mut link, notes) = (Link::new(), Notes::new());
     let mut full = Reader::new(0);
     link.send(&module, &config, 1, &notes, &mut full);
-    assert!(!link.is_busy(), "nobody has asked");
+    assert!(!link.streams(), "nobody has asked");
     ask(&mut link, &mut module, &config, Command::Stream(true));
     for tick in 2..5 {
         link.send(&module, &config, tick, &notes, &mut full);
@@ -214,7 +218,7 @@ fn records_without_room_are_lost_whole_and_counted() {
         .collect();
     assert_eq!(lost, [true, false, false, false]);
     ask(&mut link, &mut module, &config, Command::Stream(false));
-    assert!(!link.is_busy());
+    assert!(!link.streams());
 }
 
 #[test]
@@ -231,7 +235,7 @@ fn an_answer_waits_for_room_and_an_unknown_command_gets_one() {
     let mut full = Reader::new(0);
     link.answer(&mut full);
     link.send(&module, &config, 8, &notes, &mut full);
-    assert!(link.is_busy() && !link.is_free());
+    assert!(!link.is_free());
     let mut reader = Reader::new(1);
     link.answer(&mut reader);
     let refused = Answer {

@@ -2,11 +2,11 @@
 
 use firmware::{
     About, Clock, Config, Event, Link, ModelState, Module, Motion, MotorControl, Notes, PacketSink,
-    Perception, Tunable, Tuning, WordSource,
+    PacketSlot, Perception, Tunable, Tuning, WordSource,
 };
 use scene::Scene;
 use whisking::{Optional, Real, filter};
-use wire::{PACKET_WORDS, Packet, TaggedCommand};
+use wire::{Packet, TaggedCommand};
 
 /// A module's end of the link.
 pub(super) struct Line {
@@ -25,8 +25,10 @@ pub(super) struct Line {
 struct Sent(Vec<Packet>);
 
 impl PacketSink for Sent {
-    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
-        self.0.push(Packet::from_words(make()));
+    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
+        let slot = PacketSlot::new();
+        fill(&slot);
+        self.0.push(Packet::from_words(slot.get()));
         true
     }
 }

@@ -39,6 +39,12 @@ pub(crate) fn is_busy() -> bool {
     false
 }
 
+/// Nothing waits.
+#[inline]
+pub(crate) fn waits() -> bool {
+    false
+}
+
 /// Nobody is told of an event.
 #[inline]
 pub(crate) fn note(_: &Event) {}
@@ -51,7 +57,9 @@ impl Telemetry {
         Self
     }
 
-    pub(crate) fn work(&mut self, _: &mut Inner, _: &mut Settings, _: u32) {}
+    pub(crate) fn send(&mut self, _: &Inner, _: &Settings, _: u32) {}
+
+    pub(crate) fn talk(&mut self, _: &mut Inner, _: &mut Settings, _: u32) {}
 }
 
 /// Nothing changes settings.

@@ -2,7 +2,7 @@
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use firmware::{About, Event, Link, ModelState, Notes, PacketSink, Tuning};
+use firmware::{About, Event, Link, ModelState, Notes, PacketSink, PacketSlot, Tuning};
 use wire::{
     Answer, Command, CommandStatus, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand,
 };
@@ -28,7 +28,10 @@ static IS_BY_SERIAL: AtomicBool = AtomicBool::new(false);
 /// Only idle has it.
 static SERIAL_READS: AtomicBool = AtomicBool::new(false);
 
-/// Whether the tick has anything to do for the link.
+/// Whether a request or an answer waits for the tick.
+static WAITS: AtomicBool = AtomicBool::new(false);
+
+/// Whether the tick has anything to do for the link: that, or records.
 static IS_BUSY: AtomicBool = AtomicBool::new(false);
 
 /// Takes the next request that a PC has written, unless the tick has yet to take the last;
@@ -77,6 +80,7 @@ fn post(words: [u32; 2], is_by_serial: bool) {
     }
     IS_BY_SERIAL.store(is_by_serial, Ordering::Relaxed);
     IS_FULL.store(true, Ordering::Release);
+    WAITS.store(true, Ordering::Release);
     IS_BUSY.store(true, Ordering::Release);
 }
 
@@ -101,7 +105,7 @@ pub(crate) fn packet_for_serial() -> Option<[u32; PACKET_WORDS]> {
         return None;
     }
     let packet = PACKETS.get(UP.reader() as usize / PACKET_BYTES)?;
-    Some(packet.each_ref().map(|word| word.load(Ordering::Relaxed)))
+    Some(packet.get())
 }
 
 /// That packet is sent.
@@ -112,7 +116,7 @@ pub(crate) fn has_taken_packet() {
 }
 
 /// The answer to the serial port's last request, from the tick to idle.
-static ANSWER: [AtomicU32; PACKET_WORDS] = [const { AtomicU32::new(0) }; PACKET_WORDS];
+static ANSWER: PacketSlot = PacketSlot::new();
 
 /// Whether one lies there. The tick sets it, idle clears it.
 static IS_ANSWERED: AtomicBool = AtomicBool::new(false);
@@ -120,7 +124,7 @@ static IS_ANSWERED: AtomicBool = AtomicBool::new(false);
 /// It, once it is there.
 pub(crate) fn answer_for_serial() -> Option<[u32; PACKET_WORDS]> {
     let is_answered = IS_ANSWERED.load(Ordering::Acquire);
-    is_answered.then(|| ANSWER.each_ref().map(|word| word.load(Ordering::Relaxed)))
+    is_answered.then(|| ANSWER.get())
 }
 
 /// It is sent.
@@ -143,8 +147,7 @@ pub(crate) fn to_load() -> Option<(Answer, bool)> {
     if by != BY_SERIAL && by != BY_PROBE {
         return None;
     }
-    let answer = ANSWER.each_ref().map(|word| word.load(Ordering::Relaxed));
-    Some((Answer::from_words(answer), by == BY_SERIAL))
+    Some((Answer::from_words(ANSWER.get()), by == BY_SERIAL))
 }
 
 /// The probe's end of a loader, to which nobody else listens any more.
@@ -169,7 +172,7 @@ impl ProbeLine {
 
     /// Sends an answer.
     pub(crate) fn reply(&mut self, answer: &Answer) {
-        self.0.put(|| answer.words());
+        self.0.put(|slot| slot.set(answer.words()));
     }
 
     /// Whether all was fetched.
@@ -182,13 +185,11 @@ impl ProbeLine {
 struct SerialAnswer;
 
 impl PacketSink for SerialAnswer {
-    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
+    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
         if IS_ANSWERED.load(Ordering::Acquire) {
             return false;
         }
-        for (place, word) in ANSWER.iter().zip(make()) {
-            place.store(word, Ordering::Relaxed);
-        }
+        fill(&ANSWER);
         IS_ANSWERED.store(true, Ordering::Release);
         true
     }
@@ -198,6 +199,12 @@ impl PacketSink for SerialAnswer {
 #[inline]
 pub(crate) fn is_busy() -> bool {
     IS_BUSY.load(Ordering::Relaxed)
+}
+
+/// Whether a request or an answer waits.
+#[inline]
+pub(crate) fn waits() -> bool {
+    WAITS.load(Ordering::Relaxed)
 }
 
 /// What the events of this tick say.
@@ -253,19 +260,14 @@ impl Telemetry {
         }
     }
 
-    /// Sends what is to be told after a tick, the `tick`-th since the start, and carries out
-    /// what was asked for.
-    pub(crate) fn work(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
+    /// Sends records of a tick, the `tick`-th since the start, if they were asked for.
+    pub(crate) fn send(&mut self, module: &Inner, settings: &Settings, tick: u32) {
         let Self { link, packets, .. } = self;
         link.send(module, settings, tick, &NOTES, packets);
-        if !link.is_free() || IS_FULL.load(Ordering::Relaxed) {
-            self.talk(module, settings, tick);
-        }
     }
 
     /// Answers what was asked for, and carries out what is.
-    #[cold]
-    fn talk(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
+    pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
         self.answer();
         if self.link.is_free() && IS_FULL.load(Ordering::Acquire) {
             let [first, value] = &INBOX;
@@ -291,8 +293,9 @@ impl Telemetry {
             }
             self.answer();
         }
-        let is_busy = self.link.is_busy() || IS_FULL.load(Ordering::Relaxed);
-        IS_BUSY.store(is_busy, Ordering::Relaxed);
+        let waits = !self.link.is_free() || IS_FULL.load(Ordering::Relaxed);
+        WAITS.store(waits, Ordering::Relaxed);
+        IS_BUSY.store(waits || self.link.streams(), Ordering::Relaxed);
     }
 
     /// Answers whoever has asked.
@@ -325,9 +328,7 @@ impl Telemetry {
             self.link.reply(answer);
             return;
         }
-        for (place, word) in ANSWER.iter().zip(answer.words()) {
-            place.store(word, Ordering::Relaxed);
-        }
+        ANSWER.set(answer.words());
         let by = if self.is_by_serial {
             BY_SERIAL
         } else {
@@ -408,31 +409,30 @@ impl Packets {
     }
 }
 
+/// For how many packets there is room from the `next`-th place on.
+// Apart, as it is done once for many packets.
+#[cold]
+#[inline(never)]
+fn room_from(next: usize) -> u32 {
+    let writer = next * PACKET_BYTES;
+    UP.room(writer as u32) / PACKET_BYTES as u32
+}
+
 impl PacketSink for Packets {
     #[inline]
-    fn put(&mut self, make: impl FnOnce() -> [u32; PACKET_WORDS]) -> bool {
-        // A flipped bit has it begin anew.
-        let (next, packet) = match PACKETS.get(self.next) {
-            Some(packet) => (self.next, packet),
-            None => (0, &PACKETS[0]),
-        };
+    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
+        // Within the ring, whatever a flipped bit has made of it.
+        let next = self.next % PACKETS_COUNT;
         if self.room.wrapping_sub(1) >= PACKETS_COUNT as u32 - 1 {
-            let writer = next * PACKET_BYTES;
-            self.room = UP.room(writer as u32) / PACKET_BYTES as u32;
+            self.room = room_from(next);
             if self.room == 0 {
                 return false;
             }
         }
-        self.room -= 1;
-        for (place, word) in packet.iter().zip(make()) {
-            place.store(word, Ordering::Relaxed);
-        }
-        self.next = if next + 1 < PACKETS_COUNT {
-            next + 1
-        } else {
-            0
-        };
-        UP.has_written((self.next * PACKET_BYTES) as u32);
+        let following = (next + 1) % PACKETS_COUNT;
+        (self.next, self.room) = (following, self.room - 1);
+        fill(&PACKETS[next]);
+        UP.has_written((following * PACKET_BYTES) as u32);
         true
     }
 }
