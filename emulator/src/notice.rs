@@ -26,7 +26,10 @@ impl Notice {
             Event::MotorFault(place, _) => Some((place, Self::MotorFault)),
             Event::MotorRetry(place) => Some((place, Self::MotorRetry)),
             Event::MotorGivenUp(place) => Some((place, Self::MotorGivenUp)),
-            Event::Decision(..) | Event::Touch { .. } | Event::TouchEnd { .. } => None,
+            Event::Decision(..)
+            | Event::Touch { .. }
+            | Event::TouchEnd { .. }
+            | Event::ZeroMoved(..) => None,
         }
     }
 }

@@ -356,11 +356,7 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         means.push(run.module_mut().meter.figures.tick.mean());
     }
     let has_fpu = Program::load(program)?.model()?.has_fpu();
-    let each = if has_fpu {
-        STREAMING
-    } else {
-        STREAMING_NO_FPU
-    };
+    let each = if has_fpu { STREAMING } else { STREAMING_NO_FPU };
     let streaming_most = each * scene.whiskers() as f64;
     let [without, quiet, streaming, full] = means[..] else {
         return Err(Error::Work("four programs".to_owned()));

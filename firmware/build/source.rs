@@ -23,6 +23,7 @@ pub(crate) fn source<R: Real>(
     let (name, tick_hz) = (&scene.name, scene.tick_hz);
     let (frozen_s, jump_per_s) = (scene.sensor.frozen_s, scene.sensor.jump_per_s);
     let sensors_are_slow = scene.sensor.mode == SensorMode::Slow;
+    let (words, zero) = words(scene);
     let telemetry = &scene.telemetry;
     let (has_serial, has_pins) = (telemetry.serial_baud.is_some(), telemetry.pins);
     let serial_baud = telemetry.serial_baud.unwrap_or(0);
@@ -54,6 +55,7 @@ pub(crate) fn source<R: Real>(
             pub(crate) const SIDES: [&super::wiring::Side; #count] = [&crate::here::#sides];
         },
         quote! { pub(crate) type Number = #number; },
+        words,
         quote! {
             pub(crate) type Settings =
                 firmware::Config<#motion_type, #perception_type, #contact_type>;
@@ -61,13 +63,16 @@ pub(crate) fn source<R: Real>(
         quote! {
             pub(crate) const SETTINGS: Settings = firmware::Config {
                 decoder: mlx90333::Decoder::new(),
-                sensor_limits: firmware::design_parameters::sensor_limits(
-                    TICK_HZ,
-                    firmware::design_parameters::Plausible {
-                        frozen_s: #frozen_s,
-                        jump_per_s: #jump_per_s,
-                    },
-                ),
+                sensor_limits: firmware::SensorLimits {
+                    zero: #zero,
+                    ..firmware::design_parameters::sensor_limits(
+                        TICK_HZ,
+                        firmware::design_parameters::Plausible {
+                            frozen_s: #frozen_s,
+                            jump_per_s: #jump_per_s,
+                        },
+                    )
+                },
                 contact: #contact_value,
                 motion: #motion_value,
                 perception: #perception_value,
@@ -163,4 +168,37 @@ where
         },
     };
     Ok(Part { items, config })
+}
+
+/// Where words come from, and when their zero is found anew.
+fn words(scene: &Scene) -> (TokenStream, TokenStream) {
+    let sensor = &scene.sensor;
+    let Some(after_s) = sensor.zero_after_s else {
+        let words = quote! {
+            pub(crate) const FINDS_ZERO: bool = false;
+            pub(crate) type Source = super::sensor::Frames;
+            pub(crate) fn source(frames: super::sensor::Frames) -> Source {
+                frames
+            }
+            pub(crate) fn frames(source: &mut Source) -> &mut super::sensor::Frames {
+                source
+            }
+        };
+        return (words, quote! { firmware::ZeroLimits::NONE });
+    };
+    let (calm, most) = (sensor.zero_calm, sensor.zero_most);
+    let words = quote! {
+        pub(crate) const FINDS_ZERO: bool = true;
+        pub(crate) type Source = firmware::Zeroed<super::sensor::Frames>;
+        pub(crate) fn source(frames: super::sensor::Frames) -> Source {
+            firmware::Zeroed::new(frames)
+        }
+        pub(crate) fn frames(source: &mut Source) -> &mut super::sensor::Frames {
+            source.source_mut()
+        }
+    };
+    let zero = quote! {
+        firmware::design_parameters::zero_limits(TICK_HZ, #after_s, [#calm, #most])
+    };
+    (words, zero)
 }

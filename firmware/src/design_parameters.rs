@@ -5,7 +5,7 @@
 
 use mlx90333::timing::SS_HIGH_US;
 
-use crate::{ButtonLimits, Retry, SensorLimits};
+use crate::{ButtonLimits, Retry, SensorLimits, ZeroLimits};
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
@@ -90,6 +90,17 @@ pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
         // A number too large becomes the largest.
         jump: jump as u16,
         burst: ticks(BURST_S, tick_hz),
+        zero: ZeroLimits::NONE,
+    }
+}
+
+/// When a sensor's zero is found anew at `tick_hz` ticks a second: in a silence of `after_s`
+/// seconds, within which codes differ by `calm` at most, as far as `most` codes from mid-scale.
+pub const fn zero_limits(tick_hz: u32, after_s: f64, [calm, most]: [u16; 2]) -> ZeroLimits {
+    ZeroLimits {
+        ticks: ticks(after_s, tick_hz),
+        calm: calm.saturating_mul(4),
+        most: most.saturating_mul(4),
     }
 }
 

@@ -122,6 +122,8 @@ pub enum Event {
     SensorLost(Place, SensorFault),
     /// Readings are good again; the whisker moves again.
     SensorBack(Place),
+    /// The zero of a sensor was moved: to so many codes from mid-scale, x and y.
+    ZeroMoved(Place, [i16; 2]),
     /// A motor was switched off (fault): its whisker touches nothing while it rests.
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.

@@ -63,7 +63,9 @@ pub use perception::{
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
-pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
+pub use sensing::{
+    BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, Zero, ZeroLimits, Zeroed,
+};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
 pub use telemetry::{About, Link, Notes, PacketSink, PacketSlot, may_load};

@@ -41,6 +41,9 @@ pub fn event<'n>(line: &mut Line, event: &Event, class_name: impl FnOnce(usize) 
         Event::SensorLost(place, why) => fault(of(line, "fault", place), why.code()),
         Event::MotorFault(place, why) => fault(of(line, "fault", place), why.code()),
         Event::SensorBack(place) => _ = of(line, "back", place),
+        Event::ZeroMoved(place, [x, y]) => {
+            of(line, "zero", place).signed(x.into()).signed(y.into());
+        }
         Event::MotorRetry(place) => _ = of(line, "retry", place),
         Event::MotorGivenUp(place) => _ = of(line, "off", place),
     }

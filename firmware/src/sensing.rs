@@ -2,13 +2,15 @@
 
 mod limits;
 mod plausible;
+mod zero;
 
 use mlx90333::{Decoder, Word};
 
 use crate::io::WordSource;
 use crate::{Event, Place, SensorFault};
-pub use limits::{BAD_WEIGHT, SensorLimits};
+pub use limits::{BAD_WEIGHT, SensorLimits, ZeroLimits};
 use plausible::Course;
+pub use zero::{Zero, Zeroed};
 
 /// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,7 +121,7 @@ impl<F: WordSource> Sensor<F> {
         match (judged, self.health) {
             (Ok(()), SensorHealth::Ok { .. }) => {
                 self.burst = self.burst.saturating_sub(1);
-                self.accept(limits);
+                self.accept(limits, place, events);
             }
             (Ok(()), SensorHealth::Faulted { good }) => self.recover(good, limits, place, events),
             (Err(fault), health) => self.hold(health, limits, fault, place, events),
@@ -148,9 +150,16 @@ impl<F: WordSource> Sensor<F> {
 
     /// A good frame of a trusted sensor.
     #[inline]
-    const fn accept(&mut self, limits: SensorLimits) {
+    fn accept(&mut self, limits: SensorLimits, place: Place, events: &mut impl FnMut(Event)) {
         self.health = SensorHealth::Ok { bad: 0 };
-        let [x, y] = self.course.words;
+        let mut words = self.course.words;
+        if let Some(zero) = self.source.zero() {
+            if let Some(codes) = zero.follow(words, limits.zero) {
+                events(Event::ZeroMoved(place, codes));
+            }
+            words = zero.out_of(words);
+        }
+        let [x, y] = words;
         self.last = Reading {
             x,
             y,
@@ -175,7 +184,7 @@ impl<F: WordSource> Sensor<F> {
             self.health = SensorHealth::Faulted { good: 0 };
         } else if good >= limits.recover {
             self.burst = 0;
-            self.accept(limits);
+            self.accept(limits, place, events);
             events(Event::SensorBack(place));
         } else {
             self.health = SensorHealth::Faulted { good };

@@ -119,6 +119,7 @@ impl Notes {
             Event::SensorLost(..) | Event::MotorFault(..) | Event::MotorGivenUp(_) => {
                 add(Flags::FAULT);
             }
+            Event::ZeroMoved(..) => add(Flags::ZEROED),
             Event::SensorBack(_) | Event::MotorRetry(_) => {}
         }
     }
@@ -216,6 +217,14 @@ impl Link {
                 done(whisker, Command::Setpoint(Some(R::from_q24(theta))))
             }
             Said::Release(whisker) => done(whisker, Command::Setpoint(None)),
+            Said::Zero(whisker) => {
+                let (side, number) = (whisker.side.into(), whisker.number.into());
+                module
+                    .sensor_mut(side, number)
+                    .ok_or(CommandStatus::NoWhisker)
+                    .and_then(|sensor| sensor.source_mut().zero().ok_or(CommandStatus::NotHere))
+                    .map(|zero| values = zero.codes().map(i32::from))
+            }
             Said::Version => {
                 values = VERSION;
                 Ok(())

@@ -14,7 +14,7 @@ use firmware::{
     Place, Refusal, Servo,
 };
 use plan::NumberFormat;
-use scene::{Arm, Deciding, Scene, SensorModel};
+use scene::{Arm, Deciding, Scene, SensorSection};
 use whisking::motor::StallConfig;
 use whisking::{Fix, Real, Start};
 use wire::{Packet, TaggedCommand};
@@ -132,7 +132,7 @@ struct Shaped<R: Real, const S: usize, const N: usize> {
     built_with: HostConfig<R>,
     start: Option<Start<R, S, N>>,
     arms_at_start: bool,
-    model: SensorModel,
+    sensor: SensorSection,
     line: Line,
 }
 
@@ -221,7 +221,7 @@ where
         let perception = self.module.perception_mut().take();
         let mut perception = perception.map(Classifying::restarted);
         Perception::<R, _, S, N>::retune(&mut perception, &self.config.perception);
-        let sensors = sensors(self.model, seed)?;
+        let sensors = sensors(&self.sensor, seed)?;
         self.module = Module::new(sensors, motors, perception, NoClock);
         self.module.arm(self.arms_at_start);
         self.line.restart();
@@ -270,11 +270,11 @@ fn misfit(what: &str) -> Error {
 }
 
 fn sensors<const S: usize, const N: usize>(
-    model: SensorModel,
+    section: &SensorSection,
     seed: u64,
 ) -> Result<Sensors<S, N>, Error> {
     let mut seeds = seed..;
-    array(|| AnySensor::new(model, seeds.next()?)).ok_or_else(|| misfit("sensors"))
+    array(|| AnySensor::new(section, seeds.next()?)).ok_or_else(|| misfit("sensors"))
 }
 
 fn motors<R: Real, const S: usize, const N: usize>(
@@ -361,7 +361,7 @@ where
     let perception = Some(Classifying::new(tap));
     let motor = scene.motor.as_ref();
     let arms_at_start = motor.is_some_and(|motor| motor.arm == Arm::AtStart);
-    let sensors = sensors(scene.sensor.model, scene.seed)?;
+    let sensors = sensors(&scene.sensor, scene.seed)?;
     let mut module = Module::new(sensors, motors, perception, NoClock);
     module.arm(arms_at_start);
     let model = match (model, &scene.classifier) {
@@ -375,7 +375,7 @@ where
         built_with: config,
         start,
         arms_at_start,
-        model: scene.sensor.model,
+        sensor: scene.sensor,
         line: Line::new(scene, model),
     }))
 }

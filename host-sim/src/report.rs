@@ -59,6 +59,10 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
             let (at, code) = (place(at), fault.code());
             warn(format_args!("{t_s:.4} s: {at}: fault {code}, {fault}"));
         }
+        Event::ZeroMoved(at, [x, y]) => warn(format_args!(
+            "{t_s:.4} s: {}: zero moved to x {x:+} and y {y:+} codes",
+            place(at)
+        )),
         Event::SensorBack(at) => warn(format_args!("{t_s:.4} s: {}: sensor is back", place(at))),
         Event::MotorFault(at, fault) => {
             let (at, code) = (place(at), fault.code());

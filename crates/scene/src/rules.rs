@@ -18,6 +18,26 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     several_can_decide(values, text);
     mode_is_the_mlx90333s(values, text);
     serial_has_its_parts(values, text);
+    silence_can_be_counted(values, text);
+}
+
+fn silence_can_be_counted(values: &Values, text: &mut Text<'_>) {
+    let (Some(after_s), Some(tick_hz), Some(offset)) = (
+        values.get::<f64>("sensor", "zero_after_s"),
+        values.get::<u32>("", "tick_hz"),
+        values.offset("sensor", "zero_after_s"),
+    ) else {
+        return;
+    };
+    let most = f64::from(u16::MAX - 1) / f64::from(tick_hz);
+    if after_s > most {
+        let found = format!("found {after_s} s at {tick_hz} Hz");
+        let allowed = format!(
+            "allowed: at most {most:.3} s, that is {} ticks",
+            u16::MAX - 1
+        );
+        text.report(offset, "sensor.zero_after_s".to_owned(), found, allowed);
+    }
 }
 
 fn mode_is_the_mlx90333s(values: &Values, text: &mut Text<'_>) {

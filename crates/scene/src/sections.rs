@@ -66,9 +66,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, four of the sensor, two of the plant and of telemetry, one of
+        // Nineteen of the motor, six of the sensor, two of the plant and of telemetry, one of
         // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 30);
+        assert_eq!(defaults, 32);
     }
 
     #[test]

@@ -31,6 +31,8 @@ impl Flags {
     pub const FAULT: Self = Self(1 << 9);
     /// Records were lost before this one, for want of room.
     pub const LOST: Self = Self(1 << 10);
+    /// The zero of a sensor was moved in this tick.
+    pub const ZEROED: Self = Self(1 << 11);
     /// This is no record but an answer.
     pub const ANSWER: Self = Self(1 << 15);
 

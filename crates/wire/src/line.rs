@@ -63,6 +63,13 @@ impl Line {
         self.word("").number(number)
     }
 
+    /// Appends a space and a whole number with its sign, if it is negative.
+    #[inline(never)]
+    pub fn signed(&mut self, number: i32) -> &mut Self {
+        self.word(if number < 0 { "-" } else { "" })
+            .number(number.unsigned_abs())
+    }
+
     /// Appends a whole number.
     #[inline(never)]
     pub fn number(&mut self, number: u32) -> &mut Self {

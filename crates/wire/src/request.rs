@@ -87,6 +87,9 @@ pub enum Command {
     Word(u8, u32),
     /// Starts anew, with what was loaded.
     Restart,
+    /// Says the zero of the whisker's sensor, where it is found by itself: codes from mid-scale,
+    /// x and y. Records tell readings without it.
+    Zero(WhiskerId),
 }
 
 /// What the number of a constant's second word has more than that of its first.
@@ -148,6 +151,7 @@ impl Command {
             Self::Apply(_) => 18,
             Self::Forget => 19,
             Self::Restart => 20,
+            Self::Zero(_) => 21,
         }
     }
 
@@ -174,6 +178,7 @@ impl Command {
             Self::Load(_) => "load",
             Self::Word(..) => "word",
             Self::Restart => "restart",
+            Self::Zero(_) => "zero",
         }
     }
 
@@ -196,7 +201,10 @@ impl Command {
             Self::Apply(value) | Self::Load(value) => (ALL, value.cast_signed()),
             Self::Name(from) => (ALL, from as i32),
             Self::Stream(on) => (ALL, on as i32),
-            Self::Clear(whisker) | Self::Home(whisker) | Self::Release(whisker) => (whisker, 0),
+            Self::Clear(whisker)
+            | Self::Home(whisker)
+            | Self::Release(whisker)
+            | Self::Zero(whisker) => (whisker, 0),
             Self::Gain(whisker, value) | Self::Setpoint(whisker, value) => (whisker, value),
         }
     }
@@ -224,6 +232,7 @@ impl Command {
             18 => Self::Apply(value.cast_unsigned()),
             19 => Self::Forget,
             20 => Self::Restart,
+            21 => Self::Zero(whisker),
             _ => return None,
         })
     }

@@ -290,6 +290,17 @@ pub(crate) fn motor_fault(place: Place, of: motor::Fault) {
     }
 }
 
+/// The zero of a sensor was moved.
+pub(crate) fn zero_moved(place: Place, [x, y]: [i16; 2]) {
+    defmt::info!(
+        "{=str} {=u8}: zero moved to x {=i16}, y {=i16} codes",
+        place.side_name(),
+        place.whisker,
+        x,
+        y
+    );
+}
+
 /// A motor is tried again after its rest.
 pub(crate) fn motor_retry(place: Place) {
     defmt::info!(

@@ -99,7 +99,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (
     }
     here::clock_sensors();
     let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
-    let sources = SIDES.map(|side| [Frames::new(&side.sensor, slot_counts)]);
+    let sources = SIDES.map(|side| [scene::source(Frames::new(&side.sensor, slot_counts))]);
     let motion = scene::start_motion();
     let perception = scene::start_perception();
     let perception = perception.and_then(|made| place.perception.fill(made));
@@ -202,7 +202,7 @@ fn tell_timing(module: &mut Module) {
 #[inline]
 pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     if let Some(sensor) = module.inner.sensor_mut(side, 0) {
-        sensor.source_mut().end_of_frame();
+        scene::frames(sensor.source_mut()).end_of_frame();
     }
 }
 
@@ -226,12 +226,14 @@ fn write(event: Event, names: &Names) {
         }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
         Event::SensorBack(place) => log::sensor_back(place),
+        Event::ZeroMoved(place, codes) if scene::FINDS_ZERO => log::zero_moved(place, codes),
         Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
         Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
         Event::MotorGivenUp(place) if scene::HAS_MOTOR => log::motor_given_up(place),
         Event::Decision(..)
         | Event::Touch { .. }
         | Event::TouchEnd { .. }
+        | Event::ZeroMoved(..)
         | Event::MotorFault(..)
         | Event::MotorRetry(_)
         | Event::MotorGivenUp(_) => {}

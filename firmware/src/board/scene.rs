@@ -3,6 +3,8 @@
 //!
 //! - `NAME`, `TICK_HZ`.
 //! - `SIDES`: what its whiskers hang on, left first.
+//! - `Source`, `source`, `frames`: where words come from; `FINDS_ZERO`: whether their zero is
+//!   found anew by itself.
 //! - `Number`: the number format of the tick.
 //! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
 //!   is left out by type.

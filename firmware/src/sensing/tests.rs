@@ -1,4 +1,4 @@
-use super::{Reading, Sensor, SensorLimits};
+use super::{Reading, Sensor, SensorLimits, ZeroLimits};
 use crate::io::{BusError, FrameSource};
 use crate::{BAD_WEIGHT, Event, Place, SensorFault};
 use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
@@ -13,6 +13,7 @@ const LIMITS: SensorLimits = SensorLimits {
     frozen: 9,
     jump: 0x2000,
     burst: 40,
+    zero: ZeroLimits::NONE,
 };
 
 type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;

@@ -6,7 +6,7 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
     Active, ActiveConfig, AngleInput, Clock, Config, Event, Module, Place, Polled, Retry,
-    SensorFault, SensorLimits, Servo, ServoConfig,
+    SensorFault, SensorLimits, Servo, ServoConfig, ZeroLimits,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{GuardSettings, HBridge};
@@ -110,6 +110,7 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
             frozen: u16::MAX,
             jump: u16::MAX,
             burst: u16::MAX,
+            zero: ZeroLimits::NONE,
         },
         contact: Present(filter::Config::new(50.0, 2000.0).unwrap()),
         motion: ActiveConfig {

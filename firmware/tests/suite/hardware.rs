@@ -1,6 +1,6 @@
 //! Hardware that is always the same.
 
-use firmware::{BusError, Clock, Config, FrameSource, SensorLimits};
+use firmware::{BusError, Clock, Config, FrameSource, SensorLimits, ZeroLimits};
 use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
 
 /// A bad frame is bridged, and a good one ends the fault.
@@ -12,6 +12,7 @@ pub(crate) const AT_ONCE: SensorLimits = SensorLimits {
     frozen: u16::MAX,
     jump: u16::MAX,
     burst: u16::MAX,
+    zero: ZeroLimits::NONE,
 };
 
 /// A module that does nothing but feel.

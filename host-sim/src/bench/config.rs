@@ -1,7 +1,9 @@
 //! The constants of a scene's module, in one number format.
 
-use firmware::design_parameters::{Plausible, retry, sensor_limits};
-use firmware::{ActiveConfig, ClassifyingConfig, Config, ServoConfig, StopAll};
+use firmware::design_parameters::{Plausible, retry, sensor_limits, zero_limits};
+use firmware::{
+    ActiveConfig, ClassifyingConfig, Config, SensorLimits, ServoConfig, StopAll, ZeroLimits,
+};
 use mlx90333::Decoder;
 use plan::MotionPlan;
 use scene::{PlantKind, Scene};
@@ -74,7 +76,10 @@ pub(super) fn config<R: Real, const S: usize, const N: usize>(
     let rule = rule.map(|classifier| settings(classifier.rule)).transpose();
     Ok(Config {
         decoder: Decoder::new(),
-        sensor_limits: sensor_limits(scene.tick_hz, plausible(scene, is_ideal)),
+        sensor_limits: SensorLimits {
+            zero: zero(scene),
+            ..sensor_limits(scene.tick_hz, plausible(scene, is_ideal))
+        },
         contact,
         motion: plan.map(|plan| ActiveConfig {
             whisking: plan.whisking,
@@ -98,6 +103,14 @@ pub(super) fn config<R: Real, const S: usize, const N: usize>(
             rule: rule.map_err(|fault| Error::Input(fault.to_string()))?,
         }),
         period: 0,
+    })
+}
+
+/// When the zero of a scene's sensors is found anew.
+fn zero(scene: &Scene) -> ZeroLimits {
+    let sensor = &scene.sensor;
+    sensor.zero_after_s.map_or(ZeroLimits::NONE, |after_s| {
+        zero_limits(scene.tick_hz, after_s, [sensor.zero_calm, sensor.zero_most])
     })
 }
 

@@ -1,9 +1,9 @@
 //! The sensor of a simulated whisker, as the scene has it.
 
-use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource};
+use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource, Zero};
 use mlx90333::{Decoder, Mlx90333, Word};
 use physics::{Magnet, SensorSettings};
-use scene::SensorModel;
+use scene::{SensorModel, SensorSection};
 use tmag5170::{
     Average, Channels, Config, DeviceConfig, OperatingMode, Range, SensorConfig, Tmag5170, Version,
 };
@@ -14,8 +14,14 @@ use crate::bus::tmag5170::TmagSlave;
 /// Field of the magnet along the axis of a TMAG5170, mT: docs/mount.md.
 const AXIAL_MT: f64 = 60.0;
 
-/// Either sensor on its mock bus.
-pub(super) enum AnySensor {
+/// A sensor on its mock bus, and its zero where that is found by itself.
+pub(super) struct AnySensor {
+    kind: Kind,
+    zero: Option<Zero>,
+}
+
+/// Either of them.
+enum Kind {
     /// It is told what it measures.
     Mlx90333(Polled<Slave>),
     /// It measures the field of a magnet.
@@ -23,7 +29,7 @@ pub(super) enum AnySensor {
 }
 
 /// A TMAG5170 below a magnet.
-pub(super) struct Tilted {
+struct Tilted {
     source: TiltSource<TmagSlave>,
     magnet: Magnet,
     /// Tilt that reads as a deflection of 1, rad.
@@ -34,36 +40,40 @@ impl AnySensor {
     /// A sensor at rest, whose noise, where the bus does not make its own, follows from `seed`.
     ///
     /// `None` if its range does not fit the magnet, which does not depend on the scene.
-    pub(super) fn new(model: SensorModel, seed: u64) -> Option<Self> {
-        Some(match model {
+    pub(super) fn new(section: &SensorSection, seed: u64) -> Option<Self> {
+        let kind = match section.model {
             SensorModel::Mlx90333 => {
-                Self::Mlx90333(Polled::new(Mlx90333::new(Slave::new(), Decoder::new())))
+                Kind::Mlx90333(Polled::new(Mlx90333::new(Slave::new(), Decoder::new())))
             }
-            SensorModel::Tmag5170 => Self::Tmag5170(Box::new(Tilted::new(seed)?)),
+            SensorModel::Tmag5170 => Kind::Tmag5170(Box::new(Tilted::new(seed)?)),
+        };
+        Some(Self {
+            kind,
+            zero: section.zero_after_s.map(|_| Zero::default()),
         })
     }
 
     /// The first kind, on its bus.
     pub(super) fn slave_mut(&mut self) -> Option<&mut Slave> {
-        match self {
-            Self::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
-            Self::Tmag5170(_) => None,
+        match &mut self.kind {
+            Kind::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
+            Kind::Tmag5170(_) => None,
         }
     }
 
     /// The second kind, on its bus.
     pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
-        match self {
-            Self::Mlx90333(_) => None,
-            Self::Tmag5170(tilted) => Some(tilted.source.sensor_mut().spi_mut()),
+        match &mut self.kind {
+            Kind::Mlx90333(_) => None,
+            Kind::Tmag5170(tilted) => Some(tilted.source.sensor_mut().spi_mut()),
         }
     }
 
     /// Deflections along x and y from now on, in units of the range.
     pub(super) fn bend(&mut self, deflection: [f64; 2]) {
-        match self {
-            Self::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
-            Self::Tmag5170(tilted) => tilted.bend(deflection),
+        match &mut self.kind {
+            Kind::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
+            Kind::Tmag5170(tilted) => tilted.bend(deflection),
         }
     }
 }
@@ -105,16 +115,20 @@ impl Tilted {
 
 impl WordSource for AnySensor {
     fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
-        match self {
-            Self::Mlx90333(polled) => polled.words(decoder),
-            Self::Tmag5170(tilted) => tilted.source.words(decoder),
+        match &mut self.kind {
+            Kind::Mlx90333(polled) => polled.words(decoder),
+            Kind::Tmag5170(tilted) => tilted.source.words(decoder),
         }
     }
 
     fn begin(&mut self) {
-        match self {
-            Self::Mlx90333(polled) => polled.begin(),
-            Self::Tmag5170(tilted) => tilted.source.begin(),
+        match &mut self.kind {
+            Kind::Mlx90333(polled) => polled.begin(),
+            Kind::Tmag5170(tilted) => tilted.source.begin(),
         }
+    }
+
+    fn zero(&mut self) -> Option<&mut Zero> {
+        self.zero.as_mut()
     }
 }

@@ -3,7 +3,7 @@
 
 use firmware::{
     Event, Place, Reading, Sensor, SensorFault, SensorHealth, SensorLimits, TiltFault, TiltScale,
-    TiltSource,
+    TiltSource, ZeroLimits,
 };
 use host_sim::bus::tmag5170::{LineFault, TmagSlave};
 use mlx90333::{Decoder, Word};
@@ -25,6 +25,7 @@ const LIMITS: SensorLimits = SensorLimits {
     frozen: 2000,
     jump: u16::MAX,
     burst: 1000,
+    zero: ZeroLimits::NONE,
 };
 
 const PLACE: Place = Place::new(0, 0);

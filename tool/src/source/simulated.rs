@@ -103,6 +103,9 @@ fn line(event: &Event) -> Option<String> {
         Event::TouchEnd { number, .. } => format!("INFO  touch {number} has ended"),
         Event::SensorLost(place, why) => fault(place, why.code()),
         Event::MotorFault(place, why) => fault(place, why.code()),
+        Event::ZeroMoved(place, [x, y]) => {
+            format!("INFO  {}: zero moved to x {x}, y {y} codes", of(place))
+        }
         Event::SensorBack(place) => format!("INFO  {}: sensor is back", of(place)),
         Event::MotorRetry(place) => format!("INFO  {}: motor is tried again", of(place)),
         Event::MotorGivenUp(place) => {

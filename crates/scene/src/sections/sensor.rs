@@ -1,7 +1,7 @@
 //! `[sensor]`: which sensor a whisker has, and what its readings cannot do.
 
 use crate::choice::choice;
-use crate::key::{number, positive, word};
+use crate::key::{integer, number, positive, word};
 use crate::keys::keys;
 
 choice! {
@@ -45,5 +45,18 @@ keys! {
         /// Which sensor it is. The TMAG5170 has no `mode`, and is simulated: no board's
         /// program reads it.
         model: SensorModel = word().default("\"mlx90333\""),
+
+        /// How long a silence is, after which the zero of the sensor is found anew by itself, as
+        /// the mean of its codes: at most 65,534 ticks. A reading tells what differs from it.
+        zero_after_s: Option<f64> = number(0.5..=30.0).unit("s")
+            .optional("the zero is at mid-scale"),
+
+        /// By how much codes of a silence differ at most: more than the noise of the sensor, and
+        /// the swing of the whisker in free air, which `whisker calibrate` tells.
+        zero_calm: u16 = integer(1..=16_383).unit("codes").default("240"),
+
+        /// How far from mid-scale the zero may be found. Beyond it the whisker leans against
+        /// something, or its magnet is not in its place: the last zero stays.
+        zero_most: u16 = integer(1..=8_191).unit("codes").default("160"),
     }
 }

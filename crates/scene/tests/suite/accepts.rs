@@ -38,6 +38,9 @@ fn every_key_reaches_its_field() {
             frozen_s: 0.25,
             jump_per_s: 1500.0,
             model: SensorModel::Mlx90333,
+            zero_after_s: None,
+            zero_calm: 240,
+            zero_most: 160,
         },
         telemetry: TelemetrySection {
             rtt: true,
