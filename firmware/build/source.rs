@@ -198,7 +198,7 @@ fn words(scene: &Scene) -> (TokenStream, TokenStream) {
         }
     };
     let zero = quote! {
-        firmware::design_parameters::zero_limits(TICK_HZ, #after_s, [#calm, #most])
+        firmware::design_parameters::zero_limits(TICK_HZ, #after_s, #calm, #most)
     };
     (words, zero)
 }

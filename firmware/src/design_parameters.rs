@@ -95,12 +95,12 @@ pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
 }
 
 /// When a sensor's zero is found anew at `tick_hz` ticks a second: in a silence of `after_s`
-/// seconds, within which codes differ by `calm` at most, as far as `most` codes from mid-scale.
-pub const fn zero_limits(tick_hz: u32, after_s: f64, [calm, most]: [u16; 2]) -> ZeroLimits {
+/// seconds, in which contact π stays below `calm`, as far as `most` codes from mid-scale.
+pub const fn zero_limits(tick_hz: u32, after_s: f64, calm: f64, most: u16) -> ZeroLimits {
     ZeroLimits {
         ticks: ticks(after_s, tick_hz),
-        calm: calm.saturating_mul(4),
         most: most.saturating_mul(4),
+        calm: (calm * 16_777_216.0) as i32,
     }
 }
 

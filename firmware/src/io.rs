@@ -4,7 +4,7 @@ use embedded_hal::spi::SpiDevice;
 use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
 
 use crate::SensorFault;
-use crate::sensing::Zero;
+use crate::zero::Zero;
 
 /// The bus did not deliver: no transfer ran, or the controller reported an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -46,6 +46,7 @@ mod tilt;
 mod timing;
 mod tunable;
 mod tuning;
+mod zero;
 
 pub use active::{Active, ActiveConfig, StopAll};
 pub use button::{Button, ButtonLimits};
@@ -63,9 +64,7 @@ pub use perception::{
 };
 pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
-pub use sensing::{
-    BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, Zero, ZeroLimits, Zeroed,
-};
+pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, Zeroed};
 pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
 pub use telemetry::{About, Link, Notes, PacketSink, PacketSlot, may_load};
@@ -74,3 +73,4 @@ pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;
 pub use tunable::{TUNABLE_COUNT, Tunable, Visitor, number as tunable_number, tunable_name};
 pub use tuning::Tuning;
+pub use zero::{Zero, ZeroLimits};

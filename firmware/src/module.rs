@@ -4,6 +4,7 @@ use mlx90333::Decoder;
 use whisking::{Optional, Real, filter};
 
 use crate::sensing::{Reading, Sensor, SensorLimits};
+use crate::zero::ZeroLimits;
 use crate::{
     Clock, Command, Event, Motion, MotorControl, NoActiveWhisker, Perception, Place, Timing,
     WordSource,
@@ -83,6 +84,7 @@ where
         }
         if let Some(h50) = config.contact.part() {
             self.feel(h50, &readings);
+            self.follow_zeros(config.sensor_limits.zero, events);
         }
         self.motion
             .step(&config.motion, self.contact, &sensed, events);
@@ -107,6 +109,18 @@ where
             }
         }
         readings
+    }
+
+    /// Follows the zeros of sensors, where they are found by themselves.
+    #[inline]
+    fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
+        let sides = self.sensors.iter_mut().zip(&self.felt);
+        for (side, (sensors, felt)) in sides.enumerate() {
+            for (w, (sensor, felt)) in sensors.iter_mut().zip(felt).enumerate() {
+                let place = Place::new(side as u8, w as u8);
+                sensor.follow_zero(|| felt.to_q24(), limits, place, events);
+            }
+        }
     }
 
     /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9). A

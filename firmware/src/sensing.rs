@@ -2,15 +2,16 @@
 
 mod limits;
 mod plausible;
-mod zero;
+mod zeroed;
 
 use mlx90333::{Decoder, Word};
 
 use crate::io::WordSource;
+use crate::zero::ZeroLimits;
 use crate::{Event, Place, SensorFault};
-pub use limits::{BAD_WEIGHT, SensorLimits, ZeroLimits};
+pub use limits::{BAD_WEIGHT, SensorLimits};
 use plausible::Course;
-pub use zero::{Zero, Zeroed};
+pub use zeroed::Zeroed;
 
 /// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +122,7 @@ impl<F: WordSource> Sensor<F> {
         match (judged, self.health) {
             (Ok(()), SensorHealth::Ok { .. }) => {
                 self.burst = self.burst.saturating_sub(1);
-                self.accept(limits, place, events);
+                self.accept(limits);
             }
             (Ok(()), SensorHealth::Faulted { good }) => self.recover(good, limits, place, events),
             (Err(fault), health) => self.hold(health, limits, fault, place, events),
@@ -150,16 +151,10 @@ impl<F: WordSource> Sensor<F> {
 
     /// A good frame of a trusted sensor.
     #[inline]
-    fn accept(&mut self, limits: SensorLimits, place: Place, events: &mut impl FnMut(Event)) {
+    fn accept(&mut self, limits: SensorLimits) {
         self.health = SensorHealth::Ok { bad: 0 };
-        let mut words = self.course.words;
-        if let Some(zero) = self.source.zero() {
-            if let Some(codes) = zero.follow(words, limits.zero) {
-                events(Event::ZeroMoved(place, codes));
-            }
-            words = zero.out_of(words);
-        }
-        let [x, y] = words;
+        let words = self.course.words;
+        let [x, y] = self.source.zero().map_or(words, |zero| zero.out_of(words));
         self.last = Reading {
             x,
             y,
@@ -167,6 +162,31 @@ impl<F: WordSource> Sensor<F> {
             current: self.course.repeats <= limits.stale,
             valid: true,
         };
+    }
+
+    /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
+    /// by itself. `contact` is π, Q24; it is asked for only then.
+    #[inline]
+    pub fn follow_zero(
+        &mut self,
+        contact: impl FnOnce() -> i32,
+        limits: ZeroLimits,
+        place: Place,
+        events: &mut impl FnMut(Event),
+    ) {
+        let words = self.course.words;
+        if let (
+            Reading {
+                fresh: true,
+                valid: true,
+                ..
+            },
+            Some(zero),
+        ) = (self.last, self.source.zero())
+            && let Some(codes) = zero.follow(words, contact() >= limits.calm, limits)
+        {
+            events(Event::ZeroMoved(place, codes));
+        }
     }
 
     /// A good frame of a faulty sensor, after `good` others.
@@ -184,7 +204,7 @@ impl<F: WordSource> Sensor<F> {
             self.health = SensorHealth::Faulted { good: 0 };
         } else if good >= limits.recover {
             self.burst = 0;
-            self.accept(limits, place, events);
+            self.accept(limits);
             events(Event::SensorBack(place));
         } else {
             self.health = SensorHealth::Faulted { good };

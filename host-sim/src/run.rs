@@ -1,6 +1,7 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
 mod presented;
+mod zeros;
 
 use firmware::{Command, Event, Sample};
 use mlx90333::Word;
@@ -17,6 +18,7 @@ use crate::motor::{PWM_COUNTS, SimMotor};
 use crate::trace::{Row, WhiskerRow};
 use crate::world::World;
 use presented::Presented;
+use zeros::Zeros;
 
 /// A running scene, with everything that it needs: module, classifier, motors
 /// and plant. `B` is the module: the firmware's on this machine, unless said
@@ -30,6 +32,7 @@ pub struct Run<B: ?Sized = dyn HostModule> {
     classes: Vec<String>,
     world: World,
     presented: Presented,
+    zeros: Zeros,
     snapshot: Snapshot,
     row: Row,
     events: Vec<Event>,
@@ -171,6 +174,7 @@ impl<B: Bench + ?Sized> Run<B> {
             classes,
             world,
             presented: Presented::new(scene),
+            zeros: Zeros::new(scene),
             snapshot: Snapshot::default(),
             row: Row::default(),
             events: Vec::new(),
@@ -271,16 +275,18 @@ impl<B: Bench + ?Sized> Run<B> {
         if let Some(texture) = self.presented.change(self.done, self.world.touches()) {
             self.world.present(texture);
         }
+        let t_s = self.done as f64 / self.tick_hz;
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {
                 let deflection = self.world.deflection(side, whisker);
                 let n = side * self.whiskers + whisker;
-                self.bench.bend(n, deflection);
+                let sensed = self.zeros.added(side, t_s, deflection);
+                self.bench.bend(n, sensed);
                 if let Some(last) = self.deflections.get_mut(n) {
                     *last = deflection;
                 }
                 if whisker == 0 {
-                    [self.row.x[side], self.row.y[side]] = codes(deflection);
+                    [self.row.x[side], self.row.y[side]] = codes(sensed);
                 }
             }
         }

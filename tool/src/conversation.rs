@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand, WhiskerId};
 
 use crate::source::{Heard, Source};
 
@@ -90,6 +90,16 @@ impl Conversation {
             "{command:?}: no answer in {PATIENCE_S} s; is the module's program older than this one, \
              or of a scene with telemetry.rtt = false?"
         )))
+    }
+
+    /// The zero of a whisker's sensor, codes from mid-scale, where the module finds it.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if it does not answer.
+    pub(crate) fn zero(&mut self, whisker: WhiskerId) -> Result<Option<[i32; 2]>, Error> {
+        let answer = self.answer(Command::Zero(whisker))?;
+        // Older firmware does not know the command, as it knows no zero.
+        Ok((answer.status == CommandStatus::Done).then_some(answer.values))
     }
 
     /// Where the module is, and the version of its firmware.

@@ -119,6 +119,7 @@ fn board() -> Result<(), Fault> {
     do_all(board, &emulate::noisiest()?, &both_sides)?;
     emulate::compare_in_fixed_point(board)?;
     emulate::compare_with_slow_sensors(board)?;
+    emulate::compare_with_zeros(board)?;
     let in_short = [Task::Compare(Probe::Pulled), Task::SensorLoss];
     small
         .into_iter()

@@ -219,6 +219,15 @@ pub(crate) fn compare_with_slow_sensors(board: Board) -> Result<(), Fault> {
     emulate(board, &slow, &Task::Compare(Probe::Attached))
 }
 
+/// Compares [`CIA`] with host-sim where the sensors find their zeros.
+///
+/// # Errors
+/// If it differs or cannot be built.
+pub(crate) fn compare_with_zeros(board: Board) -> Result<(), Fault> {
+    let zeros = variants::with_zeros(&top().join(CIA), &target().join("zeros"))?;
+    emulate(board, &zeros, &Task::Compare(Probe::Attached))
+}
+
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
 ///
 /// # Errors

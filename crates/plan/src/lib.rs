@@ -189,8 +189,8 @@ pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Result<Option<f64>, Mism
 }
 
 /// H50 for the contact signals, where the scene has something that uses them:
-/// RCP, CIA or a classifier that `listens` only during contact, or whose model is deployed
-/// later and may have it listen so.
+/// RCP, CIA, zeros that are found in silences, or a classifier that `listens` only during
+/// contact, or whose model is deployed later and may have it listen so.
 ///
 /// # Errors
 /// [`Mismatch::Value`] for a tick rate that leaves no room for 50 Hz.
@@ -198,7 +198,7 @@ pub fn contact<R: Real>(
     scene: &Scene,
     listens: bool,
 ) -> Result<Option<filter::Config<R>>, Mismatch> {
-    let listens = listens || scene.awaits_model();
+    let listens = listens || scene.awaits_model() || scene.sensor.zero_after_s.is_some();
     if scene.rcp.is_none() && scene.cia.is_none() && !listens {
         return Ok(None);
     }

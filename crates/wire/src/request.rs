@@ -308,7 +308,7 @@ mod tests {
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
-        (0..20_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+        (0..21_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
             let word = value.cast_unsigned();
             match which {
@@ -331,6 +331,7 @@ mod tests {
                 16 => Command::Load(word),
                 17 => Command::Word(name, word.rotate_left(8)),
                 18 => Command::Restart,
+                19 => Command::Zero(whisker),
                 _ => Command::Forget,
             }
         })

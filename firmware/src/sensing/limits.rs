@@ -1,5 +1,7 @@
 //! What is borne of a sensor.
 
+use crate::zero::ZeroLimits;
+
 /// What is borne of a sensor, and how long a recovery takes; in ticks but for `jump`.
 /// `u16::MAX` is no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,27 +23,6 @@ pub struct SensorLimits {
     pub burst: u16,
     /// When its zero is found anew, where it is.
     pub zero: ZeroLimits,
-}
-
-/// What a silence is, in which the zero of a sensor is found anew, and how far that may lie from
-/// mid-scale; `calm` and `most` of a word's 65,536 steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ZeroLimits {
-    /// Ticks of a silence.
-    pub ticks: u16,
-    /// Most by which words of it differ.
-    pub calm: u16,
-    /// Most by which their mean differs from mid-scale.
-    pub most: u16,
-}
-
-impl ZeroLimits {
-    /// No mean is a zero.
-    pub const NONE: Self = Self {
-        ticks: u16::MAX,
-        calm: 0,
-        most: 0,
-    };
 }
 
 /// What a tick without a good frame counts: more than one in `BAD_WEIGHT + 1` of them are

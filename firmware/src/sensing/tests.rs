@@ -1,5 +1,6 @@
-use super::{Reading, Sensor, SensorLimits, ZeroLimits};
+use super::{Reading, Sensor, SensorLimits};
 use crate::io::{BusError, FrameSource};
+use crate::zero::ZeroLimits;
 use crate::{BAD_WEIGHT, Event, Place, SensorFault};
 use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
 

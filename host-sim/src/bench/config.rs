@@ -110,7 +110,7 @@ pub(super) fn config<R: Real, const S: usize, const N: usize>(
 fn zero(scene: &Scene) -> ZeroLimits {
     let sensor = &scene.sensor;
     sensor.zero_after_s.map_or(ZeroLimits::NONE, |after_s| {
-        zero_limits(scene.tick_hz, after_s, [sensor.zero_calm, sensor.zero_most])
+        zero_limits(scene.tick_hz, after_s, sensor.zero_calm, sensor.zero_most)
     })
 }
 

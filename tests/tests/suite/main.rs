@@ -20,3 +20,4 @@ mod starting;
 mod terrain;
 mod tilted_module;
 mod unstable_scenes;
+mod zero;

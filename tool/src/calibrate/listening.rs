@@ -14,7 +14,7 @@ use crate::tally::{Before, Tally, side};
 pub(crate) struct Sample {
     /// Since it was listened to first, s.
     pub(crate) t_s: f64,
-    /// x and y, codes of 14 bits.
+    /// x and y as the sensor has them, codes of 14 bits.
     pub(crate) codes: [u16; 2],
     /// Where it should be, degrees.
     pub(crate) setpoint_deg: f64,
@@ -27,10 +27,11 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
-    fn new(record: &TickRecord, t_s: f64) -> Self {
+    /// Of a record, with the zero that was taken out of it.
+    fn new(record: &TickRecord, t_s: f64, zero: [i32; 2]) -> Self {
         Self {
             t_s,
-            codes: record.codes(),
+            codes: sum(record.codes(), zero),
             setpoint_deg: degrees(record.setpoint).into(),
             measured_deg: degrees(record.measured).into(),
             duty: f64::from(record.duty) / f64::from(i16::MAX),
@@ -44,6 +45,14 @@ impl Sample {
     }
 }
 
+/// Codes with so much added, within their range.
+fn sum([x, y]: [u16; 2], [more_x, more_y]: [i32; 2]) -> [u16; 2] {
+    [(x, more_x), (y, more_y)].map(|(code, more)| {
+        // Within 16383, thus within a u16.
+        i32::from(code).saturating_add(more).clamp(0, 16_383) as u16
+    })
+}
+
 /// How long a module may say nothing, s.
 const PATIENCE_S: f64 = 3.0;
 
@@ -53,6 +62,8 @@ pub(crate) struct Listening {
     whisker: WhiskerId,
     tick_s: f64,
     ticks: u64,
+    /// What the module takes out of readings, codes.
+    zero: [i32; 2],
     /// Of its records.
     pub(crate) tally: Tally,
     /// What it has logged.
@@ -68,10 +79,13 @@ impl Listening {
     pub(crate) fn new(mut module: Conversation, side: u8) -> Result<Self, Error> {
         let interrupted = interrupts()?;
         let about = module.about()?;
+        let whisker = WhiskerId { side, number: 0 };
+        let zero = module.zero(whisker)?.unwrap_or_default();
         module.ask(Command::Stream(true))?;
         Ok(Self {
             module,
-            whisker: WhiskerId { side, number: 0 },
+            whisker,
+            zero,
             tick_s: 1.0 / f64::from(about.tick_hz),
             ticks: 0,
             tally: Tally::default(),
@@ -142,6 +156,25 @@ impl Listening {
     pub(crate) fn watch(
         &mut self,
         seconds: f64,
+        each: impl FnMut(&Sample) -> bool,
+    ) -> Result<Vec<Sample>, Error> {
+        let mut samples = self.take(seconds, each)?;
+        let moved = |sample: &Sample| sample.flags.contains(Flags::ZEROED);
+        if let Some(after) = samples.iter().position(moved) {
+            let zero = self.module.zero(self.whisker)?.unwrap_or_default();
+            let [x, y] = [0, 1].map(|axis: usize| zero[axis] - self.zero[axis]);
+            for sample in samples.iter_mut().skip(after) {
+                sample.codes = sum(sample.codes, [x, y]);
+            }
+            self.zero = zero;
+        }
+        Ok(samples)
+    }
+
+    /// Listens, and knows no other zero than that from before.
+    fn take(
+        &mut self,
+        seconds: f64,
         mut each: impl FnMut(&Sample) -> bool,
     ) -> Result<Vec<Sample>, Error> {
         let most = (seconds / self.tick_s).round() as u64;
@@ -175,7 +208,7 @@ impl Listening {
                     Before::Nothing => {}
                 }
                 self.ticks += 1;
-                let sample = Sample::new(record, self.ticks as f64 * self.tick_s);
+                let sample = Sample::new(record, self.ticks as f64 * self.tick_s, self.zero);
                 samples.push(sample);
                 if !each(&sample) || self.ticks - from >= most {
                     return Ok(samples);

@@ -98,6 +98,13 @@ pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
         "firmware {}",
         origin.get("firmware").unwrap_or("unknown")
     ));
+    for (side, name) in (0..2).zip(["left", "right"]) {
+        if let Some([x, y]) = module.zero(WhiskerId { side, number: 0 })? {
+            report::say(format_args!(
+                "zero {name}: x {x:+} and y {y:+} codes from mid-scale, found by itself"
+            ));
+        }
+    }
     // A scene without a classifier has nothing to say here.
     if let Ok(decides) = Decides::ask(&mut module) {
         report::say(decides);

@@ -67,6 +67,23 @@ pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, F
     write(path, &scene, table, folder)
 }
 
+/// Writes `path` as a scene whose sensors find their zeros, which are not at mid-scale, into
+/// `folder` and returns its path.
+///
+/// # Errors
+/// If the scene is wrong or the other cannot be written.
+pub(super) fn with_zeros(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
+    let (scene, mut table) = read(path)?;
+    let found = Table::from_iter([("zero_after_s".to_owned(), Value::from(0.5))]);
+    table.insert("sensor".to_owned(), found.into());
+    let pair = |codes: [f64; 2]| Value::from(codes.to_vec());
+    let zeros = Value::from(vec![pair([40.0, -60.0]), pair([-90.0, 30.0])]);
+    let plant = table.get_mut("plant").and_then(Value::as_table_mut);
+    let plant = plant.ok_or("the scene has no plant")?;
+    plant.insert("zero_codes".to_owned(), zeros);
+    write(path, &scene, table, folder)
+}
+
 /// Writes `path` as a scene without telemetry into `folder` and returns its path.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use super::shaft::{ShaftName, ShaftNumbers};
 use crate::choice::choice;
 use crate::key::Condition::{self, Given, Is};
-use crate::key::{number, per_side, positive, word, words};
+use crate::key::{number, pair_per_side, per_side, positive, word, words};
 use crate::keys::keys;
 
 choice! {
@@ -67,6 +67,17 @@ keys! {
         /// `whisker`: the same with an elastic shaft that sticks, slips and bounces.
         kind: PlantKind = word(),
 
+        /// What the sensors of a side read at rest from the start on, x and y, left first: codes
+        /// from mid-scale, as of a magnet that is not in its place.
+        zero_codes: Option<Vec<[f64; 2]>> = pair_per_side(-4000.0..=4000.0)
+            .unit("codes")
+            .optional("mid-scale"),
+
+        /// By how much that changes every second, alike, as by a magnet that warms up.
+        zero_drift: Option<Vec<[f64; 2]>> = pair_per_side(-1000.0..=1000.0)
+            .unit("codes/s")
+            .optional("it stays"),
+
         /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
         ..obstacle: Option<Obstacles>,
 
@@ -83,6 +94,8 @@ impl Default for PlantSection {
     fn default() -> Self {
         Self {
             kind: PlantKind::Textured,
+            zero_codes: None,
+            zero_drift: None,
             obstacle: None,
             textured: None,
             shaft: None,

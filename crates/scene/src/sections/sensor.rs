@@ -47,13 +47,13 @@ keys! {
         model: SensorModel = word().default("\"mlx90333\""),
 
         /// How long a silence is, after which the zero of the sensor is found anew by itself, as
-        /// the mean of its codes: at most 65,534 ticks. A reading tells what differs from it.
+        /// the mean of its codes, where that differs by eight codes at least: at most 65,534
+        /// ticks, of many whisks. A reading tells what differs from it.
         zero_after_s: Option<f64> = number(0.5..=30.0).unit("s")
             .optional("the zero is at mid-scale"),
 
-        /// By how much codes of a silence differ at most: more than the noise of the sensor, and
-        /// the swing of the whisker in free air, which `whisker calibrate` tells.
-        zero_calm: u16 = integer(1..=16_383).unit("codes").default("240"),
+        /// Contact signal that ends a silence: above what whisking in free air gives.
+        zero_calm: f64 = number(0.0001..=1.0).default("0.05"),
 
         /// How far from mid-scale the zero may be found. Beyond it the whisker leans against
         /// something, or its magnet is not in its place: the last zero stays.

@@ -39,7 +39,7 @@ fn every_key_reaches_its_field() {
             jump_per_s: 1500.0,
             model: SensorModel::Mlx90333,
             zero_after_s: None,
-            zero_calm: 240,
+            zero_calm: 0.05,
             zero_most: 160,
         },
         telemetry: TelemetrySection {
@@ -88,6 +88,8 @@ fn every_key_reaches_its_field() {
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
+            zero_codes: None,
+            zero_drift: None,
             obstacle: Some(Obstacles {
                 obstacle_deg: vec![100.0, 125.0],
                 stiffness: 0.1,

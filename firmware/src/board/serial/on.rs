@@ -321,6 +321,10 @@ fn reply(form: Form, words: [u32; PACKET_WORDS]) -> bool {
         said.text("ok").word(command.name());
         let [first, second] = answer.values.map(i32::cast_unsigned);
         match command {
+            Command::Zero(_) => answer
+                .values
+                .into_iter()
+                .for_each(|code| _ = said.signed(code)),
             Command::Hello => _ = said.word(NAME).field(first).field(second).word(VERSION),
             Command::Status => _ = said.field(first).field(second).field(sent::LOST.get()),
             _ => {}
