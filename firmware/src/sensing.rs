@@ -174,16 +174,10 @@ impl<F: WordSource> Sensor<F> {
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
-        let words = self.course.words;
-        if let (
-            Reading {
-                fresh: true,
-                valid: true,
-                ..
-            },
-            Some(zero),
-        ) = (self.last, self.source.zero())
-            && let Some(codes) = zero.follow(words, contact() >= limits.calm, limits)
+        let Reading { x, y, valid, .. } = self.last;
+        if valid
+            && let Some(zero) = self.source.zero()
+            && let Some(codes) = zero.follow([x, y], contact() >= limits.calm, limits)
         {
             events(Event::ZeroMoved(place, codes));
         }

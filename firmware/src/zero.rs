@@ -53,8 +53,8 @@ impl Zero {
         self.codes.get().unwrap_or_default()
     }
 
-    /// Takes words into the silence, or begins it anew where they are `of_touch`. Returns the
-    /// zero where they end it, and have moved the zero.
+    /// Takes words that [`out_of`](Self::out_of) has given into the silence, or begins it anew
+    /// where they are `of_touch`. Returns the zero where they end it, and have moved the zero.
     #[inline]
     pub(crate) fn follow(
         &mut self,
@@ -80,22 +80,22 @@ impl Zero {
     #[cold]
     #[inline(never)]
     fn end(&mut self, most: u16) -> Option<[i16; 2]> {
-        let means = self.sums.map(|sum| {
-            let mean = sum.checked_div(self.ticks.into()).unwrap_or(0);
-            mean as i32 - i32::from(Word::MID.raw())
-        });
+        let mean = |sum: u32| sum.checked_div(self.ticks.into()).unwrap_or(0);
+        let moved = self
+            .sums
+            .map(|sum| mean(sum) as i32 - i32::from(Word::MID.raw()));
         (self.ticks, self.sums) = (0, [0; 2]);
-        let old = self.codes();
-        let has_moved = means
-            .iter()
-            .zip(old)
-            .any(|(mean, old)| mean.abs_diff(i32::from(old) * CODE) >= STEP);
-        let is_zero = means.iter().all(|mean| mean.unsigned_abs() <= most.into());
-        if !(has_moved && is_zero) {
+        if moved.iter().all(|by| by.unsigned_abs() < STEP) {
+            return None;
+        }
+        let [x, y] = self.codes();
+        let [by_x, by_y] = moved;
+        let words = [(x, by_x), (y, by_y)].map(|(old, by)| i32::from(old) * CODE + by);
+        if words.iter().any(|word| word.unsigned_abs() > most.into()) {
             return None;
         }
         // To the nearest code; of a word's range, thus within an i16.
-        let codes = means.map(|mean| (mean + CODE / 2).div_euclid(CODE) as i16);
+        let codes = words.map(|word| (word + CODE / 2).div_euclid(CODE) as i16);
         self.codes = Voted::new(codes);
         Some(codes)
     }
@@ -134,7 +134,10 @@ mod tests {
     fn pass(zero: &mut Zero, codes: [i32; 2], ticks: i32) -> Vec<[i16; 2]> {
         let swing = |tick: i32| [0, 400, 0, -400][tick as usize % 4];
         (0..ticks)
-            .filter_map(|tick| zero.follow(at(codes.map(|code| code + swing(tick))), false, LIMITS))
+            .filter_map(|tick| {
+                let words = zero.out_of(at(codes.map(|code| code + swing(tick))));
+                zero.follow(words, false, LIMITS)
+            })
             .collect()
     }
 
@@ -143,8 +146,9 @@ mod tests {
         let mut zero = Zero::default();
         assert_eq!(pass(&mut zero, [60, -35], 99), [[0; 2]; 0]);
         assert_eq!(zero.codes(), [0, 0]);
-        // The 100th again begins a swing.
-        assert_eq!(pass(&mut zero, [60, -35], 1), [[60, -35]]);
+        // The 100th ends a swing.
+        let last = zero.follow(at([-340, -435]), false, LIMITS);
+        assert_eq!(last, Some([60, -35]));
         assert_eq!(zero.out_of(at([60, -35])), at([0, 0]));
         assert_eq!(zero.out_of(at([-100, 100])), at([-160, 135]));
         assert_eq!(

@@ -25,11 +25,16 @@ impl Zeros {
         }
     }
 
-    /// A deflection of a whisker on `side` as its sensor has it, `t_s` after the start.
+    /// A deflection of a whisker on `side` as its sensor has it, `t_s` after the start. In the
+    /// first tick it is itself: no frame has come by then, and a module takes its sensors to be
+    /// at mid-scale.
     pub(super) fn added(&self, side: usize, t_s: f64, deflection: [f64; 2]) -> [f64; 2] {
         let (Some(start), Some(drift)) = (self.start.get(side), self.drift.get(side)) else {
             return deflection;
         };
+        if t_s <= 0.0 {
+            return deflection;
+        }
         [0, 1].map(|axis: usize| deflection[axis] + (start[axis] + t_s * drift[axis]))
     }
 }
