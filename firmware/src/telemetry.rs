@@ -166,6 +166,9 @@ impl Link {
     }
 
     /// Carries out a request between two ticks.
+    // Apart: with the rest of a board's link it jumps by tables that the bound of its stack
+    // cannot follow.
+    #[inline(never)]
     pub fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
         &mut self,
         module: &mut Module<R, F, M, P, C, S, N>,

@@ -163,7 +163,8 @@ impl Listening {
         if let Some(after) = samples.iter().position(moved) {
             let zero = self.module.zero(self.whisker)?.unwrap_or_default();
             let [x, y] = [0, 1].map(|axis: usize| zero[axis] - self.zero[axis]);
-            for sample in samples.iter_mut().skip(after) {
+            // It is taken out from the next record on.
+            for sample in samples.iter_mut().skip(after + 1) {
                 sample.codes = sum(sample.codes, [x, y]);
             }
             self.zero = zero;

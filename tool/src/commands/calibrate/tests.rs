@@ -4,7 +4,7 @@ use host_sim::commands::run::Loaded;
 use host_sim::motor::Wire;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
-use wire::TaggedCommand;
+use wire::{TaggedCommand, WhiskerId};
 
 use super::*;
 use crate::source::{Heard, Source};
@@ -139,4 +139,33 @@ fn a_motor_that_is_not_connected_ends_it() {
             "{wire:?}: {told}"
         );
     }
+}
+
+#[test]
+fn the_zero_that_the_module_finds_is_the_sensors_all_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let more = "[sensor]\nzero_after_s = 1\n[plant]\nkind = \"ideal\"\nzero_codes = [[120, -70]]\n";
+    std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
+    let loaded = Loaded::new(&path).unwrap();
+    let mut run = Run::new(&loaded.scene, None).unwrap();
+    run.tick();
+    let mut module = Conversation::new(Box::new(Wired(run)));
+    let left = WhiskerId::default();
+    assert_eq!(module.zero(left).unwrap(), Some([0, 0]));
+    let right = WhiskerId { side: 1, number: 0 };
+    assert_eq!(module.zero(right).unwrap(), None, "there is none");
+
+    let mut whisker = Listening::new(module, 0).unwrap();
+    for found in ["while it is found", "afterwards"] {
+        let samples = whisker.watch(2.5, |_| true).unwrap();
+        for sample in &samples {
+            let [x, y] = sample.codes.map(i32::from);
+            assert!(
+                (x - 8312).abs() <= 1 && (y - 8122).abs() <= 1,
+                "{found}: {sample:?}"
+            );
+        }
+    }
+    assert_eq!(whisker.module().zero(left).unwrap(), Some([120, -70]));
 }
