@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, absolute, cargo, listing, output, read_bytes, run, target, top, write};
+use crate::run::{Fault, absolute, cargo, listing, output, run, target, top};
 
 /// Who fetches the log from a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -57,7 +57,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
     if let Task::Serial = task {
         return serial(board, scene);
     }
-    let mut program = firmware::build(board, scene)?;
+    let program = firmware::build_kept(board, scene)?;
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
     let task_name = match task {
         Task::Run(_) => "run",
@@ -80,13 +80,10 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Compare(Probe::Pulled) => command.args(["--probe", "pulled"]),
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
         Task::Telemetry => {
-            let kept = target().join("telemetry/with.elf");
-            write(&kept, read_bytes(&program)?)?;
             let without = variants::without_telemetry(scene, &target().join("telemetry"))?;
-            program = firmware::build(board, &without)?;
             command
                 .arg("--without")
-                .arg(std::mem::replace(&mut program, kept))
+                .arg(firmware::build_kept(board, &without)?)
         }
         Task::Deploying => {
             let (world, model) = (top().join(WORLD), top().join(MODEL));
@@ -126,12 +123,8 @@ fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
         ("--slow", slow?),
         ("--without", scene.into()),
     ] {
-        // Each in a place of its own: the next build takes that of the last.
-        let kept = folder
-            .join(option.trim_start_matches('-'))
-            .with_extension("elf");
-        write(&kept, read_bytes(&firmware::build(board, &scene)?)?)?;
-        command.arg(option).arg(kept);
+        let program = firmware::build_kept(board, &scene)?;
+        command.arg(option).arg(program);
     }
     run(&mut command)
 }
@@ -143,12 +136,8 @@ fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
     let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "picture"]);
     for scene in scenes {
-        // Each in a place of its own: the next build takes that of the last.
-        let built = firmware::build(board, scene)?;
-        let name = scene.file_stem().unwrap_or_default();
-        let kept = target().join("picture").join(name).with_extension("elf");
-        write(&kept, read_bytes(&built)?)?;
-        command.arg(absolute(scene)?).arg("--program").arg(kept);
+        let program = firmware::build_kept(board, scene)?;
+        command.arg(absolute(scene)?).arg("--program").arg(program);
     }
     run(command.arg("--out").arg(absolute(out)?))
 }

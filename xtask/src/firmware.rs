@@ -3,10 +3,11 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use object::{Object, ObjectSection};
 
-use crate::run::{Fault, cargo, read_bytes, run, target, top};
+use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,6 +82,22 @@ pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     let scene = find(scene)?;
     run(&mut compiler(board, &scene))?;
     Ok(elf(board))
+}
+
+/// The same, kept apart: the next program is built in the place of the last. Several threads
+/// may ask for programs, which are built one after the other.
+///
+/// # Errors
+/// As [`build`], and if it cannot be kept.
+pub(crate) fn build_kept(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
+    static BUILT: Mutex<u32> = Mutex::new(0);
+    // A build that has panicked has left nothing that another needs.
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    let program = read_bytes(&build(board, scene)?)?;
+    *built += 1;
+    let kept = target().join(format!("kept/{}.elf", *built));
+    write(&kept, program)?;
+    Ok(kept)
 }
 
 /// The same, with checks of overflow, which panic.
