@@ -47,7 +47,7 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     cost::write_page(check)?;
     // The main job's page quotes what it measures over many runs.
     studies("decisions", check)?;
-    let simulator = ["run", "--release", "--quiet", "-p"];
+    let simulator = ["run", "--quiet", "-p"];
     let said = output(cargo(&simulator).arg("host-sim"))?;
     print!("{said}");
     let page = main_job::page(&said, &read(&top().join(DECISIONS))?)?;
@@ -157,15 +157,7 @@ impl Trained {
         let folder = target().join("models");
         let (heard, model) = (folder.join("heard.csv"), folder.join("the.model"));
         let simulator = |command: &str| {
-            let start = [
-                "run",
-                "--release",
-                "--quiet",
-                "-p",
-                "host-sim",
-                "--",
-                "--quiet",
-            ];
+            let start = ["run", "--quiet", "-p", "host-sim", "--", "--quiet"];
             let mut simulator = cargo(&start);
             simulator.arg(command);
             simulator

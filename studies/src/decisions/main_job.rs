@@ -33,7 +33,7 @@ pub(super) fn section(
     page.heading(2, "The main job");
     let (mean, error) = mean_of(&figures.hits);
     page.say(format_args!(
-        "`cargo run --release -p host-sim` shows one run. Over {} runs with seeds {} to {} the \
+        "`cargo run -p host-sim` shows one run. Over {} runs with seeds {} to {} the \
          same model has a hit rate of {} %, in the worst run {:.1} %. A mean posterior of {:.2} % \
          was right in {}; {:.0} ms of contact to a decision; {} refused.",
         seeds.len(),

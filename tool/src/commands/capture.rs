@@ -160,7 +160,7 @@ fn complete(
     report::say(format_args!(
         "{out}: {} samples, {} touches; records lost: {} of {}\n\
          from the first touch: {lasted_s:.0} s of the module's time\n\
-         next: cargo run --release -p host-sim -- train --data {out} --rate {} --out MODEL",
+         next: cargo run -p host-sim -- train --data {out} --rate {} --out MODEL",
         recording.samples(),
         recording.all_touches(),
         tally.lost,
