@@ -84,7 +84,7 @@ where
         }
         if let Some(h50) = config.contact.part() {
             self.feel(h50, &readings);
-            self.follow_zeros(config.sensor_limits.zero, events);
+            self.follow_zeros(config.sensor_limits.zero, &readings, events);
         }
         self.motion
             .step(&config.motion, self.contact, &sensed, events);
@@ -111,14 +111,21 @@ where
         readings
     }
 
-    /// Follows the zeros of sensors, where they are found by themselves.
+    /// Follows the zeros of sensors, where they are found by themselves. A whisker that is
+    /// deaf, as its motor is being homed, may lean against its stop.
     #[inline]
-    fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
-        let sides = self.sensors.iter_mut().zip(&self.felt);
-        for (side, (sensors, felt)) in sides.enumerate() {
-            for (w, (sensor, felt)) in sensors.iter_mut().zip(felt).enumerate() {
+    fn follow_zeros(
+        &mut self,
+        limits: ZeroLimits,
+        readings: &[[Reading; N]; S],
+        events: &mut impl FnMut(Event),
+    ) {
+        for (side, sensors) in self.sensors.iter_mut().enumerate() {
+            for (w, sensor) in sensors.iter_mut().enumerate() {
                 let place = Place::new(side as u8, w as u8);
-                sensor.follow_zero(|| felt.to_q24(), limits, place, events);
+                let is_calm =
+                    || readings[side][w].valid && self.felt[side][w].to_q24() < limits.calm;
+                sensor.follow_zero(is_calm, limits, place, events);
             }
         }
     }

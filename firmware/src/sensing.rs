@@ -165,11 +165,11 @@ impl<F: WordSource> Sensor<F> {
     }
 
     /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
-    /// by itself. `contact` is π, Q24; it is asked for only then.
+    /// by itself, and whether the whisker `is_calm` is asked.
     #[inline]
     pub fn follow_zero(
         &mut self,
-        contact: impl FnOnce() -> i32,
+        is_calm: impl FnOnce() -> bool,
         limits: ZeroLimits,
         place: Place,
         events: &mut impl FnMut(Event),
@@ -177,7 +177,7 @@ impl<F: WordSource> Sensor<F> {
         let Reading { x, y, valid, .. } = self.last;
         if valid
             && let Some(zero) = self.source.zero()
-            && let Some(codes) = zero.follow([x, y], contact() >= limits.calm, limits)
+            && let Some(codes) = zero.follow([x, y], is_calm(), limits)
         {
             events(Event::ZeroMoved(place, codes));
         }

@@ -54,15 +54,16 @@ impl Zero {
     }
 
     /// Takes words that [`out_of`](Self::out_of) has given into the silence, or begins it anew
-    /// where they are `of_touch`. Returns the zero where they end it, and have moved the zero.
+    /// where the whisker is not calm. Returns the zero where they end it, and have moved the
+    /// zero.
     #[inline]
     pub(crate) fn follow(
         &mut self,
         words: [Word; 2],
-        of_touch: bool,
+        is_calm: bool,
         limits: ZeroLimits,
     ) -> Option<[i16; 2]> {
-        if of_touch {
+        if !is_calm {
             (self.ticks, self.sums) = (0, [0; 2]);
             return None;
         }
@@ -136,7 +137,7 @@ mod tests {
         (0..ticks)
             .filter_map(|tick| {
                 let words = zero.out_of(at(codes.map(|code| code + swing(tick))));
-                zero.follow(words, false, LIMITS)
+                zero.follow(words, true, LIMITS)
             })
             .collect()
     }
@@ -147,7 +148,7 @@ mod tests {
         assert_eq!(pass(&mut zero, [60, -35], 99), [[0; 2]; 0]);
         assert_eq!(zero.codes(), [0, 0]);
         // The 100th ends a swing.
-        let last = zero.follow(at([-340, -435]), false, LIMITS);
+        let last = zero.follow(at([-340, -435]), true, LIMITS);
         assert_eq!(last, Some([60, -35]));
         assert_eq!(zero.out_of(at([60, -35])), at([0, 0]));
         assert_eq!(zero.out_of(at([-100, 100])), at([-160, 135]));
@@ -175,7 +176,7 @@ mod tests {
         let mut zero = Zero::default();
         for _ in 0..20 {
             assert_eq!(pass(&mut zero, [20, 20], 99), [[0; 2]; 0]);
-            assert_eq!(zero.follow(at([4000, 4000]), true, LIMITS), None);
+            assert_eq!(zero.follow(at([4000, 4000]), false, LIMITS), None);
         }
         assert_eq!(pass(&mut zero, [20, 20], 100), [[20, 20]]);
     }
@@ -200,8 +201,8 @@ mod tests {
         ) {
             let mut zero = Zero::default();
             let limits = ZeroLimits { ticks, calm: 0, most };
-            for (words, of_touch) in words {
-                zero.follow(words.map(Word::new), of_touch, limits);
+            for (words, is_calm) in words {
+                zero.follow(words.map(Word::new), is_calm, limits);
                 let codes = zero.codes();
                 let bound = i32::from(most) / 4 + 1;
                 prop_assert!(codes.iter().all(|code| i32::from(*code).abs() <= bound), "{codes:?}");

@@ -129,6 +129,8 @@ pub struct UnknownCommand {
 
 impl Command {
     /// Its number.
+    // Apart, as it takes a jump by a table wherever it is.
+    #[inline(never)]
     pub const fn number(self) -> u8 {
         match self {
             Self::Hello => 1,

@@ -125,19 +125,7 @@ pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
             break;
         }
     }
-    start_anew(line)
-}
-
-const fn written(well: bool) -> CommandStatus {
-    if well {
-        CommandStatus::Done
-    } else {
-        CommandStatus::NotWritten
-    }
-}
-
-/// Lets the last answer be fetched, and resets the chip.
-fn start_anew(mut line: Line<'_>) -> ! {
+    // Lets the last answer be fetched.
     for _ in 0..LAST_TICKS {
         if line.has_sent() {
             break;
@@ -146,6 +134,14 @@ fn start_anew(mut line: Line<'_>) -> ! {
     }
     cortex_m::asm::delay(LAST_BYTES_CYCLES);
     SCB::sys_reset();
+}
+
+const fn written(well: bool) -> CommandStatus {
+    if well {
+        CommandStatus::Done
+    } else {
+        CommandStatus::NotWritten
+    }
 }
 
 /// Has no interrupt wake the core but that of the tick: those of frames that were under way stay
