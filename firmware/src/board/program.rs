@@ -142,10 +142,10 @@ pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(),
         module.inner.arm(true);
     }
     module.inner.tick(module.settings, &mut |event| {
-        telemetry::note(&event);
         if put(event).is_err() {
             DROPPED.increment();
         }
+        telemetry::note(&event);
     });
     let now = TICKS.increment();
     if telemetry::is_busy() {

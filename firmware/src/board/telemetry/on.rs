@@ -423,14 +423,16 @@ impl PacketSink for Packets {
     fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
         // Within the ring, whatever a flipped bit has made of it.
         let next = self.next % PACKETS_COUNT;
-        if self.room.wrapping_sub(1) >= PACKETS_COUNT as u32 - 1 {
-            self.room = room_from(next);
-            if self.room == 0 {
+        let mut left = self.room.wrapping_sub(1);
+        if left >= PACKETS_COUNT as u32 - 1 {
+            let Some(found) = room_from(next).checked_sub(1) else {
+                self.room = 0;
                 return false;
-            }
+            };
+            left = found;
         }
         let following = (next + 1) % PACKETS_COUNT;
-        (self.next, self.room) = (following, self.room - 1);
+        (self.next, self.room) = (following, left);
         fill(&PACKETS[next]);
         UP.has_written((following * PACKET_BYTES) as u32);
         true
