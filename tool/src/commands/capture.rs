@@ -254,7 +254,8 @@ impl Capture {
                         self.progress.pause(|| report::warn(told));
                     }
                 }
-                if !counts {
+                // What has come with the last touch is heard too, lest it counts as lost.
+                if !counts || touches.felt.len() >= most {
                     continue;
                 }
                 self.tell(checks.sample(&sampled));
@@ -263,9 +264,6 @@ impl Capture {
                     self.first.get_or_insert_with(|| (now_s, Timestamp::now()));
                     self.done += 1;
                     self.progress.set(self.done);
-                    if touches.felt.len() >= most {
-                        break;
-                    }
                 }
             }
             if now_s - touched_s > self.patience_s {

@@ -18,20 +18,38 @@ struct Line {
     arguments: Arguments,
 }
 
+/// What a module is heard with.
+#[derive(Clone, Copy)]
+struct Around {
+    /// How fast the clock beside it runs.
+    clock: f64,
+    /// When somebody says that the sample lies there; 0: it is laid by the world.
+    laid_s: f64,
+    /// How much comes at once, as on a PC that is busy.
+    at_once: u32,
+}
+
+/// As it should be.
+const GOOD: Around = Around {
+    clock: 1.0,
+    laid_s: 0.0,
+    at_once: 1,
+};
+
 /// A module on a bad line.
 struct Bad {
     module: Box<dyn Source>,
     /// What becomes of each record.
     spoils: fn(&mut wire::TickRecord) -> bool,
-    /// How fast the clock beside it runs.
-    clock: f64,
-    /// When somebody says that the sample lies there; 0: it is laid by the world.
-    laid_s: f64,
+    around: Around,
 }
 
 impl Source for Bad {
     fn next(&mut self) -> Result<Heard, Error> {
-        let mut heard = self.module.next()?;
+        let mut heard = Heard::default();
+        for _ in 0..self.around.at_once {
+            heard.packets.extend(self.module.next()?.packets);
+        }
         heard.packets.retain_mut(|packet| match packet {
             Packet::Record(record) => (self.spoils)(record),
             Packet::Answer(_) => true,
@@ -52,15 +70,15 @@ impl Source for Bad {
     }
 
     fn is_laid(&mut self) -> Result<bool, Error> {
-        Ok(self.module.is_laid()? && self.module.now_s() >= self.laid_s)
+        Ok(self.module.is_laid()? && self.module.now_s() >= self.around.laid_s)
     }
 
     fn is_laid_by_hand(&mut self) -> bool {
-        self.laid_s > 0.0
+        self.around.laid_s > 0.0
     }
 
     fn now_s(&mut self) -> f64 {
-        self.clock * self.module.now_s()
+        self.around.clock * self.module.now_s()
     }
 
     fn duration_s(&self) -> Option<f64> {
@@ -77,8 +95,12 @@ impl Source for Bad {
 }
 
 /// Captures six touches of a carpet so; lines told, and the touches in each trial.
-fn captured(clock: f64, spoils: fn(&mut wire::TickRecord) -> bool) -> (usize, Vec<usize>) {
-    let (told, streams) = streams(&[], clock, 0.0, spoils);
+fn captured(
+    more: &[&str],
+    around: Around,
+    spoils: fn(&mut wire::TickRecord) -> bool,
+) -> (usize, Vec<usize>) {
+    let (told, streams) = streams(more, around, spoils);
     let of = |stream: &Stream| {
         let mut touches = stream.touch.clone().unwrap();
         touches.dedup();
@@ -91,8 +113,7 @@ fn captured(clock: f64, spoils: fn(&mut wire::TickRecord) -> bool) -> (usize, Ve
 /// With `more` options: lines told, and what is captured.
 fn streams(
     more: &[&str],
-    clock: f64,
-    laid_s: f64,
+    around: Around,
     spoils: fn(&mut wire::TickRecord) -> bool,
 ) -> (usize, Vec<Stream>) {
     let folder = tempfile::tempdir().unwrap();
@@ -114,8 +135,7 @@ fn streams(
     let source = Bad {
         module: arguments.source.open(0).unwrap(),
         spoils,
-        clock,
-        laid_s,
+        around,
     };
     let recording = Recording::open(&out, false).unwrap();
     let labels: Vec<&Label> = arguments.labels.iter().collect();
@@ -126,14 +146,24 @@ fn streams(
 
 #[test]
 fn a_good_line_has_nothing_to_be_told() {
-    assert_eq!(captured(1.0, |_| true), (0, vec![5, 1]));
+    assert_eq!(captured(&[], GOOD, |_| true), (0, vec![5, 1]));
+}
+
+#[test]
+fn what_comes_with_the_last_touch_of_a_label_is_not_lost() {
+    let more = ["--label", "smooth"];
+    let expected = captured(&more, GOOD, |_| true);
+    for at_once in [2, 7] {
+        let around = Around { at_once, ..GOOD };
+        assert_eq!(captured(&more, around, |_| true), expected);
+    }
 }
 
 #[test]
 fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_told() {
     // In the third touch: where it is cut another trial begins.
     let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
-    assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+    assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
 }
 
 #[test]
@@ -144,18 +174,25 @@ fn a_fault_costs_its_touch_and_is_told() {
         }
         true
     };
-    assert_eq!(captured(1.0, spoils), (2, vec![2, 4]));
+    assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
 }
 
 #[test]
 fn another_rate_is_told() {
-    assert_eq!(captured(1.05, |_| true).0, 1);
+    let around = Around {
+        clock: 1.05,
+        ..GOOD
+    };
+    assert_eq!(captured(&[], around, |_| true).0, 1);
 }
 
 #[test]
 fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() {
     // In a touch, and after a longer time than may pass without one.
-    let by_hand = |patience, laid_s| streams(&["--patience", patience], 1.0, laid_s, |_| true);
+    let by_hand = |patience, laid_s| {
+        let around = Around { laid_s, ..GOOD };
+        streams(&["--patience", patience], around, |_| true)
+    };
     let (told, streams) = by_hand("1", 2.05);
     assert_eq!((told, streams.len()), (0, 2));
     let [first, ..] = &streams[..] else { panic!() };
