@@ -5,7 +5,9 @@
 //!
 //! - **data set**: recordings of one rig under all its conditions.
 //! - **job**: what one recording comes of: a trial, a visit, a contact, a sweep.
-//! - **claim**: something that must come out of the mechanism.
+//! - **claim**: something that must come out of the mechanism, beyond noise.
+//! - **placebo**: the same with one texture at one place under all labels.
+//! - **change**: a rig of which some keys are other, beside it.
 //!
 //! A run records the data sets that the chosen experiments need, a job at a
 //! time on all cores, and then evaluates them. Recordings depend on the seed,
@@ -14,25 +16,29 @@
 
 mod biotact;
 mod costs;
+mod data;
 mod dataset;
 mod floors;
 mod lep10;
 mod lep12;
 mod matrix;
 mod picture;
+mod plan;
 mod pose;
 mod psik;
 mod record;
 mod recording;
 mod request;
 mod spectrogram;
+mod variants;
+mod verdicts;
 mod whole;
 
 pub use dataset::{Dataset, Job};
+pub use plan::{Files, Plan};
 pub use record::{jobs, record};
 pub use recording::{Recording, Recordings};
 pub use request::{Extent, Name, Request};
-pub use whole::report;
 
 #[cfg(test)]
 mod tests;

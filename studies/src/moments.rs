@@ -1,4 +1,4 @@
-//! Moments and ranges of numbers.
+//! Moments and ranges of numbers, and what several seeds say together.
 
 /// Mean and standard deviation; zeros of none.
 pub(crate) fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
@@ -13,4 +13,83 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     })
+}
+
+/// How sure an interval about a mean is: two-sided quantiles of Student's t of one, two, …
+/// degrees of freedom; more have the last.
+pub(crate) struct Sureness([f64; 9]);
+
+/// 95 %.
+pub(crate) const SURE: Sureness = Sureness([
+    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
+]);
+
+/// 99 %.
+pub(crate) const VERY_SURE: Sureness = Sureness([
+    63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250,
+]);
+
+/// What several seeds gave: their mean, and its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Summary {
+    pub(crate) mean: f64,
+    /// Zero of one seed, of which nobody knows it.
+    pub(crate) error: f64,
+    pub(crate) count: usize,
+}
+
+impl Summary {
+    /// Of these values.
+    pub(crate) fn of(values: &[f64]) -> Self {
+        let count = values.len();
+        let (mean, sd) = moments(values.iter().copied());
+        // Of the sample, and of its mean.
+        let freedom = count.saturating_sub(1).max(1) as f64;
+        let error = if count > 1 { sd / freedom.sqrt() } else { 0.0 };
+        Self { mean, error, count }
+    }
+
+    /// Half of the interval about the mean in which the truth is.
+    pub(crate) fn half_interval(&self, Sureness(quantiles): &Sureness) -> f64 {
+        let place = self.count.saturating_sub(2).min(quantiles.len() - 1);
+        quantiles[place] * self.error
+    }
+
+    /// The mean and its error, with so many digits behind the point.
+    pub(crate) fn text(&self, digits: usize, is_signed: bool) -> String {
+        // No minus before a zero.
+        let unit = 0.1_f64.powi(digits as i32);
+        let mean = if self.mean.abs() < 0.5 * unit {
+            0.0
+        } else {
+            self.mean
+        };
+        let mean = if is_signed {
+            format!("{mean:+.digits$}")
+        } else {
+            format!("{mean:.digits$}")
+        };
+        if self.count > 1 {
+            format!("{mean} ± {:.digits$}", self.error)
+        } else {
+            mean
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SURE, Summary};
+
+    #[test]
+    fn the_error_is_of_the_mean_and_the_interval_student_s() {
+        // Squares about 3: 4 + 1 + 0 + 1 + 4, over 4 and over 5.
+        let found = Summary::of(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!((found.mean - 3.0).abs() < 1e-12);
+        assert!((found.error - 0.5_f64.sqrt()).abs() < 1e-12, "{found:?}");
+        let half = found.half_interval(&SURE);
+        assert!((half - 2.776 * 0.5_f64.sqrt()).abs() < 1e-9);
+        assert_eq!(found.text(1, true), "+3.0 ± 0.7");
+        assert_eq!(Summary::of(&[-0.04]).text(1, false), "0.0");
+    }
 }

@@ -1,14 +1,25 @@
 //! A page in the making: text, tables, the pictures beside it, and what an
 //! experiment claims.
 
+mod figure;
+
 use std::fmt::{Display, Write};
 
 use host_sim::Error;
 use tactile::score::Confusion;
 
 use crate::chart::{Panel, draw};
+pub(crate) use figure::{figure, joined};
 
-/// Something that must come out, and whether it does.
+/// How well classes are told apart, and how well chance does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Told {
+    /// A hit rate in percent, or κ.
+    pub(crate) rate: f64,
+    pub(crate) chance: f64,
+}
+
+/// Something that must come out of one seed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
     /// What must come out.
@@ -17,10 +28,37 @@ pub(crate) struct Claim {
     pub(crate) paper: String,
     /// What we have.
     pub(crate) ours: String,
-    /// Whether it came out.
-    pub(crate) met: bool,
-    /// Where it did not: why, as measured.
-    pub(crate) why: String,
+    /// By how much it comes out; what is below zero is missing.
+    pub(crate) margin: f64,
+    /// Of the margin.
+    pub(crate) unit: &'static str,
+    /// What it rests on, where it rests on telling classes apart.
+    pub(crate) told: Option<Told>,
+}
+
+impl Claim {
+    /// One that does not rest on telling classes apart.
+    pub(crate) fn new(
+        what: impl Display,
+        paper: impl Display,
+        ours: impl Display,
+        (margin, unit): (f64, &'static str),
+    ) -> Self {
+        Self {
+            what: what.to_string(),
+            paper: paper.to_string(),
+            ours: ours.to_string(),
+            margin,
+            unit,
+            told: None,
+        }
+    }
+
+    /// The same that rests on such a rate, where chance has that.
+    pub(crate) fn told(self, rate: f64, chance: f64) -> Self {
+        let told = Some(Told { rate, chance });
+        Self { told, ..self }
+    }
 }
 
 /// A classifier's hit rate.
@@ -31,7 +69,15 @@ pub(crate) struct Score {
     /// On what.
     pub(crate) task: String,
     /// Hit rate, percent.
-    pub(crate) hit: f64,
+    pub(crate) told: Told,
+}
+
+/// What a picture shows.
+#[derive(Debug, Clone)]
+pub(crate) struct Shown {
+    /// Of the picture, without its ending.
+    pub(crate) name: String,
+    pub(crate) panels: Vec<Panel>,
 }
 
 /// Markdown and the files that it shows, by name.
@@ -43,6 +89,7 @@ pub(crate) struct Page {
     pub(crate) files: Vec<(String, String)>,
     pub(crate) claims: Vec<Claim>,
     pub(crate) scores: Vec<Score>,
+    pub(crate) shown: Vec<Shown>,
 }
 
 impl Page {
@@ -86,33 +133,25 @@ impl Page {
     /// Diagrams as a picture.
     pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
         self.picture(name, what, draw(panels)?);
+        self.shown.push(Shown {
+            name: name.trim_end_matches(".svg").to_owned(),
+            panels: panels.to_vec(),
+        });
         Ok(())
     }
 
-    /// Adds a claim.
-    pub(crate) fn claim(
+    /// Adds a classifier's score: its hit rate in percent, and that of chance.
+    pub(crate) fn score(
         &mut self,
-        what: impl Display,
-        paper: impl Display,
-        ours: impl Display,
-        met: bool,
-        why: impl Display,
+        classifier: &'static str,
+        task: impl Display,
+        hit: f64,
+        chance: f64,
     ) {
-        self.claims.push(Claim {
-            what: what.to_string(),
-            paper: paper.to_string(),
-            ours: ours.to_string(),
-            met,
-            why: why.to_string(),
-        });
-    }
-
-    /// Adds a classifier's score.
-    pub(crate) fn score(&mut self, classifier: &'static str, task: impl Display, hit: f64) {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
-            hit,
+            told: Told { rate: hit, chance },
         });
     }
 }
@@ -140,7 +179,7 @@ pub(crate) fn verdict(met: bool) -> &'static str {
 
 /// Percent without a digit behind the point, the paper's beside ours.
 pub(crate) fn beside(paper: f64, ours: f64) -> String {
-    format!("{paper:.0} / **{ours:.0}**")
+    format!("{paper:.0} / **{}**", figure(ours, 0))
 }
 
 /// Percent of the trials of a true class in which `named` was named.

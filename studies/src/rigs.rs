@@ -20,7 +20,7 @@ pub use floor::{Drive, Floor, RobotMotion};
 pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
 pub use module::PositionControl;
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
-pub use read::{Keys, OutOfRange, Rig, load, parse};
+pub use read::{Keys, OutOfRange, Rig, Setting, load, parse};
 pub use table::{Carriage, Table, facing};
 
 use host_sim::Error;
@@ -40,18 +40,48 @@ pub struct Rigs {
     pub corridor: Corridor,
 }
 
+/// The names of the rigs' files in a folder.
+fn names_in(folder: &Path) -> Result<Vec<String>, Error> {
+    let wrong = |error| Error::file(folder, error);
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(wrong)? {
+        let name = entry.map_err(wrong)?.file_name();
+        let name = name.to_string_lossy().into_owned();
+        if Path::new(&name).extension() == Some("toml".as_ref()) {
+            names.push(name);
+        }
+    }
+    Ok(names)
+}
+
 impl Rigs {
-    /// The rigs in `folder`, or those built in.
+    /// The rigs that are built in, with what files in `folder` say, and `settings` after them.
     ///
     /// # Errors
-    /// [`Error::Input`] names the file, the line and the key.
-    pub fn load(folder: Option<&Path>) -> Result<Self, Error> {
+    /// [`Error::Input`] names the file, the line and the key, or the setting.
+    pub fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
+        /// As settings name them.
+        const NAMES: [&str; 5] = ["floor", "head", "table", "pad", "corridor"];
+        let is_known = |setting: &&Setting| NAMES.contains(&setting.rig());
+        if let Some(unknown) = settings.iter().find(|setting| !is_known(setting)) {
+            return Err(Error::Input(format!(
+                "{}: unknown rig, allowed: {}",
+                unknown.rig(),
+                NAMES.join(", ")
+            )));
+        }
+        for name in folder.map(names_in).transpose()?.unwrap_or_default() {
+            if !NAMES.contains(&name.trim_end_matches(".toml")) {
+                let fault = format!("{name} is no rig, allowed: {}", NAMES.join(", "));
+                return Err(Error::file(folder.unwrap_or(Path::new("")), fault));
+            }
+        }
         Ok(Self {
-            floor: load(folder)?,
-            head: load(folder)?,
-            table: load(folder)?,
-            pad: load(folder)?,
-            corridor: load(folder)?,
+            floor: load(folder, settings)?,
+            head: load(folder, settings)?,
+            table: load(folder, settings)?,
+            pad: load(folder, settings)?,
+            corridor: load(folder, settings)?,
         })
     }
 }

@@ -15,8 +15,9 @@ pub fn sensor_code(reading: f64, most: f64) -> i16 {
 /// A sensor's settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorSettings {
-    /// Rotation of the base that reads as 1, rad, 1e-6 to 3; more saturates.
-    pub full_scale_rad: f64,
+    /// Rotation of the base that reads as 1 of x and of y, rad, 1e-6 to 3; more saturates.
+    /// The transfer curve of each axis is programmed by itself.
+    pub full_scale_rad: [f64; 2],
     /// Noise, root mean square, codes, 0 to 1000.
     pub noise_codes: f64,
     /// Time from one measurement to the next, s, 0 to 1; the value is held in
@@ -29,7 +30,7 @@ impl Default for SensorSettings {
     /// 0.15 rad (a choice: the transfer curve is programmable), 4 codes, 350 µs.
     fn default() -> Self {
         Self {
-            full_scale_rad: 0.15,
+            full_scale_rad: [0.15; 2],
             noise_codes: 4.0,
             refresh_s: 350e-6,
         }
@@ -43,7 +44,9 @@ impl SensorSettings {
     /// The first one that is not, by name.
     pub fn check(&self) -> Result<(), BadSetting> {
         let check = BadSetting::check;
-        check("full_scale_rad", self.full_scale_rad, 1e-6, 3.0)?;
+        for full_scale_rad in self.full_scale_rad {
+            check("full_scale_rad", full_scale_rad, 1e-6, 3.0)?;
+        }
         check("noise_codes", self.noise_codes, 0.0, 1000.0)?;
         check("refresh_s", self.refresh_s, 0.0, 1.0)?;
         Ok(())
@@ -96,8 +99,9 @@ impl Sensor {
         } else {
             0.0
         };
-        let scale = CODES / self.settings.full_scale_rad;
-        for (code, rotation) in self.codes.iter_mut().zip(rotation_rad) {
+        let axes = self.codes.iter_mut().zip(self.settings.full_scale_rad);
+        for ((code, full_scale_rad), rotation) in axes.zip(rotation_rad) {
+            let scale = CODES / full_scale_rad;
             let noise = self.settings.noise_codes * self.noise.next();
             *code = sensor_code(scale * rotation + noise, CODES);
         }
@@ -119,7 +123,7 @@ mod tests {
     use super::{Sensor, SensorSettings};
 
     const QUIET: SensorSettings = SensorSettings {
-        full_scale_rad: 0.2,
+        full_scale_rad: [0.2; 2],
         noise_codes: 0.0,
         refresh_s: 0.0,
     };

@@ -94,7 +94,7 @@ impl Tilted {
             },
             ..Config::default()
         };
-        let full_scale_rad = SensorSettings::default().full_scale_rad;
+        let [full_scale_rad, _] = SensorSettings::default().full_scale_rad;
         let scale = TiltScale::new(&config, full_scale_rad as f32)?;
         let slave = TmagSlave::new(Version::A1).with_noise(seed);
         let mut tilted = Self {

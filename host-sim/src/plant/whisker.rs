@@ -110,7 +110,7 @@ impl Elastic {
             return Err(BadSetting("stiffness"));
         };
         let sensor = SensorSettings {
-            full_scale_rad,
+            full_scale_rad: [full_scale_rad; 2],
             noise_codes: settings.noise_codes,
             ..SensorSettings::default()
         };

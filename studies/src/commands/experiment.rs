@@ -1,55 +1,78 @@
 //! `studies experiment`: records, evaluates and writes the page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use crate::experiment::{Extent, Name, Request, jobs, record, report};
-use crate::rigs::Rigs;
 use host_sim::Error;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 
+use crate::experiment::{Extent, Files, Name, Plan};
+
 /// How an experiment is run.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
-    /// Fewer trials, whisks, contacts, sweeps and runs; the same physics
+    /// Fewer trials, whisks, contacts, sweeps and runs, two seeds; the same physics, no changes
     #[arg(long)]
     pub quick: bool,
-    /// All chance comes from it
-    #[arg(long, default_value_t = 1)]
+    /// The first seed, of which all chance comes
+    #[arg(long, default_value_t = 101)]
     pub seed: u64,
-    /// The folder of the rigs' files (studies/rigs/*.toml); those built in if none
+    /// How many seeds, one after another: errors are of their mean
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(2..=1000), default_value_t = 5, default_value_if("quick", "true", "2"))]
+    pub seeds: u64,
+    /// A folder of rigs that differ: files as in studies/rigs, of the keys that are other
     #[arg(long, value_name = "DIR")]
     pub rigs: Option<PathBuf>,
-    /// Where to write
+    /// Sets a key of a rig, such as head.motor.kp=0.1; may be given again
+    #[arg(long, value_name = "RIG.KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Where to write the page and its pictures
     #[arg(long, value_name = "DIR", default_value = "out/experiments")]
     pub out: PathBuf,
+    /// Where to write the data of every figure, as CSV
+    #[arg(long, value_name = "DIR")]
+    pub data: Option<PathBuf>,
+    /// Keep every recording there, too: a hundred megabytes a seed
+    #[arg(long, requires = "data")]
+    pub recordings: bool,
 }
 
 /// Runs experiments. Writes `out/experiments.md` and its pictures. Returns what
 /// was done.
 ///
 /// # Errors
-/// [`Error::Input`] for a bad rig, [`Error::Work`], [`Error::Write`].
+/// [`Error::Input`] for a bad rig or setting, [`Error::Work`], [`Error::Write`].
 pub fn experiment(
     names: Vec<Name>,
     options: &Options,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let request = Request {
+    let settings = options.set.iter().map(|text| {
+        let wrong = |fault| Error::Input(format!("--set {text}: {fault}"));
+        text.parse().map_err(wrong)
+    });
+    let plan = Plan {
         names,
         extent: if options.quick {
             Extent::Quick
         } else {
             Extent::Full
         },
-        seed: options.seed,
-        rigs: Rigs::load(options.rigs.as_deref())?,
+        seeds: (options.seed, options.seeds),
+        rigs: options.rigs.clone(),
+        settings: settings.collect::<Result<_, _>>()?,
+        set: options.set.clone(),
+        keeps_recordings: options.recordings,
     };
-    let recordings = record(&request, &jobs(&request), verbosity)?;
-    let files = report(&request, &recordings)?;
-    for (name, text) in &files {
-        write_whole(&options.out.join(name), text.as_bytes())?;
-    }
+    let write = |folder: &Path, files: &Files| {
+        let mut all = files.iter();
+        all.try_for_each(|(name, text)| write_whole(&folder.join(name), text.as_bytes()))
+    };
+    let files = plan.run(verbosity, &mut |data| match &options.data {
+        Some(folder) => write(folder, data),
+        None => Ok(()),
+    })?;
+    write(&options.out, &files)?;
     let page = files.last().map_or("", |(name, _)| name);
     Ok(format!("{}", options.out.join(page).display()))
 }

@@ -6,6 +6,8 @@ use classifiers::Stationary;
 use serde::Deserialize;
 use tactile::{Sequential, Window};
 
+use super::whole::Bodies;
+use crate::moments::Summary;
 use crate::page::{Page, Score};
 use crate::paper::printed;
 
@@ -68,38 +70,47 @@ impl Form {
     }
 }
 
+/// The same score of every page.
+fn hits(pages: &[Page], n: usize) -> Summary {
+    let scores = pages.iter().filter_map(|page| page.scores.get(n));
+    let hits: Vec<f64> = scores.map(|score| score.told.rate).collect();
+    Summary::of(&hits)
+}
+
 /// The table of the scores.
-pub(super) fn section(page: &mut Page, scores: &[Score]) {
-    let rows: Vec<Vec<String>> = scores
-        .iter()
-        .map(|score| {
-            let form = FORMS
-                .iter()
-                .find(|form| form.classifier == score.classifier);
-            let instructions = form.and_then(Form::instructions);
-            let cell = |text: Option<String>| text.unwrap_or_else(|| "not counted".to_owned());
-            vec![
-                // |DFT| must not end the cell.
-                score.classifier.replace('|', "\\|"),
-                score.task.clone(),
-                format!("**{:.1}**", score.hit),
-                cell(instructions.map(|n| format!("{n:.0}"))),
-                cell(form.map(|form| form.bytes.0.bytes().to_string())),
-                cell(form.map(|form| form.bytes.1.to_string())),
-                form.map_or("", |form| &form.note).to_owned(),
-            ]
-        })
-        .collect();
+pub(super) fn section(page: &mut Page, bodies: &Bodies) {
+    let scores = bodies.pages.first().map_or(&[][..], |page| &page.scores);
+    let row = |(n, score): (usize, &Score)| {
+        let form = FORMS
+            .iter()
+            .find(|form| form.classifier == score.classifier);
+        let instructions = form.and_then(Form::instructions);
+        let cell = |text: Option<String>| text.unwrap_or_else(|| "not counted".to_owned());
+        vec![
+            // |DFT| must not end the cell.
+            score.classifier.replace('|', "\\|"),
+            score.task.clone(),
+            format!("**{}**", hits(&bodies.pages, n).text(1, false)),
+            hits(&bodies.placebos, n).text(1, false),
+            format!("{:.1}", score.told.chance),
+            cell(instructions.map(|n| format!("{n:.0}"))),
+            cell(form.map(|form| form.bytes.0.bytes().to_string())),
+            cell(form.map(|form| form.bytes.1.to_string())),
+            form.map_or("", |form| &form.note).to_owned(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = scores.iter().enumerate().map(row).collect();
     if rows.is_empty() {
         return;
     }
     page.heading(2, "Every classifier: how well, and at what cost");
     page.say(
         "Hit rate, instructions a sample on a Cortex-M4F (mean, composed of the kernels that \
-         `cargo xtask count` counts, without reading the sensor), bytes of state and of tables.",
+         `cargo xtask count` counts, without reading the sensor), bytes of state and of tables. \
+         The placebo is told apart by the same classifier.",
     );
     page.table(
-        "classifier | on | hit rate, % | instructions a sample | state, bytes | tables, bytes | ",
+        "classifier | on | hit rate, % | placebo, % | chance, % | instructions a sample | state, bytes | tables, bytes | ",
         rows,
     );
 }

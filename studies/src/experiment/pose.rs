@@ -7,12 +7,10 @@ mod scores;
 mod sets;
 mod tables;
 
-use super::dataset::Dataset;
-use super::record::on_other_rigs;
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::Page;
-use crate::paper::pose::{ROWS, TEXTURE_ALONE};
+use crate::page::{Claim, Page, figure};
+use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
 use host_sim::Error;
 use rules::{features, spectral, template};
 use scores::Scores;
@@ -32,9 +30,8 @@ pub(super) fn evaluate(
     page.say(format_args!(
         "A textured surface is carried into a fixed whisker (`studies/rigs/table.toml`): {} contacts to \
          train on and {} to test with, each every combination of angle, speed and texture once. \
-         Signals are x alone, as the paper's count of samples says. κ is Cohen's. That signals are \
-         aligned by their peaks and that the approach ends at a deflection of 0.05 was chosen \
-         after a first run; the paper's notch at the whisker's resonance is left out.",
+         Signals are x alone, as the paper's count of samples says. κ is Cohen's. The \
+         paper's notch at the whisker's resonance is left out.",
         sets.training.len(),
         sets.testing.len()
     ));
@@ -48,11 +45,13 @@ pub(super) fn evaluate(
     ];
     page.say(format_args!(
         "κ of texture alone, whatever the pose (one template a texture): template {:.2} / \
-         **{:.2}**, spectral template {:.2} / **{:.2}**.",
-        TEXTURE_ALONE[0], alone[0], TEXTURE_ALONE[1], alone[1]
+         **{}**, spectral template {:.2} / **{}**.",
+        TEXTURE_ALONE[0],
+        figure(alone[0], 2),
+        TEXTURE_ALONE[1],
+        figure(alone[1], 2)
     ));
-    let why = why(request, &sets)?;
-    claims(page, &rows, &why);
+    claims(page, &rows);
     for (name, scores) in [
         "template by sum of squares, 352 poses",
         "spectral template |DFT|, 352 poses",
@@ -61,66 +60,31 @@ pub(super) fn evaluate(
     .into_iter()
     .zip(rows)
     {
-        for (property, hit) in ["angle", "speed", "texture"].into_iter().zip(scores.hit()) {
-            page.score(name, property, hit);
+        let counts = [ANGLES_DEG.len(), SPEEDS_MM_S.2, TEXTURES.len()];
+        let properties = ["angle", "speed", "texture"].into_iter().zip(counts);
+        for ((property, classes), hit) in properties.zip(scores.hit()) {
+            page.score(name, property, hit, 100.0 / classes as f64);
         }
     }
     Ok(())
 }
 
-/// Largest deviation of a latency in the comparison below, s.
-const IRREGULAR_S: f64 = 0.15;
-
-/// Why the classifiers rank as they do, measured: the same contacts with a
-/// controller that is much less regular; and how much of the signal differs
-/// between textures.
-fn why(request: &Request, sets: &Sets) -> Result<String, Error> {
-    let (other, recordings) = on_other_rigs(request, Dataset::Table, |other| {
-        let table = &mut other.rigs.table;
-        table.latency_spread_s = IRREGULAR_S.min(table.latency_s);
-    })?;
-    let irregular = Sets::new(&other, &recordings);
-    let kappas = [
-        template(&irregular)?.kappa(),
-        spectral(&irregular)?.kappa(),
-        features(&irregular)?.together.kappa(),
-    ];
-    let text = |property: usize| {
-        let [a, b, c] = kappas.map(|kappa| kappa[property]);
-        format!("{a:.2}, {b:.2} and {c:.2}")
-    };
-    let share = sets.share_of_texture();
-    Ok(format!(
-        "the controller's latency here is within {:.0} ms of 300 ms, so that signals of the same \
-         pose line up; within {:.0} ms, κ of template, spectral template and features is {} for \
-         angle, {} for speed and {} for texture. Of the variance of all signals {:.1} % lies \
-         between textures at the same angle and speed",
-        1000.0 * request.rigs.table.latency_spread_s,
-        1000.0 * IRREGULAR_S,
-        text(0),
-        text(1),
-        text(2),
-        100.0 * share
-    ))
-}
-
-fn claims(page: &mut Page, rows: &[&Scores; 3], why: &str) {
+fn claims(page: &mut Page, rows: &[&Scores; 3]) {
     let kappas = rows.map(Scores::kappa);
-    let all = |property: usize| kappas.map(|kappa| kappa[property]);
     for (property, name, best) in [(0, "angle", 1), (2, "texture", 1), (1, "speed", 2)] {
-        let ours = all(property);
-        let paper = [0, 1, 2].map(|row: usize| ROWS[row].figures[property].kappa);
-        let most = ours.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let text = |kappas: [f64; 3]| {
-            let [a, b, c] = kappas;
-            format!("template {a:.2}, spectral {b:.2}, features {c:.2}")
-        };
-        page.claim(
-            format_args!("POSE: {} are best for {name}", ROWS[best].what),
-            text(paper),
-            text(ours),
-            ours[best] >= most,
-            why,
+        let ours = kappas.map(|kappa| kappa[property]);
+        let [a, b, c] = [0, 1, 2].map(|row: usize| ROWS[row].figures[property].kappa);
+        let others = (0..ours.len()).filter(|row| *row != best);
+        let others = others.map(|row| ours[row]).fold(f64::MIN, f64::max);
+        let [x, y, z] = ours.map(|kappa| figure(kappa, 2));
+        page.claims.push(
+            Claim::new(
+                format_args!("POSE: {} are best for {name}", ROWS[best].what),
+                format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
+                format_args!("template {x}, spectral {y}, features {z}"),
+                (ours[best] - others, "of κ"),
+            )
+            .told(ours[best], 0.0),
         );
     }
 }

@@ -3,7 +3,6 @@
 
 mod corridor;
 mod sweeps;
-mod why;
 
 use rayon::prelude::*;
 use tactile::score::Confusion;
@@ -14,12 +13,17 @@ use super::record::pad::PAPERS;
 use super::recording::{Recordings, of_set};
 use super::request::Request;
 use crate::chart::{Mark, linear};
-use crate::page::{Page, confusion, row};
+use crate::page::{Claim, Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
 use sweeps::{NAMES, Sweeps, hit, mean_hit};
+
+/// Chance of naming a sandpaper, percent.
+const CHANCE: f64 = 100.0 / PAPERS as f64;
+/// What counts as the paper's 90 to 95 %.
+const ENOUGH: f64 = FIG6_THREE_ARCS.0;
 
 /// Where each arc's vibrissae begin, and where the last ends.
 fn borders() -> Vec<usize> {
@@ -63,17 +67,16 @@ pub(super) fn evaluate(
     let mean = mean_hit(&TABLE_2);
     page.say(format_args!(
         "**Table 2**: all vibrissae; a row is the true paper, a column what was decided. Mean \
-         {mean:.1} % in the paper, **{:.1} %** here.",
-        hit(all)
+         {mean:.1} % in the paper, **{} %** here.",
+        figure(hit(all), 1)
     ));
     let paper = |truth: usize, named: usize| TABLE_2[truth][named];
     confusion(page, &NAMES, &paper, all);
     figures(page, &more, &single, &borders)?;
-    let why = why::section(page, request, &sweeps, &borders)?;
-    claims(page, &more, &why);
-    page.score("IMP and network 33–33–8", "eight sandpapers", hit(all));
-    corridor::section(page, request, recordings)?;
-    Ok(())
+    claims(page, &more);
+    let name = "IMP and network 33–33–8";
+    page.score(name, "eight sandpapers", hit(all), CHANCE);
+    corridor::section(page, request, recordings)
 }
 
 fn figures(
@@ -99,7 +102,9 @@ fn figures(
     let what = "Performance over the number of vibrissae";
     page.panels("psik-fig6.svg", what, &panels)?;
     let header: Vec<String> = (1..=ARCS.len()).map(|n| n.to_string()).collect();
-    let cells = more.iter().map(|score| format!("**{:.1}**", hit(score)));
+    let cells = more
+        .iter()
+        .map(|score| format!("**{}**", figure(hit(score), 1)));
     let line = row("hit rate, %", cells);
     page.table(&format!("arcs | {}", header.join(" | ")), [line]);
 
@@ -114,9 +119,9 @@ fn figures(
             let mut cells = vec![format!("{} ({:.0} mm)", arc + 1, ARCS[arc].1)];
             cells.extend((0..PAPERS).map(|class| {
                 let rate = score.hit_rate_of(class).unwrap_or(0.0);
-                format!("**{:.0}**", 100.0 * rate)
+                format!("**{}**", figure(100.0 * rate, 0))
             }));
-            cells.push(format!("**{:.1}**", hit(score)));
+            cells.push(format!("**{}**", figure(hit(score), 1)));
             cells
         })
         .collect();
@@ -125,31 +130,38 @@ fn figures(
     Ok(())
 }
 
-fn claims(page: &mut Page, more: &[Confusion], why: &str) {
+fn claims(page: &mut Page, more: &[Confusion]) {
     let rates: Vec<f64> = more.iter().map(hit).collect();
     let at = |arcs: usize| rates.get(arcs - 1).copied().unwrap_or(0.0);
-    page.claim(
-        "PSIK: more arcs help",
-        "quickly rising with the number of vibrissae",
-        format_args!(
-            "{:.1} % with one arc, {:.1} with two, {:.1} with three, {:.1} with all",
-            at(1),
-            at(2),
-            at(3),
-            at(8)
-        ),
-        at(2) > at(1) && at(3) > at(2) && at(8) > at(1),
-        why,
+    let [one, two, three, all] = [1, 2, 3, 8].map(at);
+    let text = |rate: f64| figure(rate, 1);
+    page.claims.push(
+        Claim::new(
+            "PSIK: more arcs help",
+            "quickly rising with the number of vibrissae",
+            format_args!(
+                "{} % with one arc, {} with two, {} with three, {} with all",
+                text(one),
+                text(two),
+                text(three),
+                text(all)
+            ),
+            ((two - one).min(three - two).min(all - one), "points"),
+        )
+        .told(all, CHANCE),
     );
-    page.claim(
-        "PSIK: 90 % or more from three arcs on",
-        format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
-        format_args!(
-            "{:.1} % with three, at least {:.1} % from there on",
-            at(3),
-            rates.iter().skip(2).copied().fold(100.0, f64::min)
-        ),
-        rates.iter().skip(2).all(|rate| *rate >= 90.0),
-        why,
+    let least = rates.iter().skip(2).copied().fold(100.0, f64::min);
+    page.claims.push(
+        Claim::new(
+            format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
+            format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
+            format_args!(
+                "{} % with three, at least {} % from there on",
+                text(three),
+                text(least)
+            ),
+            (least - ENOUGH, "points"),
+        )
+        .told(three, CHANCE),
     );
 }

@@ -64,16 +64,3 @@ pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<R
     })
     .map(|made| made.into_iter().collect())
 }
-
-/// Records one data set anew, on rigs that `change` has changed.
-pub(crate) fn on_other_rigs(
-    request: &Request,
-    dataset: Dataset,
-    change: impl FnOnce(&mut Request),
-) -> Result<(Request, Recordings), Error> {
-    let mut other = request.clone();
-    change(&mut other);
-    let jobs: Vec<Job> = all(dataset, other.extent).collect();
-    let recordings = record(&other, &jobs, Verbosity::Quiet)?;
-    Ok((other, recordings))
-}

@@ -55,10 +55,8 @@ impl Name {
 /// the physics is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// As much as the papers.
+    /// As much as the papers, but for PSIK: of that, as much over five seeds or so.
     Full,
-    /// What PSIK's comparisons of rigs within a full run have.
-    Reduced,
     /// The least with which an experiment can still fail.
     Quick,
 }
@@ -67,7 +65,7 @@ impl Extent {
     const fn pick(self, full: usize, quick: usize) -> usize {
         match self {
             Self::Full => full,
-            Self::Reduced | Self::Quick => quick,
+            Self::Quick => quick,
         }
     }
 
@@ -79,7 +77,7 @@ impl Extent {
 
     /// Whisking head: whisks of each condition (BIOTACT: 12).
     pub const fn whisks(self) -> usize {
-        self.pick(12, 8)
+        self.pick(12, 4)
     }
 
     /// Trials of natural motion.
@@ -89,23 +87,22 @@ impl Extent {
 
     /// XY table: every how-manieth angle and speed is used (POSE: all).
     pub const fn stride(self) -> usize {
-        self.pick(1, 2)
+        self.pick(1, 3)
     }
 
-    /// Fixed head: sweeps of each sandpaper to train on and to test with
-    /// (PSIK: 300 and 100).
+    /// Fixed head: sweeps of each sandpaper to train on and to test with (PSIK: 300 and
+    /// 100; five seeds have 200 and 50 together).
     pub const fn sweeps(self) -> (usize, usize) {
         match self {
-            Self::Full => (300, 100),
-            Self::Reduced => (30, 10),
-            Self::Quick => (15, 5),
+            Self::Full => (40, 10),
+            Self::Quick => (6, 2),
         }
     }
 
     /// Corridor: runs of each to train on (of these, to test with), and to
-    /// decide in (PSIK: 10, 3, 20).
+    /// decide in (PSIK: 10, 3, 20; five seeds have 20 to decide in together).
     pub const fn runs(self) -> (usize, usize, usize) {
-        (self.pick(10, 3), self.pick(3, 1), self.pick(20, 2))
+        (self.pick(10, 2), self.pick(3, 1), self.pick(4, 1))
     }
 }
 
@@ -120,9 +117,16 @@ pub struct Request {
     pub seed: u64,
     /// Where whiskers are and how they move.
     pub rigs: Rigs,
+    /// Whether all classes are one: same textures at the same place, under different labels.
+    pub is_placebo: bool,
 }
 
 impl Request {
+    /// The class that is recorded for `class`: itself, or that of all in a placebo.
+    pub(crate) const fn felt(&self, class: usize, of_placebo: usize) -> usize {
+        if self.is_placebo { of_placebo } else { class }
+    }
+
     /// A quick run on the rigs that are built in.
     #[cfg(test)]
     pub(crate) fn quick(names: &[Name], seed: u64) -> Self {
@@ -130,7 +134,8 @@ impl Request {
             names: names.to_vec(),
             extent: Extent::Quick,
             seed,
-            rigs: Rigs::load(None).unwrap(),
+            rigs: Rigs::load(None, &[]).unwrap(),
+            is_placebo: false,
         }
     }
 }

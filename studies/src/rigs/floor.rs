@@ -30,7 +30,7 @@ keys! {
     elevation_deg: f64 => -80.0..=-1.0,
     press_m: f64 => 0.0..=0.1,
     press_sd_m: f64 => 0.0..=0.1,
-    sink_m: [f64; 4] => 0.0..=0.1,
+    placements: usize => 1.0..=16.0,
     wobble_share: f64 => 0.0..=10.0,
     wobble_s: f64 => 1e-3..=1e3,
     turn_rad_s: f64 => 0.0..=20.0,
@@ -39,7 +39,7 @@ keys! {
     speed_s: f64 => 1e-3..=1e3,
     leg_least_s: f64 => 0.01..=1e3,
     leg_most_s: f64 => rig.leg_least_s..=1e3,
-    full_scale_rad: f64 => 1e-4..=3.0,
+    full_scale_rad: [f64; 2] => 1e-4..=3.0,
 }
 
 /// How the robot moves during a trial.
@@ -82,21 +82,12 @@ impl Floor {
         (self.trial_s * self.tick_hz).round() as usize
     }
 
-    /// A robot somewhere on a large floor with a whisker of `length_m`. The
-    /// floor is the one of that number in LEP10's tables; `height_m` is the root
-    /// mean square of its heights.
-    pub fn drive(
-        &self,
-        motion: RobotMotion,
-        length_m: f64,
-        ground: (usize, f64),
-        seed: u64,
-    ) -> Drive<'_> {
-        let (floor, height_m) = ground;
-        let sink = self.sink_m.get(floor).copied().unwrap_or(0.0);
+    /// A robot somewhere on a large floor with a whisker of `length_m`; `height_m` is the
+    /// root mean square of the floor's heights.
+    pub fn drive(&self, motion: RobotMotion, length_m: f64, height_m: f64, seed: u64) -> Drive<'_> {
         let mut chance = Chance::new(seed);
         let reach = length_m * libm::sin(-self.elevation_deg.to_radians());
-        let press = self.press_m + sink + self.press_sd_m * chance.normal();
+        let press = self.press_m + self.press_sd_m * chance.normal();
         let mut drive = Drive {
             rig: self,
             motion,
@@ -176,7 +167,7 @@ mod tests {
     use physics::vector::{add, cross, dot};
 
     fn calm() -> Floor {
-        let mut rig: Floor = load(None).unwrap();
+        let mut rig: Floor = load(None, &[]).unwrap();
         rig.press_sd_m = 0.0;
         rig.wobble_share = 0.0;
         rig.speed_share_sd = 0.0;
@@ -191,7 +182,7 @@ mod tests {
             (RobotMotion::Anticlockwise, 1.0),
             (RobotMotion::Clockwise, -1.0),
         ] {
-            let mut drive = rig.drive(motion, length, (0, 1e-3), 4);
+            let mut drive = rig.drive(motion, length, 1e-3, 4);
             let centre = [drive.place[0], drive.place[1], 0.0];
             let mut tips = Vec::new();
             for _ in 0..2000 {
@@ -207,10 +198,7 @@ mod tests {
             let (r, a) = (rig.mount_radius_m, rig.azimuth_deg.to_radians());
             let radius = (r * r + level * level + 2.0 * r * level * a.cos()).sqrt();
             for tip in &tips {
-                assert!(
-                    (tip[2] + rig.press_m + rig.sink_m[0]).abs() < 1e-12,
-                    "{tip:?}"
-                );
+                assert!((tip[2] + rig.press_m).abs() < 1e-12, "{tip:?}");
                 assert!((tip[0].hypot(tip[1]) - radius).abs() < 1e-12);
             }
             let angle = |tip: &[f64; 3]| tip[1].atan2(tip[0]);
@@ -222,7 +210,7 @@ mod tests {
     #[test]
     fn autonomous_motion_turns_both_ways_and_runs_forward() {
         let rig = calm();
-        let mut drive = rig.drive(RobotMotion::Autonomous, 0.2, (2, 1e-3), 9);
+        let mut drive = rig.drive(RobotMotion::Autonomous, 0.2, 1e-3, 9);
         let mut seen = [0_u32; 3];
         for _ in 0..rig.ticks() * 4 {
             drive.step();

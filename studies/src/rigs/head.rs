@@ -14,6 +14,7 @@ use super::module::{EACH, HeadModule, PositionControl, SIDES};
 use super::read::keys;
 use crate::refused::refused;
 use host_sim::Error;
+use physics::vector::add;
 use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Channels: x and y of every whisker, left side first.
@@ -30,6 +31,9 @@ keys! {
     base_back_m: [f64; EACH] => 0.0..=1.0,
     base_side_m: [f64; EACH] => 0.0..=1.0,
     placement_sd_m: f64 => 0.0..=0.1,
+    spot_spread_m: f64 => 0.0..=0.1,
+    pitch_deg: f64 => -60.0..=60.0,
+    smooth_bins: f64 => 0.0..=50.0,
     full_scale_rad: f64 => 1e-4..=3.0,
     motor: PositionControl,
 }
@@ -80,6 +84,26 @@ impl WhiskingHead {
         }
     }
 
+    /// The surface where the arm has brought it once, and the spot of it that whiskers meet.
+    fn placed(&self, visit: &Visit<'_>, chance: &mut Chance) -> Plate {
+        let (sine, cosine) = libm::sincos(self.pitch_deg.to_radians());
+        let distance_m = visit.distance_m + self.placement_sd_m * chance.normal();
+        let spread = self.spot_spread_m;
+        let along = [0.0, 1.0, 0.0];
+        let up = [sine, 0.0, cosine];
+        let aside = add(
+            [distance_m, 0.0, 0.0],
+            chance.between(-spread, spread),
+            along,
+        );
+        Plate {
+            point_m: add(aside, chance.between(-spread, spread), up),
+            normal: [-cosine, 0.0, sine],
+            along,
+            surface: *visit.surface,
+        }
+    }
+
     /// Whisks against a surface.
     ///
     /// # Errors
@@ -103,13 +127,8 @@ impl WhiskingHead {
         let mut module = HeadModule::new(&settings, &self.motor, self.gain, seed)?;
 
         let mut chance = Chance::new(seed_of(visit.seed, &[1]));
-        let distance = visit.distance_m + self.placement_sd_m * chance.normal();
-        let plate = Plate {
-            point_m: [distance, 0.0, 0.0],
-            normal: [-1.0, 0.0, 0.0],
-            along: [0.0, 1.0, 0.0],
-            surface: *visit.surface,
-        };
+        let mut plate = self.placed(visit, &mut chance);
+        let mut is_to_move = false;
         let mut whiskers = Vec::with_capacity(SIDES * EACH);
         for n in 0..SIDES * EACH {
             let seed = seed_of(visit.seed, &[2, n as u64]);
@@ -125,6 +144,12 @@ impl WhiskingHead {
                 module.feel(n, whisker.codes());
             }
             module.tick()?;
+            // Anew for each whisk, as soon as no whisker touches.
+            is_to_move |= tick % self.whisk_ticks() == 0;
+            if is_to_move && !whiskers.iter().any(TouchingWhisker::contact) {
+                plate = self.placed(visit, &mut chance);
+                is_to_move = false;
+            }
             let mut touching = [false; SIDES];
             let mut front = [0.0; SIDES];
             for (n, whisker) in whiskers.iter_mut().enumerate() {
@@ -161,7 +186,7 @@ mod tests {
     use physics::vector::{add, cross, dot};
 
     fn rig() -> WhiskingHead {
-        load(None).unwrap()
+        load(None, &[]).unwrap()
     }
 
     #[test]

@@ -34,6 +34,15 @@ keys! {
     max_deg: f64 => rig.min_deg..=360.0,
 }
 
+impl PositionControl {
+    /// How far a whisker may be off where friction holds it, degrees: τ_c over k_p k U/R.
+    pub fn dead_band_deg(&self) -> f64 {
+        let motor = MotorSettings::DEFAULT;
+        let full_nm = motor.torque_nm_per_a * motor.supply_v / motor.resistance_ohm;
+        motor.coulomb_nm / (self.kp * full_nm)
+    }
+}
+
 /// Full duty is allowed, and half of it counts as driven hard, as in a scene.
 const DUTY_LIMIT: f64 = 1.0;
 
@@ -223,6 +232,12 @@ mod tests {
         rcp: None,
         cia: None,
     };
+
+    #[test]
+    fn the_dead_band_is_where_friction_holds() {
+        // 3e-5 N·m of friction over 0.05 · 2.5e-3 · 6 / 25 N·m a degree.
+        assert!((CONTROL.dead_band_deg() - 1.0).abs() < 1e-12);
+    }
 
     /// At rest the duty k_p e balances load and friction: the drive is
     /// k U/R · k_p e at the rotor, so that a load of τ leaves an error between

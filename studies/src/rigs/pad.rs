@@ -142,7 +142,7 @@ mod tests {
     use physics::vector::{add, cross, dot};
 
     fn rig() -> Pad {
-        load(None).unwrap()
+        load(None, &[]).unwrap()
     }
 
     #[test]

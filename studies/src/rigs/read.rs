@@ -1,12 +1,14 @@
-//! Reading a rig's file: an unknown, missing or mistyped key and a value out
-//! of range are errors that name the file, the line and the key.
+//! Reading a rig: the keys that are built in, in whose place come those of a file that holds
+//! what differs, and in theirs those that are set by name. An unknown or mistyped key and a
+//! value out of range are errors that name the file, the line and the key.
 
 use std::ops::RangeInclusive;
 use std::path::Path;
-
-use serde::de::DeserializeOwned;
+use std::str::FromStr;
 
 use host_sim::Error;
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
 
 /// A number of a rig that is out of its range: its key, and what is wrong.
 pub type OutOfRange = (&'static str, String);
@@ -31,8 +33,55 @@ impl Keys for bool {
 pub trait Rig: Keys {
     /// The name of its file.
     const FILE: &'static str;
-    /// The text that is used where no folder is given.
+    /// The values of all keys where nothing else is said.
     const DEFAULT: &'static str;
+}
+
+/// A key that is set by name, such as `head.motor.kp=0.2`: its rig, where in that it is, and
+/// its value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    path: Vec<String>,
+    value: Value,
+    /// As it was written.
+    text: String,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let allowed = "allowed: RIG.KEY=VALUE, such as head.motor.kp=0.2";
+        let (key, value) = text.split_once('=').ok_or(allowed)?;
+        let path: Vec<String> = key.trim().split('.').map(str::to_owned).collect();
+        if path.len() < 2 {
+            return Err(allowed.to_owned());
+        }
+        let document: Table = toml::from_str(&format!("value = {}", value.trim()))
+            .map_err(|error| format!("{}; {allowed}", error.message().replace('\n', " ")))?;
+        let value = document.get("value").cloned().ok_or(allowed)?;
+        Ok(Self {
+            path,
+            value,
+            text: text.to_owned(),
+        })
+    }
+}
+
+impl Setting {
+    /// The rig that it is a key of.
+    pub fn rig(&self) -> &str {
+        self.path.first().map_or("", String::as_str)
+    }
+
+    /// As a rig's file has it.
+    fn table(&self) -> Table {
+        let keys = self.path.iter().skip(1).rev();
+        let nested = keys.fold(self.value.clone(), |value, key| {
+            Value::Table(Table::from_iter([(key.clone(), value)]))
+        });
+        nested.as_table().cloned().unwrap_or_default()
+    }
 }
 
 /// A key's value, as the numbers that must be in its range.
@@ -109,40 +158,93 @@ macro_rules! keys {
 }
 pub(super) use keys;
 
-/// The rig in `folder`, or the one built in.
-///
-/// # Errors
-/// [`Error::Input`].
-pub fn load<R: Rig>(folder: Option<&Path>) -> Result<R, Error> {
-    let Some(folder) = folder else {
-        return parse(Path::new(R::FILE), R::DEFAULT);
-    };
-    let path = folder.join(R::FILE);
-    let text = std::fs::read_to_string(&path).map_err(|error| Error::file(&path, error))?;
-    parse(&path, &text)
-}
+/// What is wrong with a key.
+type Fault = (String, String);
 
-/// A rig from its text; `path` is for the messages.
-///
-/// # Errors
-/// [`Error::Input`].
-pub fn parse<R: Rig>(path: &Path, text: &str) -> Result<R, Error> {
-    let rig: R = toml::from_str(text).map_err(|error| {
-        let at = error.span().map_or(0, |span| span.start);
-        let line = 1 + text.bytes().take(at).filter(|byte| *byte == b'\n').count();
-        let message = error.message().replace('\n', " ");
-        Error::file(path, format_args!("line {line}: {message}"))
-    })?;
-    match rig.check() {
-        Ok(()) => Ok(rig),
-        Err((key, fault)) => {
-            let line = line_of(text, key);
-            Err(Error::file(
-                path,
-                format_args!("line {line}: {key}: {fault}"),
-            ))
+/// Puts what `top` has in the place of what `base` has; both name the same things.
+fn overlay(base: &mut Table, top: Table) -> Result<(), Fault> {
+    for (key, value) in top {
+        let Some(place) = base.get_mut(&key) else {
+            let known: Vec<&str> = base.keys().map(String::as_str).collect();
+            let fault = format!("unknown key, allowed: {}", known.join(", "));
+            return Err((key, fault));
+        };
+        match (place, value) {
+            (Value::Table(inner), Value::Table(value)) => overlay(inner, value)?,
+            (place, value) => {
+                *place = alike(place, value).map_err(|fault| (key, fault))?;
+            }
         }
     }
+    Ok(())
+}
+
+/// The value, as the kind of `place`: a whole number will do for any.
+fn alike(place: &Value, value: Value) -> Result<Value, String> {
+    match (place, value) {
+        (Value::Float(_), Value::Integer(whole)) => Ok(Value::Float(whole as f64)),
+        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
+            let values = old.iter().zip(new);
+            let values: Result<Vec<Value>, String> =
+                values.map(|(old, new)| alike(old, new)).collect();
+            values.map(Value::Array)
+        }
+        (place, value) if place.same_type(&value) && !place.is_array() => Ok(value),
+        (place, value) => Err(format!("found {value}, allowed what is like {place}")),
+    }
+}
+
+/// The rig that is built in, with what the file in `folder` says, if there is one, and with
+/// those of `settings` that are its keys.
+///
+/// # Errors
+/// [`Error::Input`].
+pub fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Error> {
+    let path = folder.map(|folder| folder.join(R::FILE));
+    let there = path.filter(|path| path.exists());
+    let text = match &there {
+        Some(path) => std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?,
+        None => String::new(),
+    };
+    let path = there.as_deref().unwrap_or(Path::new(R::FILE));
+    parse(path, &text, settings)
+}
+
+/// A rig from the text of its file, which has what differs, and from settings; `path` is for
+/// the messages.
+///
+/// # Errors
+/// [`Error::Input`].
+pub fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R, Error> {
+    let at = |line: usize, fault: String| Error::file(path, format_args!("line {line}: {fault}"));
+    let mut keys: Table = toml::from_str(R::DEFAULT).map_err(|error| at(1, error.to_string()))?;
+    let own: Table = toml::from_str(text).map_err(|error: toml::de::Error| {
+        let at_byte = error.span().map_or(0, |span| span.start);
+        let before = text.bytes().take(at_byte);
+        let line = 1 + before.filter(|byte| *byte == b'\n').count();
+        at(line, error.message().replace('\n', " "))
+    })?;
+    let of_file = |(key, fault): Fault| at(line_of(text, &key), format!("{key}: {fault}"));
+    overlay(&mut keys, own).map_err(of_file)?;
+    check::<R>(&keys).map_err(of_file)?;
+    let name = R::FILE.trim_end_matches(".toml");
+    for setting in settings.iter().filter(|setting| setting.rig() == name) {
+        let wrong = |(_, fault): Fault| Error::Input(format!("{}: {fault}", setting.text));
+        overlay(&mut keys, setting.table()).map_err(wrong)?;
+        check::<R>(&keys).map_err(wrong)?;
+    }
+    check(&keys).map_err(of_file)
+}
+
+/// The rig of these keys, all in range.
+fn check<R: Rig>(keys: &Table) -> Result<R, Fault> {
+    let rig: R = keys
+        .clone()
+        .try_into()
+        .map_err(|error: toml::de::Error| (String::new(), error.message().replace('\n', " ")))?;
+    let wrong = |(key, fault): OutOfRange| (key.to_owned(), fault);
+    rig.check().map_err(wrong)?;
+    Ok(rig)
 }
 
 /// The line on which `key` is set.
@@ -157,40 +259,97 @@ fn line_of(text: &str, key: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rig, parse};
-    use crate::rigs::Floor;
+    use super::{Rig, Setting, load, parse};
+    use crate::rigs::{Corridor, Floor, Pad, Table, WhiskingHead};
     use std::path::Path;
 
     fn fault(text: &str) -> String {
-        parse::<Floor>(Path::new("x.toml"), text)
-            .unwrap_err()
-            .to_string()
+        let found = parse::<Floor>(Path::new("x.toml"), text, &[]);
+        found.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_file_holds_what_differs_and_settings_come_last() {
+        let plain: Floor = load(None, &[]).unwrap();
+        let settings = ["floor.press_m=0.01", "head.gain=2"].map(|text| text.parse().unwrap());
+        let text = "press_m = 0.02\nturn_rad_s = 1\n";
+        let found: Floor = parse(Path::new("x.toml"), text, &settings).unwrap();
+        assert_eq!((found.press_m, found.turn_rad_s), (0.01, 1.0));
+        let same = Floor {
+            press_m: plain.press_m,
+            turn_rad_s: plain.turn_rad_s,
+            ..found
+        };
+        assert_eq!(same, plain);
+        let motor: Setting = "head.motor.kp=0.3".parse().unwrap();
+        let head: WhiskingHead = load(None, &[motor]).unwrap();
+        assert_eq!(head.motor.kp, 0.3);
     }
 
     #[test]
     fn faults_name_file_line_and_key() {
-        let changed = |from: &str, to: &str| {
-            assert!(Floor::DEFAULT.contains(from), "{from}");
-            Floor::DEFAULT.replace(from, to)
-        };
-        let line = 1 + Floor::DEFAULT
-            .lines()
-            .position(|line| line.starts_with("azimuth_deg"))
-            .unwrap();
-        let wrong = fault(&changed("azimuth_deg", "azimut_deg"));
+        let wrong = fault("# a robot\nazimut_deg = 3.0\n");
         assert!(
-            wrong.starts_with(&format!("x.toml: line {line}:")),
+            wrong.starts_with("x.toml: line 2: azimut_deg: unknown key, allowed: azimuth_deg"),
             "{wrong}"
         );
-        assert!(wrong.contains("azimut_deg"), "{wrong}");
-        let wide = fault(&Floor::DEFAULT.replace("azimuth_deg   = 45.0", "azimuth_deg = 200.0"));
+        let wide = fault("\nazimuth_deg   = 200.0\n");
         assert_eq!(
             wide,
-            format!("x.toml: line {line}: azimuth_deg: found 200, allowed -90 to 90")
+            "x.toml: line 2: azimuth_deg: found 200, allowed -90 to 90"
         );
-        let missing = fault("tick_hz = 2000.0\n");
-        assert!(missing.contains("missing"), "{missing}");
-        let nan = fault(&Floor::DEFAULT.replace("azimuth_deg   = 45.0", "azimuth_deg = nan"));
-        assert!(nan.contains("NaN"), "{nan}");
+        assert!(fault("azimuth_deg = nan").contains("NaN"));
+        let typed = fault("press_m = \"deep\"");
+        assert_eq!(
+            typed,
+            "x.toml: line 1: press_m: found \"deep\", allowed what is like 0.008"
+        );
+        assert!(fault("full_scale_rad = [1.0]").contains("allowed what is like ["));
+        assert!(fault("press_m =").starts_with("x.toml: line 1: "));
+    }
+
+    /// What stands beside a key: behind it, in the lines below it that go on, and in those above
+    /// it since the last that is no comment.
+    fn comment(lines: &[&str], key: usize) -> String {
+        let is_comment = |line: &&&str| line.starts_with('#');
+        let above = lines[..key].iter().rev().take_while(is_comment);
+        let goes_on = |line: &&&str| line.starts_with(' ') && line.trim_start().starts_with('#');
+        let below = lines[key + 1..].iter().take_while(goes_on);
+        let behind = lines[key].split_once('#').map_or("", |(_, behind)| behind);
+        let all = above.chain(below).copied().chain([behind]);
+        all.collect::<Vec<_>>().join(" ")
+    }
+
+    #[test]
+    fn every_value_has_its_source_or_was_chosen() {
+        const SOURCES: [&str; 6] = ["chosen", "section", "eq.", "Table", "BIOTACT", "\""];
+        for text in [
+            Floor::DEFAULT,
+            WhiskingHead::DEFAULT,
+            Table::DEFAULT,
+            Pad::DEFAULT,
+            Corridor::DEFAULT,
+        ] {
+            let lines: Vec<&str> = text.lines().collect();
+            let is_key = |line: &str| line.starts_with(|first: char| first.is_ascii_lowercase());
+            for n in (0..lines.len()).filter(|n| is_key(lines[*n])) {
+                // Keys that stand together share what is above the first.
+                let first = (0..=n).rev().take_while(|n| is_key(lines[*n])).last();
+                let beside = [n, first.unwrap_or(n)].map(|n| comment(&lines, n)).concat();
+                let has_source = SOURCES.iter().any(|source| beside.contains(source));
+                assert!(has_source, "{}", lines[n]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_setting_that_is_none_is_told() {
+        for text in ["press_m=1", "floor.press_m", "floor.press_m=deep"] {
+            let wrong = text.parse::<Setting>().unwrap_err();
+            assert!(wrong.contains("allowed: RIG.KEY=VALUE"), "{wrong}");
+        }
+        let unknown: Setting = "floor.depth=1".parse().unwrap();
+        let wrong = load::<Floor>(None, &[unknown]).unwrap_err().to_string();
+        assert!(wrong.starts_with("floor.depth=1: unknown key"), "{wrong}");
     }
 }

@@ -21,6 +21,9 @@ keys! {
     retract_m_s: f64 => 0.001..=10.0,
     acceleration_m_s2: f64 => 0.1..=1000.0,
     half_window: usize => 1.0..=1e6,
+    spot_spread_m: f64 => 0.0..=0.1,
+    roll_deg: f64 => -60.0..=60.0,
+    high_pass_hz: f64 => 0.0..=200.0,
     full_scale_rad: f64 => 1e-4..=3.0,
 }
 
@@ -51,10 +54,13 @@ impl Carriage {
 }
 
 /// The surface's normal towards the whisker and the direction along it, for a
-/// surface at `angle_deg` that travels towards +x (`way` = 1) or −x (−1).
-pub fn facing(angle_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
+/// surface at `angle_deg` that travels towards +x (`way` = 1) or −x (−1), turned by
+/// `roll_deg` about its way.
+pub fn facing(angle_deg: f64, roll_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
     let (sine, cosine) = libm::sincos(angle_deg.to_radians());
-    ([way * sine, 0.0, -cosine], [way * cosine, 0.0, sine])
+    let (aside, upright) = libm::sincos(roll_deg.to_radians());
+    let rolled = |x: f64, z: f64| [x, -aside * z, upright * z];
+    (rolled(way * sine, -cosine), rolled(way * cosine, sine))
 }
 
 #[cfg(test)]
@@ -82,12 +88,18 @@ mod tests {
     fn the_surface_faces_the_whisker_and_its_way() {
         for angle in [10.0, 45.0, 80.0] {
             for way in [1.0, -1.0] {
-                let (normal, along) = facing(angle, way);
+                let (normal, along) = facing(angle, 0.0, way);
                 assert!(dot(normal, along).abs() < 1e-15);
                 assert!(normal[2] < 0.0 && normal[0] * way > 0.0);
                 // Between the surface and the way: the angle itself.
                 let between = (dot(along, [way, 0.0, 0.0])).acos().to_degrees();
                 assert!((between - angle).abs() < 1e-9);
+                // A roll keeps both, and slopes the surface towards the sensor's y.
+                let (rolled, its_way) = facing(angle, 20.0, way);
+                assert!(dot(rolled, its_way).abs() < 1e-15);
+                assert!((rolled[0] - normal[0]).abs() < 1e-15);
+                let slope = (rolled[1] / -rolled[2]).atan().to_degrees();
+                assert!((slope - 20.0).abs() < 1e-9, "{slope}");
             }
         }
     }

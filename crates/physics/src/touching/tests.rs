@@ -10,7 +10,7 @@ use crate::{Material, Plate, Pose, SensorSettings, Shaft, Surface};
 pub(super) const DT: f64 = 5e-4;
 
 pub(super) const QUIET: SensorSettings = SensorSettings {
-    full_scale_rad: 0.5,
+    full_scale_rad: [0.5; 2],
     noise_codes: 0.0,
     refresh_s: 0.0,
 };

@@ -1,7 +1,7 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
 use classifiers::StationaryRule;
-use classifiers::recogniser::{Bayes, Picked, Recogniser, first_outcome, pick};
+use classifiers::recogniser::{Bayes, Recogniser, first_outcome};
 use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
@@ -9,7 +9,6 @@ use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::moments::range;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
@@ -64,6 +63,16 @@ impl Task {
         }
     }
 
+    /// The hit rate of chance, percent.
+    pub(super) const fn chance(self) -> f64 {
+        let classes = match self {
+            Self::Both => TEXTURES.len() * DISTANCES_MM.len(),
+            Self::Texture => TEXTURES.len(),
+            Self::Distance => DISTANCES_MM.len(),
+        };
+        100.0 / classes as f64
+    }
+
     /// The class of a condition.
     const fn class(self, texture: usize, distance: usize) -> usize {
         match self {
@@ -86,6 +95,8 @@ pub(super) struct Visits {
     /// `[strategy][whisk number]`: one whisk of each condition.
     whisks: Vec<Vec<Vec<Whisk>>>,
     ticks: usize,
+    /// Of naive Bayes.
+    options: Options,
 }
 
 impl Visits {
@@ -109,7 +120,15 @@ impl Visits {
                 }
             }
         }
-        Self { whisks, ticks }
+        let options = Options {
+            smooth: request.rigs.head.smooth_bins,
+            ..Options::default()
+        };
+        Self {
+            whisks,
+            ticks,
+            options,
+        }
     }
 
     fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
@@ -127,17 +146,9 @@ impl Visits {
         split: Split<'_>,
     ) -> Result<f64, Error> {
         match method {
-            Method::Bayes => self.bayes(&ALL, Options::default(), task, strategy, split),
+            Method::Bayes => self.bayes(task, strategy, split),
             Method::Template => self.template(task, strategy, split),
         }
-    }
-
-    /// The least and most code of a channel over some whisks of a strategy.
-    pub(super) fn range(&self, strategy: usize, numbers: &[usize], channel: usize) -> (f64, f64) {
-        let whisks = self.some(strategy, numbers);
-        let codes =
-            whisks.flat_map(|(_, _, samples)| samples.iter().skip(channel).step_by(CHANNELS));
-        range(codes.copied())
     }
 
     fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {
@@ -152,35 +163,29 @@ impl Visits {
         Ok(share(&mut templates.recogniser(), task, validation))
     }
 
-    /// The same of naive Bayes on some channels and with other options.
-    pub(super) fn bayes(
+    fn bayes(
         &self,
-        picked: &[usize],
-        options: Options,
         task: Task,
         strategy: usize,
         (training, validation): Split<'_>,
     ) -> Result<f64, Error> {
-        let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
+        let mut trainer = Trainer::new(CHANNELS, self.options).map_err(refused)?;
         // Classes are numbered as they first appear: put them in order.
         let mut sorted: Vec<&Whisk> = self.some(strategy, training).collect();
         sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
         for (texture, distance, samples) in sorted {
             let name = format!("class {}", task.class(*texture, *distance));
-            for sample in pick(samples, CHANNELS, picked).chunks_exact(picked.len()) {
+            for sample in samples.chunks_exact(CHANNELS) {
                 trainer.add(&name, sample).map_err(refused)?;
             }
         }
         let buf = trainer.train().map_err(refused)?;
         let model = buf.view();
-        let bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
+        let mut bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
         let validation = self.some(strategy, validation);
-        Ok(share(&mut Picked::new(bayes, picked), task, validation))
+        Ok(share(&mut bayes, task, validation))
     }
 }
-
-/// Every channel.
-pub(super) const ALL: [usize; CHANNELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 fn share<'w>(
     recogniser: &mut impl Recogniser,

@@ -4,7 +4,6 @@ use crate::experiment::dataset::Dataset;
 use crate::experiment::record::table::{Contact, contacts};
 use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::paper::pose::TEXTURES;
 use crate::rigs::{Chance, seed_of};
 
 /// A contact and x, sample by sample.
@@ -24,10 +23,11 @@ impl Sets {
         let contacts = contacts(request.extent);
         let poses = contacts.len() / 2;
         let mut chance = Chance::new(seed_of(request.seed, &[20]));
+        let table = &request.rigs.table;
         let mut sets = Self {
             training: Vec::new(),
             testing: Vec::new(),
-            rate_hz: request.rigs.table.tick_hz,
+            rate_hz: table.tick_hz,
         };
         for pose in 0..poses {
             let first = chance.among(2);
@@ -37,7 +37,8 @@ impl Sets {
                     continue;
                 };
                 let samples = recording.part(0, recording.len()).iter();
-                let x = samples.step_by(2).map(|x| f64::from(*x)).collect();
+                let x: Vec<f64> = samples.step_by(2).map(|x| f64::from(*x)).collect();
+                let x = without_below(&x, table.high_pass_hz, table.tick_hz);
                 if time == first {
                     sets.training.push((*contact, x));
                 } else {
@@ -47,33 +48,45 @@ impl Sets {
         }
         sets
     }
+}
 
-    /// The share of the variance of all signals that lies between textures at
-    /// the same angle and speed.
-    pub(super) fn share_of_texture(&self) -> f64 {
-        let mean_of = |signals: &[&Vec<f64>]| -> Vec<f64> {
-            let length = signals.first().map_or(0, |x| x.len());
-            let mut mean = vec![0.0; length];
-            for x in signals {
-                for (mean, x) in mean.iter_mut().zip(x.iter()) {
-                    *mean += x / signals.len() as f64;
-                }
-            }
-            mean
-        };
-        let square = |x: &[f64], mean: &[f64]| -> f64 {
-            x.iter().zip(mean).map(|(x, m)| (x - m) * (x - m)).sum()
-        };
-        let all: Vec<&Vec<f64>> = self.training.iter().map(|(_, x)| x).collect();
-        let grand = mean_of(&all);
-        let total: f64 = all.iter().map(|x| square(x, &grand)).sum();
-        // Contacts of a pose stand together, its textures one after another.
-        let mut within = 0.0;
-        for pose in self.training.chunks(TEXTURES.len()) {
-            let signals: Vec<&Vec<f64>> = pose.iter().map(|(_, x)| x).collect();
-            let mean = mean_of(&signals);
-            within += signals.iter().map(|x| square(x, &mean)).sum::<f64>();
+/// A signal without its harmonics below `hz`, as POSE sets X to zero below 6 Hz (eq. 5).
+fn without_below(x: &[f64], hz: f64, rate_hz: f64) -> Vec<f64> {
+    let mut left = x.to_vec();
+    let count = x.len() as f64;
+    let mut harmonic = 0.0;
+    while harmonic * rate_hz / count < hz {
+        let angle = core::f64::consts::TAU * harmonic / count;
+        let wave = |n: usize| libm::sincos(angle * n as f64);
+        let mut sums = [0.0; 2];
+        for (n, x) in x.iter().enumerate() {
+            let (sine, cosine) = wave(n);
+            sums[0] += x * sine;
+            sums[1] += x * cosine;
         }
-        within / total.max(f64::MIN_POSITIVE)
+        let share = if harmonic > 0.0 { 2.0 } else { 1.0 } / count;
+        for (n, left) in left.iter_mut().enumerate() {
+            let (sine, cosine) = wave(n);
+            *left -= share * (sums[0] * sine + sums[1] * cosine);
+        }
+        harmonic += 1.0;
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_below;
+
+    #[test]
+    fn what_is_below_goes_and_the_rest_stays() {
+        let wave =
+            |hz: f64| move |n: i32| libm::sin(core::f64::consts::TAU * hz * f64::from(n) / 1e3);
+        let (slow, fast) = (wave(5.0), wave(6.0));
+        let both: Vec<f64> = (0..1000).map(|n| 3.0 + slow(n) + fast(n)).collect();
+        let left = without_below(&both, 6.0, 1e3);
+        let error = (0..1000).map(|n| (left[n as usize] - fast(n)).abs());
+        assert!(error.fold(0.0, f64::max) < 1e-9);
+        assert_eq!(without_below(&both, 0.0, 1e3), both);
     }
 }

@@ -3,31 +3,31 @@
 use tactile::score::{Confusion, Statistics};
 
 use super::scores::Scores;
-use crate::page::Page;
+use crate::page::{Page, figure};
 use crate::paper::pose::{Figure, ROWS, TEXTURE_FEATURES, TEXTURES};
 
 /// κ and errors of the three classifiers.
 pub(super) fn main(page: &mut Page, rows: &[&Scores; 3]) {
-    let errors = |figure: Figure, ours: Option<Statistics>| {
+    let errors = |paper: Figure, ours: Option<Statistics>| {
         let ours = ours.map_or("none".to_owned(), |s| {
-            format!("**{:.2} ± {:.1}**", s.mean, s.sd)
+            format!("**{} ({})**", figure(s.mean, 2), figure(s.sd, 1))
         });
-        format!("{:.2} ± {:.1} / {ours}", figure.mean, figure.spread)
+        format!("{:.2} ({:.1}) / {ours}", paper.mean, paper.spread)
     };
     let lines = ROWS.iter().zip(rows).map(|(row, scores)| {
         let mut cells = vec![row.what.clone()];
         let (kappa, found) = (scores.kappa(), scores.errors());
         for k in 0..3 {
-            let figure = row.figures[k];
-            cells.push(format!("{:.2} / **{:.2}**", figure.kappa, kappa[k]));
-            cells.push(errors(figure, found[k]));
+            let paper = row.figures[k];
+            cells.push(format!("{:.2} / **{}**", paper.kappa, figure(kappa[k], 2)));
+            cells.push(errors(paper, found[k]));
         }
         cells
     });
     let lines: Vec<_> = lines.collect();
     page.say(
         "**κ and errors** (sections III-A to III-C, Table I, Figs. 7 and 8): paper / **ours**; \
-         errors are mean ± spread in degrees, mm/s and classes.",
+         errors are the mean (and the spread) in degrees, mm/s and classes.",
     );
     page.table(
         "classifier | angle κ | angle error | speed κ | speed error | texture κ | texture error",
@@ -41,7 +41,7 @@ pub(super) fn features(page: &mut Page, found: &[Confusion]) {
     let lines = TEXTURE_FEATURES.iter().zip(found).map(|(feature, score)| {
         let errors = score.errors(&classes);
         let ours = errors.map_or("none".to_owned(), |s| {
-            format!("{:.2} ± {:.2}", s.mean, s.sd)
+            format!("{} ({})", figure(s.mean, 2), figure(s.sd, 2))
         });
         let alone = feature
             .alone
@@ -50,9 +50,9 @@ pub(super) fn features(page: &mut Page, found: &[Confusion]) {
             feature.name.clone(),
             format!("{:.2}", feature.together),
             alone,
-            format!("**{:.2}**", score.kappa().unwrap_or(0.0)),
+            format!("**{}**", figure(score.kappa().unwrap_or(0.0), 2)),
             format!(
-                "{:.2} ± {:.2} / **{ours}**",
+                "{:.2} ({:.2}) / **{ours}**",
                 feature.error.0, feature.error.1
             ),
         ]

@@ -8,11 +8,16 @@ use crate::experiment::dataset::Dataset;
 use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
 use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::page::{Page, confusion};
+use crate::page::{Claim, Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::refused::refused;
 use crate::rigs::seed_of;
 use host_sim::Error;
+
+/// Chance of naming a corridor and its direction, percent.
+const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
+/// What counts as telling them, percent (chosen).
+const ENOUGH: f64 = 75.0;
 
 /// The inputs of every step of a run.
 fn steps(run: &Recording) -> Vec<Vec<f64>> {
@@ -27,6 +32,9 @@ pub(super) fn section(
     recordings: &Recordings,
 ) -> Result<(), Error> {
     let runs = of_set(recordings, Dataset::Corridor);
+    if runs.is_empty() {
+        return Ok(());
+    }
     let (training, tested, deciding) = request.extent.runs();
     let taught = training.saturating_sub(tested);
     let mut rows: Vec<Row> = Vec::new();
@@ -71,30 +79,37 @@ pub(super) fn section(
     page.say(format_args!(
         "**Corridors** (`studies/rigs/corridor.toml`): the robot keeps to the middle by D = (1/N) Σ (1 − \
          V_i) L_i of either side and V_y = (D_left − D_right) · 0.01. {taught} runs of each \
-         corridor and direction to train on, {tested} to test with (**{:.0} %** of single \
+         corridor and direction to train on, {tested} to test with (**{} %** of single \
          steps right), {deciding} to decide in. Over these {finished} runs the neck is off the \
-         middle by **{:.0} mm** in root mean square and {:.0} mm at most; the corridor leaves 50.",
-        100.0 * by_step.hit_rate().unwrap_or(0.0),
-        1000.0 * (squares / count.max(1.0)).sqrt(),
-        1000.0 * off,
+         middle by **{} mm** in root mean square and {} mm at most; the corridor leaves 50.",
+        figure(100.0 * by_step.hit_rate().unwrap_or(0.0), 0),
+        figure(1000.0 * (squares / count.max(1.0)).sqrt(), 1),
+        figure(1000.0 * off, 0),
     ));
     page.say(format_args!(
         "**Table 3**: a row is the true corridor and direction, a column what was decided. Mean \
-         {paper:.0} % in the paper, **{hit:.0} %** here."
+         {paper:.0} % in the paper, **{} %** here.",
+        figure(hit, 0)
     ));
     let printed = |truth: usize, named: usize| TABLE_3[truth][named];
     confusion(page, &CORRIDORS, &printed, &by_run);
-    page.claim(
-        "PSIK: the robot tells two corridors and their directions apart on its way, steering by touch",
-        format_args!("{paper:.0} %"),
-        format_args!("{hit:.0} %"),
-        hit >= 75.0,
-        "",
+    page.claims.push(
+        Claim::new(
+            format_args!(
+                "PSIK: the robot tells two corridors and their directions apart on its way, \
+                 steering by touch ({ENOUGH:.0} % or more)"
+            ),
+            format_args!("{paper:.0} %"),
+            format_args!("{} %", figure(hit, 1)),
+            (hit - ENOUGH, "points"),
+        )
+        .told(hit, CHANCE),
     );
     page.score(
         "IMP and network 66–66–4, votes",
         "two corridors, both ways",
         hit,
+        CHANCE,
     );
     Ok(())
 }

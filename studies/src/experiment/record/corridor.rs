@@ -23,6 +23,9 @@ const BITS: usize = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
 const WINDOW: u32 = 58;
 
+/// The wall of all in a placebo.
+const PLACEBO: usize = 1;
+
 /// Runs of one corridor and direction.
 fn runs(extent: Extent) -> usize {
     let (training, _, deciding) = extent.runs();
@@ -64,10 +67,11 @@ impl Side {
     fn new(request: &Request, side: usize, texture: usize, seed: u64) -> Result<Self, Error> {
         let rig = &request.rigs.corridor;
         let left = if side == 0 { 1.0 } else { -1.0 };
-        let mut chance = Chance::new(seed_of(seed, &[0]));
+        let spread = rig.spot_spread_m;
+        let spot = Chance::new(seed_of(seed, &[0])).between(-spread, spread);
         Ok(Self {
             plate: Plate {
-                point_m: [chance.between(-0.01, 0.01), left * rig.width_m / 2.0, 0.0],
+                point_m: [spot, left * rig.width_m / 2.0, 0.0],
                 normal: [0.0, -left, 0.0],
                 along: [1.0, 0.0, 0.0],
                 surface: whiskers::wall(texture),
@@ -127,7 +131,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
             .between(-rig.start_spread_deg, rig.start_spread_deg)
             .to_radians(),
     };
-    let [left, right] = walls(case);
+    let [left, right] = walls(case).map(|wall| request.felt(wall, PLACEBO));
     // The walls are the same pieces in every run, met from either end.
     let mut sides = [
         Side::new(request, 0, left, seed_of(seed, &[1]))?,

@@ -17,7 +17,10 @@ pub(crate) const MOTIONS: [RobotMotion; 3] = [
     RobotMotion::Autonomous,
 ];
 
-/// How long the whisker is dragged before a trial begins, s.
+/// The floor of all in a placebo: tarmac.
+const PLACEBO: usize = 2;
+
+/// How long the whisker is dragged before a placement is recorded, s.
 const LEAD_S: f64 = 0.5;
 
 /// Trials of one floor.
@@ -51,26 +54,25 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let rig = &request.rigs.floor;
     let shaft = Shaft::floor_robot();
     let sensor = whiskers::sensor(rig.full_scale_rad);
-    let mut whisker =
-        TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0])).map_err(refused)?;
     let plate = Plate {
         point_m: [0.0; 3],
         normal: [0.0, 0.0, 1.0],
         along: [1.0, 0.0, 0.0],
-        surface: whiskers::floor(floor),
+        surface: whiskers::floor(request.felt(floor, PLACEBO)),
     };
-    let mut drive = rig.drive(
-        motion,
-        shaft.length_m,
-        (floor, plate.surface.height_m),
-        seed_of(seed, &[1]),
-    );
     let lead = (LEAD_S * rig.tick_hz).round() as usize;
+    let each = rig.ticks() / rig.placements.max(1);
     let mut codes = Vec::with_capacity(2 * rig.ticks());
-    for tick in 0..lead + rig.ticks() {
-        whisker.step(&drive.step(), Some(&plate), rig.dt_s());
-        if tick >= lead {
-            codes.extend(whisker.codes());
+    for placement in 0..rig.placements as u64 {
+        let whisker = TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0, placement]));
+        let mut whisker = whisker.map_err(refused)?;
+        let seed = seed_of(seed, &[1, placement]);
+        let mut drive = rig.drive(motion, shaft.length_m, plate.surface.height_m, seed);
+        for tick in 0..lead + each {
+            whisker.step(&drive.step(), Some(&plate), rig.dt_s());
+            if tick >= lead {
+                codes.extend(whisker.codes());
+            }
         }
     }
     Ok(Recording::from_codes(2, &codes))

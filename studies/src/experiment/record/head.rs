@@ -20,6 +20,9 @@ pub(crate) const COLUMNS: usize = CHANNELS + 4;
 /// degrees: the obstacle of BIOTACT Fig. 8.
 pub(crate) const EARLY_DEG: f64 = OBSTACLES_DEG[0];
 
+/// The texture and distance of all in a placebo: P600 at 10 mm.
+const PLACEBO: (usize, usize) = (1, 1);
+
 /// Visits that are classified.
 const CLASSIFIED: usize = STRATEGIES.len() * TEXTURES.len() * DISTANCES_MM.len();
 
@@ -50,7 +53,9 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     } else {
         let (group, distance) = (job / DISTANCES_MM.len(), job % DISTANCES_MM.len());
         let (strategy, texture) = (group / TEXTURES.len(), group % TEXTURES.len());
-        (strategy, texture, DISTANCES_MM[distance] / 1000.0)
+        let distance = request.felt(distance, PLACEBO.1);
+        let distance_m = DISTANCES_MM[distance] / 1000.0;
+        (strategy, request.felt(texture, PLACEBO.0), distance_m)
     };
     let (gain, periods) = match STRATEGIES.get(strategy) {
         Some((_, gain)) => (*gain, TAU_Z_PERIODS),
@@ -69,7 +74,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     };
     let felt = rig.visit(
         &whiskers::head(),
-        &whiskers::sensor(rig.full_scale_rad),
+        &whiskers::sensor([rig.full_scale_rad; 2]),
         &visit,
     )?;
     let mut values = Vec::with_capacity(felt.angle_deg.len() * COLUMNS);

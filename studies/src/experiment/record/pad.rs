@@ -14,6 +14,8 @@ use physics::{Plate, sensor_code};
 
 /// Sandpapers.
 pub(crate) const PAPERS: usize = 8;
+/// The sandpaper of all in a placebo: P80.
+const PLACEBO: usize = 3;
 /// Window of the IMP's mean, samples (86 ms; chosen).
 pub(crate) const WINDOW: u32 = 100;
 
@@ -51,7 +53,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         point_m: [sweep.distance_m, along, up],
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
-        surface: whiskers::sandpaper(paper),
+        surface: whiskers::sandpaper(request.felt(paper, PLACEBO)),
     };
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
     let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;

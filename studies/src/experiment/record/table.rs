@@ -7,6 +7,7 @@ use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 use host_sim::Error;
+use physics::vector::{add, cross};
 use physics::{Plate, Pose, Shaft, TouchingWhisker};
 
 /// How often each contact is made.
@@ -19,6 +20,13 @@ pub(crate) struct Contact {
     pub(crate) speed: usize,
     pub(crate) texture: usize,
 }
+
+/// The contact of all in a placebo: P80 at a middle angle and speed.
+const PLACEBO: Contact = Contact {
+    angle: 4,
+    speed: 5,
+    texture: 0,
+};
 
 /// The speeds, mm/s.
 pub(crate) fn speeds() -> Vec<f64> {
@@ -53,9 +61,11 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let all = contacts(request.extent);
     let contact = all.get(job).ok_or_else(|| refused("no such contact"))?;
     let rig = &request.rigs.table;
-    let speed = speeds().get(contact.speed).copied().unwrap_or(0.0) / 1000.0;
-    let angle = ANGLES_DEG[contact.angle];
-    let (codes, way) = approach(rig, angle, speed, contact.texture, seed)?;
+    let speed = request.felt(contact.speed, PLACEBO.speed);
+    let speed_m_s = speeds().get(speed).copied().unwrap_or(0.0) / 1000.0;
+    let angle_deg = ANGLES_DEG[request.felt(contact.angle, PLACEBO.angle)];
+    let texture = request.felt(contact.texture, PLACEBO.texture);
+    let (codes, way) = approach(rig, angle_deg, speed_m_s, texture, seed)?;
 
     let x = |n: usize| codes.get(2 * n).copied().unwrap_or(0);
     let count = codes.len() / 2;
@@ -89,12 +99,17 @@ fn approach(
     let gap = rig.gap_m + rig.gap_sd_m * chance.normal();
     let latency = rig.latency_s + rig.latency_spread_s * chance.between(-1.0, 1.0);
     let shaft = Shaft::xy_table();
-    let sensor = whiskers::sensor(rig.full_scale_rad);
+    let sensor = whiskers::sensor([rig.full_scale_rad; 2]);
     let mut whisker =
         TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[1])).map_err(refused)?;
-    let (normal, along) = facing(angle_deg, way);
+    let (normal, along) = facing(angle_deg, rig.roll_deg, way);
+    let spread = rig.spot_spread_m;
+    let spot = [0, 1].map(|_| chance.between(-spread, spread));
+    let across = cross(normal, along);
+    let origin = add([0.0, 0.0, shaft.length_m], spot[0], along);
+    let origin = add(origin, spot[1], across);
     let mut plate = Plate {
-        point_m: [0.0, 0.0, shaft.length_m],
+        point_m: origin,
         normal,
         along,
         surface: whiskers::table_texture(texture),
@@ -124,7 +139,7 @@ fn approach(
                 speed_m_s
             };
             carriage.step(wanted, rig.acceleration_m_s2, dt_s);
-            plate.point_m[0] = way * carriage.x_m;
+            plate.point_m[0] = origin[0] + way * carriage.x_m;
             whisker.step(&pose, Some(&plate), dt_s);
             let deflected = whisker.reading()[0].abs() > rig.threshold;
             left = match left {
@@ -150,7 +165,7 @@ mod tests {
     #[test]
     fn there_are_352_contacts_twice_and_eleven_speeds_from_6_to_106() {
         assert_eq!(contacts(Extent::Full).len(), 2 * 352);
-        assert_eq!(contacts(Extent::Quick).len(), 2 * 4 * 6 * 4);
+        assert_eq!(contacts(Extent::Quick).len(), 2 * 3 * 4 * 4);
         let speeds = speeds();
         assert_eq!((speeds.len(), speeds[0], speeds[10]), (11, 6.0, 106.0));
         let last = contacts(Extent::Full).pop();

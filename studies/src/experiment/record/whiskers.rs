@@ -9,8 +9,8 @@ use crate::rigs::{Layout, Vibrissa, seed_of};
 use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 
-/// A sensor with a rig's gain.
-pub(crate) fn sensor(full_scale_rad: f64) -> SensorSettings {
+/// A sensor with a rig's gains of x and y.
+pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
     SensorSettings {
         full_scale_rad,
         ..SensorSettings::default()
@@ -110,7 +110,7 @@ fn vibrissa(
     let sensor = SensorSettings {
         // Sampled at 1157 Hz by a converter of its own: nothing is held.
         refresh_s: 0.0,
-        ..sensor(full_scale_rad * longest / shaft.length_m)
+        ..sensor([full_scale_rad * longest / shaft.length_m; 2])
     };
     TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
 }

@@ -1,0 +1,135 @@
+//! What was asked for, and the runs that it takes: each seed once as it is and once as a
+//! placebo, and some seeds of every change of a rig.
+
+use std::path::PathBuf;
+
+use host_sim::Error;
+use host_sim::progress::{Progress, Verbosity};
+
+use super::data;
+use super::request::{Extent, Name, Request};
+use super::variants::{VARIANTS, Variant};
+use super::whole::{Bodies, Changed, evaluate, report};
+use super::{jobs, record};
+use crate::rigs::{Rigs, Setting};
+
+/// Seeds of a change: the first of all.
+const SEEDS_OF_CHANGES: u64 = 3;
+
+/// What was asked for.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The experiments.
+    pub names: Vec<Name>,
+    /// How much of each.
+    pub extent: Extent,
+    /// The first seed, and how many follow each other.
+    pub seeds: (u64, u64),
+    /// The folder of rigs that differ.
+    pub rigs: Option<PathBuf>,
+    /// Keys that are set by name.
+    pub settings: Vec<Setting>,
+    /// Those, as they were written.
+    pub set: Vec<String>,
+    /// Whether recordings are kept beside the data of figures.
+    pub keeps_recordings: bool,
+}
+
+/// Files by their paths.
+pub type Files = Vec<(String, String)>;
+
+impl Plan {
+    /// Its seeds.
+    pub(super) fn all_seeds(&self) -> std::ops::Range<u64> {
+        let (first, count) = self.seeds;
+        first..first.saturating_add(count)
+    }
+
+    /// A run of it.
+    fn request(&self, seed: u64, more: &[Setting], is_placebo: bool) -> Result<Request, Error> {
+        let settings = [&self.settings[..], more].concat();
+        Ok(Request {
+            names: self.names.clone(),
+            extent: self.extent,
+            seed,
+            rigs: Rigs::load(self.rigs.as_deref(), &settings)?,
+            is_placebo,
+        })
+    }
+
+    /// The changes that are tried: those of rigs that the experiments have; a quick run has
+    /// none.
+    fn changes(&self) -> Vec<&'static Variant> {
+        let has = |variant: &&Variant| {
+            let names = self.names.iter().flat_map(|name| name.datasets());
+            variant
+                .dataset()
+                .is_some_and(|of| names.copied().any(|dataset| dataset == of))
+        };
+        let all = VARIANTS.iter().filter(|_| self.extent == Extent::Full);
+        all.filter(has).collect()
+    }
+
+    /// Runs all of it; the page comes last. `keep` takes the data of its figures, and recordings
+    /// where those are kept.
+    ///
+    /// # Errors
+    /// What `keep` gives,
+    /// [`Error::Input`] for a bad rig, [`Error::Work`] if the simulation or a classifier refuses
+    /// something.
+    pub fn run(
+        &self,
+        verbosity: Verbosity,
+        keep: &mut dyn FnMut(&Files) -> Result<(), Error>,
+    ) -> Result<Files, Error> {
+        let changes = self.changes();
+        let (first, count) = self.seeds;
+        let of_changes = count.min(SEEDS_OF_CHANGES);
+        let with_placebo = changes.iter().filter(|variant| variant.has_placebo).count();
+        let runs = 2 * count + of_changes * (changes.len() + with_placebo) as u64;
+        let mut bar = Progress::new(verbosity, "runs", runs);
+        let mut done = 0;
+        let mut one = |request: &Request, keeps: bool| {
+            let recordings = record(request, &jobs(request), Verbosity::Quiet)?;
+            if keeps {
+                keep(&data::recordings(self, request.seed, &recordings))?;
+            }
+            let page = evaluate(request, &recordings)?;
+            done += 1;
+            bar.set(done);
+            Ok::<_, Error>(page)
+        };
+        let mut both = |seeds: u64, more: &[Setting], only: Option<&Variant>| {
+            let mut bodies = Bodies::default();
+            for seed in first..first.saturating_add(seeds) {
+                let has_placebo = only.is_none_or(|variant| variant.has_placebo);
+                for is_placebo in [false, true] {
+                    if is_placebo && !has_placebo {
+                        continue;
+                    }
+                    let mut request = self.request(seed, more, is_placebo)?;
+                    if let Some(variant) = only {
+                        let concerned = |name: &Name| {
+                            name.datasets()
+                                .iter()
+                                .any(|one| Some(*one) == variant.dataset())
+                        };
+                        request.names.retain(concerned);
+                    }
+                    let keeps = self.keeps_recordings && only.is_none() && !is_placebo;
+                    let page = one(&request, keeps)?;
+                    bodies.of(is_placebo).push(page);
+                }
+            }
+            Ok::<_, Error>(bodies)
+        };
+        let plain = both(count, &[], None)?;
+        let mut changed = Vec::new();
+        for variant in changes {
+            let bodies = both(of_changes, &variant.settings()?, Some(variant))?;
+            changed.push(Changed { variant, bodies });
+        }
+        keep(&data::figures(self, &plain))?;
+        report(self, plain, &changed)
+    }
+}

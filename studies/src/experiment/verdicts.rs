@@ -1,0 +1,204 @@
+//! What becomes of claims over several seeds and beside a placebo.
+
+use crate::moments::{SURE, Summary, VERY_SURE};
+use crate::page::{Claim, Page, Told, joined};
+use crate::refused::refused;
+use host_sim::Error;
+
+/// What is to be said of a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It comes out.
+    Met,
+    /// It does not.
+    NotMet,
+    /// The seeds do not say whether it does.
+    WithinNoise,
+    /// Its placebo is told apart too, so that it says nothing.
+    DoesNotCount,
+}
+
+impl Verdict {
+    pub(super) const fn text(self) -> &'static str {
+        match self {
+            Self::Met => "met",
+            Self::NotMet => "**not met**",
+            Self::WithinNoise => "within noise",
+            Self::DoesNotCount => "**does not count**",
+        }
+    }
+}
+
+/// How well a placebo is told apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Placebo {
+    rate: Summary,
+    chance: f64,
+}
+
+impl Placebo {
+    /// Of the same rate in several seeds.
+    fn of(told: &[Told]) -> Option<Self> {
+        let chance = told.first()?.chance;
+        let rates: Vec<f64> = told.iter().map(|told| told.rate).collect();
+        let rate = Summary::of(&rates);
+        Some(Self { rate, chance })
+    }
+
+    /// Whether it is told apart no better and no worse than by chance. Very sure, as a page has
+    /// dozens of placebos: of a hundred that are at chance one is taken for none.
+    pub(super) fn is_at_chance(&self) -> bool {
+        let off = (self.rate.mean - self.chance).abs();
+        off <= self.rate.half_interval(&VERY_SURE) + f64::EPSILON * 100.0
+    }
+
+    pub(super) fn text(&self) -> String {
+        // κ has another scale than percent.
+        let digits = if self.chance > 1.0 { 1 } else { 2 };
+        let Self { rate, chance } = self;
+        let text = format!("{} ({chance:.digits$})", rate.text(digits, false));
+        if self.is_at_chance() {
+            text
+        } else {
+            format!("**{text}**")
+        }
+    }
+}
+
+/// A claim over all seeds.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Judged {
+    pub(super) what: String,
+    pub(super) paper: String,
+    pub(super) ours: String,
+    pub(super) margin: Summary,
+    pub(super) unit: &'static str,
+    pub(super) placebo: Option<Placebo>,
+}
+
+impl Judged {
+    pub(super) fn verdict(&self) -> Verdict {
+        if self.placebo.is_some_and(|placebo| !placebo.is_at_chance()) {
+            return Verdict::DoesNotCount;
+        }
+        let half = self.margin.half_interval(&SURE);
+        if self.margin.mean > half {
+            Verdict::Met
+        } else if self.margin.mean < -half {
+            Verdict::NotMet
+        } else {
+            Verdict::WithinNoise
+        }
+    }
+
+    /// The margin; without its error where no chance is in it.
+    pub(super) fn margin_text(&self) -> String {
+        let is_certain = self.placebo.is_none() && self.margin.error <= 0.0;
+        let count = if is_certain { 1 } else { self.margin.count };
+        Summary {
+            count,
+            ..self.margin
+        }
+        .text(self.digits(), true)
+    }
+
+    /// Digits behind the point of the margin.
+    pub(super) fn digits(&self) -> usize {
+        if self.unit.contains('θ') {
+            4
+        } else if self.unit.contains('κ') {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// By how much `other` comes out better, in as far as the seeds are sure of it.
+    pub(super) fn gain_of(&self, other: &Self) -> Option<f64> {
+        let gain = other.margin.mean - self.margin.mean;
+        let halves = [self, other].map(|claim| claim.margin.half_interval(&SURE));
+        (gain > halves[0].hypot(halves[1])).then_some(gain)
+    }
+}
+
+/// The same claim of every page.
+fn of_all(pages: &[Page], n: usize) -> impl Iterator<Item = &Claim> {
+    pages.iter().filter_map(move |page| page.claims.get(n))
+}
+
+/// The claims of some seeds, beside those of placebos.
+///
+/// # Errors
+/// [`Error::Work`] if the seeds claim different things.
+pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>, Error> {
+    let claims = pages.first().map_or(&[][..], |page| &page.claims);
+    let one = |(n, claim): (usize, &Claim)| {
+        let ours: Vec<&str> = of_all(pages, n).map(|claim| &*claim.ours).collect();
+        let same = of_all(pages, n).filter(|other| other.what == claim.what);
+        let margins: Vec<f64> = same.map(|claim| claim.margin).collect();
+        if margins.len() != pages.len() {
+            return Err(refused(format!("seeds differ in {:?}", claim.what)));
+        }
+        let told: Vec<Told> = of_all(placebos, n).filter_map(|claim| claim.told).collect();
+        Ok(Judged {
+            what: claim.what.clone(),
+            paper: claim.paper.clone(),
+            ours: joined(&ours)
+                .ok_or_else(|| refused(format!("seeds differ in words: {ours:?}")))?,
+            margin: Summary::of(&margins),
+            unit: claim.unit,
+            placebo: Placebo::of(&told),
+        })
+    };
+    claims.iter().enumerate().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Verdict, judged};
+    use crate::page::{Claim, Page, figure};
+
+    fn pages(margins: &[f64], rates: &[f64]) -> Vec<Page> {
+        let page = |(margin, rate): (&f64, &f64)| {
+            let ours = format!("{} points", figure(*margin, 1));
+            let claim = Claim::new("a beats b", "so", ours, (*margin, "points"));
+            Page {
+                claims: vec![claim.told(*rate, 25.0)],
+                ..Page::default()
+            }
+        };
+        margins.iter().zip(rates).map(page).collect()
+    }
+
+    #[test]
+    fn a_claim_is_met_beyond_its_noise_and_counts_if_its_placebo_is_at_chance() {
+        let chance = pages(&[0.0; 5], &[24.0, 26.0, 25.0, 27.0, 23.5]);
+        let leak = pages(&[0.0; 5], &[29.0, 30.0, 31.0, 30.0, 29.0]);
+        let verdict = |margins: [f64; 5], placebos| {
+            let found = judged(&pages(&margins, &[90.0; 5]), placebos).unwrap();
+            found[0].verdict()
+        };
+        // Errors of the means: 0.32; the interval is 2.776 times as wide.
+        let margins = [1.0, 2.0, 2.0, 3.0, 2.0];
+        assert_eq!(verdict(margins, &chance), Verdict::Met);
+        assert_eq!(
+            verdict(margins.map(|m| m - 1.5), &chance),
+            Verdict::WithinNoise
+        );
+        assert_eq!(verdict(margins.map(|m| m - 4.0), &chance), Verdict::NotMet);
+        assert_eq!(verdict(margins, &leak), Verdict::DoesNotCount);
+        // Whoever is worse than chance knows the classes too.
+        let worse = pages(&[0.0; 5], &[20.0, 21.0, 20.0, 21.0, 20.0]);
+        assert_eq!(verdict(margins, &worse), Verdict::DoesNotCount);
+    }
+
+    #[test]
+    fn a_change_gains_only_what_the_seeds_are_sure_of() {
+        let judge = |margins: [f64; 5]| judged(&pages(&margins, &[0.0; 5]), &[]).unwrap().remove(0);
+        let plain = judge([-4.0, -6.0, -5.0, -5.0, -5.0]);
+        let better = judge([1.0, 3.0, 2.0, 2.0, 2.0]);
+        assert!((plain.gain_of(&better).unwrap() - 7.0).abs() < 1e-12);
+        assert_eq!(plain.gain_of(&judge([-4.0, -5.0, -4.0, -5.0, -4.0])), None);
+        assert_eq!(better.gain_of(&plain), None);
+    }
+}

@@ -1,0 +1,101 @@
+//! Figures that come of chance, marked in the text that has them, so that the texts of
+//! several seeds can be joined to one of means with their errors.
+
+use std::fmt;
+
+use crate::moments::Summary;
+
+/// What begins and ends a mark, and parts its fields: no text has these.
+const BEGIN: char = '\u{2}';
+const END: char = '\u{3}';
+const BETWEEN: char = '\u{1f}';
+
+/// A figure with so many digits behind the point; `{:+}` shows its sign.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Figure {
+    value: f64,
+    digits: usize,
+}
+
+/// Marks a figure.
+pub(crate) const fn figure(value: f64, digits: usize) -> Figure {
+    Figure { value, digits }
+}
+
+impl fmt::Display for Figure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { value, digits } = self;
+        let sign = if f.sign_plus() { "+" } else { "" };
+        write!(f, "{BEGIN}{sign}{BETWEEN}{digits}{BETWEEN}{value:e}{END}")
+    }
+}
+
+/// Parts of a text: what stands before each figure, with the figure's sign, digits and value.
+type Parts<'t> = Vec<(&'t str, bool, usize, f64)>;
+
+/// Takes a text apart: its figures, and what stands behind the last.
+fn parts(text: &str) -> Option<(Parts<'_>, &str)> {
+    let (mut rest, mut parts) = (text, Vec::new());
+    while let Some((before, behind)) = rest.split_once(BEGIN) {
+        let (mark, after) = behind.split_once(END)?;
+        let mut fields = mark.split(BETWEEN);
+        let is_signed = !fields.next()?.is_empty();
+        let digits = fields.next()?.parse().ok()?;
+        let value = fields.next()?.parse().ok()?;
+        parts.push((before, is_signed, digits, value));
+        rest = after;
+    }
+    Some((parts, rest))
+}
+
+/// One text of several that differ in their figures alone: means, with their standard errors
+/// if there are two texts or more. None where anything else differs.
+pub(crate) fn joined(texts: &[&str]) -> Option<String> {
+    let all: Option<Vec<_>> = texts.iter().map(|text| parts(text)).collect();
+    let all = all?;
+    let (first, end) = all.first()?;
+    let mut text = String::new();
+    for (n, (before, is_signed, digits, _)) in first.iter().enumerate() {
+        let mut values = Vec::with_capacity(all.len());
+        for (parts, _) in &all {
+            let (other, _, _, value) = parts.get(n)?;
+            if other != before {
+                return None;
+            }
+            values.push(*value);
+        }
+        text.push_str(before);
+        text.push_str(&Summary::of(&values).text(*digits, *is_signed));
+    }
+    let is_same = |(parts, last): &(Parts<'_>, &str)| parts.len() == first.len() && last == end;
+    if !all.iter().all(is_same) {
+        return None;
+    }
+    text.push_str(end);
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{figure, joined};
+
+    #[test]
+    fn figures_of_several_texts_become_means_with_their_errors() {
+        let text = |a: f64, b: f64| format!("x {} %, {:+} points", figure(a, 1), figure(b, 0));
+        let texts = [text(80.0, -2.0), text(84.0, 3.0), text(82.0, 2.0)];
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        // Standard deviations of 2 and √7 over √3.
+        let found = joined(&texts).unwrap();
+        assert_eq!(found, "x 82.0 ± 1.2 %, +1 ± 2 points");
+        assert_eq!(joined(&texts[..1]).unwrap(), "x 80.0 %, -2 points");
+    }
+
+    #[test]
+    fn texts_that_differ_otherwise_are_not_joined() {
+        let text = |what: &str| format!("{what} {} %", figure(1.0, 0));
+        assert!(joined(&[&text("a"), &text("b")]).is_none());
+        assert!(joined(&[&text("a"), "a"]).is_none());
+        assert!(joined(&[&text("a"), &format!("{} more", text("a"))]).is_none());
+        assert_eq!(joined(&["same", "same"]).unwrap(), "same");
+    }
+}
