@@ -25,6 +25,7 @@ mod matrix;
 mod picture;
 mod plan;
 mod pose;
+mod product;
 mod psik;
 mod record;
 mod recording;

@@ -70,6 +70,8 @@ pub(crate) struct Score {
     pub(crate) task: String,
     /// Hit rate, percent.
     pub(crate) told: Told,
+    /// Of a classifier that may decide nothing: in how many of all cases it decides, percent.
+    pub(crate) decided: Option<f64>,
 }
 
 /// What a picture shows.
@@ -152,6 +154,7 @@ impl Page {
             classifier,
             task: task.to_string(),
             told: Told { rate: hit, chance },
+            decided: None,
         });
     }
 }

@@ -133,6 +133,7 @@ pub(super) fn evaluate(
         }
     }
     claims(page, &hits, most);
+    visits.product(page, request.rigs.head.tick_hz, most)?;
     movement::section(page, request, recordings);
     histories::section(page, request, recordings)?;
     Ok(())

@@ -70,11 +70,22 @@ impl Form {
     }
 }
 
-/// The same score of every page.
-fn hits(pages: &[Page], n: usize) -> Summary {
-    let scores = pages.iter().filter_map(|page| page.scores.get(n));
-    let hits: Vec<f64> = scores.map(|score| score.told.rate).collect();
-    Summary::of(&hits)
+/// The same score of every page, of those in which there is one.
+fn hits(pages: &[Page], n: usize) -> String {
+    let scores = || pages.iter().filter_map(|page| page.scores.get(n));
+    let hits = scores().map(|score| score.told.rate);
+    let hits: Vec<f64> = hits.filter(|hit| hit.is_finite()).collect();
+    let decided = scores().filter_map(|score| score.decided);
+    let decided: Vec<f64> = decided.collect();
+    let share = if decided.is_empty() {
+        String::new()
+    } else {
+        format!(" of {} decided", Summary::of(&decided).text(0, false))
+    };
+    if hits.is_empty() {
+        return "nothing decided".to_owned();
+    }
+    format!("{}{share}", Summary::of(&hits).text(1, false))
 }
 
 /// The table of the scores.
@@ -90,8 +101,8 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
             // |DFT| must not end the cell.
             score.classifier.replace('|', "\\|"),
             score.task.clone(),
-            format!("**{}**", hits(&bodies.pages, n).text(1, false)),
-            hits(&bodies.placebos, n).text(1, false),
+            format!("**{}**", hits(&bodies.pages, n)),
+            hits(&bodies.placebos, n),
             format!("{:.1}", score.told.chance),
             cell(instructions.map(|n| format!("{n:.0}"))),
             cell(form.map(|form| form.bytes.0.bytes().to_string())),

@@ -5,7 +5,8 @@ mod figures;
 mod groups;
 mod spectral;
 
-use super::floors::Floors;
+use super::floors::{Floors, Stream};
+use super::product;
 use super::recording::Recordings;
 use super::request::Request;
 use crate::page::{Claim, Page, beside, figure};
@@ -52,6 +53,7 @@ pub(super) fn evaluate(
     tables(page, &rows, &times);
     figures::all(page, &groups, &curves, rate_hz)?;
     claims(page, &rows, &curves);
+    product(page, &groups, rate_hz)?;
     for (name, rows) in [
         "maximum likelihood, window of 200 ms",
         "sequential Bayes, 200 ms on average",
@@ -69,6 +71,32 @@ pub(super) fn evaluate(
         );
     }
     Ok(())
+}
+
+/// The product's own rule, on each group of trials.
+fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<(), Error> {
+    let streams = |streams: &[Stream]| -> Result<Vec<_>, Error> {
+        let all = streams.iter().enumerate();
+        let one = |(n, stream): (usize, &Stream)| {
+            let pairs = stream.samples.as_chunks().0.to_vec();
+            product::stream(FLOORS[stream.floor], n, pairs, None)
+        };
+        all.map(one).collect()
+    };
+    let names: Vec<String> = groups
+        .iter()
+        .map(|group| format!("four floors, {}", group.name))
+        .collect();
+    let mut tasks = Vec::new();
+    for (group, name) in groups.iter().zip(&names) {
+        let task = product::Task {
+            name,
+            classes: FLOORS.len(),
+            rate_hz,
+        };
+        tasks.push((task, streams(&group.training)?, streams(&group.validation)?));
+    }
+    product::section(page, tasks)
 }
 
 /// The hit rates of the floors, and their mean.

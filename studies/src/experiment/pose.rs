@@ -2,11 +2,14 @@
 //! spectral template and features.
 
 mod matrices;
+mod notch;
 mod rules;
 mod scores;
 mod sets;
 mod tables;
 
+use super::product;
+use super::record::table::Contact;
 use super::recording::Recordings;
 use super::request::Request;
 use crate::page::{Claim, Page, figure};
@@ -31,9 +34,10 @@ pub(super) fn evaluate(
         "A textured surface is carried into a fixed whisker (`studies/rigs/table.toml`): {} contacts to \
          train on and {} to test with, each every combination of angle, speed and texture once. \
          Signals are x alone, as the paper's count of samples says. κ is Cohen's. The \
-         paper's notch at the whisker's resonance is left out.",
+         features of texture are taken behind a notch at the whisker's resonance, {:.1} Hz.",
         sets.training.len(),
-        sets.testing.len()
+        sets.testing.len(),
+        notch::resonance_hz()?
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];
     tables::main(page, &rows);
@@ -52,6 +56,7 @@ pub(super) fn evaluate(
         figure(alone[1], 2)
     ));
     claims(page, &rows);
+    product(page, &sets)?;
     for (name, scores) in [
         "template by sum of squares, 352 poses",
         "spectral template |DFT|, 352 poses",
@@ -67,6 +72,24 @@ pub(super) fn evaluate(
         }
     }
     Ok(())
+}
+
+/// The product's own rule on textures, whatever the pose.
+fn product(page: &mut Page, sets: &Sets) -> Result<(), Error> {
+    let streams = |set: usize| -> Result<Vec<_>, Error> {
+        let all = sets.pairs[set].iter().enumerate();
+        let one = |(n, (contact, pairs)): (usize, &(Contact, Vec<[f64; 2]>))| {
+            let name = TEXTURES[contact.texture];
+            product::stream(name, n, pairs.clone(), Some(sets.rate_hz))
+        };
+        all.map(one).collect()
+    };
+    let task = product::Task {
+        name: "texture of one contact",
+        classes: TEXTURES.len(),
+        rate_hz: sets.rate_hz,
+    };
+    product::section(page, vec![(task, streams(0)?, streams(1)?)])
 }
 
 fn claims(page: &mut Page, rows: &[&Scores; 3]) {

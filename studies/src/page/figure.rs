@@ -49,7 +49,7 @@ fn parts(text: &str) -> Option<(Parts<'_>, &str)> {
 }
 
 /// One text of several that differ in their figures alone: means, with their standard errors
-/// if there are two texts or more. None where anything else differs.
+/// if there are two texts or more, of those figures that are numbers. None where anything else differs.
 pub(crate) fn joined(texts: &[&str]) -> Option<String> {
     let all: Option<Vec<_>> = texts.iter().map(|text| parts(text)).collect();
     let all = all?;
@@ -65,7 +65,13 @@ pub(crate) fn joined(texts: &[&str]) -> Option<String> {
             values.push(*value);
         }
         text.push_str(before);
-        text.push_str(&Summary::of(&values).text(*digits, *is_signed));
+        // Nobody knows the mean of what is not there in some of them.
+        values.retain(|value| value.is_finite());
+        if values.is_empty() {
+            text.push('–');
+        } else {
+            text.push_str(&Summary::of(&values).text(*digits, *is_signed));
+        }
     }
     let is_same = |(parts, last): &(Parts<'_>, &str)| parts.len() == first.len() && last == end;
     if !all.iter().all(is_same) {
@@ -88,6 +94,10 @@ mod tests {
         let found = joined(&texts).unwrap();
         assert_eq!(found, "x 82.0 ± 1.2 %, +1 ± 2 points");
         assert_eq!(joined(&texts[..1]).unwrap(), "x 80.0 %, -2 points");
+        let none = figure(f64::NAN, 1).to_string();
+        assert_eq!(joined(&[&none, &none]).unwrap(), "–");
+        let one = figure(2.0, 1).to_string();
+        assert_eq!(joined(&[&none, &one]).unwrap(), "2.0");
     }
 
     #[test]

@@ -24,6 +24,7 @@ keys! {
     spot_spread_m: f64 => 0.0..=0.1,
     roll_deg: f64 => -60.0..=60.0,
     high_pass_hz: f64 => 0.0..=200.0,
+    notch_quality: f64 => 0.0..=1000.0,
     full_scale_rad: f64 => 1e-4..=3.0,
 }
 

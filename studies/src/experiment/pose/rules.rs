@@ -9,6 +9,7 @@ use classifiers::template_train::TemplateTrainer;
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
+use super::notch::{notched, resonance_hz};
 use super::scores::Scores;
 use super::sets::{Sets, Signal};
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
@@ -116,14 +117,20 @@ pub(super) struct ByFeatures {
 }
 
 /// Features f1 to f5 (eq. 3–7) with polynomial regression, rounded to the
-/// nearest class. The whisker's resonance is not notched out.
+/// nearest class; those of texture behind a notch at the whisker's resonance.
 pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
     let settings =
         FeatureSettings::pose(0.0, ONSET_CODES, sets.rate_hz, length(sets)).map_err(refused)?;
     let extract = |signals: &[Signal]| -> Result<Vec<[f64; 5]>, Error> {
         let mut extractor = Extractor::new(settings).map_err(refused)?;
-        let features = signals.iter().map(|(_, x)| extractor.features(x));
-        features.map(|found| found.map_err(refused)).collect()
+        let resonance_hz = resonance_hz()?;
+        let features = signals.iter().map(|(_, x)| {
+            let [f1, f2, ..] = extractor.features(x).map_err(refused)?;
+            let x = notched(x, resonance_hz, sets.notch_quality, sets.rate_hz);
+            let [_, _, f3, f4, f5] = extractor.features(&x).map_err(refused)?;
+            Ok([f1, f2, f3, f4, f5])
+        });
+        features.collect()
     };
     let (training, testing) = (extract(&sets.training)?, extract(&sets.testing)?);
     let estimate = |chosen: &[Feature], degree: u8, property: usize, classes: usize| {

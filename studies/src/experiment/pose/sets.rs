@@ -14,7 +14,11 @@ pub(super) type Signal = (Contact, Vec<f64>);
 pub(super) struct Sets {
     pub(super) training: Vec<Signal>,
     pub(super) testing: Vec<Signal>,
+    /// Both channels of each contact as it was, of either set.
+    pub(super) pairs: [Vec<(Contact, Vec<[f64; 2]>)>; 2],
     pub(super) rate_hz: f64,
+    /// Of the notch at the whisker's resonance, 0: none.
+    pub(super) notch_quality: f64,
 }
 
 impl Sets {
@@ -27,7 +31,9 @@ impl Sets {
         let mut sets = Self {
             training: Vec::new(),
             testing: Vec::new(),
+            pairs: [Vec::new(), Vec::new()],
             rate_hz: table.tick_hz,
+            notch_quality: table.notch_quality,
         };
         for pose in 0..poses {
             let first = chance.among(2);
@@ -36,8 +42,10 @@ impl Sets {
                 let (Some(contact), Some(recording)) = (contacts.get(job), all.get(job)) else {
                     continue;
                 };
-                let samples = recording.part(0, recording.len()).iter();
-                let x: Vec<f64> = samples.step_by(2).map(|x| f64::from(*x)).collect();
+                let samples = recording.segment(0, recording.len());
+                let pairs = samples.as_chunks().0.to_vec();
+                sets.pairs[usize::from(time != first)].push((*contact, pairs));
+                let x: Vec<f64> = samples.iter().step_by(2).copied().collect();
                 let x = without_below(&x, table.high_pass_hz, table.tick_hz);
                 if time == first {
                     sets.training.push((*contact, x));

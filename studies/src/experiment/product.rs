@@ -1,0 +1,107 @@
+//! The product's own classifier in the place of the papers': tables of both channels together,
+//! weighted by what training holds out, and the sequential rule at a stated 99 %.
+
+use host_sim::Error;
+use host_sim::commands::train::{How, Tables};
+use host_sim::evaluation::{Evaluation, presentations};
+use host_sim::recording::Stream;
+use whisking::filter;
+
+use crate::page::{Page, Score, Told, figure, row};
+use crate::refused::refused;
+
+/// Decided at this posterior.
+const THRESHOLD: f64 = 0.99;
+
+/// Its name among the scores.
+const NAME: &str = "the product's: joint tables, stated 99 %";
+
+/// A question: what is told apart, and how many there are of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Task<'n> {
+    pub(super) name: &'n str,
+    pub(super) classes: usize,
+    /// Samples a second.
+    pub(super) rate_hz: f64,
+}
+
+/// A stream of two channels in sensor codes. Where there is a body whose whisker may be in the
+/// air, contact is the module's own signal, |H50(x)|.
+pub(super) fn stream(
+    label: &str,
+    trial: usize,
+    samples: Vec<[f64; 2]>,
+    in_the_air: Option<f64>,
+) -> Result<Stream, Error> {
+    let contact = in_the_air.map(|rate_hz| {
+        let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, rate_hz).map_err(refused)?;
+        let mut state = filter::State::default();
+        let pi = samples
+            .iter()
+            .map(|[x, _]| h50.process(&mut state, x / 8192.0).abs());
+        Ok::<Vec<f64>, Error>(pi.collect())
+    });
+    Ok(Stream {
+        label: label.to_owned(),
+        trial: trial.to_string(),
+        samples,
+        contact: contact.transpose()?,
+        touch: None,
+    })
+}
+
+/// The header of what [`cells`] gives.
+const HEADER: &str =
+    "right of what was decided, % | stated, % | with a decision, % | time, ms | tables, bytes";
+
+/// Trains on some streams and decides in others.
+fn cells(
+    page: &mut Page,
+    task: Task<'_>,
+    training: Vec<Stream>,
+    testing: &[Stream],
+) -> Result<Vec<String>, Error> {
+    let recordings = [("training".to_owned(), training)];
+    let trained = How::of(Tables::Joint).train(&recordings, task.rate_hz.round() as u32);
+    let model = trained.map_err(refused)?.model;
+    let classes = host_sim::classifier::names(&model);
+    let shown = presentations(&model, THRESHOLD, testing).map_err(refused)?;
+    let found = Evaluation::new(&classes, &shown);
+    let right = 100.0 * found.calibration.found.share;
+    let decided = 100.0 * (1.0 - found.undecided.share);
+    page.scores.push(Score {
+        classifier: NAME,
+        task: task.name.to_owned(),
+        told: Told {
+            rate: right,
+            chance: 100.0 / task.classes as f64,
+        },
+        decided: Some(decided),
+    });
+    Ok([
+        figure(right, 1),
+        figure(100.0 * found.calibration.stated, 1),
+        figure(decided, 0),
+        figure(1000.0 * found.samples / task.rate_hz, 0),
+        figure(model.as_bytes().len() as f64, 0),
+    ]
+    .map(|cell| format!("**{cell}**"))
+    .to_vec())
+}
+
+/// A table of some tasks, each with its streams to train on and to decide in.
+pub(super) fn section(
+    page: &mut Page,
+    tasks: Vec<(Task<'_>, Vec<Stream>, Vec<Stream>)>,
+) -> Result<(), Error> {
+    page.say(
+        "**The product's own rule** on the same recordings: joint tables, weighted by what \
+         training holds out; a decision falls at a posterior of 99 %, or not at all.",
+    );
+    let mut rows = Vec::new();
+    for (task, training, testing) in tasks {
+        rows.push(row(task.name, cells(page, task, training, &testing)?));
+    }
+    page.table(&format!("on | {HEADER}"), rows);
+    Ok(())
+}
