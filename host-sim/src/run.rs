@@ -1,7 +1,7 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
+mod flaws;
 mod presented;
-mod zeros;
 
 use firmware::{Command, Event, Sample};
 use mlx90333::Word;
@@ -17,8 +17,8 @@ use crate::decisions::{self, Decided};
 use crate::motor::{PWM_COUNTS, SimMotor};
 use crate::trace::{Row, WhiskerRow};
 use crate::world::World;
+use flaws::Flaws;
 use presented::Presented;
-use zeros::Zeros;
 
 /// A running scene, with everything that it needs: module, classifier, motors
 /// and plant. `B` is the module: the firmware's on this machine, unless said
@@ -32,7 +32,7 @@ pub struct Run<B: ?Sized = dyn HostModule> {
     classes: Vec<String>,
     world: World,
     presented: Presented,
-    zeros: Zeros,
+    flaws: Flaws,
     snapshot: Snapshot,
     row: Row,
     events: Vec<Event>,
@@ -174,7 +174,7 @@ impl<B: Bench + ?Sized> Run<B> {
             classes,
             world,
             presented: Presented::new(scene),
-            zeros: Zeros::new(scene),
+            flaws: Flaws::new(scene),
             snapshot: Snapshot::default(),
             row: Row::default(),
             events: Vec::new(),
@@ -278,13 +278,17 @@ impl<B: Bench + ?Sized> Run<B> {
         let t_s = self.done as f64 / self.tick_hz;
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {
-                let deflection = self.world.deflection(side, whisker);
                 let n = side * self.whiskers + whisker;
-                let sensed = self.zeros.added(side, t_s, deflection);
-                self.bench.bend(n, sensed);
                 if let Some(last) = self.deflections.get_mut(n) {
-                    *last = deflection;
+                    *last = self.world.deflection(side, whisker);
                 }
+            }
+        }
+        for side in 0..self.sides {
+            for whisker in 0..self.whiskers {
+                let n = side * self.whiskers + whisker;
+                let sensed = self.flaws.sensed(n, t_s, &self.deflections);
+                self.bench.bend(n, sensed);
                 if whisker == 0 {
                     [self.row.x[side], self.row.y[side]] = codes(sensed);
                 }

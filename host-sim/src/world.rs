@@ -5,7 +5,7 @@ use scene::{Driver, PlantKind, Rest, Scene, ShaftName, Texture};
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
-use physics::{BadSetting, Biotact, Follicle, Shaft};
+use physics::{BadSetting, Biotact, Facing, Follicle, Shaft};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -47,7 +47,13 @@ impl World {
                 Box::new(Textured::new(head, settings, scene.seed).map_err(broken)?)
             }
             PlantKind::Whisker => {
-                let settings = ElasticSettings::of(shaft(scene.plant.shaft));
+                let mut settings = ElasticSettings::of(shaft(scene.plant.shaft));
+                if let Some(facing) = scene.plant.facing {
+                    settings.facing = Facing {
+                        slant_deg: facing.slant_deg,
+                        tilt_deg: facing.tilt_deg,
+                    };
+                }
                 Box::new(Elastic::new(head, settings, scene.seed).map_err(broken)?)
             }
         };

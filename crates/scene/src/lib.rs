@@ -61,9 +61,9 @@ pub use places::Places;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
-    Arm, ClassifierSection, Deciding, Driver, Exchanged, HeadSection, MotorSection, Numbers,
-    Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorMode,
-    SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection,
-    Texture, WhiskingSection,
+    Arm, ClassifierSection, Deciding, Driver, Exchanged, FacingChoice, HeadSection, MotorSection,
+    Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene,
+    SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    TelemetrySection, Texture, WhiskingSection,
 };
 pub use whisking::{GateSettings, Integrator};

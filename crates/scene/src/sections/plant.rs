@@ -78,6 +78,22 @@ keys! {
             .unit("codes/s")
             .optional("it stays"),
 
+        /// How sensitive sensors are to y, as a share of what they are to x.
+        gain_y: f64 = number(0.01..=100.0).default("1.0"),
+
+        /// By how much sensors are turned about their shafts, anticlockwise: x and y mix.
+        misaligned_deg: f64 = number(-45.0..=45.0).unit("degrees").default("0.0"),
+
+        /// Share of the deflection of each neighbour on its side that a sensor reads too, as of
+        /// a magnet that is near.
+        cross_talk: f64 = number(0.0..=0.5).default("0.0"),
+
+        /// Width of the sensors' hysteresis: so much a reading is behind when it turns round.
+        hysteresis_codes: f64 = number(0.0..=1000.0).unit("codes").default("0.0"),
+
+        /// How plates stand to whiskers; there exactly when `kind` is [`PlantKind::Whisker`].
+        ..facing: Option<FacingChoice>,
+
         /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
         ..obstacle: Option<Obstacles>,
 
@@ -96,6 +112,11 @@ impl Default for PlantSection {
             kind: PlantKind::Textured,
             zero_codes: None,
             zero_drift: None,
+            gain_y: 1.0,
+            misaligned_deg: 0.0,
+            cross_talk: 0.0,
+            hysteresis_codes: 0.0,
+            facing: None,
             obstacle: None,
             textured: None,
             shaft: None,
@@ -131,6 +152,19 @@ keys! {
         /// When the next texture is put in place: `air`, once its time has come and no
         /// whisker has touched for 20 ms; `timed`, at its time, under a bent whisker too.
         exchange: Exchanged = word().default("\"air\"").only_if(TEXTURES),
+    }
+}
+
+keys! {
+    /// How a plate faces a whisker that touches it.
+    #[derive(Copy)]
+    pub struct FacingChoice {
+        /// Angle between shaft and plate in the plane of whisking; what is above 0 draws the
+        /// tip along the plate.
+        slant_deg: f64 = number(0.0..=80.0).unit("degrees").default("30.0").only_if(WHISKER),
+
+        /// Inclination of the plate towards the motor's axis: its slope towards y.
+        tilt_deg: f64 = number(-80.0..=80.0).unit("degrees").default("20.0").only_if(WHISKER),
     }
 }
 

@@ -90,6 +90,11 @@ fn every_key_reaches_its_field() {
             kind: PlantKind::Ideal,
             zero_codes: None,
             zero_drift: None,
+            gain_y: 1.0,
+            misaligned_deg: 0.0,
+            cross_talk: 0.0,
+            hysteresis_codes: 0.0,
+            facing: None,
             obstacle: Some(Obstacles {
                 obstacle_deg: vec![100.0, 125.0],
                 stiffness: 0.1,
