@@ -6,7 +6,7 @@ mod main_job;
 mod mount;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top};
+use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top, write};
 use crate::{cost, descriptions, emulate};
 use harness::Drawn;
 use main_job::DECISIONS;
@@ -40,13 +40,35 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
 /// # Errors
 /// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
+    of_boards(check)?;
+    // The main job's page quotes what it measures over many runs.
+    studies("decisions", check)?;
+    of_runs(check)?;
+    studies("report", check)
+}
+
+/// Checks that every generated document is up to date but the two pages of the studies, which
+/// take longer than all others: those are only made, in short. The nightly run checks them.
+///
+/// # Errors
+/// If one differs, or cannot be made.
+pub(crate) fn short() -> Result<(), Fault> {
+    of_boards(true)?;
+    of_runs(true)?;
+    studies_in_short()
+}
+
+/// What follows from the source alone, from descriptions of chips, and from what boards cost.
+fn of_boards(check: bool) -> Result<(), Fault> {
     quick(check)?;
     descriptions::page(check)?;
     asymmetry(check)?;
     // From the tables that `cargo xtask cost`, `cost --deadlines` and `size` write.
-    cost::write_page(check)?;
-    // The main job's page quotes what it measures over many runs.
-    studies("decisions", check)?;
+    cost::write_page(check)
+}
+
+/// What runs of the simulator and of the bench's program give.
+fn of_runs(check: bool) -> Result<(), Fault> {
     let simulator = ["run", "--quiet", "-p"];
     let said = output(cargo(&simulator).arg("host-sim"))?;
     print!("{said}");
@@ -62,8 +84,7 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     for scene in TRAINED {
         document(scene.model, &scene.train()?, check)?;
     }
-    at_the_bench(check)?;
-    studies("report", check)
+    at_the_bench(check)
 }
 
 /// Draws what `whisker` shows and leaves at the bench, of the simulated module.
@@ -112,6 +133,19 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
 fn studies(page: &str, check: bool) -> Result<(), Fault> {
     let studies = ["run", "--quiet", "-p", "studies", "--", page];
     run(cargo(&studies).args(check.then_some("--check")))
+}
+
+/// Makes both pages of the studies in short, in a folder of their own.
+fn studies_in_short() -> Result<(), Fault> {
+    let folder = target().join("studies");
+    let counted = "instructions.csv";
+    let there = read_bytes(&top().join("docs/measured").join(counted))?;
+    write(&folder.join(counted), &there)?;
+    for page in ["decisions", "report"] {
+        let studies = ["run", "--quiet", "-p", "studies", "--", "--quiet", page];
+        run(cargo(&studies).args(["--quick", "--out"]).arg(&folder))?;
+    }
+    Ok(())
 }
 
 /// A scene whose model is trained on a run of it with another seed, as its first lines say.

@@ -10,7 +10,7 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
-    cost, dependencies, emulate, endurance, faults, fuzz, panics, reproducible, size, walk,
+    cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, reproducible, size, walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -32,6 +32,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     });
     steps.try_run("every scene on the emulated boards", boards);
     steps.try_run("counts and cost of every stage", || cost::all(None, true));
+    steps.try_run("documents", || docs::all(true));
     steps.try_run("experiments", experiments);
     steps.try_run("the walk through the book", walk::nightly);
     steps.try_run("endurance", endurance::nightly);
