@@ -15,6 +15,7 @@
 //! recorded changes a byte.
 
 mod biotact;
+mod bodies;
 mod costs;
 mod data;
 mod dataset;
@@ -23,23 +24,25 @@ mod lep10;
 mod lep12;
 mod matrix;
 mod picture;
-mod plan;
 mod pose;
 mod product;
+mod protocol;
 mod psik;
 mod record;
 mod recording;
 mod request;
+mod runs;
 mod spectrogram;
 mod variants;
 mod verdicts;
 mod whole;
 
 pub use dataset::{Dataset, Job};
-pub use plan::{Files, Plan};
+pub use protocol::{Files, Protocol};
 pub use record::{jobs, record};
 pub use recording::{Recording, Recordings};
 pub use request::{Extent, Name, Request};
+pub use runs::run;
 
 #[cfg(test)]
 mod tests;

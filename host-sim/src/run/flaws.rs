@@ -114,8 +114,8 @@ mod tests {
     #[test]
     fn without_flaws_a_sensor_reads_what_there_is_to_the_bit() {
         let mut plain = flaws("");
-        for n in 0..ALL.len() {
-            assert_eq!(plain.sensed(n, 0.5, &ALL), ALL[n]);
+        for (n, deflection) in ALL.into_iter().enumerate() {
+            assert_eq!(plain.sensed(n, 0.5, &ALL), deflection);
         }
         assert!(plain.sensed(0, 0.5, &[[f64::NAN, 0.0]; 4])[0].is_nan());
     }

@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 
-use crate::experiment::{Extent, Files, Name, Plan};
+use crate::experiment::{Extent, Files, Name, Protocol, run};
 
 /// How an experiment is run.
 #[derive(Debug, Clone, clap::Args)]
@@ -51,7 +51,7 @@ pub fn experiment(
         let wrong = |fault| Error::Input(format!("--set {text}: {fault}"));
         text.parse().map_err(wrong)
     });
-    let plan = Plan {
+    let protocol = Protocol {
         names,
         extent: if options.quick {
             Extent::Quick
@@ -68,7 +68,7 @@ pub fn experiment(
         let mut all = files.iter();
         all.try_for_each(|(name, text)| write_whole(&folder.join(name), text.as_bytes()))
     };
-    let files = plan.run(verbosity, &mut |data| match &options.data {
+    let files = run(&protocol, verbosity, &mut |data| match &options.data {
         Some(folder) => write(folder, data),
         None => Ok(()),
     })?;

@@ -6,7 +6,7 @@ use classifiers::Stationary;
 use serde::Deserialize;
 use tactile::{Sequential, Window};
 
-use super::whole::Bodies;
+use super::bodies::Bodies;
 use crate::moments::Summary;
 use crate::page::{Page, Score};
 use crate::paper::printed;

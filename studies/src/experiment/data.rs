@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
+use super::bodies::Bodies;
 use super::dataset::Dataset;
-use super::plan::{Files, Plan};
+use super::protocol::{Files, Protocol};
 use super::recording::Recordings;
-use super::whole::Bodies;
 use crate::rigs::CHANNELS;
 
 /// The first line of every file.
-fn header(plan: &Plan, seeds: &str) -> String {
+fn header(protocol: &Protocol, seeds: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let set = plan.set.join(", ");
+    let set = protocol.set.join(", ");
     format!("# whisker studies {version}; seed {seeds}; set: {set}\n")
 }
 
@@ -21,14 +21,14 @@ fn quoted(text: &str) -> String {
 }
 
 /// The data of every figure, all seeds in one file.
-pub(super) fn figures(plan: &Plan, bodies: &Bodies) -> Files {
+pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Files {
     let mut files = Files::new();
     let shown = bodies.pages.first().map_or(&[][..], |page| &page.shown);
     for (n, first) in shown.iter().enumerate() {
-        let (from, count) = plan.seeds;
-        let mut text = header(plan, &format!("{from} to {}", from + count - 1));
+        let (from, count) = protocol.seeds;
+        let mut text = header(protocol, &format!("{from} to {}", from + count - 1));
         text.push_str("seed,panel,curve,x,y\n");
-        for (seed, page) in plan.all_seeds().zip(&bodies.pages) {
+        for (seed, page) in protocol.all_seeds().zip(&bodies.pages) {
             for panel in page.shown.get(n).map_or(&[][..], |shown| &shown.panels) {
                 for series in &panel.series {
                     let (title, name) = (quoted(&panel.title), quoted(&series.name));
@@ -66,9 +66,9 @@ fn columns(dataset: Dataset, count: usize) -> String {
 }
 
 /// Every recording of a seed, each in a file of its own.
-pub(super) fn recordings(plan: &Plan, seed: u64, all: &Recordings) -> Files {
+pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Files {
     let one = |(job, recording): (&super::Job, &super::Recording)| {
-        let mut text = header(plan, &seed.to_string());
+        let mut text = header(protocol, &seed.to_string());
         text.push_str(&columns(job.dataset, recording.channels));
         text.push('\n');
         for sample in recording.values.chunks(recording.channels.max(1)) {

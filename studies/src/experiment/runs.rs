@@ -1,0 +1,93 @@
+//! The runs of a protocol: each seed once as it is and once as a placebo, and some seeds of
+//! every change of a rig.
+
+use host_sim::Error;
+use host_sim::progress::{Progress, Verbosity};
+
+use super::bodies::Bodies;
+use super::data;
+use super::protocol::{Files, Protocol};
+use super::request::{Extent, Name, Request};
+use super::variants::{VARIANTS, Variant};
+use super::whole::{Changed, evaluate, report};
+use super::{jobs, record};
+use crate::rigs::Setting;
+
+/// Seeds of a change: the first of all.
+const SEEDS_OF_CHANGES: u64 = 3;
+
+/// The changes that are tried: those of rigs that the experiments have; a quick run has
+/// none.
+fn changes(protocol: &Protocol) -> Vec<&'static Variant> {
+    let has = |variant: &&Variant| {
+        let names = protocol.names.iter().flat_map(|name| name.datasets());
+        variant
+            .dataset()
+            .is_some_and(|of| names.copied().any(|dataset| dataset == of))
+    };
+    let all = VARIANTS.iter().filter(|_| protocol.extent == Extent::Full);
+    all.filter(has).collect()
+}
+
+/// Runs all of it; the page comes last. `keep` takes the data of its figures, and recordings
+/// where those are kept.
+///
+/// # Errors
+/// What `keep` gives,
+/// [`Error::Input`] for a bad rig, [`Error::Work`] if the simulation or a classifier refuses
+/// something.
+pub fn run(
+    protocol: &Protocol,
+    verbosity: Verbosity,
+    keep: &mut dyn FnMut(&Files) -> Result<(), Error>,
+) -> Result<Files, Error> {
+    let changes = changes(protocol);
+    let (first, count) = protocol.seeds;
+    let of_changes = count.min(SEEDS_OF_CHANGES);
+    let with_placebo = changes.iter().filter(|variant| variant.has_placebo).count();
+    let runs = 2 * count + of_changes * (changes.len() + with_placebo) as u64;
+    let mut bar = Progress::new(verbosity, "runs", runs);
+    let mut done = 0;
+    let mut one = |request: &Request, keeps: bool| {
+        let recordings = record(request, &jobs(request), Verbosity::Quiet)?;
+        if keeps {
+            keep(&data::recordings(protocol, request.seed, &recordings))?;
+        }
+        let page = evaluate(request, &recordings)?;
+        done += 1;
+        bar.set(done);
+        Ok::<_, Error>(page)
+    };
+    let mut both = |seeds: u64, more: &[Setting], only: Option<&Variant>| {
+        let mut bodies = Bodies::default();
+        for seed in first..first.saturating_add(seeds) {
+            let has_placebo = only.is_none_or(|variant| variant.has_placebo);
+            for is_placebo in [false, true] {
+                if is_placebo && !has_placebo {
+                    continue;
+                }
+                let mut request = protocol.request(seed, more, is_placebo)?;
+                if let Some(variant) = only {
+                    let concerned = |name: &Name| {
+                        name.datasets()
+                            .iter()
+                            .any(|one| Some(*one) == variant.dataset())
+                    };
+                    request.names.retain(concerned);
+                }
+                let keeps = protocol.keeps_recordings && only.is_none() && !is_placebo;
+                let page = one(&request, keeps)?;
+                bodies.of(is_placebo).push(page);
+            }
+        }
+        Ok::<_, Error>(bodies)
+    };
+    let plain = both(count, &[], None)?;
+    let mut changed = Vec::new();
+    for variant in changes {
+        let bodies = both(of_changes, &variant.settings()?, Some(variant))?;
+        changed.push(Changed { variant, bodies });
+    }
+    keep(&data::figures(protocol, &plain))?;
+    report(protocol, plain, &changed)
+}
