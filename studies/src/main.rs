@@ -33,8 +33,11 @@ enum Command {
     /// Runs the experiments of the papers on simulated rigs and writes
     /// DIR/experiments.md with tables and figures beside the papers'
     Experiment {
-        #[command(subcommand)]
-        which: Which,
+        /// Which, or all of them
+        #[arg(value_enum, required = true)]
+        which: Vec<Which>,
+        #[command(flatten)]
+        options: Options,
     },
     /// Measures the accuracy of every integrator, number format and function
     /// and writes DIR/accuracy.md with its pictures
@@ -70,40 +73,44 @@ enum Command {
     },
 }
 
-#[derive(Subcommand)]
+/// Experiments by the names of their papers.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Which {
     /// LEP10: naive Bayes over fixed windows, on four floors
-    Lep10(Options),
+    Lep10,
     /// LEP12: sequential Bayes, spectral template and neural network, on four floors
-    Lep12(Options),
+    Lep12,
     /// BIOTACT: six whisking whiskers, with and without RCP
-    Biotact(Options),
+    Biotact,
     /// POSE: one contact at an unknown angle and speed
-    Pose(Options),
+    Pose,
     /// PSIK: 33 vibrissae, sandpapers and corridors
-    Psikharpax(Options),
+    Psikharpax,
     /// All of them
-    All(Options),
+    All,
 }
 
-impl Which {
-    fn work(self, verbosity: Verbosity) -> Result<String, Error> {
-        let (names, options) = match self {
-            Self::Lep10(options) => (vec![Name::Lep10], options),
-            Self::Lep12(options) => (vec![Name::Lep12], options),
-            Self::Biotact(options) => (vec![Name::Biotact], options),
-            Self::Pose(options) => (vec![Name::Pose], options),
-            Self::Psikharpax(options) => (vec![Name::Psikharpax], options),
-            Self::All(options) => (Name::ALL.to_vec(), options),
+/// The experiments, each once, in the order of the page.
+fn names(which: &[Which]) -> Vec<Name> {
+    let is_meant = |name: &Name| {
+        let own = match name {
+            Name::Lep10 => Which::Lep10,
+            Name::Lep12 => Which::Lep12,
+            Name::Biotact => Which::Biotact,
+            Name::Pose => Which::Pose,
+            Name::Psikharpax => Which::Psikharpax,
         };
-        experiment::experiment(names, &options, verbosity)
-    }
+        which.contains(&own) || which.contains(&Which::All)
+    };
+    Name::ALL.into_iter().filter(is_meant).collect()
 }
 
 fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
-        Command::Experiment { which } => which.work(verbosity)?,
+        Command::Experiment { which, options } => {
+            experiment::experiment(names(&which), &options, verbosity)?
+        }
         Command::Report {
             out,
             quick,

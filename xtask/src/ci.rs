@@ -74,13 +74,14 @@ fn tests() -> Result<(), Fault> {
 /// In the profile of the tests, which has built all of it. PSIK's 33 vibrissae take minutes, and
 /// are the nightly run's.
 fn experiments() -> Result<(), Fault> {
-    let studies = ["run", "--quiet", "--locked", "-p", "studies", "--"];
-    for name in ["lep10", "lep12", "biotact", "pose"] {
-        let quick = ["--quiet", "experiment", name, "--quick", "--out"];
-        let folder = target().join("experiments").join(name);
-        run(cargo(&studies).args(quick).arg(folder))?;
-    }
-    Ok(())
+    let studies = [
+        "run", "--quiet", "--locked", "-p", "studies", "--", "--quiet",
+    ];
+    let quick = ["experiment", "lep10", "lep12", "biotact", "pose", "--quick"];
+    run(cargo(&studies)
+        .args(quick)
+        .arg("--out")
+        .arg(target().join("experiments")))
 }
 
 /// The board's own program on the emulated chip: PC and board agree, in single precision

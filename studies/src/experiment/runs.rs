@@ -6,6 +6,7 @@ use host_sim::progress::{Progress, Verbosity};
 
 use super::bodies::Bodies;
 use super::data;
+use super::dataset::Dataset;
 use super::protocol::{Files, Protocol};
 use super::request::{Extent, Name, Request};
 use super::variants::{VARIANTS, Variant};
@@ -48,8 +49,10 @@ pub fn run(
     let runs = 2 * count + of_changes * (changes.len() + with_placebo) as u64;
     let mut bar = Progress::new(verbosity, "runs", runs);
     let mut done = 0;
-    let mut one = |request: &Request, keeps: bool| {
-        let recordings = record(request, &jobs(request), Verbosity::Quiet)?;
+    let mut one = |request: &Request, only: Option<Dataset>, keeps: bool| {
+        let mut jobs = jobs(request);
+        jobs.retain(|job| only.is_none_or(|dataset| job.dataset == dataset));
+        let recordings = record(request, &jobs, Verbosity::Quiet)?;
         if keeps {
             keep(&data::recordings(protocol, request.seed, &recordings))?;
         }
@@ -76,7 +79,8 @@ pub fn run(
                     request.names.retain(concerned);
                 }
                 let keeps = protocol.keeps_recordings && only.is_none() && !is_placebo;
-                let page = one(&request, keeps)?;
+                let dataset = only.and_then(Variant::dataset);
+                let page = one(&request, dataset, keeps)?;
                 bodies.of(is_placebo).push(page);
             }
         }

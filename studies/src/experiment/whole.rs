@@ -66,9 +66,11 @@ pub(super) fn report(
 
 /// The command that makes the page again.
 fn command(protocol: &Protocol) -> String {
-    let name = match &*protocol.names {
-        [one] => one.text(),
-        _ => "all",
+    let name = if protocol.names == Name::ALL {
+        "all".to_owned()
+    } else {
+        let names = protocol.names.iter().map(|name| name.text());
+        names.collect::<Vec<_>>().join(" ")
     };
     let (first, count) = protocol.seeds;
     let mut said = format!("studies experiment {name} --seed {first} --seeds {count}");
@@ -99,6 +101,15 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
             "This is a quick run: fewer trials, whisks, contacts, sweeps and runs than the \
              papers', on the same physics. Its hit rates are rough, and no change is tried.",
         );
+    }
+    let is_left_out = |name: &&Name| !protocol.names.contains(name);
+    let left_out: Vec<&str> = Name::ALL
+        .iter()
+        .filter(is_left_out)
+        .map(|name| name.text())
+        .collect();
+    if !left_out.is_empty() {
+        page.say(format_args!("Not in this run: {}.", left_out.join(", ")));
     }
     page.heading(2, "What must come out");
     let count = |verdict| {

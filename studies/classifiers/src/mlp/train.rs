@@ -154,7 +154,8 @@ impl NetworkTrainer {
                 continue;
             };
             let hit_rates = self.hit_rates(&network)?;
-            if hit_rates.iter().all(|&rate| rate > self.options.reliable) {
+            let bar = self.options.reliable;
+            if bar <= 0.0 || hit_rates.iter().all(|&rate| rate > bar) {
                 return Ok(Trained {
                     network,
                     names: self.names.clone(),

@@ -21,7 +21,7 @@ pub struct Options {
     /// Starts, at least 1, until one is reliable.
     pub attempts: u32,
     /// A network is reliable if every class's hit rate on the training set is
-    /// above this.
+    /// above this; with 0 any is.
     pub reliable: f64,
     /// Of the random numbers: first weights, and which samples are held out.
     pub seed: u64,
