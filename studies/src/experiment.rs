@@ -16,6 +16,7 @@
 
 mod biotact;
 mod bodies;
+mod changes;
 mod costs;
 mod data;
 mod dataset;

@@ -70,8 +70,17 @@ pub(crate) struct Score {
     pub(crate) task: String,
     /// Hit rate, percent.
     pub(crate) told: Told,
-    /// Of a classifier that may decide nothing: in how many of all cases it decides, percent.
-    pub(crate) decided: Option<f64>,
+    /// Of the product's classifier.
+    pub(crate) product: Option<Product>,
+}
+
+/// What a score of the product's classifier has beside its hit rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Product {
+    /// In how many of all cases it decides, percent: it may decide nothing.
+    pub(crate) decided: f64,
+    /// Of its model.
+    pub(crate) bytes: usize,
 }
 
 /// What a picture shows.
@@ -154,7 +163,7 @@ impl Page {
             classifier,
             task: task.to_string(),
             told: Told { rate: hit, chance },
-            decided: None,
+            product: None,
         });
     }
 }

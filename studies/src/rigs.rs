@@ -8,8 +8,10 @@ mod floor;
 mod frame;
 mod head;
 mod module;
+mod overlay;
 mod pad;
 mod read;
+mod setting;
 mod table;
 
 use std::path::Path;
@@ -20,7 +22,8 @@ pub use floor::{Drive, Floor, RobotMotion};
 pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
 pub use module::PositionControl;
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
-pub use read::{Keys, OutOfRange, Rig, Setting, load, parse};
+pub use read::{Keys, OutOfRange, Rig, load, parse};
+pub use setting::Setting;
 pub use table::{Carriage, Table, facing};
 
 use host_sim::Error;

@@ -7,6 +7,7 @@ use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 
 use crate::experiment::{Extent, Files, Name, Protocol, run};
+use crate::rigs::Setting;
 
 /// How an experiment is run.
 #[derive(Debug, Clone, clap::Args)]
@@ -25,14 +26,14 @@ pub struct Options {
     pub rigs: Option<PathBuf>,
     /// Sets a key of a rig, such as head.motor.kp=0.1; may be given again
     #[arg(long, value_name = "RIG.KEY=VALUE")]
-    pub set: Vec<String>,
+    pub set: Vec<Setting>,
     /// Where to write the page and its pictures
     #[arg(long, value_name = "DIR", default_value = "out/experiments")]
     pub out: PathBuf,
     /// Where to write the data of every figure, as CSV
     #[arg(long, value_name = "DIR")]
     pub data: Option<PathBuf>,
-    /// Keep every recording there, too: a hundred megabytes a seed
+    /// Keep every recording there, too
     #[arg(long, requires = "data")]
     pub recordings: bool,
 }
@@ -47,10 +48,6 @@ pub fn experiment(
     options: &Options,
     verbosity: Verbosity,
 ) -> Result<String, Error> {
-    let settings = options.set.iter().map(|text| {
-        let wrong = |fault| Error::Input(format!("--set {text}: {fault}"));
-        text.parse().map_err(wrong)
-    });
     let protocol = Protocol {
         names,
         extent: if options.quick {
@@ -60,8 +57,7 @@ pub fn experiment(
         },
         seeds: (options.seed, options.seeds),
         rigs: options.rigs.clone(),
-        settings: settings.collect::<Result<_, _>>()?,
-        set: options.set.clone(),
+        settings: options.set.clone(),
         keeps_recordings: options.recordings,
     };
     let write = |folder: &Path, files: &Files| {

@@ -5,6 +5,7 @@
 mod figures;
 mod histories;
 mod movement;
+mod own;
 mod patterns;
 mod whisks;
 
@@ -133,7 +134,7 @@ pub(super) fn evaluate(
         }
     }
     claims(page, &hits, most);
-    visits.product(page, request.rigs.head.tick_hz, most)?;
+    own::of_one_whisker(page, &visits, request.rigs.head.tick_hz, most)?;
     movement::section(page, request, recordings);
     histories::section(page, request, recordings)?;
     Ok(())

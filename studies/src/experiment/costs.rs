@@ -75,8 +75,8 @@ fn hits(pages: &[Page], n: usize) -> String {
     let scores = || pages.iter().filter_map(|page| page.scores.get(n));
     let hits = scores().map(|score| score.told.rate);
     let hits: Vec<f64> = hits.filter(|hit| hit.is_finite()).collect();
-    let decided = scores().filter_map(|score| score.decided);
-    let decided: Vec<f64> = decided.collect();
+    let decided = scores().filter_map(|score| score.product);
+    let decided: Vec<f64> = decided.map(|product| product.decided).collect();
     let share = if decided.is_empty() {
         String::new()
     } else {
@@ -86,6 +86,12 @@ fn hits(pages: &[Page], n: usize) -> String {
         return "nothing decided".to_owned();
     }
     format!("{}{share}", Summary::of(&hits).text(1, false))
+}
+
+/// Bytes of a classifier's tables: of the model, or by its form.
+fn tables(score: &Score, form: Option<&Form>) -> Option<usize> {
+    let of_model = score.product.map(|product| product.bytes);
+    of_model.or(form.map(|form| form.bytes.1))
 }
 
 /// The table of the scores.
@@ -106,7 +112,7 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
             format!("{:.1}", score.told.chance),
             cell(instructions.map(|n| format!("{n:.0}"))),
             cell(form.map(|form| form.bytes.0.bytes().to_string())),
-            cell(form.map(|form| form.bytes.1.to_string())),
+            cell(tables(score, form).map(|bytes| bytes.to_string())),
             form.map_or("", |form| &form.note).to_owned(),
         ]
     };

@@ -1,51 +1,74 @@
 //! What pictures show and what rigs recorded, as CSV: each file says its version and seed.
 
-use std::fmt::Write;
+use std::fmt::Display;
+
+use host_sim::Error;
+use host_sim::origin::Origin;
 
 use super::bodies::Bodies;
-use super::dataset::Dataset;
+use super::dataset::{Dataset, Job};
 use super::protocol::{Files, Protocol};
-use super::recording::Recordings;
+use super::recording::{Recording, Recordings};
+use crate::refused::refused;
 use crate::rigs::CHANNELS;
 
-/// The first line of every file.
-fn header(protocol: &Protocol, seeds: &str) -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    let set = protocol.set.join(", ");
-    format!("# whisker studies {version}; seed {seeds}; set: {set}\n")
+/// What stands above a table.
+fn origin(protocol: &Protocol, seeds: impl Display) -> Origin {
+    let said = Origin::default()
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("seed", seeds);
+    let folder = protocol.rigs.iter();
+    let said = folder.fold(said, |said, folder| said.with("rigs", folder.display()));
+    let settings = protocol.settings.iter();
+    settings.fold(said, |said, setting| said.with("set", setting))
 }
 
-/// A cell of CSV.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
+/// A table of rows below where it comes from.
+fn table(
+    origin: &Origin,
+    header: &[String],
+    rows: impl Iterator<Item = Vec<String>>,
+) -> Result<String, Error> {
+    let mut text = Vec::new();
+    origin.write(&mut text).map_err(refused)?;
+    let mut table = csv::Writer::from_writer(text);
+    table.write_record(header).map_err(refused)?;
+    for row in rows {
+        table.write_record(row).map_err(refused)?;
+    }
+    let text = table.into_inner().map_err(refused)?;
+    String::from_utf8(text).map_err(refused)
 }
 
 /// The data of every figure, all seeds in one file.
-pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Files {
+pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Result<Files, Error> {
+    let seeds = protocol.all_seeds();
+    let last = seeds.end.saturating_sub(1);
+    let origin = origin(protocol, format_args!("{} to {last}", seeds.start));
+    let header = ["seed", "panel", "curve", "x", "y"].map(str::to_owned);
     let mut files = Files::new();
     let shown = bodies.pages.first().map_or(&[][..], |page| &page.shown);
     for (n, first) in shown.iter().enumerate() {
-        let (from, count) = protocol.seeds;
-        let mut text = header(protocol, &format!("{from} to {}", from + count - 1));
-        text.push_str("seed,panel,curve,x,y\n");
-        for (seed, page) in protocol.all_seeds().zip(&bodies.pages) {
+        let mut rows = Vec::new();
+        for (seed, page) in seeds.clone().zip(&bodies.pages) {
             for panel in page.shown.get(n).map_or(&[][..], |shown| &shown.panels) {
                 for series in &panel.series {
-                    let (title, name) = (quoted(&panel.title), quoted(&series.name));
-                    for (x, y) in &series.points {
-                        // Writing to a string does not fail.
-                        let _ = writeln!(text, "{seed},{title},{name},{x},{y}");
-                    }
+                    let of = |(x, y): &(f64, f64)| {
+                        let named = [seed.to_string(), panel.title.clone(), series.name.clone()];
+                        named.into_iter().chain([x.to_string(), y.to_string()])
+                    };
+                    rows.extend(series.points.iter().map(|point| of(point).collect()));
                 }
             }
         }
+        let text = table(&origin, &header, rows.into_iter())?;
         files.push((format!("figures/{}.csv", first.name), text));
     }
-    files
+    Ok(files)
 }
 
 /// The names of a recording's columns.
-fn columns(dataset: Dataset, count: usize) -> String {
+fn columns(dataset: Dataset, count: usize) -> Vec<String> {
     let axes = |n: usize| format!("{}{}", ["x", "y"][n % 2], n / 2);
     let name = |n: usize| match dataset {
         Dataset::Floor | Dataset::Table => ["x", "y"][n % 2].to_owned(),
@@ -62,25 +85,19 @@ fn columns(dataset: Dataset, count: usize) -> String {
         }
         Dataset::Pad | Dataset::Corridor => format!("imp{n}"),
     };
-    (0..count).map(name).collect::<Vec<_>>().join(",")
+    (0..count).map(name).collect()
 }
 
 /// Every recording of a seed, each in a file of its own.
-pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Files {
-    let one = |(job, recording): (&super::Job, &super::Recording)| {
-        let mut text = header(protocol, &seed.to_string());
-        text.push_str(&columns(job.dataset, recording.channels));
-        text.push('\n');
-        for sample in recording.values.chunks(recording.channels.max(1)) {
-            let cells: Vec<String> = sample.iter().map(f32::to_string).collect();
-            text.push_str(&cells.join(","));
-            text.push('\n');
-        }
+pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Result<Files, Error> {
+    let origin = origin(protocol, seed);
+    let one = |(job, recording): (&Job, &Recording)| {
+        let header = columns(job.dataset, recording.channels);
+        let samples = recording.values.chunks(recording.channels.max(1));
+        let rows = samples.map(|sample| sample.iter().map(f32::to_string).collect());
         let name = job.dataset.text();
-        (
-            format!("recordings/{seed}/{name}-{:04}.csv", job.number),
-            text,
-        )
+        let path = format!("recordings/{seed}/{name}-{:04}.csv", job.number);
+        Ok((path, table(&origin, &header, rows)?))
     };
     all.iter().map(one).collect()
 }

@@ -102,7 +102,7 @@ fn claims(page: &mut Page, rows: &[&Scores; 3]) {
         let [x, y, z] = ours.map(|kappa| figure(kappa, 2));
         page.claims.push(
             Claim::new(
-                format_args!("POSE: {} are best for {name}", ROWS[best].what),
+                format_args!("POSE: best for {name}: {}", ROWS[best].what),
                 format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
                 format_args!("template {x}, spectral {y}, features {z}"),
                 (ours[best] - others, "of κ"),

@@ -7,7 +7,7 @@ use host_sim::evaluation::{Evaluation, presentations};
 use host_sim::recording::Stream;
 use whisking::filter;
 
-use crate::page::{Page, Score, Told, figure, row};
+use crate::page::{Page, Product, Score, Told, figure, row};
 use crate::refused::refused;
 
 /// Decided at this posterior.
@@ -69,6 +69,7 @@ fn cells(
     let found = Evaluation::new(&classes, &shown);
     let right = 100.0 * found.calibration.found.share;
     let decided = 100.0 * (1.0 - found.undecided.share);
+    let bytes = model.as_bytes().len();
     page.scores.push(Score {
         classifier: NAME,
         task: task.name.to_owned(),
@@ -76,14 +77,14 @@ fn cells(
             rate: right,
             chance: 100.0 / task.classes as f64,
         },
-        decided: Some(decided),
+        product: Some(Product { decided, bytes }),
     });
     Ok([
         figure(right, 1),
         figure(100.0 * found.calibration.stated, 1),
         figure(decided, 0),
         figure(1000.0 * found.samples / task.rate_hz, 0),
-        figure(model.as_bytes().len() as f64, 0),
+        figure(bytes as f64, 0),
     ]
     .map(|cell| format!("**{cell}**"))
     .to_vec())

@@ -20,8 +20,6 @@ pub struct Protocol {
     pub rigs: Option<PathBuf>,
     /// Keys that are set by name.
     pub settings: Vec<Setting>,
-    /// Those, as they were written.
-    pub set: Vec<String>,
     /// Whether recordings are kept beside the data of figures.
     pub keeps_recordings: bool,
 }

@@ -5,12 +5,13 @@ use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 
 use super::bodies::Bodies;
+use super::changes::Changed;
 use super::data;
 use super::dataset::Dataset;
 use super::protocol::{Files, Protocol};
 use super::request::{Extent, Name, Request};
 use super::variants::{VARIANTS, Variant};
-use super::whole::{Changed, evaluate, report};
+use super::whole::{evaluate, report};
 use super::{jobs, record};
 use crate::rigs::Setting;
 
@@ -34,9 +35,8 @@ fn changes(protocol: &Protocol) -> Vec<&'static Variant> {
 /// where those are kept.
 ///
 /// # Errors
-/// What `keep` gives,
 /// [`Error::Input`] for a bad rig, [`Error::Work`] if the simulation or a classifier refuses
-/// something.
+/// something, and what `keep` gives.
 pub fn run(
     protocol: &Protocol,
     verbosity: Verbosity,
@@ -54,7 +54,7 @@ pub fn run(
         jobs.retain(|job| only.is_none_or(|dataset| job.dataset == dataset));
         let recordings = record(request, &jobs, Verbosity::Quiet)?;
         if keeps {
-            keep(&data::recordings(protocol, request.seed, &recordings))?;
+            keep(&data::recordings(protocol, request.seed, &recordings)?)?;
         }
         let page = evaluate(request, &recordings)?;
         done += 1;
@@ -92,6 +92,6 @@ pub fn run(
         let bodies = both(of_changes, &variant.settings()?, Some(variant))?;
         changed.push(Changed { variant, bodies });
     }
-    keep(&data::figures(protocol, &plain))?;
+    keep(&data::figures(protocol, &plain)?)?;
     report(protocol, plain, &changed)
 }

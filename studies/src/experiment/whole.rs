@@ -1,15 +1,14 @@
-//! The page of all experiments: claims first, what was chosen and what changes them, then each
-//! experiment.
+//! The page of all experiments: claims first, what was chosen, then each experiment.
 
 use std::fmt::Write;
 
 use host_sim::Error;
 
 use super::bodies::Bodies;
+use super::changes::{self, Changed};
 use super::protocol::{Files, Protocol};
 use super::recording::Recordings;
 use super::request::{Extent, Name, Request};
-use super::variants::{Kind, Variant};
 use super::verdicts::{Judged, Verdict, judged};
 use super::{biotact, costs, lep10, lep12, pose, psik};
 use crate::page::{Page, joined};
@@ -17,13 +16,6 @@ use crate::refused::{refused, within};
 
 /// The name of the page.
 const PAGE: &str = "experiments.md";
-
-/// What came of a change.
-#[derive(Debug)]
-pub(super) struct Changed {
-    pub(super) variant: &'static Variant,
-    pub(super) bodies: Bodies,
-}
 
 /// Evaluates the recordings of one seed.
 ///
@@ -53,7 +45,7 @@ pub(super) fn report(
     let claims = judged(&plain.pages, &plain.placebos)?;
     let mut page = Page::default();
     introduction(&mut page, protocol, &claims);
-    changes(&mut page, &claims, changed)?;
+    changes::section(&mut page, &claims, changed)?;
     costs::section(&mut page, &plain);
     let texts: Vec<&str> = plain.pages.iter().map(|page| &*page.text).collect();
     let body = joined(&texts).ok_or_else(|| refused("the pages of two seeds differ in words"))?;
@@ -77,9 +69,12 @@ fn command(protocol: &Protocol) -> String {
     if protocol.extent == Extent::Quick {
         said.push_str(" --quick");
     }
-    for set in &protocol.set {
-        // Writing to a string does not fail.
-        let _ = write!(said, " --set '{set}'");
+    // Writing to a string does not fail.
+    if let Some(folder) = &protocol.rigs {
+        let _ = write!(said, " --rigs '{}'", folder.display());
+    }
+    for setting in &protocol.settings {
+        let _ = write!(said, " --set '{setting}'");
     }
     said
 }
@@ -145,99 +140,4 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
             ]
         }),
     );
-}
-
-/// A margin and what it means: bold if not met, in brackets if within noise.
-fn cell(claim: &Judged) -> String {
-    let text = claim.margin_text();
-    match claim.verdict() {
-        Verdict::Met => text,
-        Verdict::NotMet => format!("**{text}**"),
-        Verdict::WithinNoise => format!("({text})"),
-        Verdict::DoesNotCount => format!("~~{text}~~"),
-    }
-}
-
-/// What each change of a rig does to the claims that rest on it.
-fn changes(page: &mut Page, claims: &[Judged], changed: &[Changed]) -> Result<(), Error> {
-    if changed.is_empty() {
-        return Ok(());
-    }
-    page.heading(2, "What was chosen, and each claim without it");
-    let seeds = changed.iter().map(|one| one.bodies.pages.len()).max();
-    page.say(format_args!(
-        "One thing is changed at a time, {} seeds each: margins of the claims, **bold** where they \
-         are not met, (in brackets) within noise, ~~struck out~~ where a placebo is told apart. \
-         *Without* undoes what was chosen, mostly after a result had been seen; *cause* changes \
-         what might be why a claim is not met.",
-        seeds.unwrap_or(0)
-    ));
-    let mut gains: Vec<(usize, f64, &str)> = Vec::new();
-    let mut rest = changed;
-    while let Some(first) = rest.first() {
-        let of = |one: &Changed| one.variant.dataset() == first.variant.dataset();
-        let (group, after) = rest.split_at(rest.iter().take_while(|one| of(one)).count());
-        rest = after;
-        let mut columns = Vec::new();
-        for one in group {
-            let variant = one.variant;
-            let kind = match variant.kind {
-                Kind::Without => "without",
-                Kind::Cause => "cause",
-            };
-            columns.push(judged(&one.bodies.pages, &one.bodies.placebos)?);
-            page.say(format_args!(
-                "- {} (*{kind}*): {}.",
-                variant.name, variant.note
-            ));
-        }
-        let concerned = |claim: &&Judged| {
-            columns
-                .iter()
-                .flatten()
-                .any(|other| other.what == claim.what)
-        };
-        let mut rows = Vec::new();
-        for (n, claim) in claims
-            .iter()
-            .enumerate()
-            .filter(|(_, claim)| concerned(claim))
-        {
-            let mut cells = vec![claim.what.clone(), cell(claim)];
-            for (column, one) in columns.iter().zip(group) {
-                let other = column.iter().find(|other| other.what == claim.what);
-                cells.push(other.map_or("–".to_owned(), cell));
-                if let Some(gain) = other.and_then(|other| claim.gain_of(other)) {
-                    gains.push((n, gain, &one.variant.name));
-                }
-            }
-            rows.push(cells);
-        }
-        let names: Vec<&str> = group.iter().map(|one| &*one.variant.name).collect();
-        page.table(&format!("claim | as it is | {}", names.join(" | ")), rows);
-    }
-    reasons(page, claims, &gains);
-    Ok(())
-}
-
-/// Why claims are not met: the changes that the seeds are sure to help.
-fn reasons(page: &mut Page, claims: &[Judged], gains: &[(usize, f64, &str)]) {
-    let unmet = |(_, claim): &(usize, &Judged)| claim.verdict() != Verdict::Met;
-    page.say(
-        "Where a claim is not met, the changes above after which its margin is larger beyond the \
-         noise; what is not listed has no reason that was confirmed:",
-    );
-    for (n, claim) in claims.iter().enumerate().filter(unmet) {
-        let mine = gains.iter().filter(|(of, ..)| *of == n);
-        let digits = claim.digits();
-        let mine: Vec<String> = mine
-            .map(|(_, gain, name)| format!("{name} ({gain:+.digits$})"))
-            .collect();
-        let why = if mine.is_empty() {
-            "none".to_owned()
-        } else {
-            mine.join("; ")
-        };
-        page.say(format_args!("- *{}*: {why}.", claim.what));
-    }
 }

@@ -145,7 +145,7 @@ impl WhiskingHead {
             }
             module.tick()?;
             // Anew for each whisk, as soon as no whisker touches.
-            is_to_move |= tick % self.whisk_ticks() == 0;
+            is_to_move |= tick > 0 && tick % self.whisk_ticks() == 0;
             if is_to_move && !whiskers.iter().any(TouchingWhisker::contact) {
                 plate = self.placed(visit, &mut chance);
                 is_to_move = false;

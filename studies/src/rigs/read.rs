@@ -4,11 +4,13 @@
 
 use std::ops::RangeInclusive;
 use std::path::Path;
-use std::str::FromStr;
 
 use host_sim::Error;
 use serde::de::DeserializeOwned;
-use toml::{Table, Value};
+use toml::Table;
+
+use super::overlay::{Fault, overlay};
+use super::setting::Setting;
 
 /// A number of a rig that is out of its range: its key, and what is wrong.
 pub type OutOfRange = (&'static str, String);
@@ -35,53 +37,6 @@ pub trait Rig: Keys {
     const FILE: &'static str;
     /// The values of all keys where nothing else is said.
     const DEFAULT: &'static str;
-}
-
-/// A key that is set by name, such as `head.motor.kp=0.2`: its rig, where in that it is, and
-/// its value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
-    path: Vec<String>,
-    value: Value,
-    /// As it was written.
-    text: String,
-}
-
-impl FromStr for Setting {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let allowed = "allowed: RIG.KEY=VALUE, such as head.motor.kp=0.2";
-        let (key, value) = text.split_once('=').ok_or(allowed)?;
-        let path: Vec<String> = key.trim().split('.').map(str::to_owned).collect();
-        if path.len() < 2 {
-            return Err(allowed.to_owned());
-        }
-        let document: Table = toml::from_str(&format!("value = {}", value.trim()))
-            .map_err(|error| format!("{}; {allowed}", error.message().replace('\n', " ")))?;
-        let value = document.get("value").cloned().ok_or(allowed)?;
-        Ok(Self {
-            path,
-            value,
-            text: text.to_owned(),
-        })
-    }
-}
-
-impl Setting {
-    /// The rig that it is a key of.
-    pub fn rig(&self) -> &str {
-        self.path.first().map_or("", String::as_str)
-    }
-
-    /// As a rig's file has it.
-    fn table(&self) -> Table {
-        let keys = self.path.iter().skip(1).rev();
-        let nested = keys.fold(self.value.clone(), |value, key| {
-            Value::Table(Table::from_iter([(key.clone(), value)]))
-        });
-        nested.as_table().cloned().unwrap_or_default()
-    }
 }
 
 /// A key's value, as the numbers that must be in its range.
@@ -158,42 +113,6 @@ macro_rules! keys {
 }
 pub(super) use keys;
 
-/// What is wrong with a key.
-type Fault = (String, String);
-
-/// Puts what `top` has in the place of what `base` has; both name the same things.
-fn overlay(base: &mut Table, top: Table) -> Result<(), Fault> {
-    for (key, value) in top {
-        let Some(place) = base.get_mut(&key) else {
-            let known: Vec<&str> = base.keys().map(String::as_str).collect();
-            let fault = format!("unknown key, allowed: {}", known.join(", "));
-            return Err((key, fault));
-        };
-        match (place, value) {
-            (Value::Table(inner), Value::Table(value)) => overlay(inner, value)?,
-            (place, value) => {
-                *place = alike(place, value).map_err(|fault| (key, fault))?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The value, as the kind of `place`: a whole number will do for any.
-fn alike(place: &Value, value: Value) -> Result<Value, String> {
-    match (place, value) {
-        (Value::Float(_), Value::Integer(whole)) => Ok(Value::Float(whole as f64)),
-        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
-            let values = old.iter().zip(new);
-            let values: Result<Vec<Value>, String> =
-                values.map(|(old, new)| alike(old, new)).collect();
-            values.map(Value::Array)
-        }
-        (place, value) if place.same_type(&value) && !place.is_array() => Ok(value),
-        (place, value) => Err(format!("found {value}, allowed what is like {place}")),
-    }
-}
-
 /// The rig that is built in, with what the file in `folder` says, if there is one, and with
 /// those of `settings` that are its keys.
 ///
@@ -228,12 +147,15 @@ pub fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R,
     overlay(&mut keys, own).map_err(of_file)?;
     check::<R>(&keys).map_err(of_file)?;
     let name = R::FILE.trim_end_matches(".toml");
-    for setting in settings.iter().filter(|setting| setting.rig() == name) {
-        let wrong = |(_, fault): Fault| Error::Input(format!("{}: {fault}", setting.text));
-        overlay(&mut keys, setting.table()).map_err(wrong)?;
-        check::<R>(&keys).map_err(wrong)?;
+    let mine: Vec<&Setting> = settings.iter().filter(|one| one.rig() == name).collect();
+    if mine.is_empty() {
+        return check(&keys).map_err(of_file);
     }
-    check(&keys).map_err(of_file)
+    let wrong = |(key, fault): Fault| Error::Input(format!("{name}.{key}: {fault}"));
+    for setting in mine {
+        overlay(&mut keys, setting.table()).map_err(wrong)?;
+    }
+    check(&keys).map_err(wrong)
 }
 
 /// The rig of these keys, all in range.
@@ -340,16 +262,5 @@ mod tests {
                 assert!(has_source, "{}", lines[n]);
             }
         }
-    }
-
-    #[test]
-    fn a_setting_that_is_none_is_told() {
-        for text in ["press_m=1", "floor.press_m", "floor.press_m=deep"] {
-            let wrong = text.parse::<Setting>().unwrap_err();
-            assert!(wrong.contains("allowed: RIG.KEY=VALUE"), "{wrong}");
-        }
-        let unknown: Setting = "floor.depth=1".parse().unwrap();
-        let wrong = load::<Floor>(None, &[unknown]).unwrap_err().to_string();
-        assert!(wrong.starts_with("floor.depth=1: unknown key"), "{wrong}");
     }
 }

@@ -6,16 +6,13 @@ use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
 use crate::experiment::dataset::Dataset;
-use crate::experiment::product;
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
 use host_sim::Error;
-use host_sim::recording::Stream;
 
 /// A classifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,7 +84,7 @@ impl Task {
 }
 
 /// A whisk: its texture, distance and samples of all channels.
-type Whisk = (usize, usize, Vec<f64>);
+pub(super) type Whisk = (usize, usize, Vec<f64>);
 
 /// Numbers of the whisks to train on and to validate with.
 type Split<'a> = (&'a [usize], &'a [usize]);
@@ -134,34 +131,13 @@ impl Visits {
         }
     }
 
-    /// The product's own rule on textures: the left front whisker alone, the first `most` whisks
-    /// to train on.
-    pub(super) fn product(&self, page: &mut Page, rate_hz: f64, most: usize) -> Result<(), Error> {
-        let count = self.whisks.first().map_or(0, Vec::len);
-        let order: Vec<usize> = (0..count).collect();
-        let (training, testing) = order.split_at(most.min(count));
-        let streams = |strategy: usize, numbers: &[usize]| -> Result<Vec<Stream>, Error> {
-            let one = |(n, (texture, _, samples)): (usize, &Whisk)| {
-                let pairs = samples.chunks_exact(CHANNELS).map(|all| [all[0], all[1]]);
-                product::stream(TEXTURES[*texture].0, n, pairs.collect(), Some(rate_hz))
-            };
-            self.some(strategy, numbers).enumerate().map(one).collect()
-        };
-        let names = STRATEGIES.map(|(name, _)| format!("texture by one whisker, {name}"));
-        let mut tasks = Vec::new();
-        for (strategy, name) in names.iter().enumerate() {
-            let task = product::Task {
-                name,
-                classes: TEXTURES.len(),
-                rate_hz,
-            };
-            let (training, testing) = (streams(strategy, training)?, streams(strategy, testing)?);
-            tasks.push((task, training, testing));
-        }
-        product::section(page, tasks)
+    /// Whisks of each condition.
+    pub(super) fn count(&self) -> usize {
+        self.whisks.first().map_or(0, Vec::len)
     }
 
-    fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
+    /// Those of some numbers, of all textures and distances.
+    pub(super) fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
         let whisks = self.whisks.get(strategy).map_or(&[][..], Vec::as_slice);
         numbers.iter().filter_map(|n| whisks.get(*n)).flatten()
     }

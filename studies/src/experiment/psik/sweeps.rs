@@ -32,10 +32,7 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
     let kept = places().filter(|(n, _)| n % HELD_OUT != 0);
     let kept: Vec<Row> = kept.map(|(_, row)| row.clone()).collect();
     for penalty in PENALTIES {
-        // A start is refused that never names some class: too large a penalty.
-        let Ok(network) = train(&kept, seed, penalty) else {
-            continue;
-        };
+        let network = train(&kept, seed, penalty)?;
         let mut hits = 0;
         for (_, (class, row)) in places().filter(|(n, _)| n % HELD_OUT == 0) {
             hits += usize::from(network.classify(row).map_err(refused)? == *class);
@@ -44,7 +41,7 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
             best = (hits, penalty);
         }
     }
-    train(rows, seed, best.1).or_else(|_| train(rows, seed, PENALTIES[0]))
+    train(rows, seed, best.1)
 }
 
 /// Trains a network with a penalty on its weights; classes must come in order.

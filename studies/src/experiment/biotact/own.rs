@@ -1,0 +1,44 @@
+//! The product's own rule on BIOTACT's textures, by the left front whisker alone.
+
+use host_sim::Error;
+use host_sim::recording::Stream;
+
+use super::whisks::{Visits, Whisk};
+use crate::experiment::product::{Task, section, stream};
+use crate::page::Page;
+use crate::paper::biotact::{STRATEGIES, TEXTURES};
+use crate::rigs::CHANNELS;
+
+/// Says what it makes of each strategy, the first `most` whisks to train on.
+pub(super) fn of_one_whisker(
+    page: &mut Page,
+    visits: &Visits,
+    rate_hz: f64,
+    most: usize,
+) -> Result<(), Error> {
+    let order: Vec<usize> = (0..visits.count()).collect();
+    let (training, testing) = order.split_at(most.min(order.len()));
+    let streams = |strategy: usize, numbers: &[usize]| -> Result<Vec<Stream>, Error> {
+        let one = |(n, (texture, _, samples)): (usize, &Whisk)| {
+            let pairs = samples.chunks_exact(CHANNELS).map(|all| [all[0], all[1]]);
+            stream(TEXTURES[*texture].0, n, pairs.collect(), Some(rate_hz))
+        };
+        visits
+            .some(strategy, numbers)
+            .enumerate()
+            .map(one)
+            .collect()
+    };
+    let names = STRATEGIES.map(|(name, _)| format!("texture by one whisker, {name}"));
+    let mut tasks = Vec::new();
+    for (strategy, name) in names.iter().enumerate() {
+        let task = Task {
+            name,
+            classes: TEXTURES.len(),
+            rate_hz,
+        };
+        let (training, testing) = (streams(strategy, training)?, streams(strategy, testing)?);
+        tasks.push((task, training, testing));
+    }
+    section(page, tasks)
+}

@@ -1,0 +1,85 @@
+//! Keys of rigs that are set by name.
+
+use std::fmt;
+use std::str::FromStr;
+
+use toml::{Table, Value};
+
+/// A key that is set by name, such as `head.motor.kp=0.2`: its rig, where in that it is, and
+/// its value in TOML.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    path: Vec<String>,
+    value: Value,
+    /// As it was written.
+    text: String,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let allowed = "allowed: RIG.KEY=VALUE, such as head.motor.kp=0.2";
+        let (key, value) = text.split_once('=').ok_or(allowed)?;
+        let path: Vec<String> = key.trim().split('.').map(str::to_owned).collect();
+        if path.len() < 2 {
+            return Err(allowed.to_owned());
+        }
+        let document: Table = toml::from_str(&format!("value = {}", value.trim()))
+            .map_err(|error| format!("{}; {allowed}", error.message().replace('\n', " ")))?;
+        let value = document.get("value").cloned().ok_or(allowed)?;
+        Ok(Self {
+            path,
+            value,
+            text: text.to_owned(),
+        })
+    }
+}
+
+impl Setting {
+    /// The rig that it is a key of.
+    pub fn rig(&self) -> &str {
+        self.path.first().map_or("", String::as_str)
+    }
+
+    /// As a rig's file has it.
+    pub(super) fn table(&self) -> Table {
+        let keys = self.path.iter().skip(1).rev();
+        let nested = keys.fold(self.value.clone(), |value, key| {
+            Value::Table(Table::from_iter([(key.clone(), value)]))
+        });
+        nested.as_table().cloned().unwrap_or_default()
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Setting;
+    use crate::rigs::{Floor, load};
+
+    #[test]
+    fn a_setting_that_is_none_is_told() {
+        for text in ["press_m=1", "floor.press_m", "floor.press_m=deep"] {
+            let wrong = text.parse::<Setting>().unwrap_err();
+            assert!(wrong.contains("allowed: RIG.KEY=VALUE"), "{wrong}");
+        }
+        let unknown: Setting = "floor.depth=1".parse().unwrap();
+        let wrong = load::<Floor>(None, &[unknown]).unwrap_err().to_string();
+        assert!(wrong.starts_with("floor.depth: unknown key"), "{wrong}");
+    }
+
+    #[test]
+    fn settings_that_are_in_range_together_may_come_in_any_order() {
+        let both = ["floor.leg_least_s=5", "floor.leg_most_s=6"].map(|text| text.parse().unwrap());
+        let floor: Floor = load(None, &both).unwrap();
+        assert_eq!((floor.leg_least_s, floor.leg_most_s), (5.0, 6.0));
+        let wrong = load::<Floor>(None, &both[..1]).unwrap_err().to_string();
+        assert_eq!(wrong, "floor.leg_most_s: found 3, allowed 5 to 1000");
+    }
+}
