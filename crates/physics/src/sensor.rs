@@ -141,6 +141,18 @@ mod tests {
     }
 
     #[test]
+    fn each_axis_has_its_own_range() {
+        let settings = SensorSettings {
+            full_scale_rad: [0.2, 0.05],
+            ..QUIET
+        };
+        let mut sensor = Sensor::new(settings, 1);
+        sensor.advance([0.02, -0.02], 5e-4);
+        // A tenth and two fifths of 8191.
+        assert_eq!(sensor.codes(), [819, -3276]);
+    }
+
+    #[test]
     fn a_value_is_held_until_the_next_measurement() {
         let settings = SensorSettings {
             refresh_s: 1.5e-3,

@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_quarter_turn_takes_x_to_y_and_gains_come_behind_it() {
+    fn an_eighth_of_a_turn_takes_x_to_y_and_gains_come_behind_it() {
         let mut turned = flaws("misaligned_deg = 45\ngain_y = 2.0");
         let half = 0.5_f64.sqrt();
         close(turned.sensed(2, 0.5, &ALL), [0.6 * half, 2.0 * 0.6 * half]);

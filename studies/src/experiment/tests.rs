@@ -1,8 +1,11 @@
 //! Recordings depend on the seed, the data set and the job alone, and pages on
 //! the recordings alone: neither on the number of cores.
 
+use super::record::{corridor, floor, head, pad, table};
 use super::whole::evaluate;
-use super::{Name, Request, jobs, record};
+use super::{Name, Recording, Request, jobs, record};
+use crate::rigs::RobotMotion;
+use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 fn on_cores<T: Send>(cores: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -35,4 +38,40 @@ fn the_same_recordings_give_the_same_pages_on_one_core_or_several() {
         (page.text, page.files, page.claims)
     };
     assert_eq!(page(1), page(3));
+}
+
+/// What records a job from a seed.
+type Record = fn(&Request, usize, u64) -> Result<Recording, Error>;
+
+/// Of two jobs that differ in their classes alone, from one seed: recordings differ, and in a
+/// placebo they are the same to the last bit, so that nothing is left that tells classes apart.
+#[test]
+fn in_a_placebo_a_label_is_all_that_differs() {
+    let request = Request::quick(&Name::ALL, 1);
+    let placebo = Request {
+        is_placebo: true,
+        ..request.clone()
+    };
+    let extent = request.extent;
+    let spot = |of| floor::number(extent, of, RobotMotion::Clockwise, 0);
+    let sweeps = pad::jobs(extent) / pad::PAPERS;
+    let runs = corridor::jobs(extent) / 4;
+    let all: [(Record, [usize; 2]); 7] = [
+        (floor::record, [spot(0), spot(3)]),
+        // Another texture, and another distance.
+        (head::record, [head::number(1, 0, 0), head::number(1, 2, 0)]),
+        (head::record, [head::number(1, 0, 0), head::number(1, 0, 2)]),
+        // Another texture, and another angle and speed.
+        (table::record, [0, 3]),
+        (table::record, [0, table::jobs(extent) / 2 - 4]),
+        (pad::record, [0, 7 * sweeps]),
+        // The way back.
+        (corridor::record, [0, runs]),
+    ];
+    for (n, (record, jobs)) in all.into_iter().enumerate() {
+        let [true_one, true_other] = jobs.map(|job| record(&request, job, 9).unwrap());
+        assert_ne!(true_one, true_other, "{n}");
+        let [one, other] = jobs.map(|job| record(&placebo, job, 9).unwrap());
+        assert_eq!(one, other, "{n}");
+    }
 }

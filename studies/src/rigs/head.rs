@@ -180,10 +180,11 @@ impl WhiskingHead {
 
 #[cfg(test)]
 mod tests {
-    use super::WhiskingHead;
+    use super::{CHANNELS, Visit, WhiskingHead};
     use crate::paper::biotact::{DISTANCES_MM, WHISKERS};
-    use crate::rigs::load;
+    use crate::rigs::{Chance, load};
     use physics::vector::{add, cross, dot};
+    use physics::{Biotact, Material, SensorSettings, Shaft, Surface};
 
     fn rig() -> WhiskingHead {
         load(None, &[]).unwrap()
@@ -210,6 +211,81 @@ mod tests {
             tip(0, 120.0)[0] > tip(0, 90.0)[0],
             "protraction goes forward"
         );
+    }
+
+    /// Largest |x| of the left front whisker in each of four whisks before the smooth surface.
+    fn peaks(placement_sd_m: f64, spot_spread_m: f64) -> Vec<i16> {
+        let mut rig = rig();
+        (rig.placement_sd_m, rig.spot_spread_m) = (placement_sd_m, spot_spread_m);
+        rig.noise = 0.0;
+        rig.motor.follows = false;
+        let sensor = SensorSettings {
+            full_scale_rad: [0.02; 2],
+            noise_codes: 0.0,
+            ..SensorSettings::default()
+        };
+        let visit = Visit {
+            distance_m: 0.01,
+            surface: &Surface::of(Material::Flat),
+            rcp: None,
+            whisks: 4,
+            seed: 1,
+        };
+        let felt = rig
+            .visit(&Biotact::ALL.map(Shaft::biotact), &sensor, &visit)
+            .unwrap();
+        let whisks = felt.codes.chunks(CHANNELS * rig.whisk_ticks());
+        let peak = |whisk: &[i16]| {
+            whisk
+                .iter()
+                .step_by(CHANNELS)
+                .map(|x| x.abs())
+                .max()
+                .unwrap()
+        };
+        whisks.map(peak).collect()
+    }
+
+    #[test]
+    fn the_surface_is_placed_anew_for_each_whisk() {
+        let apart = |peaks: &[i16]| {
+            let sorted = peaks
+                .iter()
+                .copied()
+                .collect::<std::collections::BTreeSet<_>>();
+            sorted.last().unwrap() - sorted.first().unwrap()
+        };
+        let still = peaks(0.0, 0.0);
+        assert_eq!(still.len(), 4);
+        assert!(apart(&still) < 20, "{still:?}");
+        // A flat surface is alike at every spot; by a millimetre of distance it is not.
+        let elsewhere = peaks(0.0, 0.005);
+        assert!(apart(&elsewhere) < 20, "{elsewhere:?}");
+        let moved = peaks(0.001, 0.0);
+        let pairs = moved
+            .windows(2)
+            .filter(|pair| (pair[0] - pair[1]).abs() > 100);
+        assert!(pairs.count() >= 2, "{moved:?}");
+    }
+
+    #[test]
+    fn a_pitch_slopes_the_surface_upwards_and_keeps_its_distance() {
+        let mut rig = rig();
+        (rig.pitch_deg, rig.placement_sd_m) = (20.0, 0.0);
+        let visit = Visit {
+            distance_m: 0.01,
+            surface: &Surface::of(Material::Flat),
+            rcp: None,
+            whisks: 1,
+            seed: 1,
+        };
+        let plate = rig.placed(&visit, &mut Chance::new(3));
+        assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
+        assert!(dot(plate.normal, plate.along).abs() < 1e-12);
+        assert!((plate.normal[2] / -plate.normal[0] - 20.0_f64.to_radians().tan()).abs() < 1e-12);
+        // The axis meets it at the distance, whatever the spot.
+        let off = add([0.01, 0.0, 0.0], -1.0, plate.point_m);
+        assert!(dot(plate.normal, off).abs() < 1e-12);
     }
 
     /// BIOTACT section II-C: all whiskers can touch a plane orthogonal to the

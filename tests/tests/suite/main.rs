@@ -5,6 +5,7 @@ mod closed_loop;
 mod common;
 mod disturbances;
 mod euler_trace;
+mod facing;
 mod faults;
 mod faults_by_side;
 mod formats;

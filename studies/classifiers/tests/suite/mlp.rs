@@ -234,6 +234,19 @@ fn what_cannot_be_trained_is_refused_by_name() {
     // Both rows alike: no start can hit both classes.
     trainer.add("b", &[1.0, 1.0]).unwrap();
     assert_eq!(trainer.train(), Err(Error::NotReliable { attempts: 10 }));
+    // Without a bar any start will do.
+    let mut any = NetworkTrainer::new(
+        2,
+        Options {
+            reliable: 0.0,
+            ..base
+        },
+    )
+    .unwrap();
+    any.add("a", &[1.0, 1.0]).unwrap();
+    any.add("b", &[1.0, 1.0]).unwrap();
+    let rates = any.train().unwrap().hit_rates;
+    assert_eq!(rates.iter().sum::<f64>(), 1.0, "all are named alike");
     // Deviation 1e-40: one over it is no f32.
     trainer.add("b", &[1.0, 1.0]).unwrap();
     let mut narrow = NetworkTrainer::new(1, base).unwrap();
