@@ -19,6 +19,12 @@ const DENY: [&str; 3] = ["--", "-D", "warnings"];
 /// The nightly run has them.
 const TOOL: [&str; 3] = ["-p", "whisker", "--no-default-features"];
 
+/// All tests but those of [`TOOL`] and of the counts, which take the crates as a board does.
+pub(crate) const OTHERS: [&str; 5] = ["--workspace", "--exclude", "whisker", "--exclude", "count"];
+
+/// Of the properties' cases.
+const SEED: &str = "1";
+
 /// Everything, or the steps whose names contain one of `only`.
 ///
 /// # Errors
@@ -64,11 +70,16 @@ fn lints() -> Result<(), Fault> {
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
 
+/// Properties are tried on the same cases in each run, so that a change passes or fails by what
+/// it changes; the nightly run tries others.
 fn tests() -> Result<(), Fault> {
-    let others = ["--workspace", "--exclude", "whisker", "--exclude", "count"];
-    run(cargo(&["test", "--locked"]).args(others))?;
-    run(cargo(&["test", "--locked"]).args(TOOL))?;
-    run(&mut cargo(&["test", "--locked", "-p", "count", "--lib"]))
+    let test = |arguments: &[&str]| {
+        let mut command = cargo(&["test", "--locked"]);
+        run(command.args(arguments).env("PROPTEST_RNG_SEED", SEED))
+    };
+    test(&OTHERS)?;
+    test(&TOOL)?;
+    test(&["-p", "count", "--lib"])
 }
 
 /// In the profile of the tests, which has built all of it. PSIK's 33 vibrissae take minutes, and

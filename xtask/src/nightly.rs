@@ -10,7 +10,8 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
-    cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, reproducible, size, walk,
+    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, reproducible, size,
+    walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -24,6 +25,9 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.try_run("lints of every board", lints);
     steps.try_run("the bench's program with debug probes", with_probes);
+    steps.try_run("properties on other cases", || {
+        run(cargo(&["test", "--locked"]).args(ci::OTHERS))
+    });
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)
     });

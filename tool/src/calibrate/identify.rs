@@ -1,21 +1,24 @@
 //! Motor and friction from steps of the setpoint.
 //!
 //! The whisker obeys θ″ = a u − b sgn θ′ − c θ′, with the duty u: a motor with back-EMF and
-//! Coulomb friction. Multiplied by φ(t) = sin²(π t/T), which is 0 at both ends with its
-//! derivative, and integrated by parts over a stretch of length T in which the whisker does not
-//! turn round, that is linear in the three unknowns without any derivative of what was measured:
+//! Coulomb friction. Multiplied by φ(t) = sin⁴(π t/T), which is 0 at both ends with three
+//! derivatives (so that a sum over ticks is as good as the integral), and integrated by parts over a
+//! stretch of length T in which the whisker does not turn round, that is linear in the three
+//! unknowns without any derivative of what was measured:
 //!
 //! ∫ φ″ θ = a ∫ φ u − b sgn θ′ ∫ φ + c ∫ φ′ θ
 //!
 //! Least squares over all such stretches gives a, b and c (modulating functions: Shinbrot,
-//! NACA TN 3288, 1954).
+//! NACA TN 3288, 1954). With an encoder of 5,600 counts a turn, over motors of 4,000 to 20,000
+//! degrees/s, 20 to 80 ms and a friction of 0.02 to 0.1, a = K/τ is found within 1 %, τ within 4 %
+//! and friction within 0.001 and 3 % (the tests hold it to that).
 
 use std::f64::consts::PI;
 
 use super::listening::Sample;
 
 /// A stretch, s.
-const STRETCH_S: f64 = 0.012;
+const STRETCH_S: f64 = 0.020;
 /// By how much the angle changes at least in each fifth of a stretch, degrees: more than a count
 /// of the encoder, and no turning round.
 const LEAST_DEG: f64 = 0.1;
@@ -107,18 +110,19 @@ fn row(samples: &[Sample], tick_s: f64) -> Option<Row> {
     for (n, sample) in samples.iter().enumerate() {
         let angle = sample.measured_deg - middle;
         let phase = 2.0 * PI * n as f64 * tick_s / whole;
-        // φ = (1 − cos)/2 and its derivatives.
+        // φ = (3 − 4 cos + cos 2)/8 and its derivatives; the trapezoidal rule, with all of them 0
+        // at the ends.
         let rate = 2.0 * PI / whole;
-        // The trapezoidal rule; all but φ″ are 0 at the ends.
-        let is_end = n == 0 || n + 1 == samples.len();
-        let weight = if is_end { 0.5 * tick_s } else { tick_s };
-        row.value += 0.5 * rate * rate * phase.cos() * angle * weight;
-        row.factors[2] += 0.5 * rate * phase.sin() * angle * tick_s;
+        let (single, double) = (phase.sin_cos(), (2.0 * phase).sin_cos());
+        row.value += 0.5 * rate * rate * (single.1 - double.1) * angle * tick_s;
+        row.factors[2] += 0.25 * rate * (2.0 * single.0 - double.0) * angle * tick_s;
         // A tick's duty acts from its end to the next tick's.
-        let acts = 0.5 * (1.0 - (phase + rate * 0.5 * tick_s).cos());
-        row.factors[0] += acts * sample.duty * tick_s;
+        if n + 1 < samples.len() {
+            let sum = |p: f64| (3.0 * p - 4.0 * p.sin() + 0.5 * (2.0 * p).sin()) / 8.0;
+            row.factors[0] += (sum(phase + rate * tick_s) - sum(phase)) / rate * sample.duty;
+        }
     }
-    row.factors[1] = -direction * 0.5 * whole;
+    row.factors[1] = -direction * 0.375 * whole;
     Some(row)
 }
 
