@@ -1,11 +1,11 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
-use scene::{Driver, PlantKind, Rest, Scene, ShaftName, Texture};
+use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName, Texture};
 
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
-use physics::{BadSetting, Biotact, Facing, Follicle, Shaft};
+use physics::{BadSetting, Biotact, Facing, Follicle, Shaft, Surface};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -52,7 +52,11 @@ impl World {
                     settings.facing = Facing {
                         slant_deg: facing.slant_deg,
                         tilt_deg: facing.tilt_deg,
+                        elevation_deg: facing.elevation_deg,
                     };
+                }
+                if let Some(textured) = &scene.plant.textured {
+                    own_surfaces(textured, &mut settings.own);
                 }
                 Box::new(Elastic::new(head, settings, scene.seed).map_err(broken)?)
             }
@@ -185,6 +189,30 @@ fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {
     }
 }
 
+/// Gives the scene's own surfaces their properties.
+fn own_surfaces(textured: &Presentation, all: &mut [Surface; 4]) {
+    let Some(given) = &textured.own else {
+        return;
+    };
+    let own = textured.textures.iter().filter_map(|texture| texture.own());
+    for (place, n) in own.enumerate() {
+        let Some(surface) = all.get_mut(n) else {
+            continue;
+        };
+        let set = |list: &Option<Vec<f64>>, value: &mut f64| {
+            if let Some(given) = list.as_ref().and_then(|list| list.get(place)) {
+                *value = *given;
+            }
+        };
+        set(&given.own_height_m, &mut surface.height_m);
+        set(&given.own_grain_m, &mut surface.grain_m);
+        set(&given.own_stiffness_n_m, &mut surface.stiffness_n_m);
+        set(&given.own_damping, &mut surface.damping);
+        set(&given.own_friction, &mut surface.friction);
+        surface.hold = HOLD * surface.friction;
+    }
+}
+
 fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     let Some(motor) = &scene.motor else {
         return (Motors::None, Vec::new());
@@ -196,6 +224,10 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     let pins = motors.iter().cloned().map(Pins::Ideal).collect();
     (Motors::Ideal(motors), pins)
 }
+
+/// What holds a resting tip on an own surface, as a multiple of its friction: between the 1.15
+/// of abrasive and the 1.3 of carpet ([`Surface::of`]).
+const HOLD: f64 = 1.2;
 
 /// How far beyond the travel that is no fault the end stops are, degrees.
 const STOP_MARGIN_DEG: f64 = 5.0;

@@ -7,11 +7,13 @@ mod corridor;
 mod floor;
 mod frame;
 mod head;
+mod maze;
 mod module;
 mod overlay;
 mod pad;
 mod read;
 mod setting;
+mod surfaces;
 mod table;
 
 use std::path::Path;
@@ -20,10 +22,12 @@ pub use chance::{Chance, Wander, seed_of};
 pub use corridor::{Corridor, Robot};
 pub use floor::{Drive, Floor, RobotMotion};
 pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
+pub use maze::{Made, Maze, Wall};
 pub use module::PositionControl;
 pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
 pub use read::{Keys, OutOfRange, Rig, load, parse};
 pub use setting::Setting;
+pub use surfaces::{Properties, Surfaces};
 pub use table::{Carriage, Table, facing};
 
 use host_sim::Error;
@@ -41,6 +45,10 @@ pub struct Rigs {
     pub pad: Pad,
     /// PSIK, mobile robot.
     pub corridor: Corridor,
+    /// PSIK, the mobile robot's maze.
+    pub maze: Maze,
+    /// What is before them.
+    pub surfaces: Surfaces,
 }
 
 /// The names of the rigs' files in a folder.
@@ -64,7 +72,9 @@ impl Rigs {
     /// [`Error::Input`] names the file, the line and the key, or the setting.
     pub fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
         /// As settings name them.
-        const NAMES: [&str; 5] = ["floor", "head", "table", "pad", "corridor"];
+        const NAMES: [&str; 7] = [
+            "floor", "head", "table", "pad", "corridor", "maze", "surfaces",
+        ];
         let is_known = |setting: &&Setting| NAMES.contains(&setting.rig());
         if let Some(unknown) = settings.iter().find(|setting| !is_known(setting)) {
             return Err(Error::Input(format!(
@@ -85,6 +95,8 @@ impl Rigs {
             table: load(folder, settings)?,
             pad: load(folder, settings)?,
             corridor: load(folder, settings)?,
+            maze: load(folder, settings)?,
+            surfaces: load(folder, settings)?,
         })
     }
 }

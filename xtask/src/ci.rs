@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::emulate::{Probe, Task};
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, run, target};
+use crate::run::{Fault, cargo, run, take_built_programs, target, workspace_program};
 use crate::steps::Steps;
 use crate::{
     arrows, book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
@@ -15,12 +15,21 @@ use crate::{
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
-/// The bench's program without debug probes: to build those takes longer than all its tests.
-/// The nightly run has them.
-const TOOL: [&str; 3] = ["-p", "whisker", "--no-default-features"];
+/// All that runs on this PC in one build, so that nothing is compiled twice with other features:
+/// without debug probes, which take longer to build than all tests and are the nightly run's, and
+/// without the counts, which take the crates as a board does.
+pub(crate) const ALL: [&str; 6] = [
+    "--workspace",
+    "--exclude",
+    "count",
+    "--no-default-features",
+    "--features",
+    "host-sim/cli,fuzz/shards",
+];
 
-/// All tests but those of [`TOOL`] and of the counts, which take the crates as a board does.
-pub(crate) const OTHERS: [&str; 5] = ["--workspace", "--exclude", "whisker", "--exclude", "count"];
+/// Their features, and those of what is in no program for this PC.
+const LINTED: &str =
+    "host-sim/cli,fuzz/shards,fuzz/engine,mlx90333/defmt,tmag5170/defmt,whisking/bake";
 
 /// Of the properties' cases.
 const SEED: &str = "1";
@@ -63,9 +72,13 @@ fn web() -> Result<(), Fault> {
 }
 
 fn lints() -> Result<(), Fault> {
-    let everything = ["clippy", "--workspace", "--all-targets", "--all-features"];
-    run(cargo(&everything).args(["--exclude", "whisker"]).args(DENY))?;
-    run(cargo(&["clippy", "--all-targets"]).args(TOOL).args(DENY))?;
+    let all = [
+        "clippy",
+        "--workspace",
+        "--all-targets",
+        "--no-default-features",
+    ];
+    run(cargo(&all).args(["--features", LINTED]).args(DENY))?;
     let board = Board::ALL[0].build_arguments();
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
@@ -77,19 +90,26 @@ fn tests() -> Result<(), Fault> {
         let mut command = cargo(&["test", "--locked"]);
         run(command.args(arguments).env("PROPTEST_RNG_SEED", SEED))
     };
-    test(&OTHERS)?;
-    test(&TOOL)?;
+    // With the tests' features, which programs alone have not.
+    run(cargo(&["build", "--locked", "--bins", "--tests"]).args(ALL))?;
+    take_built_programs();
+    test(&ALL)?;
     test(&["-p", "count", "--lib"])
 }
 
 /// In the profile of the tests, which has built all of it. PSIK's 33 vibrissae take minutes, and
 /// are the nightly run's.
 fn experiments() -> Result<(), Fault> {
-    let studies = [
-        "run", "--quiet", "--locked", "-p", "studies", "--", "--quiet",
+    let quick = [
+        "--quiet",
+        "experiment",
+        "lep10",
+        "lep12",
+        "biotact",
+        "pose",
+        "--quick",
     ];
-    let quick = ["experiment", "lep10", "lep12", "biotact", "pose", "--quick"];
-    run(cargo(&studies)
+    run(workspace_program("studies")
         .args(quick)
         .arg("--out")
         .arg(target().join("experiments")))

@@ -5,16 +5,15 @@ use std::io::Write as _;
 use std::process::Stdio;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, document, output, target};
+use crate::run::{Fault, cargo, document, output, target, workspace_program};
 
 /// The page.
 const PAGE: &str = "docs/registers.md";
 
 /// What the emulator says of all chips, or of a board's.
 fn facts(board: Option<Board>) -> Result<String, Fault> {
-    let mut command = cargo(&[
-        "run", "--quiet", "--locked", "-p", "emulator", "--", "facts",
-    ]);
+    let mut command = workspace_program("emulator");
+    command.arg("facts");
     if let Some(board) = board {
         command.args(["--board", board.name]);
     }

@@ -6,7 +6,9 @@ mod main_job;
 mod mount;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, document, output, read, read_bytes, run, target, top, write};
+use crate::run::{
+    Fault, cargo, document, output, read, read_bytes, run, target, top, workspace_program, write,
+};
 use crate::{cost, descriptions, emulate};
 use harness::Drawn;
 use main_job::DECISIONS;
@@ -27,10 +29,9 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     }
     document("docs/mount.md", mount::page().as_bytes(), check)?;
     document("docs/mount.svg", mount::svg().as_bytes(), check)?;
-    let columns = ["run", "--quiet", "-p", "host-sim", "--", "columns"];
     document(
         "docs/files.md",
-        output(&mut cargo(&columns))?.as_bytes(),
+        output(workspace_program("host-sim").arg("columns"))?.as_bytes(),
         check,
     )
 }
@@ -69,8 +70,8 @@ fn of_boards(check: bool) -> Result<(), Fault> {
 
 /// What runs of the simulator and of the bench's program give.
 fn of_runs(check: bool) -> Result<(), Fault> {
-    let simulator = ["run", "--quiet", "-p"];
-    let said = output(cargo(&simulator).arg("host-sim"))?;
+    // As the README has it.
+    let said = output(&mut cargo(&["run", "--quiet", "-p", "host-sim"]))?;
     print!("{said}");
     let page = main_job::page(&said, &read(&top().join(DECISIONS))?)?;
     document("docs/textures.md", page.as_bytes(), check)?;
@@ -90,16 +91,7 @@ fn of_runs(check: bool) -> Result<(), Fault> {
 /// Draws what `whisker` shows and leaves at the bench, of the simulated module.
 fn at_the_bench(check: bool) -> Result<(), Fault> {
     let folder = target().join("bench");
-    let whisker = || {
-        cargo(&[
-            "run",
-            "--quiet",
-            "-p",
-            "whisker",
-            "--no-default-features",
-            "--",
-        ])
-    };
+    let whisker = || workspace_program("whisker");
     let monitor = "monitor --sim scenes/textures.toml --frames 162 --size 110x36 --snapshot";
     let monitored = folder.join("monitor.svg");
     output(whisker().args(monitor.split(' ')).arg(&monitored))?;
@@ -131,8 +123,9 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
 /// Makes a page of the studies. They show docs/measured/instructions.csv, which
 /// `cargo xtask count` writes. In the profile of the tests, which CI has built all of.
 fn studies(page: &str, check: bool) -> Result<(), Fault> {
-    let studies = ["run", "--quiet", "-p", "studies", "--", page];
-    run(cargo(&studies).args(check.then_some("--check")))
+    run(workspace_program("studies")
+        .arg(page)
+        .args(check.then_some("--check")))
 }
 
 /// Makes both pages of the studies in short, in a folder of their own.
@@ -142,8 +135,8 @@ fn studies_in_short() -> Result<(), Fault> {
     let there = read_bytes(&top().join("docs/measured").join(counted))?;
     write(&folder.join(counted), &there)?;
     for page in ["decisions", "report"] {
-        let studies = ["run", "--quiet", "-p", "studies", "--", "--quiet", page];
-        run(cargo(&studies).args(["--quick", "--out"]).arg(&folder))?;
+        let quick = ["--quiet", page, "--quick", "--out"];
+        run(workspace_program("studies").args(quick).arg(&folder))?;
     }
     Ok(())
 }
@@ -191,9 +184,8 @@ impl Trained {
         let folder = target().join("models");
         let (heard, model) = (folder.join("heard.csv"), folder.join("the.model"));
         let simulator = |command: &str| {
-            let start = ["run", "--quiet", "-p", "host-sim", "--", "--quiet"];
-            let mut simulator = cargo(&start);
-            simulator.arg(command);
+            let mut simulator = workspace_program("host-sim");
+            simulator.args(["--quiet", command]);
             simulator
         };
         let record = ["--seed", "3", "--out"];

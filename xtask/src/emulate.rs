@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, absolute, cargo, listing, output, run, target, top};
+use crate::run::{Fault, absolute, listing, output, run, target, top, workspace_program};
 
 /// Who fetches the log from a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -16,7 +16,7 @@ pub(crate) enum Probe {
     Attached,
     /// Nobody
     Absent,
-    /// A probe that is pulled while the program waits for it
+    /// A probe that is pulled while the workspace_program waits for it
     Pulled,
 }
 
@@ -49,7 +49,7 @@ pub(crate) enum Task {
     Deploying,
 }
 
-/// Builds the program of `scene` and does `task` with it.
+/// Builds the workspace_program of `scene` and does `task` with it.
 ///
 /// # Errors
 /// If it cannot be built, or the emulated board says that something is wrong.
@@ -58,7 +58,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         return serial(board, scene);
     }
     let program = firmware::build_kept(board, scene)?;
-    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--"]);
+    let mut command = workspace_program("emulator");
     let task_name = match task {
         Task::Run(_) => "run",
         Task::Compare(_) => "compare",
@@ -111,7 +111,8 @@ fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
     let whiskers = variants::whiskers(scene)?;
     let [one, two, slow] = SERIAL_BAUDS;
     let bauds = [if whiskers > 1 { two } else { one }, slow];
-    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "serial"]);
+    let mut command = workspace_program("emulator");
+    command.arg("serial");
     let [fast, slow] = bauds.map(|baud| {
         let folder = folder.join(baud.to_string());
         variants::with_serial(scene, baud, &folder)
@@ -134,7 +135,8 @@ fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
 /// # Errors
 /// As [`emulate`].
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
-    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "picture"]);
+    let mut command = workspace_program("emulator");
+    command.arg("picture");
     for scene in scenes {
         let program = firmware::build_kept(board, scene)?;
         command.arg(absolute(scene)?).arg("--program").arg(program);
@@ -148,7 +150,8 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
 /// As [`emulate`].
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
-    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "--quiet"]);
+    let mut command = workspace_program("emulator");
+    command.arg("--quiet");
     command.args(["deadlines", "--csv", "--minutes", &minutes.to_string()]);
     output(command.arg(top().join(scene)).arg("--program").arg(program))
 }

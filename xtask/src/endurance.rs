@@ -13,7 +13,7 @@ use scene::Scene;
 
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
-use crate::run::{Fault, cargo, listing, read_bytes, run, target, top, write};
+use crate::run::{Fault, cargo, listing, read_bytes, run, target, top, workspace_program, write};
 
 /// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
 /// long as the others.
@@ -73,7 +73,8 @@ impl Shard {
     }
 
     fn command(&self) -> Command {
-        let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "endure"]);
+        let mut command = workspace_program("emulator");
+        command.arg("endure");
         command.arg(&self.scene);
         match &self.board {
             Some((board, program)) => command
@@ -190,7 +191,8 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     let mut shards = on_pc(&scenes, choice.hours);
     shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
     run_all(&shards, choice.shards)?;
-    let mut page = cargo(&["run", "--quiet", "-p", "emulator", "--", "endurance"]);
+    let mut page = workspace_program("emulator");
+    page.arg("endurance");
     page.args(shards.iter().map(Shard::file));
     run(page.arg("--out").arg(top().join(PAGE)))
 }

@@ -9,7 +9,7 @@ use scene::{Scene, SensorModel};
 
 use crate::emulate::variants;
 use crate::firmware::{self, Board};
-use crate::run::{Fault, cargo, listing, read, read_bytes, run, target, top, write};
+use crate::run::{Fault, listing, read, read_bytes, run, target, top, workspace_program, write};
 
 /// What the rows call a run on this PC.
 const PC: &str = "host-sim";
@@ -119,7 +119,8 @@ impl Subject {
         [shard, shards]: [u64; 2],
         out: &Path,
     ) -> Command {
-        let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "campaign"]);
+        let mut command = workspace_program("emulator");
+        command.arg("campaign");
         command.args(&self.scenes);
         for program in &self.programs {
             command.arg("--program").arg(program);
@@ -236,7 +237,8 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
 
 /// Writes the page, if one is wanted, and fails if a run was harmful.
 fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
-    let mut command = cargo(&["run", "--quiet", "-p", "emulator", "--", "reliability"]);
+    let mut command = workspace_program("emulator");
+    command.arg("reliability");
     command.args(tables);
     if let Some(page) = page {
         command.arg("--out").arg(page);

@@ -26,7 +26,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("lints of every board", lints);
     steps.try_run("the bench's program with debug probes", with_probes);
     steps.try_run("properties on other cases", || {
-        run(cargo(&["test", "--locked"]).args(ci::OTHERS))
+        run(cargo(&["test", "--locked"]).args(ci::ALL))
     });
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 /// What went wrong, for a person to read.
 pub(crate) type Fault = String;
@@ -86,6 +87,40 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(top());
     command
+}
+
+/// Where CI has built all programs, in one build with the tests.
+static BUILT: OnceLock<PathBuf> = OnceLock::new();
+
+/// From now on, [`workspace_program`] takes what is built: cargo would build each anew, as dependencies have
+/// other features where a program is built alone.
+pub(crate) fn take_built_programs() {
+    BUILT.get_or_init(|| target().join("debug"));
+}
+
+/// A program of the workspace that is built, if CI has built all.
+pub(crate) fn built(package: &str) -> Option<PathBuf> {
+    BUILT.get().map(|folder| folder.join(package))
+}
+
+/// A program of the workspace, to be run at the top.
+pub(crate) fn workspace_program(package: &str) -> Command {
+    match built(package) {
+        None => {
+            let mut command = cargo(&["run", "--quiet", "-p", package]);
+            if package == "whisker" {
+                // Debug probes take longest to build.
+                command.arg("--no-default-features");
+            }
+            command.arg("--");
+            command
+        }
+        Some(path) => {
+            let mut command = Command::new(path);
+            command.current_dir(top());
+            command
+        }
+    }
 }
 
 /// Runs `command` and prints it first.

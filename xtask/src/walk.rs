@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{fs, io};
 
-use crate::run::{Fault, listing, read, read_bytes, top, write};
+use crate::run::{Fault, built, listing, read, read_bytes, top, write};
 use blocks::{Block, When, blocks, differs, pages};
 
 /// Pages with commands that are not in the book.
@@ -148,15 +148,25 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
     Ok(folder)
 }
 
+/// Commands that run the programs that CI has built, or build them as it does: nothing of what is
+/// run has a debug probe.
+fn as_built(commands: &str) -> String {
+    let mut commands = commands.to_owned();
+    for package in ["host-sim", "studies", "whisker"] {
+        if let Some(program) = built(package) {
+            let run = format!("cargo run -p {package} -- ");
+            commands = commands.replace(&run, &format!("'{}' ", program.display()));
+        }
+    }
+    let tool = "-p whisker ";
+    commands.replace(tool, &format!("{tool}--no-default-features "))
+}
+
 /// Runs a block as its reader does, in a shell that stops at the first failure.
 fn do_block(page: &Path, block: &Block, folder: &Path) -> Result<(), Fault> {
     let place = format!("{}:{}", page.display(), block.line);
     println!("== {place}\n{}", block.commands.trim_end());
-    // As CI builds it for the tests: nothing of what is run has a debug probe.
-    let tool = "-p whisker ";
-    let commands = block
-        .commands
-        .replace(tool, &format!("{tool}--no-default-features "));
+    let commands = as_built(&block.commands);
     let script = format!("exec 2>&1\n{commands}");
     let shell = Command::new("bash")
         .args(["-eu", "-o", "pipefail", "-c", &script])

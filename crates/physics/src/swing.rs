@@ -8,7 +8,7 @@
 use crate::pose::{Plate, Pose};
 use crate::surface::Surface;
 
-/// How a plate faces a swung whisker at first touch.
+/// How a swung whisker stands, and how a plate faces it at first touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facing {
     /// Angle between shaft and plate in the plane of whisking, degrees, 0 to 80;
@@ -17,6 +17,9 @@ pub struct Facing {
     /// Inclination of the plate towards the motor's axis, degrees, ±80: friction
     /// then acts along y too.
     pub tilt_deg: f64,
+    /// By how much the shaft points out of the plane of whisking, along the motor's axis,
+    /// degrees, ±60: it sweeps a cone.
+    pub elevation_deg: f64,
 }
 
 impl Facing {
@@ -24,7 +27,23 @@ impl Facing {
     pub const USUAL: Self = Self {
         slant_deg: 30.0,
         tilt_deg: 20.0,
+        elevation_deg: 0.0,
     };
+}
+
+impl Facing {
+    /// The whisker at the angle θ, rad: with an elevation e it points along
+    /// (cos e cos θ, cos e sin θ, sin e).
+    #[inline]
+    pub fn pose(&self, theta_rad: f64) -> Pose {
+        let (sine, cosine) = libm::sincos(theta_rad);
+        let (up, level) = libm::sincos(self.elevation_deg.to_radians());
+        Pose {
+            base_m: [0.0; 3],
+            x: [sine, -cosine, 0.0],
+            y: [up * cosine, up * sine, -level],
+        }
+    }
 }
 
 impl Pose {
@@ -45,12 +64,13 @@ impl Plate {
     /// enters it by protraction.
     pub fn in_the_way(theta_rad: f64, length_m: f64, facing: &Facing, surface: Surface) -> Self {
         let (sine, cosine) = libm::sincos(theta_rad);
+        let (up, reach) = libm::sincos(facing.elevation_deg.to_radians());
         let (slant, flat) = libm::sincos(facing.slant_deg.to_radians());
         let (tilt, level) = libm::sincos(facing.tilt_deg.to_radians());
         // Against protraction, against the shaft, and along the axis.
         let (back, inward) = (level * flat, level * slant);
         Self {
-            point_m: [length_m * cosine, length_m * sine, 0.0],
+            point_m: [reach * cosine, reach * sine, up].map(|part| length_m * part),
             normal: [
                 back * sine - inward * cosine,
                 -back * cosine - inward * sine,
@@ -93,5 +113,29 @@ mod tests {
         // The shaft is inclined to the plate by less than the slant, for the tilt.
         let sine = -dot(Pose::swung(theta).z(), plate.normal);
         assert!((sine - 0.5 * 20.0_f64.to_radians().cos()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_raised_whisker_sweeps_a_cone_and_touches_at_the_same_angle() {
+        let (theta, length) = (1.7, 0.112);
+        let raised = Facing {
+            elevation_deg: 25.0,
+            ..Facing::USUAL
+        };
+        assert_eq!(Facing::USUAL.pose(theta), Pose::swung(theta));
+        let pose = raised.pose(theta);
+        assert!((pose.z()[2] - 25.0_f64.to_radians().sin()).abs() < 1e-15);
+        assert!(dot(pose.x, pose.y).abs() < 1e-15 && (dot(pose.y, pose.y) - 1.0).abs() < 1e-15);
+        // x is against protraction whatever the elevation.
+        assert_eq!(pose.x, Pose::swung(theta).x);
+        let flat = Surface::of(Material::Flat);
+        let plate = Plate::in_the_way(theta, length, &raised, flat);
+        let above = |theta: f64| PlateFrame::new(&plate).see(&raised.pose(theta), length).tip[2];
+        assert!(above(theta).abs() < 1e-15);
+        // The tip's way is shorter by the cosine of the elevation.
+        let cosines = [30.0_f64, 20.0, 25.0].map(|degrees| degrees.to_radians().cos());
+        let depth = length * cosines.iter().product::<f64>();
+        let rate = (above(theta + 1e-6) - above(theta - 1e-6)) / 2e-6;
+        assert!((rate + depth).abs() < 1e-6 * depth, "{rate} {depth}");
     }
 }

@@ -201,6 +201,11 @@ pub(crate) const fn per_side(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
     Key::of(Kind::PerSide(Range::closed(&ends)))
 }
 
+/// A list of real numbers, one for each of the scene's own surfaces.
+pub(crate) const fn per_own(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
+    Key::of(Kind::PerOwn(Range::closed(&ends)))
+}
+
 /// A list of pairs of real numbers, one pair a side.
 pub(crate) const fn pair_per_side(ends: RangeInclusive<f64>) -> Key<Vec<[f64; 2]>> {
     Key::of(Kind::PairPerSide(Range::closed(&ends)))

@@ -24,6 +24,8 @@ pub(crate) enum Kind {
     PerSide(Range),
     /// A list of pairs of real numbers, one pair a side.
     PairPerSide(Range),
+    /// A list of real numbers, one for each of the scene's own surfaces.
+    PerOwn(Range),
     /// A list of distinct words among these, at least one.
     Words(&'static [&'static str]),
 }
@@ -108,6 +110,10 @@ impl fmt::Display for Kind {
             Self::PairPerSide(range) => write!(
                 f,
                 "a list of pairs of numbers {range}, one pair a side, left first"
+            ),
+            Self::PerOwn(range) => write!(
+                f,
+                "a list of numbers {range}, one for each of \"own-1\" to \"own-4\" in `textures`"
             ),
             Self::Words(words) => write!(
                 f,

@@ -62,8 +62,8 @@ pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, FacingChoice, HeadSection, MotorSection,
-    Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule, Scene,
-    SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation, Rest, Rule,
+    Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
     TelemetrySection, Texture, WhiskingSection,
 };
 pub use whisking::{GateSettings, Integrator};

@@ -4,7 +4,7 @@
 use crate::key::{Need, Row};
 use crate::kind::Kind;
 use crate::section::{Presence, Section};
-use crate::sections::{Sides, sections};
+use crate::sections::{Sides, Texture, sections};
 use crate::text::Text;
 use crate::value::Value;
 use crate::values::{Given, Values};
@@ -109,7 +109,7 @@ fn presence(section: &Section, given: Given, key: &Row, values: &Values, text: &
     text.report(given.offset, path, "missing".to_owned(), required);
 }
 
-/// Checks the length of a list that has one entry a whisker or a side.
+/// Checks the length of a list that has one entry a whisker, a side or an own surface.
 fn length(section: &Section, key: &Row, values: &Values, text: &mut Text<'_>) {
     let Some((sides, whiskers)) = head(values) else {
         return;
@@ -123,6 +123,12 @@ fn length(section: &Section, key: &Row, values: &Values, text: &mut Text<'_>) {
             whiskers.map(|n| n * sides),
             format!("the head has {sides_in_words} of {}", whiskers.unwrap_or(0)),
         ),
+        Kind::PerOwn(_) => {
+            let textures: Option<Vec<Texture>> = values.get(section.name, "textures");
+            let own = |textures: Vec<Texture>| textures.iter().filter_map(|t| t.own()).count();
+            let why = "that many of \"own-1\" to \"own-4\" are in `textures`";
+            (textures.map(own), why.to_owned())
+        }
         _ => return,
     };
     let entries = match values.value(section.name, key.name) {

@@ -3,7 +3,9 @@
 //! A rule that turns on a value that was itself refused is left alone: that
 //! value's own message comes first.
 
-use crate::sections::{Deciding, PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides};
+use crate::sections::{
+    Deciding, PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, Texture,
+};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -15,6 +17,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     homing_is_gentle(values, text);
     textured_is_active(values, text);
     shaft_is_slender(values, text);
+    texture_suits_the_plant(values, text);
     several_can_decide(values, text);
     mode_is_the_mlx90333s(values, text);
     serial_has_its_parts(values, text);
@@ -126,6 +129,23 @@ fn textured_is_active(values: &Values, text: &mut Text<'_>) {
             "the {kind} plant needs an active whisker: add [whisking], or choose \"ideal\""
         );
         text.report(offset, "plant.kind".to_owned(), found, allowed);
+    }
+}
+
+/// Without an elastic shaft, few surfaces are described.
+fn texture_suits_the_plant(values: &Values, text: &mut Text<'_>) {
+    let kind = values.get::<PlantKind>("plant", "kind");
+    let textures = values.get::<Vec<Texture>>("plant", "textures");
+    let (Some(PlantKind::Textured), Some(textures)) = (kind, textures) else {
+        return;
+    };
+    if let Some(other) = textures.iter().find(|texture| !texture.is_simple()) {
+        let offset = values.offset("plant", "textures").unwrap_or(0);
+        let found = format!("found \"{other}\" with kind = \"textured\"");
+        let allowed =
+            "allowed: \"smooth\", \"p600\", \"p240\" and \"carpet\", or kind = \"whisker\"";
+        let path = "plant.textures".to_owned();
+        text.report(offset, path, found, allowed.to_owned());
     }
 }
 

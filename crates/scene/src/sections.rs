@@ -20,7 +20,8 @@ pub use classifier::{ClassifierSection, Deciding, Rule};
 pub use head::{HeadSection, Sides};
 pub use motor::{Arm, Driver, MotorSection, OnFault, Rest};
 pub use plant::{
-    Exchanged, FacingChoice, Obstacles, PlantKind, PlantSection, Presentation, ShaftChoice, Texture,
+    Exchanged, FacingChoice, Obstacles, OwnSurfaces, PlantKind, PlantSection, Presentation,
+    ShaftChoice, Texture,
 };
 pub use scene::Scene;
 pub use sensor::{SensorMode, SensorModel, SensorSection};
@@ -66,9 +67,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, eight of the plant, six of the sensor, two of telemetry, one of
+        // Nineteen of the motor, nine of the plant, six of the sensor, two of telemetry, one of
         // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 38);
+        assert_eq!(defaults, 39);
     }
 
     #[test]

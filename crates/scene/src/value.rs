@@ -19,7 +19,7 @@ pub(crate) enum Value {
     Number(f64),
     /// Of [`Kind::Word`], [`Kind::Name`] or [`Kind::Path`].
     Text(String),
-    /// Of [`Kind::PerSide`], or the list of [`Kind::PerWhisker`].
+    /// Of [`Kind::PerSide`] and [`Kind::PerOwn`], or the list of [`Kind::PerWhisker`].
     Numbers(Vec<f64>),
     /// Of [`Kind::PairPerSide`].
     Pairs(Vec<[f64; 2]>),
@@ -74,7 +74,7 @@ pub(crate) fn check(kind: &Kind, value: &Spanned<DeValue<'_>>) -> Result<Value, 
         Kind::PerWhisker(range) if value.get_ref().as_array().is_none() => {
             one(number(*range, value).map(Value::Number))
         }
-        Kind::PerWhisker(range) | Kind::PerSide(range) => {
+        Kind::PerWhisker(range) | Kind::PerSide(range) | Kind::PerOwn(range) => {
             let entries = entries(value)?;
             each(entries, |entry| number(*range, entry)).map(Value::Numbers)
         }

@@ -37,10 +37,11 @@ impl SurfaceSettings {
     pub const fn of(texture: Texture) -> Self {
         // Height, grain, grip, softness, friction.
         let [height_m, grain_m, grip, softness, friction] = match texture {
-            Texture::Smooth => [1e-6, 20e-6, 20.0, 0.0, 0.15],
             Texture::P600 => [8.6e-6, 25.8e-6, 20.0, 0.0, 0.4],
             Texture::P240 => [19.5e-6, 58.5e-6, 20.0, 0.0, 0.7],
             Texture::Carpet => [0.3e-3, 2.5e-3, 5.0, 1.0, 0.3],
+            // Scenes present no other ([`Texture::is_simple`]).
+            _ => [1e-6, 20e-6, 20.0, 0.0, 0.15],
         };
         Self {
             height_m,

@@ -19,9 +19,7 @@ use core::iter::repeat;
 use scene::Texture;
 
 use super::{BadSetting, Head, Plant};
-use physics::{
-    Facing, Grit, Material, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker,
-};
+use physics::{Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Largest angle that is believed, degrees, either sign.
 const ANGLE_LIMIT: f64 = 1e6;
@@ -31,8 +29,10 @@ const ANGLE_LIMIT: f64 = 1e6;
 pub struct ElasticSettings {
     /// All whiskers' shaft.
     pub shaft: Shaft,
-    /// How plates stand.
+    /// How whiskers and plates stand.
     pub facing: Facing,
+    /// The scene's own surfaces.
+    pub own: [Surface; 4],
     /// Sensor noise, root mean square, codes of 14 bits, 0 to 1000.
     pub noise_codes: f64,
 }
@@ -44,6 +44,7 @@ impl ElasticSettings {
         Self {
             shaft,
             facing: Facing::USUAL,
+            own: [Surface::of(Material::SmoothPlastic); 4],
             noise_codes: SensorSettings::default().noise_codes,
         }
     }
@@ -62,6 +63,8 @@ struct Swung {
 #[derive(Debug, Clone)]
 pub struct Elastic {
     head: Head,
+    facing: Facing,
+    own: [Surface; 4],
     surface: Surface,
     seed: u64,
     /// Presentations so far.
@@ -69,14 +72,23 @@ pub struct Elastic {
     whiskers: Vec<Swung>,
 }
 
-/// What a texture of a scene is made of. Its carpet is the smooth one, of
-/// short loops.
+/// What a texture of a scene is made of, if it is none of the scene's own. Its carpet is the
+/// smooth one, of short loops.
 const fn material(texture: Texture) -> Material {
     match texture {
-        Texture::Smooth => Material::SmoothPlastic,
+        Texture::Smooth | Texture::Own1 | Texture::Own2 | Texture::Own3 | Texture::Own4 => {
+            Material::SmoothPlastic
+        }
         Texture::P600 => Material::Sandpaper(Grit::P600),
         Texture::P240 => Material::Sandpaper(Grit::P240),
+        Texture::P180 => Material::Sandpaper(Grit::P180),
+        Texture::P80 => Material::Sandpaper(Grit::P80),
+        Texture::P40 => Material::Sandpaper(Grit::P40),
         Texture::Carpet => Material::SmoothCarpet,
+        Texture::RoughCarpet => Material::RoughCarpet,
+        Texture::Tarmac => Material::Tarmac,
+        Texture::Vinyl => Material::Vinyl,
+        Texture::Aluminium => Material::Aluminium,
     }
 }
 
@@ -98,9 +110,14 @@ impl Elastic {
         let check = BadSetting::check;
         check("slant_deg", settings.facing.slant_deg, 0.0, 80.0)?;
         check("tilt_deg", settings.facing.tilt_deg, -80.0, 80.0)?;
+        let elevation_deg = check("elevation_deg", settings.facing.elevation_deg, -60.0, 60.0)?;
+        for surface in &settings.own {
+            surface.check()?;
+        }
         let shaft = settings.shaft;
         let modes = shaft.modes(8)?;
-        let a_degree = 1.0_f64.to_radians() * shaft.length_m * modes.base_rad_n / modes.tip_m_n;
+        let reach_m = shaft.length_m * libm::cos(elevation_deg.to_radians());
+        let a_degree = 1.0_f64.to_radians() * reach_m * modes.base_rad_n / modes.tip_m_n;
         // Whiskers that meet nothing need no scale.
         let full_scale_rad = if head.stiffness > 0.0 {
             check("stiffness", a_degree / head.stiffness, 1e-6, 3.0)?
@@ -132,6 +149,8 @@ impl Elastic {
         let whiskers = whiskers.collect::<Result<_, BadSetting>>()?;
         Ok(Self {
             head,
+            facing: settings.facing,
+            own: settings.own,
             surface,
             seed,
             pieces: 0,
@@ -165,7 +184,7 @@ impl Elastic {
 }
 
 impl Swung {
-    fn advance(&mut self, surface: Surface, angle: f64, dt_s: f64) {
+    fn advance(&mut self, facing: &Facing, surface: Surface, angle: f64, dt_s: f64) {
         let believed = Some(angle).filter(|angle| angle.abs() <= ANGLE_LIMIT);
         let Some(angle) = believed.or(self.angle_deg) else {
             return;
@@ -174,14 +193,16 @@ impl Swung {
         if let Some(plate) = &mut self.plate {
             plate.surface = surface;
         }
-        let pose = Pose::swung(angle.to_radians());
+        let pose = facing.pose(angle.to_radians());
         self.whisker.step(&pose, self.plate.as_ref(), dt_s);
     }
 }
 
 impl Plant for Elastic {
     fn present(&mut self, texture: Texture) {
-        self.present_surface(Surface::of(material(texture)));
+        let own = texture.own().and_then(|n| self.own.get(n));
+        let surface = own.map_or_else(|| Surface::of(material(texture)), |own| *own);
+        self.present_surface(surface);
     }
 
     fn touches(&self) -> bool {
@@ -202,7 +223,7 @@ impl Plant for Elastic {
         for (n, angle) in (0..self.whiskers.len()).zip(angles) {
             let surface = self.piece(n as u64);
             if let Some(swung) = self.whiskers.get_mut(n) {
-                swung.advance(surface, angle, dt_s);
+                swung.advance(&self.facing, surface, angle, dt_s);
             }
         }
     }

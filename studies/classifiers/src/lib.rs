@@ -9,6 +9,7 @@
 //! | [`spectral_template`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
 //! | [`features`] | by a [`polynomial`] of peak, slope and spectrum | POSE eq. 3–7 |
 //! | [`mlp`] | by a network with one hidden layer, an input at a time | LEP12 section 5.2, PSIK section 3.2.1 |
+//! | [`sprt`] | between two classes by their probability ratio | LEP12 eq. 1–2 |
 //! | [`imp`] | by the vibrations of a whisker pad | PSIK section 3.1 |
 //!
 //! Templates and vibrations are integers, spectra and networks single precision.
@@ -17,7 +18,7 @@
 //!
 //! - `train`: training them (`template_train`, `spectral_train`,
 //!   `feature_train`, `regression`, `mlp::train`), and one way to ask a stream
-//!   classifier (`recogniser`). It brings std, FFT, linear algebra and an
+//!   classifier (`recogniser`, `sprt`). It brings std, FFT, linear algebra and an
 //!   optimiser.
 //!
 //! Without it the crate is `no_std`: what a board would run, and what is counted.
@@ -45,6 +46,8 @@ pub mod spectral_template;
 #[cfg(feature = "train")]
 pub mod spectral_train;
 pub mod spectrum;
+#[cfg(feature = "train")]
+pub mod sprt;
 mod stationary;
 pub mod template;
 #[cfg(feature = "train")]

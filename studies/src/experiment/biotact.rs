@@ -2,6 +2,7 @@
 //! unmodulated and with two strengths of RCP; naive Bayes and the template by
 //! sum of squares after one to eight training whisks.
 
+mod array;
 mod figures;
 mod histories;
 mod movement;
@@ -104,6 +105,7 @@ pub(super) fn evaluate(
         SAID.join("; ")
     ));
     patterns::section(page)?;
+    array::section(page, request)?;
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {

@@ -8,6 +8,8 @@ use host_sim::origin::Origin;
 use super::bodies::Bodies;
 use super::dataset::{Dataset, Job};
 use super::protocol::{Files, Protocol};
+use super::record::corridor::FELT;
+use super::record::pads::INPUTS;
 use super::recording::{Recording, Recordings};
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
@@ -71,7 +73,7 @@ pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Result<Files, Err
 fn columns(dataset: Dataset, count: usize) -> Vec<String> {
     let axes = |n: usize| format!("{}{}", ["x", "y"][n % 2], n / 2);
     let name = |n: usize| match dataset {
-        Dataset::Floor | Dataset::Table => ["x", "y"][n % 2].to_owned(),
+        Dataset::Floor | Dataset::Table | Dataset::Vibrissa => ["x", "y"][n % 2].to_owned(),
         Dataset::Head if n < CHANNELS => axes(n),
         Dataset::Head => [
             "angle_left_deg",
@@ -80,8 +82,9 @@ fn columns(dataset: Dataset, count: usize) -> Vec<String> {
             "touching_right",
         ][(n - CHANNELS) % 4]
             .to_owned(),
-        Dataset::Corridor if n + 4 >= count => {
-            ["neck_m", "heading_rad", "left_mm", "right_mm"][n + 4 - count].to_owned()
+        Dataset::Corridor if n >= FELT => axes(n - FELT),
+        Dataset::Corridor if n >= INPUTS => {
+            ["neck_m", "heading_rad", "left_mm", "right_mm"][(n - INPUTS) % 4].to_owned()
         }
         Dataset::Pad | Dataset::Corridor => format!("imp{n}"),
     };

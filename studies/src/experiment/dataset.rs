@@ -13,6 +13,8 @@ pub enum Dataset {
     Pad,
     /// The mobile robot in its corridors.
     Corridor,
+    /// One vibrissa of the pad, sample by sample, in the pad's sweeps.
+    Vibrissa,
 }
 
 impl Dataset {
@@ -24,6 +26,15 @@ impl Dataset {
             Self::Table => "table",
             Self::Pad => "pad",
             Self::Corridor => "corridor",
+            Self::Vibrissa => "vibrissa",
+        }
+    }
+
+    /// The data set whose chance it has.
+    pub(super) const fn drawn_as(self) -> Self {
+        match self {
+            Self::Vibrissa => Self::Pad,
+            other => other,
         }
     }
 }

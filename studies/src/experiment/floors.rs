@@ -105,7 +105,7 @@ impl<'a> Floors<'a> {
 }
 
 /// Likelihoods in bins of 10 mV over the range that x and y have together
-/// (LEP10 section III-A), of some of the channels.
+/// (LEP10 section III-A), of some of the channels; classes are the floors that occur.
 ///
 /// The model's bins span each channel's own range, so every class is given the
 /// common range's two ends as samples: 2 among some 10⁵.
@@ -125,7 +125,11 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
             trainer.add(name, sample).map_err(refused)?;
         }
     }
-    for name in FLOORS {
+    let is_there = |floor: &usize| streams.iter().any(|stream| stream.floor == *floor);
+    for name in (0..FLOORS.len())
+        .filter(is_there)
+        .map(|floor| FLOORS[floor])
+    {
         for end in [low, high] {
             let sample = vec![end; picked.len()];
             trainer.add(name, &sample).map_err(refused)?;

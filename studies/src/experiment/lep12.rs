@@ -3,6 +3,7 @@
 
 mod figures;
 mod groups;
+mod pairs;
 mod spectral;
 
 use super::floors::{Floors, Stream};
@@ -53,6 +54,9 @@ pub(super) fn evaluate(
     tables(page, &rows, &times);
     figures::all(page, &groups, &curves, rate_hz)?;
     claims(page, &rows, &curves);
+    if let Some(rotating) = groups.get(2) {
+        pairs::section(page, rotating, rate_hz)?;
+    }
     product(page, &groups, rate_hz)?;
     for (name, rows) in [
         "maximum likelihood, window of 200 ms",

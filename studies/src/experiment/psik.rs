@@ -2,6 +2,8 @@
 //! more and more arcs; and two corridors told apart on the way through.
 
 mod corridor;
+mod maze;
+mod own;
 mod sweeps;
 
 use rayon::prelude::*;
@@ -76,7 +78,8 @@ pub(super) fn evaluate(
     claims(page, &more);
     let name = "IMP and network 33–33–8";
     page.score(name, "eight sandpapers", hit(all), CHANCE);
-    corridor::section(page, request, recordings)
+    corridor::section(page, request, recordings)?;
+    own::of_one_vibrissa(page, request, recordings)
 }
 
 fn figures(

@@ -5,6 +5,7 @@ pub(crate) mod corridor;
 pub(crate) mod floor;
 pub(crate) mod head;
 pub(crate) mod pad;
+pub(crate) mod pads;
 pub(crate) mod table;
 mod whiskers;
 
@@ -23,7 +24,7 @@ fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
         Dataset::Floor => floor::jobs(extent),
         Dataset::Head => head::jobs(),
         Dataset::Table => table::jobs(extent),
-        Dataset::Pad => pad::jobs(extent),
+        Dataset::Pad | Dataset::Vibrissa => pad::jobs(extent),
         Dataset::Corridor => corridor::jobs(extent),
     };
     (0..count).map(move |number| Job { dataset, number })
@@ -42,13 +43,15 @@ pub fn jobs(request: &Request) -> Vec<Job> {
 /// Makes one recording. It depends on the seed, the rig and the job alone.
 fn one(request: &Request, job: Job) -> Result<Recording, Error> {
     let Job { dataset, number } = job;
-    let seed = seed_of(request.seed, &[dataset as u64, number as u64]);
+    let drawn = dataset.drawn_as() as u64;
+    let seed = seed_of(request.seed, &[drawn, number as u64]);
     let record = match dataset {
         Dataset::Floor => floor::record,
         Dataset::Head => head::record,
         Dataset::Table => table::record,
         Dataset::Pad => pad::record,
         Dataset::Corridor => corridor::record,
+        Dataset::Vibrissa => pad::record_one,
     };
     record(request, number, seed).map_err(|error| within(dataset.text(), error))
 }

@@ -46,7 +46,7 @@ impl Name {
             Self::Lep10 | Self::Lep12 => &[Dataset::Floor],
             Self::Biotact => &[Dataset::Head],
             Self::Pose => &[Dataset::Table],
-            Self::Psikharpax => &[Dataset::Pad, Dataset::Corridor],
+            Self::Psikharpax => &[Dataset::Pad, Dataset::Corridor, Dataset::Vibrissa],
         }
     }
 }

@@ -40,14 +40,23 @@ pub struct Robot {
 }
 
 impl Corridor {
-    /// The robot `dt_s` later, steered by the distances of its sides, mm.
-    pub fn drive(&self, robot: &mut Robot, left_mm: f64, right_mm: f64, dt_s: f64) {
+    /// V_y by the distances of the robot's sides, mm (PSIK eq. 2).
+    pub fn across_m_s(&self, left_mm: f64, right_mm: f64) -> f64 {
         let across = (left_mm - right_mm) * self.gain;
-        let across = across.clamp(-self.most_m_s, self.most_m_s);
+        across.clamp(-self.most_m_s, self.most_m_s)
+    }
+
+    /// The robot `dt_s` later, with V_y, m/s.
+    pub fn go(&self, robot: &mut Robot, across: f64, dt_s: f64) {
         let velocity = turn([self.speed_m_s, across, 0.0], robot.heading);
         robot.neck_m[0] += velocity[0] * dt_s;
         robot.neck_m[1] += velocity[1] * dt_s;
         robot.heading += across / self.axle_m * dt_s;
+    }
+
+    /// The robot `dt_s` later in its corridor, steered by the distances of its sides, mm.
+    pub fn drive(&self, robot: &mut Robot, left_mm: f64, right_mm: f64, dt_s: f64) {
+        self.go(robot, self.across_m_s(left_mm, right_mm), dt_s);
         // The robot's own sides keep it from the walls.
         let room = self.slack_m;
         robot.neck_m[1] = robot.neck_m[1].clamp(-room, room);

@@ -36,7 +36,7 @@ pub trait Rig: Keys {
     /// The name of its file.
     const FILE: &'static str;
     /// The values of all keys where nothing else is said.
-    const DEFAULT: &'static str;
+    fn defaults() -> String;
 }
 
 /// A key's value, as the numbers that must be in its range.
@@ -101,7 +101,10 @@ macro_rules! keys {
 
         $(impl crate::rigs::read::Rig for $name {
             const FILE: &'static str = $file;
-            const DEFAULT: &'static str = include_str!(concat!("../../rigs/", $file));
+
+            fn defaults() -> String {
+                include_str!(concat!("../../rigs/", $file)).to_owned()
+            }
         })?
     };
     (@check $rig:ident, $key:ident) => {
@@ -136,7 +139,8 @@ pub fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Er
 /// [`Error::Input`].
 pub fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R, Error> {
     let at = |line: usize, fault: String| Error::file(path, format_args!("line {line}: {fault}"));
-    let mut keys: Table = toml::from_str(R::DEFAULT).map_err(|error| at(1, error.to_string()))?;
+    let mut keys: Table =
+        toml::from_str(&R::defaults()).map_err(|error| at(1, error.to_string()))?;
     let own: Table = toml::from_str(text).map_err(|error: toml::de::Error| {
         let at_byte = error.span().map_or(0, |span| span.start);
         let before = text.bytes().take(at_byte);
@@ -182,7 +186,7 @@ fn line_of(text: &str, key: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::{Rig, Setting, load, parse};
-    use crate::rigs::{Corridor, Floor, Pad, Table, WhiskingHead};
+    use crate::rigs::{Corridor, Floor, Maze, Pad, Table, WhiskingHead};
     use std::path::Path;
 
     fn fault(text: &str) -> String {
@@ -246,11 +250,12 @@ mod tests {
     fn every_value_has_its_source_or_was_chosen() {
         const SOURCES: [&str; 6] = ["chosen", "section", "eq.", "Table", "BIOTACT", "\""];
         for text in [
-            Floor::DEFAULT,
-            WhiskingHead::DEFAULT,
-            Table::DEFAULT,
-            Pad::DEFAULT,
-            Corridor::DEFAULT,
+            Floor::defaults(),
+            WhiskingHead::defaults(),
+            Table::defaults(),
+            Pad::defaults(),
+            Corridor::defaults(),
+            Maze::defaults(),
         ] {
             let lines: Vec<&str> = text.lines().collect();
             let is_key = |line: &str| line.starts_with(|first: char| first.is_ascii_lowercase());

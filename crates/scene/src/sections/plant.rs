@@ -1,9 +1,11 @@
 //! `[plant]`: what the whiskers meet.
 
+use std::ops::RangeInclusive;
+
 use super::shaft::{ShaftName, ShaftNumbers};
 use crate::choice::choice;
 use crate::key::Condition::{self, Given, Is};
-use crate::key::{number, pair_per_side, per_side, positive, word, words};
+use crate::key::{Key, number, pair_per_side, per_own, per_side, positive, word, words};
 use crate::keys::keys;
 
 choice! {
@@ -36,6 +38,46 @@ choice! {
         P240 = "p240",
         /// Carpet.
         Carpet = "carpet",
+        /// Carpet with long, coarse loops.
+        RoughCarpet = "rough-carpet",
+        /// Stones in bitumen.
+        Tarmac = "tarmac",
+        /// A vinyl floor.
+        Vinyl = "vinyl",
+        /// Sheet aluminium.
+        Aluminium = "aluminium",
+        /// P40 sandpaper, the coarsest.
+        P40 = "p40",
+        /// P80 sandpaper.
+        P80 = "p80",
+        /// P180 sandpaper.
+        P180 = "p180",
+        /// The first of the scene's own surfaces.
+        Own1 = "own-1",
+        /// The second.
+        Own2 = "own-2",
+        /// The third.
+        Own3 = "own-3",
+        /// The fourth.
+        Own4 = "own-4",
+    }
+}
+
+impl Texture {
+    /// Which of a scene's own surfaces it is, from 0; none if it is none.
+    pub const fn own(self) -> Option<usize> {
+        match self {
+            Self::Own1 => Some(0),
+            Self::Own2 => Some(1),
+            Self::Own3 => Some(2),
+            Self::Own4 => Some(3),
+            _ => None,
+        }
+    }
+
+    /// Whether the plant without an elastic shaft knows it too.
+    pub const fn is_simple(self) -> bool {
+        matches!(self, Self::Smooth | Self::P600 | Self::P240 | Self::Carpet)
     }
 }
 
@@ -152,11 +194,40 @@ keys! {
         /// When the next texture is put in place: `air`, once its time has come and no
         /// whisker has touched for 20 ms; `timed`, at its time, under a bent whisker too.
         exchange: Exchanged = word().default("\"air\"").only_if(TEXTURES),
+
+        /// The scene's own surfaces; there exactly when [`PlantKind::has_textures`].
+        ..own: Option<OwnSurfaces>,
+    }
+}
+
+/// A property of the scene's own surfaces.
+const fn own(ends: RangeInclusive<f64>) -> Key<Option<Vec<f64>>> {
+    per_own(ends).optional("that of `smooth`").only_if(WHISKER)
+}
+
+keys! {
+    /// What surfaces of the scene's own, `own-1` to `own-4`, are like. Lists have a number for
+    /// each of them in `textures`, in that order.
+    pub struct OwnSurfaces {
+        /// Root mean square height of own surfaces.
+        own_height_m: Option<Vec<f64>> = own(0.0..=0.01).unit("m"),
+
+        /// Distance between their grains, loops or stones.
+        own_grain_m: Option<Vec<f64>> = own(1e-6..=0.1).unit("m"),
+
+        /// Their stiffness against a tip that presses on them.
+        own_stiffness_n_m: Option<Vec<f64>> = own(1.0..=1e9).unit("N/m"),
+
+        /// Damping ratio of a tip that rings on them.
+        own_damping: Option<Vec<f64>> = own(0.0..=10.0),
+
+        /// Coefficient of friction against a sliding tip; a resting one is held by 1.2 times that.
+        own_friction: Option<Vec<f64>> = own(0.0..=8.0),
     }
 }
 
 keys! {
-    /// How a plate faces a whisker that touches it.
+    /// How a whisker stands, and how a plate faces it where they touch.
     #[derive(Copy)]
     pub struct FacingChoice {
         /// Angle between shaft and plate in the plane of whisking; what is above 0 draws the
@@ -165,6 +236,10 @@ keys! {
 
         /// Inclination of the plate towards the motor's axis: its slope towards y.
         tilt_deg: f64 = number(-80.0..=80.0).unit("degrees").default("20.0").only_if(WHISKER),
+
+        /// By how much the shaft points out of the plane of whisking, along the motor's axis: it
+        /// sweeps a cone.
+        elevation_deg: f64 = number(-60.0..=60.0).unit("degrees").default("0.0").only_if(WHISKER),
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
-    MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
-    TelemetrySection, Texture, WhiskingSection,
+    MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation,
+    Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName,
+    ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -205,12 +205,33 @@ fn textured_surfaces_keep_their_order() {
         textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
         present_s: 1.0,
         exchange: Exchanged::Air,
+        own: Some(OwnSurfaces {
+            own_height_m: None,
+            own_grain_m: None,
+            own_stiffness_n_m: None,
+            own_damping: None,
+            own_friction: None,
+        }),
     };
     assert_eq!(
         (plant.kind, plant.textured),
         (PlantKind::Textured, Some(expected))
     );
     assert_eq!(plant.shaft, None, "its default is the elastic whisker's");
+}
+
+#[test]
+fn own_surfaces_have_properties_in_the_order_of_the_textures() {
+    let kind = "kind = 'whisker'\ntextures = ['own-2', 'tarmac', 'own-1']\npresent_s = 1\n\
+                own_grain_m = [1e-3, 2e-3]\nown_friction = [0.3, 0.6]";
+    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
+    let textured = plant.textured.unwrap();
+    let numbers: Vec<_> = textured.textures.iter().map(|of| of.own()).collect();
+    assert_eq!(numbers, [Some(1), None, Some(0)]);
+    let own = textured.own.unwrap();
+    assert_eq!(own.own_grain_m, Some(vec![1e-3, 2e-3]));
+    assert_eq!(own.own_friction, Some(vec![0.3, 0.6]));
+    assert_eq!(own.own_damping, None);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use scene::Texture;
 
 use super::{Elastic, ElasticSettings};
 use crate::plant::{BadSetting, Head, Plant};
-use physics::{Biotact, Material, Shaft, Surface};
+use physics::{Biotact, Grit, Material, Shaft, Surface};
 
 const TICK_S: f64 = 5e-4;
 
@@ -118,12 +118,12 @@ fn a_free_whisker_reads_nothing_at_rest() {
 
 /// Readings of whiskers that whisk against a texture.
 fn readings(
-    settings: ElasticSettings,
+    settings: &ElasticSettings,
     texture: Texture,
     whiskers: usize,
     seed: u64,
 ) -> Vec<Vec<[f64; 2]>> {
-    let mut plant = Elastic::new(head(whiskers), settings, seed).unwrap();
+    let mut plant = Elastic::new(head(whiskers), *settings, seed).unwrap();
     plant.present(texture);
     let mut all = vec![Vec::new(); whiskers];
     for n in 0..2000 {
@@ -137,10 +137,23 @@ fn readings(
 }
 
 #[test]
+fn an_own_surface_is_felt_as_what_it_is() {
+    let mut settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+    let of = |settings: &ElasticSettings, texture| readings(settings, texture, 1, 5);
+    let smooth = of(&settings, Texture::Smooth);
+    assert_eq!(of(&settings, Texture::Own3), smooth);
+    settings.own[2] = Surface::of(Material::Sandpaper(Grit::P240));
+    assert_eq!(of(&settings, Texture::Own3), of(&settings, Texture::P240));
+    assert_eq!(of(&settings, Texture::Own1), smooth);
+    settings.own[2].friction = 11.0;
+    assert!(Elastic::new(head(1), settings, 1).is_err());
+}
+
+#[test]
 fn the_seed_decides_everything_for_each_whisker() {
     let of = |whiskers, seed| {
         let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
-        readings(settings, Texture::P240, whiskers, seed)
+        readings(&settings, Texture::P240, whiskers, seed)
     };
     let all = of(3, 5);
     assert_eq!(all, of(3, 5));
@@ -154,7 +167,7 @@ fn textures_shake_more_than_smooth_plastic() {
     // Eight pieces of each, as pieces differ; without the sensor's noise, which
     // would shake as much as fine paper does.
     let shaking = |texture| {
-        let all = readings(quiet(Shaft::biotact(Biotact::Middle)), texture, 8, 5);
+        let all = readings(&quiet(Shaft::biotact(Biotact::Middle)), texture, 8, 5);
         let changes = |one: &Vec<[f64; 2]>| -> f64 {
             let pairs = one.windows(2);
             pairs.map(|pair| (pair[1][1] - pair[0][1]).powi(2)).sum()

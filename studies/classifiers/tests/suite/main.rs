@@ -21,6 +21,8 @@ mod spectral_template;
 #[cfg(feature = "train")]
 mod spectrum;
 #[cfg(feature = "train")]
+mod sprt;
+#[cfg(feature = "train")]
 mod stationary;
 #[cfg(feature = "train")]
 mod template;

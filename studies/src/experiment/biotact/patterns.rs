@@ -13,11 +13,11 @@ use host_sim::Error;
 const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 /// Whisks that are measured and shown: the last of a run.
 const WHISKS: usize = 3;
-const LEFT: usize = 0;
-const RIGHT: usize = 1;
+pub(super) const LEFT: usize = 0;
+pub(super) const RIGHT: usize = 1;
 
 /// A tick: θ' of both sides, degrees.
-type Row = [f64; 2];
+pub(super) type Row = [f64; 2];
 
 /// The last whisks of a run.
 fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
@@ -27,16 +27,16 @@ fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
 }
 
 /// Least and largest θ' of a side, degrees.
-fn angles(rows: &[Row], side: usize) -> (f64, f64) {
+pub(super) fn angles(rows: &[Row], side: usize) -> (f64, f64) {
     range(rows.iter().map(|row| row[side]))
 }
 
-/// Contacts of a side a whisk: how often it comes past its obstacle.
-fn contacts(rows: &[Row], side: usize) -> f64 {
+/// Contacts of a side a whisk, of so many: how often it comes past its obstacle.
+pub(super) fn contacts(rows: &[Row], side: usize, whisks: usize) -> f64 {
     let beyond = |row: &Row| row[side] > OBSTACLES_DEG[side];
     let pairs = rows.iter().zip(rows.iter().skip(1));
     let count = pairs.filter(|(a, b)| !beyond(a) && beyond(b)).count();
-    count as f64 / WHISKS as f64
+    count as f64 / whisks as f64
 }
 
 fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
@@ -117,7 +117,7 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
     let what = "RCP and CIA before obstacles";
     page.panels("biotact-fig7-9.svg", what, &panels)?;
     let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| angles(rows, side).1);
-    let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side));
+    let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side, WHISKS));
     let (left, right) = (highest(0, LEFT), highest(0, RIGHT));
     page.claims.push(Claim::new(
         "BIOTACT Fig. 7: RCP holds the left back, by 5 degrees or more; the right does not reach its obstacle",

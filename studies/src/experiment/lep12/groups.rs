@@ -13,7 +13,7 @@ use host_sim::Error;
 /// Samples of a block of evidence (m of eq. 6).
 pub(super) const BLOCK: u32 = 20;
 /// Both channels.
-const BOTH: [usize; 2] = [0, 1];
+pub(super) const BOTH: [usize; 2] = [0, 1];
 
 /// 1 − θ of the thresholds of Fig. 6, from θ = 0.5 to 0.99999999.
 const DOUBTS: [f64; 22] = [

@@ -3,9 +3,11 @@
 
 use tactile::score::Confusion;
 
+use super::maze;
 use super::sweeps::{PENALTIES, Row, mean_hit, train};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::record::corridor::{COLUMNS, INPUTS, place};
+use crate::experiment::record::corridor::{COLUMNS, place};
+use crate::experiment::record::pads::INPUTS;
 use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::{Claim, Page, confusion, figure};
@@ -111,5 +113,5 @@ pub(super) fn section(
         hit,
         CHANCE,
     );
-    Ok(())
+    maze::section(page, request, &network)
 }

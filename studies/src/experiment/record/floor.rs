@@ -58,7 +58,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         point_m: [0.0; 3],
         normal: [0.0, 0.0, 1.0],
         along: [1.0, 0.0, 0.0],
-        surface: whiskers::floor(request.felt(floor, PLACEBO)),
+        surface: whiskers::floor(&request.rigs.surfaces, request.felt(floor, PLACEBO)),
     };
     let lead = (LEAD_S * rig.tick_hz).round() as usize;
     let each = rig.ticks() / rig.placements.max(1);

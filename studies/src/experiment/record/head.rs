@@ -61,7 +61,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         Some((_, gain)) => (*gain, TAU_Z_PERIODS),
         None => STRONG,
     };
-    let surface = whiskers::abrasive(texture);
+    let surface = whiskers::abrasive(&request.rigs.surfaces, texture);
     let visit = Visit {
         distance_m,
         surface: &surface,

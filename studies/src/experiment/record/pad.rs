@@ -1,12 +1,12 @@
 //! Sweeps of the fixed head over sandpapers: the IMP of every vibrissa, summed
-//! over the sweep.
+//! over the sweep, and what one vibrissa feels, sample by sample.
 
 use classifiers::imp::{Band, Imp, ImpSweep};
 
 use super::whiskers;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
-use crate::paper::psik::{RATE_HZ, VIBRISSAE};
+use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
 use crate::refused::refused;
 use crate::rigs::{Chance, panned, seed_of};
 use host_sim::Error;
@@ -42,19 +42,50 @@ pub(crate) fn codes(reading: [f64; 2], bits: usize) -> [i16; 2] {
     reading.map(|x| sensor_code(most * x, most))
 }
 
-/// Records a sweep: one sample of 33 numbers.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+/// The vibrissa whose samples are kept: the middle one of the longest arc.
+pub(crate) const ONE: usize = ARCS[0].0 / 2;
+
+/// A reading of so many bits in codes of 14, as the product's classifier takes them.
+pub(crate) fn widened(code: [i16; 2], bits: usize) -> [f32; 2] {
+    let unit = f32::from(1_u16 << 14_usize.saturating_sub(bits).min(12));
+    code.map(|x| unit * f32::from(x))
+}
+
+/// The sheet of a sweep.
+fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let rig = &request.rigs.pad;
     let (paper, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let sweep = rig.sweep(&mut chance);
     let [along, up] = sweep.origin_m;
-    let plate = Plate {
+    Plate {
         point_m: [sweep.distance_m, along, up],
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
-        surface: whiskers::sandpaper(request.felt(paper, PLACEBO)),
-    };
+        surface: whiskers::sandpaper(&request.rigs.surfaces, request.felt(paper, PLACEBO)),
+    }
+}
+
+/// Records what one vibrissa feels in a sweep: x and y.
+pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+    let rig = &request.rigs.pad;
+    let plate = sheet(request, job, seed);
+    let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
+    let mut values = Vec::with_capacity(2 * rig.ticks());
+    if let Some((vibrissa, whisker)) = whiskers.get_mut(ONE) {
+        for tick in 0..rig.ticks() {
+            let pose = panned(&vibrissa.pose, rig.pan(tick));
+            whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
+            values.extend(widened(codes(whisker.reading(), rig.bits), rig.bits));
+        }
+    }
+    Ok(Recording::new(2, values))
+}
+
+/// Records a sweep: one sample of 33 numbers.
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+    let rig = &request.rigs.pad;
+    let plate = sheet(request, job, seed);
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
     let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;
     let (mut state, mut sum) = (imp.state(), ImpSweep::default());

@@ -8,7 +8,7 @@ use crate::refused::refused;
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 use host_sim::Error;
 use physics::vector::{add, cross};
-use physics::{Plate, Pose, Shaft, TouchingWhisker};
+use physics::{Plate, Pose, Shaft, Surface, TouchingWhisker};
 
 /// How often each contact is made.
 pub(crate) const TIMES: usize = 2;
@@ -65,7 +65,8 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let speed_m_s = speeds().get(speed).copied().unwrap_or(0.0) / 1000.0;
     let angle_deg = ANGLES_DEG[request.felt(contact.angle, PLACEBO.angle)];
     let texture = request.felt(contact.texture, PLACEBO.texture);
-    let (codes, way) = approach(rig, angle_deg, speed_m_s, texture, seed)?;
+    let surface = whiskers::table_texture(&request.rigs.surfaces, texture);
+    let (codes, way) = approach(rig, angle_deg, speed_m_s, surface, seed)?;
 
     let x = |n: usize| codes.get(2 * n).copied().unwrap_or(0);
     let count = codes.len() / 2;
@@ -90,7 +91,7 @@ fn approach(
     rig: &Table,
     angle_deg: f64,
     speed_m_s: f64,
-    texture: usize,
+    surface: Surface,
     seed: u64,
 ) -> Result<(Vec<i16>, f64), Error> {
     let dt_s = 1.0 / rig.tick_hz;
@@ -112,7 +113,7 @@ fn approach(
         point_m: origin,
         normal,
         along,
-        surface: whiskers::table_texture(texture),
+        surface,
     };
     let pose = Pose {
         base_m: [0.0; 3],

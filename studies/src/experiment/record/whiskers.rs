@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::paper::psik::ARCS;
 use crate::refused::refused;
-use crate::rigs::{Layout, Vibrissa, seed_of};
+use crate::rigs::{Layout, Surfaces, Vibrissa, seed_of};
 use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 
@@ -23,8 +23,8 @@ pub(crate) fn head() -> [Shaft; 3] {
 }
 
 /// A floor by its place in LEP10's tables.
-pub(crate) fn floor(floor: usize) -> Surface {
-    Surface::of(match floor {
+pub(crate) fn floor(surfaces: &Surfaces, floor: usize) -> Surface {
+    surfaces.of(match floor {
         0 => Material::RoughCarpet,
         1 => Material::SmoothCarpet,
         2 => Material::Tarmac,
@@ -33,8 +33,8 @@ pub(crate) fn floor(floor: usize) -> Surface {
 }
 
 /// A texture of the head's experiment by its place in the paper's list.
-pub(crate) fn abrasive(texture: usize) -> Surface {
-    Surface::of(match texture {
+pub(crate) fn abrasive(surfaces: &Surfaces, texture: usize) -> Surface {
+    surfaces.of(match texture {
         0 => Material::Sandpaper(Grit::P240),
         1 => Material::Sandpaper(Grit::P600),
         _ => Material::SmoothPlastic,
@@ -42,8 +42,8 @@ pub(crate) fn abrasive(texture: usize) -> Surface {
 }
 
 /// A texture at the table by its place in the paper's list.
-pub(crate) fn table_texture(texture: usize) -> Surface {
-    Surface::of(match texture {
+pub(crate) fn table_texture(surfaces: &Surfaces, texture: usize) -> Surface {
+    surfaces.of(match texture {
         0 => Material::Sandpaper(Grit::P80),
         1 => Material::Sandpaper(Grit::P180),
         2 => Material::Sandpaper(Grit::P600),
@@ -66,9 +66,9 @@ const GRADES: [Grit; 8] = [
 ];
 
 /// A sandpaper by its place.
-pub(crate) fn sandpaper(number: usize) -> Surface {
+pub(crate) fn sandpaper(surfaces: &Surfaces, number: usize) -> Surface {
     let grade = GRADES.get(number).copied().unwrap_or(Grit::P180);
-    Surface::of(Material::Sandpaper(grade))
+    surfaces.of(Material::Sandpaper(grade))
 }
 
 /// Shafts and modes of the eight arcs.
@@ -131,9 +131,9 @@ pub(crate) fn pad(
 }
 
 /// The four walls of relief plexiglass, by number: their periods differ.
-pub(crate) fn wall(number: usize) -> Surface {
+pub(crate) fn wall(surfaces: &Surfaces, number: usize) -> Surface {
     /// Periods, tenths of a millimetre (chosen; PSIK Fig. 8 has no extent).
     const PERIODS: [u16; 4] = [30, 60, 100, 160];
     let period = PERIODS.get(number).copied().unwrap_or(30);
-    Surface::of(Material::Relief(period))
+    surfaces.of(Material::Relief(period))
 }

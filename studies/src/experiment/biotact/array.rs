@@ -1,0 +1,177 @@
+//! The whole head: twelve whiskers a side, with motors, elastic shafts and sensors, before
+//! obstacles, moved by the module (BIOTACT section III-D, Figs. 7 and 9).
+
+use rayon::prelude::*;
+use scene::{GateSettings, Scene};
+
+use super::figures::{FREQUENCY_HZ, TICK_HZ};
+use super::patterns::{LEFT, RIGHT, Row, angles, contacts};
+use crate::experiment::request::Request;
+use crate::page::{Claim, Page, figure, row};
+use crate::paper::biotact::{FIG9, OBSTACLES_DEG};
+use host_sim::Error;
+use host_sim::run::Run;
+
+/// Whisks that are left out, as the motors settle, and those that are measured.
+const LEAD: usize = 4;
+const WHISKS: usize = 16;
+const WHISK_TICKS: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
+
+/// The head without obstacles, with the noise and the gains of the head's experiments.
+fn head(request: &Request) -> Result<Scene, Error> {
+    let rig = &request.rigs.head;
+    let (kp, kd) = (rig.motor.kp, rig.motor.kd);
+    let text = format!(
+        "name = 'array'\ntick_hz = {TICK_HZ}\nduration_s = {}\nseed = {}\n\
+         [head]\nwhiskers_per_side = 12\n\
+         [whisking]\nfrequency_hz = {FREQUENCY_HZ:?}\nintegrator = 'exact'\ncoupling = true\n\
+         noise = {:?}\ngain = 1.0\nstart = [[1.0, 0.0], [1.0, 0.0]]\n\
+         [motor]\nkp = {kp:?}\nkd = {kd:?}\n\
+         [plant]\nkind = 'whisker'\ntextures = ['smooth']\npresent_s = 1000.0\n\
+         obstacle_deg = [300.0, 300.0]\nstiffness = 0.1\n",
+        (LEAD + WHISKS) as f64 / FREQUENCY_HZ,
+        // A seed of TOML has 63 bits.
+        request.seed & (u64::MAX >> 1),
+        rig.noise,
+    );
+    Ok(Scene::from_str("array.toml", &text)?)
+}
+
+/// What the head is put before, and whether it has CIA beside RCP.
+struct Case {
+    what: &'static str,
+    obstacles_deg: [f64; 2],
+    has_cia: bool,
+}
+
+/// Where no whisker comes, degrees.
+const NOTHING: f64 = 300.0;
+
+const CASES: [Case; 5] = [
+    Case {
+        what: "nothing",
+        obstacles_deg: [NOTHING; 2],
+        has_cia: true,
+    },
+    Case {
+        what: "a body on the left, RCP",
+        obstacles_deg: [OBSTACLES_DEG[LEFT], NOTHING],
+        has_cia: false,
+    },
+    Case {
+        what: "a body on the left, RCP and CIA",
+        obstacles_deg: [OBSTACLES_DEG[LEFT], NOTHING],
+        has_cia: true,
+    },
+    Case {
+        what: "bodies on both sides, RCP",
+        obstacles_deg: OBSTACLES_DEG,
+        has_cia: false,
+    },
+    Case {
+        what: "bodies on both sides, RCP and CIA",
+        obstacles_deg: OBSTACLES_DEG,
+        has_cia: true,
+    },
+];
+
+/// How both sides move.
+struct Moved {
+    /// Mean over the whisks of the largest angle of the front whisker of a side, degrees.
+    peak_deg: [f64; 2],
+    /// Contacts of a side a whisk.
+    contacts: [f64; 2],
+}
+
+impl Case {
+    fn run(&self, scene: &Scene) -> Result<Moved, Error> {
+        let mut scene = scene.clone();
+        let gate = |(gain, whisks): (f64, f64)| GateSettings {
+            gain,
+            tau_s: whisks / FREQUENCY_HZ,
+        };
+        scene.rcp = FIG9.rcp.map(gate);
+        scene.cia = FIG9.cia.filter(|_| self.has_cia).map(gate);
+        if let Some(obstacle) = &mut scene.plant.obstacle {
+            obstacle.obstacle_deg = self.obstacles_deg.to_vec();
+        }
+        let mut run = Run::new(&scene, None)?;
+        for _ in 0..LEAD * WHISK_TICKS {
+            run.tick();
+        }
+        let rows: Vec<Row> = (0..WHISKS * WHISK_TICKS)
+            .map(|_| run.tick().angle_deg)
+            .collect();
+        let whisks = rows.chunks(WHISK_TICKS);
+        let count = whisks.len().max(1) as f64;
+        Ok(Moved {
+            peak_deg: [LEFT, RIGHT].map(|side| {
+                whisks
+                    .clone()
+                    .map(|whisk| angles(whisk, side).1)
+                    .sum::<f64>()
+                    / count
+            }),
+            contacts: [LEFT, RIGHT].map(|side| contacts(&rows, side, WHISKS)),
+        })
+    }
+}
+
+pub(super) fn section(page: &mut Page, request: &Request) -> Result<(), Error> {
+    let scene = head(request)?;
+    let cases = CASES.par_iter().map(|case| case.run(&scene));
+    let moved = cases.collect::<Result<Vec<Moved>, Error>>()?;
+    page.say(format_args!(
+        "**The whole head**: 24 whiskers, 12 a side, with the gains of Fig. 9, each with its motor \
+         and an elastic shaft of 112 mm, before plates that a straight whisker touches at {} degrees \
+         on the left and {} on the right. Mean of {WHISKS} whisks.",
+        OBSTACLES_DEG[LEFT], OBSTACLES_DEG[RIGHT]
+    ));
+    let line = |(case, moved): (&Case, &Moved)| {
+        let cells = [
+            figure(moved.peak_deg[LEFT], 1),
+            figure(moved.peak_deg[RIGHT], 1),
+            figure(moved.contacts[LEFT], 2),
+            figure(moved.contacts[RIGHT], 2),
+        ];
+        row(case.what, cells.map(|cell| format!("**{cell}**")))
+    };
+    let header = format!(
+        "before | left up to, degrees | right up to, degrees | left past {} degrees, times a whisk | \
+         right past {} degrees, times a whisk",
+        OBSTACLES_DEG[LEFT], OBSTACLES_DEG[RIGHT]
+    );
+    page.table(&header, CASES.iter().zip(&moved).map(line));
+    let [free, _, one_side, without, with] = moved.as_slice() else {
+        return Ok(());
+    };
+    let (left, right) = (one_side.peak_deg[LEFT], one_side.peak_deg[RIGHT]);
+    page.claims.push(Claim::new(
+        "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \
+         back and lets the right protract more",
+        "so",
+        format_args!(
+            "left up to {}, right up to {}; free {} and {} degrees",
+            figure(left, 1),
+            figure(right, 1),
+            figure(free.peak_deg[LEFT], 1),
+            figure(free.peak_deg[RIGHT], 1)
+        ),
+        (
+            (free.peak_deg[LEFT] - left).min(right - free.peak_deg[RIGHT]),
+            "degrees",
+        ),
+    ));
+    let (found, missed) = (with.contacts[RIGHT], without.contacts[RIGHT]);
+    page.claims.push(Claim::new(
+        "BIOTACT Fig. 9, 24 whiskers with bodies: with CIA the right finds its obstacle",
+        "1 contact a whisk, none without CIA",
+        format_args!(
+            "{} contacts a whisk, {} without CIA",
+            figure(found, 2),
+            figure(missed, 2)
+        ),
+        ((found - 0.5).min(0.5 - missed), "contacts a whisk"),
+    ));
+    Ok(())
+}

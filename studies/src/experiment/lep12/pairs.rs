@@ -1,0 +1,181 @@
+//! Two floors at a time by the sequential probability ratio test, with a prior ratio (LEP12 eqs.
+//! 1 and 2).
+
+use classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
+use classifiers::sprt::Sprt;
+use rayon::prelude::*;
+use tactile::{ModelBuf, SequentialRule, Threshold};
+
+use super::groups::{BLOCK, BOTH, Group};
+use crate::experiment::floors::{CHANNELS, Stream, train};
+use crate::page::{Claim, Page, figure, row};
+use crate::paper::lep10::FLOORS;
+use crate::refused::refused;
+use host_sim::Error;
+
+/// Threshold on the probability: the middle one of Fig. 8.
+const THETA: f64 = 0.9;
+/// How much more often one floor comes than the other (chosen).
+const PRIOR_RATIO: f64 = 4.0;
+/// Share of decisions that must be alike, percent (chosen: one of a thousand may fall otherwise
+/// by rounding).
+const ALIKE: f64 = 99.9;
+
+/// Decisions about one of two floors.
+#[derive(Debug, Default, Clone, Copy)]
+struct Decisions {
+    wrong: f64,
+    count: f64,
+    samples: f64,
+}
+
+impl Decisions {
+    fn error(&self) -> f64 {
+        100.0 * self.wrong / self.count.max(1.0)
+    }
+
+    fn time(&self) -> f64 {
+        self.samples / self.count.max(1.0)
+    }
+}
+
+/// What a rule makes of all streams of a floor, stream by stream.
+fn each(rule: &mut impl Recogniser, streams: &[Stream], floor: usize) -> Vec<Vec<Outcome>> {
+    let of = streams.iter().filter(|stream| stream.floor == floor);
+    of.map(|stream| outcomes(rule, &stream.samples, CHANNELS))
+        .collect()
+}
+
+fn decisions(found: &[Vec<Outcome>], class: usize) -> Decisions {
+    let mut sum = Decisions::default();
+    for one in found.iter().flatten() {
+        sum.wrong += f64::from(u8::from(one.class != class));
+        sum.count += 1.0;
+        sum.samples += f64::from(one.samples);
+    }
+    sum
+}
+
+/// What came of a pair of floors.
+struct Pair {
+    floors: [usize; 2],
+    /// Percent of the decisions that eq. 8 makes at the same sample too.
+    alike: f64,
+    /// Errors, percent, and mean samples, without the prior ratio and with it, of streams in
+    /// which one floor is so much more frequent, the mean of either.
+    error: [f64; 2],
+    time: [f64; 2],
+}
+
+/// Percent of outcomes that both have.
+fn alike(ours: &[Vec<Outcome>], theirs: &[Vec<Outcome>]) -> (f64, f64) {
+    let (mut same, mut all) = (0, 0);
+    for (ours, theirs) in ours.iter().zip(theirs) {
+        all += ours.len().max(theirs.len());
+        same += ours.iter().zip(theirs).filter(|(a, b)| a == b).count();
+    }
+    (same as f64, all as f64)
+}
+
+impl Pair {
+    fn of(group: &Group, floors: [usize; 2]) -> Result<Self, Error> {
+        let some = |streams: &[Stream]| -> Vec<Stream> {
+            let among = streams
+                .iter()
+                .filter(|stream| floors.contains(&stream.floor));
+            among.cloned().collect()
+        };
+        let model: ModelBuf = train(&some(&group.training), &BOTH, BLOCK)?;
+        let model = model.view();
+        let threshold = Threshold::new(THETA).map_err(refused)?;
+        let mut eq8 = Bayes::<SequentialRule>::new(model, threshold).map_err(refused)?;
+        let mut flat = Sprt::new(model, THETA, 1.0).map_err(refused)?;
+        let (mut same, mut all) = (0.0, 0.0);
+        let mut plain = [Decisions::default(); 2];
+        for (class, floor) in floors.into_iter().enumerate() {
+            let ours = each(&mut flat, &group.validation, floor);
+            let theirs = each(&mut eq8, &group.validation, floor);
+            let (some, of) = alike(&ours, &theirs);
+            (same, all) = (same + some, all + of);
+            plain[class] = decisions(&ours, class);
+        }
+        let share = PRIOR_RATIO / (1.0 + PRIOR_RATIO);
+        let (mut error, mut time) = ([0.0; 2], [0.0; 2]);
+        for likely in [0, 1] {
+            let ratio = if likely == 0 {
+                PRIOR_RATIO
+            } else {
+                1.0 / PRIOR_RATIO
+            };
+            let mut knowing = Sprt::new(model, THETA, ratio).map_err(refused)?;
+            for (class, floor) in floors.into_iter().enumerate() {
+                let weight = 0.5 * if class == likely { share } else { 1.0 - share };
+                let told = decisions(&each(&mut knowing, &group.validation, floor), class);
+                for (place, of) in [plain[class], told].into_iter().enumerate() {
+                    error[place] += weight * of.error();
+                    time[place] += weight * of.time();
+                }
+            }
+        }
+        Ok(Self {
+            floors,
+            alike: 100.0 * same / f64::max(all, 1.0),
+            error,
+            time,
+        })
+    }
+}
+
+/// The section, on a group of trials.
+pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
+    let mut pairs = Vec::new();
+    for a in 0..FLOORS.len() {
+        pairs.extend((a + 1..FLOORS.len()).map(|b| [a, b]));
+    }
+    let pairs = pairs.into_par_iter().map(|floors| Pair::of(group, floors));
+    let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
+    page.say(format_args!(
+        "**Equations 1 and 2**: two floors at a time, {} motion, by the sequential probability \
+         ratio test, log PR = log HR + Σ log LR, at θ = {THETA}. One floor comes {PRIOR_RATIO} \
+         times as often as the other; the test takes both for equally frequent (HR = 1), or knows \
+         better. Means of either floor being the frequent one.",
+        group.name
+    ));
+    let ms = |samples: f64| figure(1000.0 * samples / rate_hz, 0);
+    let line = |pair: &Pair| {
+        let name = pair.floors.map(|floor| FLOORS[floor]).join(" or ");
+        let cells = [
+            figure(pair.alike, 1),
+            figure(pair.error[0], 1),
+            figure(pair.error[1], 1),
+            ms(pair.time[0]),
+            ms(pair.time[1]),
+        ];
+        row(name, cells.map(|cell| format!("**{cell}**")))
+    };
+    page.table(
+        "floors | decided as by eq. 8, % | errors with HR = 1, % | with HR known, % | time with \
+         HR = 1, ms | with HR known, ms",
+        pairs.iter().map(line),
+    );
+    let mean =
+        |of: &dyn Fn(&Pair) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len().max(1) as f64;
+    let (flat, known) = (mean(&|pair| pair.error[0]), mean(&|pair| pair.error[1]));
+    let same = mean(&|pair| pair.alike);
+    page.claims.push(Claim::new(
+        "LEP12, below eq. 8: for two choices, eq. 8 is the sequential probability ratio test",
+        "formally equivalent",
+        format_args!("{} % of all decisions alike", figure(same, 2)),
+        (same - ALIKE, "points over 99.9"),
+    ));
+    page.claims.push(
+        Claim::new(
+            "LEP12 eq. 1: a prior ratio that is known saves errors",
+            "trades off sensory information and prior probability",
+            format_args!("{} against {} %", figure(known, 1), figure(flat, 1)),
+            (flat - known, "points"),
+        )
+        .told(100.0 - flat, 50.0),
+    );
+    Ok(())
+}

@@ -1,0 +1,318 @@
+//! The robot in its maze (PSIK section 3.3.2): it follows walls by the distances of its sides,
+//! notices corridors by their aperture, tells them by their walls, and turns at their ends as
+//! they say.
+
+use classifiers::mlp::Network;
+use host_sim::Error;
+use physics::{Material, Plate, Pose};
+use rayon::prelude::*;
+
+use crate::chart::{Mark, linear};
+use crate::experiment::picture::{Curve, panel};
+use crate::experiment::record::corridor::relief;
+use crate::experiment::record::pads::{Felt, Pads};
+use crate::experiment::request::Request;
+use crate::page::{Claim, Page, figure, row};
+use crate::paper::psik::{CORRIDORS, RATE_HZ};
+use crate::refused::refused;
+use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
+
+/// A case's chance of the right turn, percent: two of four say right.
+const CHANCE: f64 = 50.0;
+/// What counts as turning right, percent (chosen).
+const ENOUGH: f64 = 75.0;
+
+/// What the robot is about.
+#[derive(Debug, Clone, Copy)]
+enum Doing {
+    Following,
+    /// In a corridor, with the votes for each.
+    Inside([u32; 4]),
+    /// Turns left (1) or right (−1) until it has turned so far, radians.
+    Turning(f64, f64),
+}
+
+/// What came of a tour.
+struct Tour {
+    /// Times around the maze in the direction of the start.
+    laps: f64,
+    /// Corridors that it passed, and how often it turned as they say.
+    passed: u32,
+    right: u32,
+    /// What was no corridor, and was taken for one.
+    false_alarms: u32,
+    /// Where the neck was, twice a second.
+    path: Vec<(f64, f64)>,
+}
+
+/// The corridor and direction at a place, if there is one: its number in [`CORRIDORS`].
+fn case_at(request: &Request, robot: &Robot) -> Option<usize> {
+    let (maze, corridor) = (&request.rigs.maze, &request.rigs.corridor);
+    let [x, y] = robot.neck_m;
+    // Its end is noticed late.
+    let is_there = x.abs() < corridor.length_m && y.abs() > maze.width_m / 2.0 - corridor.width_m;
+    let is_ahead = robot.heading.cos() > 0.0;
+    let case = match (y > 0.0, is_ahead) {
+        (true, true) => 0,
+        (true, false) => 1,
+        (false, false) => 2,
+        (false, true) => 3,
+    };
+    is_there.then_some(case)
+}
+
+/// Where to turn at the end of a corridor, so as to go on around the maze: 1 is left.
+const fn turn_at(case: usize) -> f64 {
+    if case.is_multiple_of(2) { -1.0 } else { 1.0 }
+}
+
+/// What stands around the robot.
+struct Walls<'r> {
+    request: &'r Request,
+    walls: Vec<Wall>,
+}
+
+impl Walls<'_> {
+    /// What a straight vibrissa would go through first.
+    fn before(&self, pose: &Pose, length_m: f64) -> Option<Plate> {
+        let shaft = pose.z();
+        let base = [pose.base_m[0], pose.base_m[1]];
+        let tip = [0, 1].map(|k| base[k] + length_m * shaft[k]);
+        let crossed = self
+            .walls
+            .iter()
+            .filter_map(|wall| Some((wall.crossing(base, tip)?, wall)));
+        let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        let [x, y] = wall.normal();
+        let surface = match wall.made {
+            Made::Plain => self.request.rigs.surfaces.of(Material::SmoothPlastic),
+            Made::Relief(number) => relief(self.request, number),
+        };
+        Some(Plate {
+            point_m: [wall.from_m[0], wall.from_m[1], 0.0],
+            normal: [x, y, 0.0],
+            along: [wall.along[0], wall.along[1], 0.0],
+            surface,
+        })
+    }
+}
+
+/// Behaviour by touch.
+struct Behaviour<'r> {
+    maze: &'r Maze,
+    network: &'r Network,
+    doing: Doing,
+    /// How long the aperture has been other than what the robot is about takes it to be, and how
+    /// long it has been in a corridor, s.
+    other_s: f64,
+    inside_s: f64,
+}
+
+impl Behaviour<'_> {
+    /// A tick: the corridor that the robot has just left, as it takes it.
+    fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<usize>, Error> {
+        let is_narrow = felt.distance_mm.iter().sum::<f64>() < self.maze.aperture_mm;
+        let is_inside = matches!(self.doing, Doing::Inside(_));
+        self.other_s = if is_narrow == is_inside {
+            0.0
+        } else {
+            self.other_s + dt_s
+        };
+        let is_over = self.other_s >= self.maze.detect_s;
+        match &mut self.doing {
+            Doing::Following => {
+                if is_over {
+                    self.doing = Doing::Inside([0; 4]);
+                    (self.other_s, self.inside_s) = (0.0, 0.0);
+                }
+            }
+            Doing::Turning(side, left_rad) => {
+                *left_rad -= turned_rad * *side;
+                if *left_rad <= 0.0 {
+                    self.doing = Doing::Following;
+                    self.other_s = 0.0;
+                }
+            }
+            Doing::Inside(votes) => {
+                self.inside_s += dt_s;
+                if let Some(window) = &felt.window {
+                    let row: Vec<f64> = window.iter().map(|x| f64::from(*x)).collect();
+                    let named = self.network.classify(&row).map_err(refused)?;
+                    if let Some(votes) = votes.get_mut(named) {
+                        *votes += 1;
+                    }
+                }
+                if is_over {
+                    let votes = *votes;
+                    self.other_s = 0.0;
+                    if self.inside_s < self.maze.least_s {
+                        self.doing = Doing::Following;
+                        return Ok(None);
+                    }
+                    let most = (0..CORRIDORS.len()).max_by_key(|k| (votes[*k], 4 - k));
+                    let case = most.unwrap_or(0);
+                    self.doing = Doing::Turning(turn_at(case), self.maze.turn_deg.to_radians());
+                    return Ok(Some(case));
+                }
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// A tour from the top wall, heading right or left.
+fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour, Error> {
+    let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
+    let seed = seed_of(request.seed, &[9, u64::from(heads_right)]);
+    let mut chance = Chance::new(seed_of(seed, &[0]));
+    let walls = Walls {
+        request,
+        walls: maze.walls(rig),
+    };
+    let way = if heads_right { 1.0 } else { -1.0 };
+    let top = (maze.width_m - rig.width_m) / 2.0;
+    let off = rig.start_spread_deg.to_radians();
+    let mut robot = Robot {
+        neck_m: [
+            -way * maze.start_m,
+            top + chance.between(-rig.start_spread_m, rig.start_spread_m),
+        ],
+        heading: chance.between(-off, off)
+            + if heads_right {
+                0.0
+            } else {
+                core::f64::consts::PI
+            },
+    };
+    let mut pads = Pads::new(rig, [1, 2].map(|side| seed_of(seed, &[side])))?;
+    let mut behaviour = Behaviour {
+        maze,
+        network,
+        doing: Doing::Following,
+        other_s: 0.0,
+        inside_s: 0.0,
+    };
+    let mut tour = Tour {
+        laps: 0.0,
+        passed: 0,
+        right: 0,
+        false_alarms: 0,
+        path: Vec::new(),
+    };
+    let dt_s = 1.0 / RATE_HZ;
+    let body_m = rig.width_m / 2.0 - rig.slack_m;
+    let mut turned_rad = 0.0;
+    for tick in 0..(maze.tour_s * RATE_HZ) as usize {
+        let felt = pads.step(rig, &robot, |_, pose, length_m| {
+            walls.before(pose, length_m)
+        });
+        if let Some(decided) = behaviour.tick(&felt, turned_rad, dt_s)? {
+            match case_at(request, &robot) {
+                Some(case) => {
+                    tour.passed += 1;
+                    tour.right += u32::from(turn_at(case) == turn_at(decided));
+                }
+                None => tour.false_alarms += 1,
+            }
+        }
+        let [left, right] = felt.distance_mm;
+        let across = match behaviour.doing {
+            Doing::Turning(side, _) => side * rig.most_m_s,
+            _ => rig.across_m_s(left, right),
+        };
+        let before = robot;
+        rig.go(&mut robot, across, dt_s);
+        robot.neck_m =
+            (walls.walls.iter()).fold(robot.neck_m, |at, wall| wall.kept_off(at, body_m));
+        turned_rad = robot.heading - before.heading;
+        let bearing = |robot: &Robot| libm::atan2(robot.neck_m[1], robot.neck_m[0]);
+        let turn = bearing(&robot) - bearing(&before);
+        // Clockwise is a start to the right.
+        tour.laps -= way
+            * (turn - core::f64::consts::TAU * (turn / core::f64::consts::TAU).round())
+            / core::f64::consts::TAU;
+        if tick % (RATE_HZ as usize / 2) == 0 {
+            tour.path.push((robot.neck_m[0], robot.neck_m[1]));
+        }
+    }
+    Ok(tour)
+}
+
+pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<(), Error> {
+    let tours = [true, false]
+        .into_par_iter()
+        .map(|right| tour(request, network, right));
+    let tours = tours.collect::<Result<Vec<Tour>, Error>>()?;
+    let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
+    page.say(format_args!(
+        "**The maze** (`studies/rigs/maze.toml`): {} by {} m, an island in the middle, which leaves \
+         a corridor along the wall at the top and at the bottom. The robot follows walls by V_y \
+         alone, takes itself to be in a corridor where D_left + D_right is below {} mm, counts the \
+         votes of the network of Table 3 there, and turns by {} degrees at its end, to the side \
+         that goes on around the maze. Fig. 9, which has the maze's form, gives no measures of it: \
+         island and corners are ours. {} s from either start at the top.",
+        maze.length_m, maze.width_m, maze.aperture_mm, maze.turn_deg, maze.tour_s
+    ));
+    let names = ["to the right", "to the left"];
+    let rows = names.iter().zip(&tours).map(|(name, tour)| {
+        let cells = [
+            figure(tour.laps, 2),
+            figure(f64::from(tour.passed), 1),
+            figure(f64::from(tour.right), 1),
+            figure(f64::from(tour.false_alarms), 1),
+        ];
+        row(*name, cells.map(|cell| format!("**{cell}**")))
+    });
+    page.table(
+        "start | tours around | corridors passed | turned as they say | taken for one",
+        rows,
+    );
+    let (a, b) = (maze.length_m / 2.0, maze.width_m / 2.0);
+    let outline: Vec<(f64, f64)> = maze
+        .walls(rig)
+        .iter()
+        .map(|wall| (wall.from_m[0], wall.from_m[1]))
+        .collect();
+    let mut panels = Vec::new();
+    for (name, tour) in names.iter().zip(&tours) {
+        let curves = [
+            Curve::new("walls", outline.clone()),
+            Curve::new("neck", tour.path.clone()),
+        ];
+        let (x, y) = (linear("m", -a, a), linear("m", -b, b));
+        panels.push(panel(&format!("start {name}"), x, y, &curves, Mark::Dot));
+    }
+    page.say("**Fig. 10**: the robot's way, twice a second; walls by where their parts begin.");
+    page.panels("psik-fig10.svg", "The robot's way in the maze", &panels)?;
+
+    let least = tours
+        .iter()
+        .map(|tour| tour.laps)
+        .fold(f64::INFINITY, f64::min);
+    page.claims.push(Claim::new(
+        "PSIK: the robot circulates around the maze, from either start (a whole tour or more)",
+        "several tours in a row",
+        format_args!("at least {} tours in {} s", figure(least, 2), maze.tour_s),
+        (least - 1.0, "tours over one"),
+    ));
+    let passed: u32 = tours.iter().map(|tour| tour.passed).sum();
+    let right: u32 = tours.iter().map(|tour| tour.right).sum();
+    let share = if passed == 0 {
+        CHANCE
+    } else {
+        100.0 * f64::from(right) / f64::from(passed)
+    };
+    page.claims.push(
+        Claim::new(
+            format_args!(
+                "PSIK: at the ends of corridors the robot turns as their walls say \
+                 ({ENOUGH:.0} % or more)"
+            ),
+            "so",
+            format_args!("{} %", figure(share, 1)),
+            (share - ENOUGH, "points"),
+        )
+        .told(share, CHANCE),
+    );
+    Ok(())
+}
