@@ -182,7 +182,8 @@ keys! {
 keys! {
     /// Textured surfaces, presented one after another.
     pub struct Presentation {
-        /// Surfaces, in the order in which they are presented.
+        /// Surfaces, in the order in which they are presented; the first four are those that
+        /// `textured` knows.
         textures: Vec<Texture> = words().required_if(TEXTURES, "no texture").only_if(TEXTURES),
 
         /// How long each texture is presented; at least one tick.

@@ -10,8 +10,9 @@ use crate::rigs::{Chance, Robot, seed_of};
 use host_sim::Error;
 use physics::Plate;
 
-/// Where a sample's inputs, how far the neck is off the middle, m, its heading, radians, and D
-/// of both sides, mm, end and what one vibrissa of the left pad felt begins: x and y, tick by tick.
+/// Columns before the readings: the inputs, then how far the neck is off the middle, m, its
+/// heading, radians, and D of both sides, mm. Behind them are x and y of one vibrissa of the left
+/// pad, tick by tick.
 pub(crate) const FELT: usize = INPUTS + 4;
 /// Numbers of a sample.
 pub(crate) const COLUMNS: usize = FELT + 2 * WINDOW as usize;
