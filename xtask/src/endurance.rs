@@ -13,7 +13,9 @@ use scene::Scene;
 
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
-use crate::run::{Fault, cargo, listing, read_bytes, run, target, top, workspace_program, write};
+use crate::run::{
+    Fault, built, cargo, listing, read_bytes, run, target, top, workspace_program, write,
+};
 
 /// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
 /// long as the others.
@@ -149,7 +151,9 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
 /// Runs those shards that have left no row yet, so many at once.
 fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
     // Built once, before they all want to.
-    run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
+    if built("emulator").is_none() {
+        run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
+    }
     let left = shards.iter().filter(|shard| !shard.file().exists());
     let left = Mutex::new(left);
     let faults = Mutex::new(Vec::new());
