@@ -16,7 +16,7 @@ pub(crate) enum Probe {
     Attached,
     /// Nobody
     Absent,
-    /// A probe that is pulled while the workspace_program waits for it
+    /// A probe that is pulled while the program waits for it
     Pulled,
 }
 
@@ -49,7 +49,7 @@ pub(crate) enum Task {
     Deploying,
 }
 
-/// Builds the workspace_program of `scene` and does `task` with it.
+/// Builds the program of `scene` and does `task` with it.
 ///
 /// # Errors
 /// If it cannot be built, or the emulated board says that something is wrong.

@@ -213,6 +213,17 @@ mod tests {
         );
     }
 
+    /// Unmodulated whisks at 10 mm.
+    fn visit(surface: &Surface, whisks: usize) -> Visit<'_> {
+        Visit {
+            distance_m: 0.01,
+            surface,
+            rcp: None,
+            whisks,
+            seed: 1,
+        }
+    }
+
     /// Largest |x| of the left front whisker in each of four whisks before the smooth surface.
     fn peaks(placement_sd_m: f64, spot_spread_m: f64) -> Vec<i16> {
         let mut rig = rig();
@@ -224,13 +235,8 @@ mod tests {
             noise_codes: 0.0,
             ..SensorSettings::default()
         };
-        let visit = Visit {
-            distance_m: 0.01,
-            surface: &Surface::of(Material::Flat),
-            rcp: None,
-            whisks: 4,
-            seed: 1,
-        };
+        let flat = Surface::of(Material::Flat);
+        let visit = visit(&flat, 4);
         let felt = rig
             .visit(&Biotact::ALL.map(Shaft::biotact), &sensor, &visit)
             .unwrap();
@@ -272,13 +278,8 @@ mod tests {
     fn a_pitch_slopes_the_surface_upwards_and_keeps_its_distance() {
         let mut rig = rig();
         (rig.pitch_deg, rig.placement_sd_m) = (20.0, 0.0);
-        let visit = Visit {
-            distance_m: 0.01,
-            surface: &Surface::of(Material::Flat),
-            rcp: None,
-            whisks: 1,
-            seed: 1,
-        };
+        let flat = Surface::of(Material::Flat);
+        let visit = visit(&flat, 1);
         let plate = rig.placed(&visit, &mut Chance::new(3));
         assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
         assert!(dot(plate.normal, plate.along).abs() < 1e-12);

@@ -28,7 +28,7 @@ fn head(request: &Request) -> Result<Scene, Error> {
          noise = {:?}\ngain = 1.0\nstart = [[1.0, 0.0], [1.0, 0.0]]\n\
          [motor]\nkp = {kp:?}\nkd = {kd:?}\n\
          [plant]\nkind = 'whisker'\ntextures = ['smooth']\npresent_s = 1000.0\n\
-         obstacle_deg = [300.0, 300.0]\nstiffness = 0.1\n",
+         obstacle_deg = [{NOTHING:?}, {NOTHING:?}]\nstiffness = 0.1\n",
         (LEAD + WHISKS) as f64 / FREQUENCY_HZ,
         // A seed of TOML has 63 bits.
         request.seed & (u64::MAX >> 1),

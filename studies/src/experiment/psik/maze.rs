@@ -85,6 +85,7 @@ impl Walls<'_> {
         let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
         let [x, y] = wall.normal();
         let surface = match wall.made {
+            // Cardboard, as smooth as plastic (chosen).
             Made::Plain => self.request.rigs.surfaces.of(Material::SmoothPlastic),
             Made::Relief(number) => relief(self.request, number),
         };
