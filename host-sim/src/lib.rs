@@ -53,6 +53,7 @@ pub mod decisions;
 pub mod drive;
 mod error;
 pub mod evaluation;
+pub mod loaded;
 pub mod motor;
 pub mod origin;
 pub mod plant;

@@ -15,7 +15,7 @@ use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
 use crate::motor::{PWM_COUNTS, SimMotor};
-use crate::trace::{Row, WhiskerRow};
+use crate::trace::{Row, Told, WhiskerRow};
 use crate::world::World;
 use flaws::Flaws;
 use presented::Presented;
@@ -357,6 +357,17 @@ impl<B: Bench + ?Sized> Run<B> {
         rows.extend(faults.map(whisker));
     }
 
+    /// The line of the trace of the last tick, in which `decided` fell; `whiskers` as
+    /// [`Run::look_at_whiskers`] fills them in.
+    pub fn told<'a>(&'a self, decided: &'a [Decided], whiskers: &'a [WhiskerRow]) -> Told<'a> {
+        Told {
+            row: &self.row,
+            decisions: by_side(decided),
+            presented: self.presented(),
+            whiskers,
+        }
+    }
+
     /// The row of the last tick.
     pub const fn row(&self) -> &Row {
         &self.row
@@ -385,4 +396,13 @@ impl<B: Bench + ?Sized> Run<B> {
             })
         })
     }
+}
+
+/// What a whisker of each side decided in one tick; of several of a side the first.
+fn by_side(decided: &[Decided]) -> [Option<&str>; 2] {
+    [0, 1].map(|side| {
+        let is_its = |decided: &&Decided| decided.place.is_some_and(|place| place.side == side);
+        let decided = decided.iter().find(is_its);
+        decided.map(|decided| decided.decision.as_str())
+    })
 }

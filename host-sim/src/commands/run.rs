@@ -4,20 +4,19 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use scene::{Override, Places, Rule, Scene, Texture};
-use tactile::ModelBuf;
+use scene::Scene;
 
 use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
 use crate::bench::{self, Bench};
-use crate::classifier::{Classifier, Fault};
 use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
+pub use crate::loaded::Loaded;
 use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
-use crate::trace::{Told, TraceShape};
+use crate::trace::TraceShape;
 use crate::{Error, report};
 
 /// What to run, and where to write.
@@ -135,16 +134,6 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     Ok(told)
 }
 
-/// A scene that has been checked, and the model that it names.
-#[derive(Debug, Clone)]
-pub struct Loaded {
-    /// The scene.
-    pub scene: Scene,
-    path: PathBuf,
-    places: Places,
-    model: Option<(PathBuf, ModelBuf)>,
-}
-
 impl Loaded {
     /// Reads and checks the scene in `path`; cautions go to standard error.
     ///
@@ -164,136 +153,6 @@ impl Loaded {
             report::warn(caution);
         }
         Ok(loaded)
-    }
-
-    /// What its user should know of the scene, though nothing is wrong with it.
-    pub(super) fn caution(&self) -> Option<String> {
-        let caution = plan::cautions(&self.scene)?;
-        Some(Error::file(&self.path, caution).to_string())
-    }
-
-    /// The same without its cautions.
-    pub(super) fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
-        let (scene, places) = Scene::load_with(path, set)?;
-        plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let model = scene
-            .model_path(folder)
-            .map(|path| files::load_model(&path))
-            .transpose()
-            .map_err(|fault| Error::Input(places.fault("classifier.model", fault)))?;
-        Ok(Self {
-            scene,
-            path: path.to_owned(),
-            places,
-            model,
-        })
-    }
-
-    /// The same module in the world of the scene in `path`.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
-    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
-        let world = Scene::load(path)?;
-        let placed = self.scene.in_world(&world);
-        self.scene = placed.map_err(|fault| Error::file(path, fault))?;
-        Ok(self)
-    }
-
-    /// The same module with the model in `path` deployed, where its scene names none.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a model that is wrong, and for a scene that has no use for it.
-    pub fn with_model(mut self, path: &Path) -> Result<Self, Error> {
-        self.takes_model()?;
-        self.model = Some(files::load_model(path)?);
-        Ok(self)
-    }
-
-    /// The same with a model that was read from a place that messages call `path`.
-    #[must_use]
-    pub fn with_deployed(mut self, path: &Path, model: Option<ModelBuf>) -> Self {
-        self.model = model.map(|model| (path.to_owned(), model));
-        self
-    }
-
-    /// Whether a model can be deployed to its module.
-    ///
-    /// # Errors
-    /// [`Error::Input`] says why not.
-    pub fn takes_model(&self) -> Result<(), Error> {
-        if self.scene.awaits_model() {
-            return Ok(());
-        }
-        Err(Error::Input(if self.scene.classifier.is_some() {
-            self.places.fault(
-                "classifier.model",
-                "found, so the model is linked into the program; for one that is deployed take \
-                 this line out",
-            )
-        } else {
-            let path = self.path.display();
-            format!("{path}: it has no [classifier], and so no use for a model")
-        }))
-    }
-
-    /// The bytes of the model that is deployed to it, not linked; none where there is none.
-    pub fn deployed(&self) -> &[u8] {
-        match &self.model {
-            Some((_, model)) if self.scene.awaits_model() => model.as_bytes(),
-            _ => &[],
-        }
-    }
-
-    /// What its user should know of a classifier that has no model yet.
-    pub fn without_model(&self) -> Option<String> {
-        (self.scene.awaits_model() && self.model.is_none()).then(|| {
-            let fault = "names no model, and none is given: nothing is decided";
-            self.places.fault("classifier", fault)
-        })
-    }
-
-    /// The scene's classifier; none without one.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if scene and model do not fit each other.
-    pub fn classifier(&self) -> Result<Option<Classifier>, Error> {
-        let refused = |key: &str, fault: String| Error::Input(self.places.fault(key, fault));
-        let (Some(classifier), Some((model_path, model))) = (&self.scene.classifier, &self.model)
-        else {
-            return Ok(None);
-        };
-        let key = match classifier.rule {
-            Rule::Sequential { .. } => "classifier.threshold",
-            Rule::Window { .. } => "classifier.window",
-        };
-        let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
-        let classifier = classifier.map_err(|fault| match fault {
-            Fault::Model(fault) => {
-                let fault = Error::file(model_path, fault).to_string();
-                refused("classifier.model", fault)
-            }
-            Fault::Rule(fault) => refused(key, fault),
-        })?;
-        let gate = classifier.touch_rule().map(|touch| touch.gate);
-        plan::contact_min(&self.scene, gate).map_err(|fault| {
-            let place = self.places.of("classifier.contact_min");
-            Error::Input(format!("{place}: {fault}"))
-        })?;
-        knows_a_texture(&self.scene, classifier.classes())
-            .map_err(|fault| refused("classifier.model", fault))?;
-        Ok(Some(classifier))
-    }
-
-    /// The names of the classes that the scene decides among.
-    ///
-    /// # Errors
-    /// As [`Loaded::classifier`].
-    pub fn classes(&self) -> Result<Vec<String>, Error> {
-        let classifier = self.classifier()?;
-        let classes = classifier.as_ref().map(Classifier::classes);
-        Ok(classes.unwrap_or_default().to_vec())
     }
 }
 
@@ -343,12 +202,8 @@ pub fn play<B: Bench + ?Sized>(
         let first = decided.len();
         decided.extend(run.decisions());
         run.look_at_whiskers(&mut whiskers);
-        trace.row(&Told {
-            row: &row,
-            decisions: by_side(decided.get(first..).unwrap_or_default()),
-            presented: run.presented(),
-            whiskers: &whiskers,
-        })?;
+        let fell = decided.get(first..).unwrap_or_default();
+        trace.row(&run.told(fell, &whiskers))?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
@@ -371,34 +226,4 @@ pub fn play<B: Bench + ?Sized>(
         tick_hz: scene.tick_hz,
         classifies,
     })
-}
-
-/// What a whisker of each side decided in one tick; of several of a side the first.
-fn by_side(decided: &[Decided]) -> [Option<&str>; 2] {
-    [0, 1].map(|side| {
-        let is_its = |decided: &&Decided| decided.place.is_some_and(|place| place.side == side);
-        let decided = decided.iter().find(is_its);
-        decided.map(|decided| decided.decision.as_str())
-    })
-}
-
-/// A model with none of the presented textures belongs to another scene.
-fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
-    let Some(textured) = &scene.plant.textured else {
-        return Ok(());
-    };
-    let known = |texture: &Texture| classes.iter().any(|class| class == texture.name());
-    if textured.textures.iter().any(known) {
-        return Ok(());
-    }
-    let presented: Vec<_> = textured
-        .textures
-        .iter()
-        .map(|texture| texture.name())
-        .collect();
-    Err(format!(
-        "found the classes {}; the scene presents {}",
-        classes.join(", "),
-        presented.join(", ")
-    ))
 }

@@ -1,0 +1,261 @@
+//! A scene that has been checked together with the model that it names.
+
+use std::path::{Path, PathBuf};
+
+use scene::{Override, Places, Rule, Scene, Texture};
+use tactile::ModelBuf;
+
+use crate::Error;
+use crate::classifier::{Classifier, Fault};
+
+/// A scene that has been checked, and the model that it names.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The scene.
+    pub scene: Scene,
+    path: PathBuf,
+    places: Places,
+    model: Option<(PathBuf, ModelBuf)>,
+}
+
+impl Loaded {
+    /// Reads and checks the scene in `path`, with keys in place of the file's; its model is
+    /// beside it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene or model that is wrong.
+    pub fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
+        let read = Scene::load_with(path, set)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        Self::of(path, read, |scene| {
+            let path = scene.model_path(folder)?;
+            Some(load_model(&path))
+        })
+    }
+
+    /// Checks a scene from its text, which messages call `file`. Where it names a model,
+    /// `model` gives the bytes of what stands under that name.
+    ///
+    /// # Errors
+    /// As [`Loaded::checked`].
+    pub fn from_text(
+        file: &str,
+        text: &str,
+        set: &[Override],
+        model: impl FnOnce(&Path) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, Error> {
+        let read = Scene::from_str_with(file, text, set)?;
+        Self::of(Path::new(file), read, |scene| {
+            let path = scene.model_path(Path::new(""))?;
+            Some(match model(&path) {
+                Ok(bytes) => model_of(&path, &bytes),
+                Err(fault) => Err(Error::file(&path, fault)),
+            })
+        })
+    }
+
+    fn of(
+        path: &Path,
+        (scene, places): (Scene, Places),
+        model: impl FnOnce(&Scene) -> Option<Result<(PathBuf, ModelBuf), Error>>,
+    ) -> Result<Self, Error> {
+        plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
+        let model = model(&scene)
+            .transpose()
+            .map_err(|fault| Error::Input(places.fault("classifier.model", fault)))?;
+        Ok(Self {
+            scene,
+            path: path.to_owned(),
+            places,
+            model,
+        })
+    }
+
+    /// What its user should know of the scene, though nothing is wrong with it.
+    pub fn caution(&self) -> Option<String> {
+        let caution = plan::cautions(&self.scene)?;
+        Some(Error::file(&self.path, caution).to_string())
+    }
+
+    /// The same module in the world of the scene in `path`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
+    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
+        let world = Scene::load(path)?;
+        let placed = self.scene.in_world(&world);
+        self.scene = placed.map_err(|fault| Error::file(path, fault))?;
+        Ok(self)
+    }
+
+    /// The same module with the model in `path` deployed, where its scene names none.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a model that is wrong, and for a scene that has no use for it.
+    pub fn with_model(mut self, path: &Path) -> Result<Self, Error> {
+        self.takes_model()?;
+        self.model = Some(load_model(path)?);
+        Ok(self)
+    }
+
+    /// The same with a model that was read from a place that messages call `path`.
+    #[must_use]
+    pub fn with_deployed(mut self, path: &Path, model: Option<ModelBuf>) -> Self {
+        self.model = model.map(|model| (path.to_owned(), model));
+        self
+    }
+
+    /// Whether a model can be deployed to its module.
+    ///
+    /// # Errors
+    /// [`Error::Input`] says why not.
+    pub fn takes_model(&self) -> Result<(), Error> {
+        if self.scene.awaits_model() {
+            return Ok(());
+        }
+        Err(Error::Input(if self.scene.classifier.is_some() {
+            self.places.fault(
+                "classifier.model",
+                "found, so the model is linked into the program; for one that is deployed take \
+                 this line out",
+            )
+        } else {
+            let path = self.path.display();
+            format!("{path}: it has no [classifier], and so no use for a model")
+        }))
+    }
+
+    /// The bytes of the model that is deployed to it, not linked; none where there is none.
+    pub fn deployed(&self) -> &[u8] {
+        match &self.model {
+            Some((_, model)) if self.scene.awaits_model() => model.as_bytes(),
+            _ => &[],
+        }
+    }
+
+    /// What its user should know of a classifier that has no model yet.
+    pub fn without_model(&self) -> Option<String> {
+        (self.scene.awaits_model() && self.model.is_none()).then(|| {
+            let fault = "names no model, and none is given: nothing is decided";
+            self.places.fault("classifier", fault)
+        })
+    }
+
+    /// The scene's classifier; none without one.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if scene and model do not fit each other.
+    pub fn classifier(&self) -> Result<Option<Classifier>, Error> {
+        let refused = |key: &str, fault: String| Error::Input(self.places.fault(key, fault));
+        let (Some(classifier), Some((model_path, model))) = (&self.scene.classifier, &self.model)
+        else {
+            return Ok(None);
+        };
+        let key = match classifier.rule {
+            Rule::Sequential { .. } => "classifier.threshold",
+            Rule::Window { .. } => "classifier.window",
+        };
+        let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
+        let classifier = classifier.map_err(|fault| match fault {
+            Fault::Model(fault) => {
+                let fault = Error::file(model_path, fault).to_string();
+                refused("classifier.model", fault)
+            }
+            Fault::Rule(fault) => refused(key, fault),
+        })?;
+        let gate = classifier.touch_rule().map(|touch| touch.gate);
+        plan::contact_min(&self.scene, gate).map_err(|fault| {
+            let place = self.places.of("classifier.contact_min");
+            Error::Input(format!("{place}: {fault}"))
+        })?;
+        knows_a_texture(&self.scene, classifier.classes())
+            .map_err(|fault| refused("classifier.model", fault))?;
+        Ok(Some(classifier))
+    }
+
+    /// The names of the classes that the scene decides among.
+    ///
+    /// # Errors
+    /// As [`Loaded::classifier`].
+    pub fn classes(&self) -> Result<Vec<String>, Error> {
+        let classifier = self.classifier()?;
+        let classes = classifier.as_ref().map(Classifier::classes);
+        Ok(classes.unwrap_or_default().to_vec())
+    }
+}
+
+/// Reads and checks a model file.
+///
+/// # Errors
+/// [`Error::Input`] names the file and why it is refused.
+pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    model_of(path, &bytes)
+}
+
+/// The model in `bytes`, which messages call `path`.
+fn model_of(path: &Path, bytes: &[u8]) -> Result<(PathBuf, ModelBuf), Error> {
+    let model = ModelBuf::from_bytes(bytes).map_err(|error| Error::file(path, error))?;
+    Ok((path.to_owned(), model))
+}
+
+/// A model with none of the presented textures belongs to another scene.
+fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
+    let Some(textured) = &scene.plant.textured else {
+        return Ok(());
+    };
+    let known = |texture: &Texture| classes.iter().any(|class| class == texture.name());
+    if textured.textures.iter().any(known) {
+        return Ok(());
+    }
+    let presented: Vec<_> = textured
+        .textures
+        .iter()
+        .map(|texture| texture.name())
+        .collect();
+    Err(format!(
+        "found the classes {}; the scene presents {}",
+        classes.join(", "),
+        presented.join(", ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Error, Loaded, Path};
+
+    const TEXT: &str = include_str!("../../scenes/textures.toml");
+    const MODEL: &[u8] = include_bytes!("../../scenes/models/textures.model");
+
+    fn opened(model: Result<Vec<u8>, String>) -> Result<Loaded, Error> {
+        Loaded::from_text("mine.toml", TEXT, &[], |path| {
+            assert_eq!(path, Path::new("models/textures.model"));
+            model
+        })
+    }
+
+    #[test]
+    fn a_text_and_its_model_are_what_the_files_are() {
+        let file = Path::new(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../scenes/textures.toml"
+        ));
+        let of_files = Loaded::checked(file, &[]).unwrap();
+        let of_text = opened(Ok(MODEL.to_vec())).unwrap();
+        assert_eq!(of_text.scene, of_files.scene);
+        assert_eq!(of_text.classes().unwrap(), of_files.classes().unwrap());
+        assert!(!of_text.classes().unwrap().is_empty());
+    }
+
+    #[test]
+    fn a_model_that_is_missing_or_broken_is_told_at_its_line() {
+        let line = TEXT.lines().position(|line| line.starts_with("model"));
+        let place = format!("mine.toml:{}: classifier.model: ", line.unwrap() + 1);
+        let found = [Err("not given".to_owned()), Ok(MODEL[..40].to_vec())];
+        for model in found {
+            let fault = opened(model).unwrap_err().to_string();
+            assert!(fault.starts_with(&place), "{fault}");
+            assert!(fault.contains("models/textures.model: "), "{fault}");
+        }
+    }
+}
