@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 
 use crate::chip::{Fault, Ps};
 use crate::debug_info::{DebugInfo, Place};

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::progress::{Progress, Verbosity};
 
 use crate::chip::Ps;

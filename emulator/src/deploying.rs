@@ -4,7 +4,7 @@ use std::path::Path;
 
 use firmware::Refusal;
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
 use wire::{Command, CommandStatus, WhiskerId};
 

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::{Loaded, play};
+use host_sim::commands::run::play;
+use host_sim::loaded::Loaded;
 use host_sim::motor::Pins;
 use host_sim::output::Output;
 use host_sim::plot::{self, Film};

@@ -13,7 +13,7 @@ use std::fmt;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::trace::Row;
 use mlx90333::Word;
 use scene::Scene;

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 
 use crate::chip::{Ps, ResetCause};
 use crate::trouble::Trouble;

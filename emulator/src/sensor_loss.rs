@@ -7,7 +7,7 @@ use std::path::Path;
 use firmware::Event;
 use host_sim::Error;
 use host_sim::bus::{Slave, WireFault};
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use mlx90333::Faults;
 use scene::OnFault;
 

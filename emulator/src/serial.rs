@@ -9,7 +9,7 @@ mod told;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use scene::Scene;
 use wire::{Command, CommandStatus, Flags, Framed, Packet, TaggedCommand, TickRecord, WhiskerId};
 

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::trace::Row;
 use scene::{PlantKind, Scene};
 use wire::{Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, WhiskerId};

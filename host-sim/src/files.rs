@@ -3,9 +3,11 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use tactile::ModelBuf;
+
 use crate::Error;
 use crate::decisions::{self, Columns, Decided};
-pub use crate::loaded::load_model;
+use crate::loaded::model_of;
 use crate::output::Output;
 use crate::recording::{self, Stream};
 use crate::trace::{Told, TraceShape, TraceWriter};
@@ -47,6 +49,15 @@ fn write(
 ) -> Result<(), Error> {
     fill(&mut output).map_err(|source| output.failed(source))?;
     output.finish()
+}
+
+/// Reads and checks a model file.
+///
+/// # Errors
+/// [`Error::Input`] names the file and why it is refused.
+pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
+    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    model_of(path, &bytes)
 }
 
 /// A trace that is written to a file; it leaves nothing behind unless finished.

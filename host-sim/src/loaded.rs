@@ -19,25 +19,11 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// Reads and checks the scene in `path`, with keys in place of the file's; its model is
-    /// beside it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scene or model that is wrong.
-    pub fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
-        let read = Scene::load_with(path, set)?;
-        let folder = path.parent().unwrap_or(Path::new("."));
-        Self::of(path, read, |scene| {
-            let path = scene.model_path(folder)?;
-            Some(load_model(&path))
-        })
-    }
-
     /// Checks a scene from its text, which messages call `file`. Where it names a model,
     /// `model` gives the bytes of what stands under that name.
     ///
     /// # Errors
-    /// As [`Loaded::checked`].
+    /// [`Error::Input`] for a scene or model that is wrong.
     pub fn from_text(
         file: &str,
         text: &str,
@@ -46,15 +32,15 @@ impl Loaded {
     ) -> Result<Self, Error> {
         let read = Scene::from_str_with(file, text, set)?;
         Self::of(Path::new(file), read, |scene| {
-            let path = scene.model_path(Path::new(""))?;
-            Some(match model(&path) {
-                Ok(bytes) => model_of(&path, &bytes),
-                Err(fault) => Err(Error::file(&path, fault)),
-            })
+            let name = Path::new(scene.classifier.as_ref()?.model.as_ref()?);
+            let bytes = model(name).map_err(|fault| Error::file(name, fault));
+            Some(bytes.and_then(|bytes| model_of(name, &bytes)))
         })
     }
 
-    fn of(
+    /// Checks what was read from `path`; `model` gives the model that the scene names, if any,
+    /// and what messages call it.
+    pub(crate) fn of(
         path: &Path,
         (scene, places): (Scene, Places),
         model: impl FnOnce(&Scene) -> Option<Result<(PathBuf, ModelBuf), Error>>,
@@ -75,27 +61,6 @@ impl Loaded {
     pub fn caution(&self) -> Option<String> {
         let caution = plan::cautions(&self.scene)?;
         Some(Error::file(&self.path, caution).to_string())
-    }
-
-    /// The same module in the world of the scene in `path`.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
-    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
-        let world = Scene::load(path)?;
-        let placed = self.scene.in_world(&world);
-        self.scene = placed.map_err(|fault| Error::file(path, fault))?;
-        Ok(self)
-    }
-
-    /// The same module with the model in `path` deployed, where its scene names none.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a model that is wrong, and for a scene that has no use for it.
-    pub fn with_model(mut self, path: &Path) -> Result<Self, Error> {
-        self.takes_model()?;
-        self.model = Some(load_model(path)?);
-        Ok(self)
     }
 
     /// The same with a model that was read from a place that messages call `path`.
@@ -184,17 +149,8 @@ impl Loaded {
     }
 }
 
-/// Reads and checks a model file.
-///
-/// # Errors
-/// [`Error::Input`] names the file and why it is refused.
-pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
-    model_of(path, &bytes)
-}
-
-/// The model in `bytes`, which messages call `path`.
-fn model_of(path: &Path, bytes: &[u8]) -> Result<(PathBuf, ModelBuf), Error> {
+/// Checks the model in `bytes`, which messages call `path`.
+pub(crate) fn model_of(path: &Path, bytes: &[u8]) -> Result<(PathBuf, ModelBuf), Error> {
     let model = ModelBuf::from_bytes(bytes).map_err(|error| Error::file(path, error))?;
     Ok((path.to_owned(), model))
 }
@@ -222,7 +178,7 @@ fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Error, Loaded, Path};
+    use super::{Error, Loaded, Path, Scene};
 
     const TEXT: &str = include_str!("../../scenes/textures.toml");
     const MODEL: &[u8] = include_bytes!("../../scenes/models/textures.model");
@@ -235,16 +191,12 @@ mod tests {
     }
 
     #[test]
-    fn a_text_and_its_model_are_what_the_files_are() {
-        let file = Path::new(concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/../scenes/textures.toml"
-        ));
-        let of_files = Loaded::checked(file, &[]).unwrap();
-        let of_text = opened(Ok(MODEL.to_vec())).unwrap();
-        assert_eq!(of_text.scene, of_files.scene);
-        assert_eq!(of_text.classes().unwrap(), of_files.classes().unwrap());
-        assert!(!of_text.classes().unwrap().is_empty());
+    fn a_text_and_its_model_are_enough() {
+        let loaded = opened(Ok(MODEL.to_vec())).unwrap();
+        assert_eq!(loaded.scene, Scene::from_str("mine.toml", TEXT).unwrap());
+        let presented = &loaded.scene.plant.textured.as_ref().unwrap().textures;
+        let presented: Vec<&str> = presented.iter().map(|texture| texture.name()).collect();
+        assert_eq!(loaded.classes().unwrap(), presented);
     }
 
     #[test]

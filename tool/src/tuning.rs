@@ -10,7 +10,7 @@ use host_sim::Error;
 use host_sim::bench::{ConstantWords, RunsOn, TunableConstants, tunable_constants};
 use host_sim::classifier::Classifier;
 use host_sim::commands::choice::SceneChoice;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use plan::NumberFormat;
 use scene::{Override, Scene};
 use wire::{Command, CommandStatus, SECOND_WORD, word_sum};

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use scene::PlantKind;
 
 use super::draw::{self, Has, Plan, RUN_S};

@@ -3,7 +3,7 @@
 use firmware::Place;
 use host_sim::Error;
 use host_sim::bus::Slave;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::motor::SimMotor;
 use host_sim::run::Run;
 use host_sim::trace::Row;

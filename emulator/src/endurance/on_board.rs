@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 
 use super::row::ShardRow;
 use crate::compare::{Circumstances, compare};

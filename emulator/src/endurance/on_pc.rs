@@ -4,8 +4,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
 use host_sim::decisions::Decided;
+use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use wire::{Command, Framed, TaggedCommand};
 
 use super::talk::wrong;

@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use scene::Scene;
+use scene::{Override, Scene};
 
 use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
 use crate::bench::{self, Bench};
 use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
-pub use crate::loaded::Loaded;
+use crate::loaded::Loaded;
 use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
@@ -153,6 +153,37 @@ impl Loaded {
             report::warn(caution);
         }
         Ok(loaded)
+    }
+
+    /// The same without its cautions.
+    pub(super) fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
+        let read = Scene::load_with(path, set)?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        Self::of(path, read, |scene| {
+            let path = scene.model_path(folder)?;
+            Some(files::load_model(&path))
+        })
+    }
+
+    /// The same module in the world of the scene in `path`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
+    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
+        let world = Scene::load(path)?;
+        let placed = self.scene.in_world(&world);
+        self.scene = placed.map_err(|fault| Error::file(path, fault))?;
+        Ok(self)
+    }
+
+    /// The same module with the model in `path` deployed, where its scene names none.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a model that is wrong, and for a scene that has no use for it.
+    pub fn with_model(self, path: &Path) -> Result<Self, Error> {
+        self.takes_model()?;
+        let (path, model) = files::load_model(path)?;
+        Ok(self.with_deployed(&path, Some(model)))
     }
 }
 

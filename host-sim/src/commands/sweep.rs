@@ -11,9 +11,9 @@ use rayon::prelude::*;
 use scene::Scene;
 
 use super::choice::SceneChoice;
-use super::run::Loaded;
 use super::score::seeds;
 use crate::classifier::Classifier;
+use crate::loaded::Loaded;
 use crate::output::{Output, check_or_stdout};
 use crate::progress::{SharedProgress, Verbosity};
 use crate::run::Run;

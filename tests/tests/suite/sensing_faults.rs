@@ -5,7 +5,7 @@ use crate::played::{Played, TICK_HZ, angles, extent, free, play, scene, textured
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, Place, SensorFault};
 use host_sim::bus::{Slave, WireFault};
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use mlx90333::FrameError;
 use scene::Scene;

@@ -9,7 +9,7 @@ use std::sync::mpsc::{self, Receiver};
 
 use clap::Args;
 use emulator::session::Session;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::{Error, report};
 use rustix::fs::{Mode, OFlags};
 use rustix::io::Errno;

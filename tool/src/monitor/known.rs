@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use host_sim::classifier::Classifier;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use scene::{Deciding, Rule};
 

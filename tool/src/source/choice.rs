@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use host_sim::Error;
 use host_sim::commands::choice::seed;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 
 use super::Source;
 use super::emulated::Emulated;

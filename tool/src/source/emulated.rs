@@ -4,7 +4,7 @@ use std::path::Path;
 
 use emulator::session::Session;
 use host_sim::Error;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use tactile::ModelBuf;
 use wire::TaggedCommand;

@@ -6,7 +6,7 @@ use firmware::faults::{self, number};
 use firmware::{Event, Place, Refusal};
 use host_sim::Error;
 use host_sim::classifier::deployed;
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
 use tactile::ModelBuf;

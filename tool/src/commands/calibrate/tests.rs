@@ -1,6 +1,6 @@
 //! Calibrating whiskers whose motor, encoder and way are known.
 
-use host_sim::commands::run::Loaded;
+use host_sim::loaded::Loaded;
 use host_sim::motor::Wire;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
