@@ -2,9 +2,153 @@
 
 use tactile::ModelBuf;
 use tactile::train::joint::{self, JointModel, Trial};
-use tactile::train::{TrainError, Trainer};
+use tactile::train::{Options, TrainError, Trainer};
 
-use crate::recording::Stream;
+use crate::recording::{GATE, Stream};
+
+/// What a model is made of.
+#[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "cli", derive(clap::Args))]
+pub struct How {
+    /// Which tables
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t = Tables::Joint))]
+    pub tables: Tables,
+    /// Bins over each channel's range [default: 24; of single tables 100]
+    #[cfg_attr(feature = "cli", arg(long))]
+    pub bins: Option<usize>,
+    /// Standard deviation of the smoothing, in bins; 0: none [default: 0.7; of single
+    /// tables 5]
+    #[cfg_attr(feature = "cli", arg(long))]
+    pub smooth: Option<f64>,
+    /// Samples of a block, after each of which a decision may fall [default: 40; of single
+    /// tables 20]
+    #[cfg_attr(feature = "cli", arg(long))]
+    pub block: Option<u32>,
+    /// Contact from which a sample counts, 0 to 1 [default: as the scene says, or 0.05];
+    /// joint tables keep it, and the module gates by it
+    #[cfg_attr(feature = "cli", arg(long, value_name = "PI"))]
+    pub gate: Option<f64>,
+    /// Seconds without contact after which a touch has ended, of joint tables: above 0, up
+    /// to 10 [default: 0.1]
+    #[cfg_attr(feature = "cli", arg(long, value_name = "S"))]
+    pub gap: Option<f64>,
+}
+
+/// The tables of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Tables {
+    /// Of both channels together and of their roughness, weighted so that a posterior is
+    /// what it says; only contact counts, a touch limits what came before it, and what
+    /// is like no class is unknown
+    Joint,
+    /// Of each channel alone, as the papers have it
+    Single,
+}
+
+/// A trained model.
+#[derive(Debug)]
+pub struct TrainedModel {
+    /// The model.
+    pub model: ModelBuf,
+    /// How it was made, and its report; none of single tables.
+    pub joint: Option<JointModel>,
+}
+
+impl How {
+    /// With the defaults of these tables.
+    pub const fn of(tables: Tables) -> Self {
+        Self {
+            tables,
+            bins: None,
+            smooth: None,
+            block: None,
+            gate: None,
+            gap: None,
+        }
+    }
+
+    /// The same where samples count from `contact_min` on, unless it says otherwise itself.
+    #[must_use]
+    pub fn gated(self, contact_min: Option<f64>) -> Self {
+        let gate = self.gate.or(contact_min);
+        Self { gate, ..self }
+    }
+
+    /// Contact from which a sample counts.
+    pub fn least(&self) -> f64 {
+        self.gate.unwrap_or(GATE)
+    }
+
+    /// Samples without contact that end a touch, at least one.
+    fn gap_samples(&self, tick_hz: u32) -> u32 {
+        let samples = self.gap.unwrap_or(GAP_S) * f64::from(tick_hz);
+        (samples.round() as u32).max(1)
+    }
+
+    /// Whether gate and gap are in their ranges, and of use to these tables.
+    ///
+    /// # Errors
+    /// Names the setting, what was found and what is allowed.
+    pub fn check(&self) -> Result<(), String> {
+        let (gate, gap) = (self.least(), self.gap.unwrap_or(GAP_S));
+        // Not a number is outside, too.
+        if !(0.0..=1.0).contains(&gate) {
+            return Err(format!("gate: found {gate}, allowed: 0 to 1"));
+        }
+        if !(gap > 0.0 && gap <= 10.0) {
+            return Err(format!("gap: found {gap}, allowed: above 0, up to 10 s"));
+        }
+        if self.gap.is_some() && self.tables == Tables::Single {
+            let fault = "gap: single tables know no touches; allowed: with joint tables";
+            return Err(fault.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Trains from recordings of `tick_hz` samples a second.
+    ///
+    /// # Errors
+    /// What the trainer refuses.
+    pub fn train(
+        &self,
+        recordings: &[(String, Vec<Stream>)],
+        tick_hz: u32,
+    ) -> Result<TrainedModel, TrainError> {
+        match self.tables {
+            Tables::Joint => {
+                let default = joint::Options::default();
+                let options = joint::Options {
+                    bins: self.bins.unwrap_or(default.bins),
+                    smooth: self.smooth.unwrap_or(default.smooth),
+                    block: self.block.unwrap_or(default.block),
+                    gate: self.least(),
+                    gap: self.gap_samples(tick_hz),
+                    ..default
+                };
+                let joint = joint(recordings, &options)?;
+                Ok(TrainedModel {
+                    model: joint.model()?,
+                    joint: Some(joint),
+                })
+            }
+            Tables::Single => {
+                let default = Options::default();
+                let options = Options {
+                    bins: self.bins.unwrap_or(default.bins),
+                    smooth: self.smooth.unwrap_or(default.smooth),
+                    block: self.block.unwrap_or(default.block),
+                };
+                let streams = recordings.iter().flat_map(|(_, streams)| streams);
+                let model = single(Trainer::new(2, options)?, streams, self.least())?;
+                Ok(TrainedModel { model, joint: None })
+            }
+        }
+    }
+}
+
+/// After how long without contact another touch begins, s.
+const GAP_S: f64 = 0.1;
 
 /// The papers' model of `streams`, of the samples whose contact is at least `gate`; classes
 /// in the order in which they first appear.

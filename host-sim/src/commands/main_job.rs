@@ -6,7 +6,6 @@ use scene::Scene;
 use tactile::ModelBuf;
 
 use super::run::{self, Played};
-use super::train::{How, Tables};
 use crate::classifier::Classifier;
 use crate::files;
 use crate::output::Output;
@@ -14,6 +13,7 @@ use crate::plot::{self, Film};
 use crate::progress::Verbosity;
 use crate::recording::Stream;
 use crate::run::Run;
+use crate::training::{How, Tables};
 use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.

@@ -10,11 +10,12 @@ use crate::classifier::{Classifier, Fault};
 use crate::commands::ahead;
 use crate::commands::choice::SceneChoice;
 use crate::commands::record;
-use crate::commands::train::{How, TrainedModel};
+use crate::commands::train::of_option;
 use crate::evaluation::{Evaluation, Shown};
 use crate::progress::{SharedProgress, Verbosity};
 use crate::report::{OverRuns, SeedRange};
 use crate::scoring::{self, Scored};
+use crate::training::{How, TrainedModel};
 use crate::{Error, report};
 
 /// What to score, and by which seeds.
@@ -53,7 +54,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     }
     let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
     let how = arguments.how.gated(contact_min);
-    how.check()?;
+    how.check().map_err(|fault| of_option(&fault))?;
     // Trained, and decided, by one gate.
     if let (Some(classifier), Some(_)) = (&mut scene.classifier, how.gate) {
         classifier.contact_min = how.gate;

@@ -5,11 +5,12 @@ use std::path::Path;
 
 use host_sim::classifier::Classifier;
 use host_sim::commands::classify;
-use host_sim::commands::train::{self, How, Tables};
+use host_sim::commands::train;
 use host_sim::decisions::Decided;
 use host_sim::progress::Verbosity;
 use host_sim::recording::CHANNELS;
 use host_sim::run::Run;
+use host_sim::training::{How, Tables};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use scene::{Rule, Scene};

@@ -3,11 +3,11 @@
 use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::commands::record;
-use host_sim::commands::train::{How, Tables, TrainedModel};
 use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::scoring::Heard;
 use host_sim::training;
+use host_sim::training::{How, Tables, TrainedModel};
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, Options};

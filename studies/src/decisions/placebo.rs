@@ -1,8 +1,8 @@
 //! What is told where there is nothing to tell: labels that mean nothing.
 
 use host_sim::Error;
-use host_sim::commands::train::Tables;
 use host_sim::progress::Verbosity;
+use host_sim::training::Tables;
 
 use super::figures::{Figures, Table, number, over, plus_minus};
 use super::goals::Trained;

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use host_sim::commands::train::{How, Tables};
 use host_sim::decisions::{Decided, UNKNOWN};
 use host_sim::evaluation::{Shown, presentations};
 use host_sim::progress::Verbosity;
 use host_sim::recording::{CHANNELS, Stream};
+use host_sim::training::{How, Tables};
 use host_sim::{Error, files};
 use tactile::ModelBuf;
 use tactile::score::Interval;

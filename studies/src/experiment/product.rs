@@ -2,9 +2,9 @@
 //! weighted by what training holds out, and the sequential rule at a stated 99 %.
 
 use host_sim::Error;
-use host_sim::commands::train::{How, Tables};
 use host_sim::evaluation::{Evaluation, presentations};
 use host_sim::recording::Stream;
+use host_sim::training::{How, Tables};
 use whisking::filter;
 
 use crate::page::{Page, Product, Score, Told, figure, row};

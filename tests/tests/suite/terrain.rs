@@ -9,9 +9,10 @@ use std::path::{Path, PathBuf};
 use acceptance::reference::bayes::{self, Decision, Model};
 use acceptance::reference::recording::{Sample, read_recording, streams};
 use host_sim::commands::classify;
-use host_sim::commands::train::{self, Arguments, How, Tables};
+use host_sim::commands::train::{self, Arguments};
 use host_sim::progress::Verbosity;
 use host_sim::recording::CHANNELS;
+use host_sim::training::{How, Tables};
 use scene::Rule;
 use tempfile::TempDir;
 

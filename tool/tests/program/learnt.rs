@@ -3,13 +3,13 @@
 
 use host_sim::classifier::Classifier;
 use host_sim::commands::record;
-use host_sim::commands::train::{How, Tables};
 use host_sim::decisions::UNKNOWN;
 use host_sim::evaluation::presentations;
 use host_sim::files::read_recording;
 use host_sim::progress::Verbosity;
 use host_sim::recording::{CHANNELS, Stream};
 use host_sim::scoring;
+use host_sim::training::{How, Tables};
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
 
