@@ -60,8 +60,11 @@ pub(super) struct Profile {
     height: f64,
 }
 
-/// e^−d, and the integrals over 0..d that the mean needs; see [`Profile::travel`].
-struct Path {
+/// A way over a surface: e^−d, and the integrals over 0..d that the mean needs; see
+/// [`Profile::travel`]. All profiles that travel it share them.
+pub(super) struct Path {
+    /// d, grains.
+    grains: f64,
     decay: f64,
     /// 1 − e^−d.
     lost: f64,
@@ -70,8 +73,8 @@ struct Path {
 }
 
 impl Path {
-    /// For a distance of `d` grains.
-    fn new(d: f64) -> Self {
+    /// For a distance of `d` grains; 0 or less is none.
+    pub(super) fn new(d: f64) -> Self {
         let lost = -libm::expm1(-d);
         // 2 d − 2 l − l², l = 1 − e^−d, cancels to 2/3 d³.
         let spread = if d < 2e-3 {
@@ -80,6 +83,7 @@ impl Path {
             2.0 * d - lost * (2.0 + lost)
         };
         Self {
+            grains: d,
             decay: 1.0 - lost,
             lost,
             spread,
@@ -93,22 +97,23 @@ impl Profile {
         self.height = noise.next();
     }
 
-    /// Travels `grains` grains on and returns the mean height on the way.
+    /// Travels on and returns the mean height on the way.
     ///
     /// End and mean are drawn from their exact joint distribution. With d
     /// grains, a = e^−d and the height h before: end a h with variance 1 − a²,
     /// mean times d: (1 − a) h with variance 2 d − 3 + 4 a − a² and covariance
     /// (1 − a)² with the end. So the sum of means does not depend on how a way
     /// is cut into steps.
-    pub(super) fn travel(&mut self, grains: f64, noise: &mut Noise) -> f64 {
-        if grains <= 0.0 {
-            return self.height;
-        }
+    pub(super) fn travel(&mut self, path: &Path, noise: &mut Noise) -> f64 {
         let Path {
+            grains,
             decay,
             lost,
             spread,
-        } = Path::new(grains);
+        } = *path;
+        if grains <= 0.0 {
+            return self.height;
+        }
         let end = (lost * (1.0 + decay)).sqrt();
         let shared = lost * lost / end;
         let own = (spread - shared * shared).max(0.0).sqrt();
@@ -146,7 +151,7 @@ mod tests {
         let (mut end, mut mean) = (0.0, 0.0);
         for _ in 0..trials {
             profile.land(&mut noise);
-            let way = (0..n).map(|_| profile.travel(3.0 / f64::from(n), &mut noise));
+            let way = (0..n).map(|_| profile.travel(&Path::new(3.0 / f64::from(n)), &mut noise));
             let over = way.sum::<f64>() / f64::from(n);
             mean += over * over / f64::from(trials);
             end += profile.height * profile.height / f64::from(trials);
@@ -174,8 +179,8 @@ mod tests {
         let mut noise = Noise::new(1);
         let mut profile = Profile::default();
         profile.land(&mut noise);
-        let height = profile.travel(0.0, &mut noise);
-        assert_eq!(height, profile.travel(0.0, &mut noise));
-        assert!((profile.travel(1e-9, &mut noise) - height).abs() < 1e-3);
+        let height = profile.travel(&Path::new(0.0), &mut noise);
+        assert_eq!(height, profile.travel(&Path::new(0.0), &mut noise));
+        assert!((profile.travel(&Path::new(1e-9), &mut noise) - height).abs() < 1e-3);
     }
 }

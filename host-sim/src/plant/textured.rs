@@ -34,7 +34,7 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::surface::{Profile, SurfaceSettings};
+use super::surface::{Path, Profile, SurfaceSettings};
 use super::{BadSetting, Head, Plant};
 use physics::{Noise, Propagator, Resonator};
 pub use settings::{TexturedSettings, WhiskerSettings};
@@ -178,6 +178,7 @@ impl Whisker {
         }
         let metres_per_degree = self.shaft.length_m * PI / 180.0;
         let grains = (to - from).abs() * metres_per_degree / surface.grain_m;
+        let path = Path::new(grains);
         let noise = &mut self.noise;
         if !landed {
             self.patch = libm::exp(settings.patch * noise.next());
@@ -186,7 +187,7 @@ impl Whisker {
             if !landed {
                 profile.land(noise);
             }
-            profile.travel(grains, noise)
+            profile.travel(&path, noise)
         });
         let excursion = surface.grip * surface.height_m / metres_per_degree;
         let overlap = f64::midpoint(from, to) / (1.0 + surface.softness);
@@ -230,7 +231,9 @@ impl Whisker {
 
 impl Plant for Textured {
     fn present(&mut self, texture: Texture) {
-        self.present_surface(SurfaceSettings::of(texture));
+        let mut surface = SurfaceSettings::of(texture);
+        surface.friction = self.settings.friction.unwrap_or(surface.friction);
+        self.present_surface(surface);
     }
 
     fn touches(&self) -> bool {

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::shaft::{ShaftName, ShaftNumbers};
-use crate::choice::choice;
+use crate::choice::{Choice, choice};
 use crate::key::Condition::{self, Given, Is};
 use crate::key::{Key, number, pair_per_side, per_own, per_side, positive, word, words};
 use crate::keys::keys;
@@ -60,6 +60,16 @@ choice! {
         Own3 = "own-3",
         /// The fourth.
         Own4 = "own-4",
+    }
+}
+
+impl Texture {
+    /// The words of all.
+    pub const NAMES: &'static [&'static str] = Self::WORDS;
+
+    /// That of a word; none if it is none.
+    pub fn named(word: &str) -> Option<Self> {
+        Self::of_word(word)
     }
 }
 
@@ -195,6 +205,9 @@ keys! {
         /// When the next texture is put in place: `air`, once its time has come and no
         /// whisker has touched for 20 ms; `timed`, at its time, under a bent whisker too.
         exchange: Exchanged = word().default("\"air\"").only_if(TEXTURES),
+
+        /// Coefficient of friction of every texture against a sliding tip, in place of its own.
+        friction: Option<f64> = number(0.0..=8.0).optional("that of each texture").only_if(TEXTURES),
 
         /// The scene's own surfaces; there exactly when [`PlantKind::has_textures`].
         ..own: Option<OwnSurfaces>,

@@ -205,6 +205,7 @@ fn textured_surfaces_keep_their_order() {
         textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
         present_s: 1.0,
         exchange: Exchanged::Air,
+        friction: None,
         own: Some(OwnSurfaces {
             own_height_m: None,
             own_grain_m: None,

@@ -58,6 +58,8 @@ pub struct TexturedSettings {
     /// Spread of the friction over the landings, the standard deviation of its
     /// logarithm, 0 to 1.
     pub patch: f64,
+    /// Friction coefficient μ of every texture in place of its own, 0 to 10.
+    pub friction: Option<f64>,
     /// Sensor noise, root mean square, codes of 14 bits, 0 to 1000.
     pub noise_codes: f64,
 }
@@ -73,6 +75,7 @@ impl Default for TexturedSettings {
             creep_deg_s: 10.0,
             inertia: 1.0,
             patch: 0.2,
+            friction: None,
             noise_codes: 4.0,
         }
     }
@@ -96,6 +99,7 @@ impl TexturedSettings {
         check("creep_deg_s", self.creep_deg_s, 1e-3, 1e6)?;
         check("inertia", self.inertia, 0.0, 10.0)?;
         check("patch", self.patch, 0.0, 1.0)?;
+        check("friction", self.friction.unwrap_or(0.0), 0.0, 10.0)?;
         check("noise_codes", self.noise_codes, 0.0, 1000.0)?;
         Ok(())
     }
