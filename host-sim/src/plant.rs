@@ -19,11 +19,12 @@ mod whisker;
 pub use ideal::Ideal;
 pub use surface::SurfaceSettings;
 pub use textured::{Textured, TexturedSettings, WhiskerSettings};
+pub(crate) use whisker::HOLD;
 pub use whisker::{Elastic, ElasticSettings};
 
 use core::fmt::Debug;
 
-use physics::BadSetting;
+use physics::{BadSetting, Bent};
 use scene::Texture;
 
 /// How many whiskers there are, and where their obstacles stand.
@@ -85,6 +86,11 @@ pub trait Plant: Debug + Send {
     /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
     /// that is not there.
     fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];
+
+    /// How whisker `n` is bent, counted from 0, left side first; none where shafts have no shape.
+    fn bent(&self, _n: usize) -> Option<Bent> {
+        None
+    }
 
     /// Advances by `dt_s` seconds to the given angles θ′, one a whisker, left
     /// side first. A whisker whose angle is missing or not finite keeps its

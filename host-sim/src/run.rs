@@ -5,6 +5,7 @@ mod presented;
 
 use firmware::{Command, Event, Sample};
 use mlx90333::Word;
+use physics::Bent;
 use scene::{Scene, Texture};
 use tactile::Posteriors;
 
@@ -239,6 +240,12 @@ impl<B: Bench + ?Sized> Run<B> {
     /// Whether any whisker touches a texture: the truth, which no module knows.
     pub fn touches(&self) -> bool {
         self.world.touches()
+    }
+
+    /// How whisker `n` is bent, counted from 0, left side first: for a picture of it. None
+    /// where shafts have no shape.
+    pub fn bent(&self, n: usize) -> Option<Bent> {
+        self.world.bent(n)
     }
 
     /// The names of the classes that its decisions are among.

@@ -4,8 +4,10 @@ use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName, Texture};
 
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
-use crate::plant::{self, Elastic, ElasticSettings, Ideal, Plant, Textured, TexturedSettings};
-use physics::{BadSetting, Biotact, Facing, Follicle, Shaft, Surface};
+use crate::plant::{
+    self, Elastic, ElasticSettings, HOLD, Ideal, Plant, Textured, TexturedSettings,
+};
+use physics::{BadSetting, Bent, Biotact, Facing, Follicle, Shaft, Surface};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -43,7 +45,11 @@ impl World {
         let plant: Box<dyn Plant> = match scene.plant.kind {
             PlantKind::Ideal => Box::new(Ideal::new(head).map_err(broken)?),
             PlantKind::Textured => {
-                let settings = TexturedSettings::default();
+                let textured = scene.plant.textured.as_ref();
+                let settings = TexturedSettings {
+                    friction: textured.and_then(|textured| textured.friction),
+                    ..TexturedSettings::default()
+                };
                 Box::new(Textured::new(head, settings, scene.seed).map_err(broken)?)
             }
             PlantKind::Whisker => {
@@ -57,6 +63,7 @@ impl World {
                 }
                 if let Some(textured) = &scene.plant.textured {
                     own_surfaces(textured, &mut settings.own);
+                    settings.friction = textured.friction;
                 }
                 Box::new(Elastic::new(head, settings, scene.seed).map_err(broken)?)
             }
@@ -106,6 +113,11 @@ impl World {
     /// Deflection at the sensor of a whisker now: x and y, each within ±1.
     pub fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
         self.plant.deflection(side, whisker)
+    }
+
+    /// How whisker `n` is bent; none where shafts have no shape.
+    pub fn bent(&self, n: usize) -> Option<Bent> {
+        self.plant.bent(n)
     }
 
     /// The whiskers' angles, left side first, degrees.
@@ -224,10 +236,6 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     let pins = motors.iter().cloned().map(Pins::Ideal).collect();
     (Motors::Ideal(motors), pins)
 }
-
-/// What holds a resting tip on an own surface, as a multiple of its friction: between the 1.15
-/// of abrasive and the 1.3 of carpet ([`Surface::of`]).
-const HOLD: f64 = 1.2;
 
 /// How far beyond the travel that is no fault the end stops are, degrees.
 const STOP_MARGIN_DEG: f64 = 5.0;

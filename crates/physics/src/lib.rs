@@ -69,5 +69,5 @@ pub use sensor::{SensorSettings, sensor_code};
 pub use shaft::{Follicle, Shaft};
 pub use surface::{Grit, Material, Surface};
 pub use swing::Facing;
-pub use touching::TouchingWhisker;
+pub use touching::{Bent, TouchingWhisker};
 pub use whiskers::Biotact;

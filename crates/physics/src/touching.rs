@@ -35,6 +35,8 @@ mod part;
 mod secant;
 mod step;
 
+pub use outputs::Bent;
+
 use crate::beam::Modes;
 use crate::error::BadSetting;
 use crate::modal::{MODES, ModalShaft, ModalState};

@@ -17,6 +17,35 @@ pub(super) struct Law {
 pub(super) struct Rotor {
     pub(super) angle: f64,
     pub(super) speed: f64,
+    last: Decays,
+}
+
+/// What a rate does in a time, of the last product of the two: it seldom changes.
+#[derive(Debug, Clone, Copy)]
+struct Decays {
+    x: f64,
+    first: f64,
+    second: f64,
+    left: f64,
+}
+
+impl Decays {
+    fn of(x: f64) -> Self {
+        let [first, second] = decays(x);
+        let left = libm::exp(-x);
+        Self {
+            x,
+            first,
+            second,
+            left,
+        }
+    }
+}
+
+impl Default for Decays {
+    fn default() -> Self {
+        Self::of(0.0)
+    }
 }
 
 /// (1 − e^−x)/x and its like of second order, (x − 1 + e^−x)/x², for x ≥ 0.
@@ -49,15 +78,11 @@ impl Rotor {
     /// Holds it between two angles, rad; it comes to rest at either.
     pub(super) fn stop_at(&mut self, [lowest, highest]: [f64; 2]) {
         if self.angle < lowest {
-            *self = Self {
-                angle: lowest,
-                speed: self.speed.max(0.0),
-            };
+            self.angle = lowest;
+            self.speed = self.speed.max(0.0);
         } else if self.angle > highest {
-            *self = Self {
-                angle: highest,
-                speed: self.speed.min(0.0),
-            };
+            self.angle = highest;
+            self.speed = self.speed.min(0.0);
         }
     }
 
@@ -90,9 +115,17 @@ impl Rotor {
     /// dω/dt = push − rate ω for `t` seconds.
     fn run(&mut self, push: f64, rate: f64, t: f64) {
         let x = rate * t;
-        let [first, second] = decays(x);
+        if self.last.x != x {
+            self.last = Decays::of(x);
+        }
+        let Decays {
+            first,
+            second,
+            left,
+            ..
+        } = self.last;
         self.angle += self.speed * t * first + push * t * t * second;
-        self.speed = self.speed * libm::exp(-x) + push * t * first;
+        self.speed = self.speed * left + push * t * first;
     }
 }
 
@@ -126,8 +159,8 @@ mod tests {
         };
         for sign in [1.0, -1.0] {
             let mut rotor = Rotor {
-                angle: 0.0,
                 speed: sign * 10.0,
+                ..Rotor::default()
             };
             rotor.advance(&law, 1.0);
             assert_eq!(rotor.speed, 0.0);
@@ -144,8 +177,8 @@ mod tests {
             friction: 10.0,
         };
         let mut rotor = Rotor {
-            angle: 0.0,
             speed: 20.0,
+            ..Rotor::default()
         };
         // Braked at 40 for 0.5 s over 5 rad, then −20 for 1 s: −10 rad, −20 rad/s.
         rotor.advance(&law, 1.5);
@@ -164,7 +197,7 @@ mod tests {
             dt in 1e-5_f64..0.1,
         ) {
             let law = Law { push, rate, friction };
-            let start = Rotor { angle: 0.0, speed };
+            let start = Rotor { speed, ..Rotor::default() };
             let (mut once, mut often) = (start, start);
             once.advance(&law, dt);
             for _ in 0..64 {
@@ -183,7 +216,7 @@ mod tests {
             speed in -1e5_f64..1e5,
             dt in 1e-6_f64..1.0,
         ) {
-            let mut rotor = Rotor { angle: 0.0, speed };
+            let mut rotor = Rotor { speed, ..Rotor::default() };
             rotor.advance(&Law { push: 0.0, rate, friction }, dt);
             prop_assert!(rotor.speed * speed >= 0.0);
             prop_assert!(rotor.speed.abs() <= speed.abs());

@@ -19,7 +19,13 @@ use core::iter::repeat;
 use scene::Texture;
 
 use super::{BadSetting, Head, Plant};
-use physics::{Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker};
+use physics::{
+    Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
+};
+
+/// What holds a resting tip on a surface of no friction of its own and on a scene's own, as a
+/// multiple of the friction: between the 1.15 of abrasive and the 1.3 of carpet ([`Surface::of`]).
+pub(crate) const HOLD: f64 = 1.2;
 
 /// Largest angle that is believed, degrees, either sign.
 const ANGLE_LIMIT: f64 = 1e6;
@@ -33,6 +39,9 @@ pub struct ElasticSettings {
     pub facing: Facing,
     /// The scene's own surfaces.
     pub own: [Surface; 4],
+    /// Friction coefficient of every texture in place of its own, 0 to 8; a resting tip is held
+    /// in proportion.
+    pub friction: Option<f64>,
     /// Sensor noise, root mean square, codes of 14 bits, 0 to 1000.
     pub noise_codes: f64,
 }
@@ -45,6 +54,7 @@ impl ElasticSettings {
             shaft,
             facing: Facing::USUAL,
             own: [Surface::of(Material::SmoothPlastic); 4],
+            friction: None,
             noise_codes: SensorSettings::default().noise_codes,
         }
     }
@@ -65,6 +75,7 @@ pub struct Elastic {
     head: Head,
     facing: Facing,
     own: [Surface; 4],
+    friction: Option<f64>,
     surface: Surface,
     seed: u64,
     /// Presentations so far.
@@ -114,6 +125,7 @@ impl Elastic {
         for surface in &settings.own {
             surface.check()?;
         }
+        check("friction", settings.friction.unwrap_or(0.0), 0.0, 8.0)?;
         let shaft = settings.shaft;
         let modes = shaft.modes(8)?;
         let reach_m = shaft.length_m * libm::cos(elevation_deg.to_radians());
@@ -151,6 +163,7 @@ impl Elastic {
             head,
             facing: settings.facing,
             own: settings.own,
+            friction: settings.friction,
             surface,
             seed,
             pieces: 0,
@@ -201,7 +214,14 @@ impl Swung {
 impl Plant for Elastic {
     fn present(&mut self, texture: Texture) {
         let own = texture.own().and_then(|n| self.own.get(n));
-        let surface = own.map_or_else(|| Surface::of(material(texture)), |own| *own);
+        let mut surface = own.map_or_else(|| Surface::of(material(texture)), |own| *own);
+        if let Some(friction) = self.friction {
+            let hold = surface.hold / surface.friction;
+            // A surface without friction of its own holds as the scene's own do.
+            let hold = if hold.is_finite() { hold } else { HOLD };
+            surface.friction = friction;
+            surface.hold = hold * friction;
+        }
         self.present_surface(surface);
     }
 
@@ -213,6 +233,10 @@ impl Plant for Elastic {
         let whisker = self.head.index(side, whisker);
         let whisker = whisker.and_then(|i| self.whiskers.get(i));
         whisker.map_or([0.0; 2], |swung| swung.whisker.reading())
+    }
+
+    fn bent(&self, whisker: usize) -> Option<Bent> {
+        Some(self.whiskers.get(whisker)?.whisker.bent())
     }
 
     fn advance(&mut self, angles_deg: &[f64], dt_s: f64) {

@@ -169,17 +169,22 @@ impl TraceShape {
     pub fn row_bytes(self) -> u64 {
         /// A cell, as of the scenes of the project; of a side that is not there less.
         const CELL: u64 = 7;
-        CELL * self.header().split(',').count() as u64
+        CELL * self.names().len() as u64
     }
 
     /// The header.
     pub(super) fn header(self) -> String {
+        self.names().join(",")
+    }
+
+    /// The names of the columns, in order.
+    pub fn names(self) -> Vec<String> {
         let right: &[Column] = if self.hears_right { &OF_RIGHT } else { &[] };
         let common = FIRST.iter().chain(right).chain(&SECOND);
         let mut names: Vec<String> = common.map(|column| column.name.to_owned()).collect();
         for (_, place) in self.further() {
             names.extend(OF_WHISKER.map(|column| column.name.replace('*', &place)));
         }
-        names.join(",")
+        names
     }
 }

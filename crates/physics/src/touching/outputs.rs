@@ -3,6 +3,18 @@
 use super::TouchingWhisker;
 use crate::vector::dot;
 
+/// How a shaft is bent. With no moment at its end it is in each plane about the cubic that has
+/// these three.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bent {
+    /// Length of the shaft, m.
+    pub length_m: f64,
+    /// Deflection of the tip in x and y, m.
+    pub tip_m: [f64; 2],
+    /// Rotation of the base in x and y, rad.
+    pub base_rad: [f64; 2],
+}
+
 impl TouchingWhisker {
     /// The sensor's reading, x and y, each within ±1: rotation of the base over
     /// full scale, as last measured. A tip that is pushed towards +x reads
@@ -43,6 +55,15 @@ impl TouchingWhisker {
     /// energy to press its spring: an error of the method, not of the energy.
     pub fn lowered_m(&self) -> f64 {
         self.body.touch.lowered_m
+    }
+
+    /// How the shaft is bent, for a picture of it.
+    pub fn bent(&self) -> Bent {
+        Bent {
+            length_m: self.body.shaft.length_m,
+            tip_m: self.tip_m(),
+            base_rad: self.rotation_rad(),
+        }
     }
 
     /// Deflection of the tip in x and y, m.
