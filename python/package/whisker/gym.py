@@ -1,0 +1,171 @@
+"""Environments of Gymnasium: an agent moves the whisker.
+
+An observation has four numbers of each whisker, left side first, as the trace has them: angle
+(degrees), x and y (14-bit codes) and contact, so that ``observation[..., CONTACT]`` is the contact
+of all whiskers. An action is a setpoint in degrees or a gain for each whisker. What is worth
+something is the user's to say, by a function of the observation, the action and the observation
+before, whose arrays have one more axis in front where there are several environments.
+
+Needs ``pip install whisker[gym]``.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from whisker import SCENES
+from whisker._core import Envs
+
+ANGLE = slice(0, None, 4)
+X = slice(1, None, 4)
+Y = slice(2, None, 4)
+CONTACT = slice(3, None, 4)
+
+#: Contact from which a whisker is taken as touching.
+TOUCHING = 0.05
+#: Contact of a gentle touch.
+GENTLE = 0.2
+
+Reward = Callable[[np.ndarray, np.ndarray, np.ndarray], Any]
+
+
+def touch_gently(observation: np.ndarray, action: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """Up to 1 a step for a touch as light as ``GENTLE``, nothing for the air, -1 for a hard one."""
+    contact = observation[..., CONTACT]
+    light = 1.0 - ((contact - GENTLE) / GENTLE) ** 2
+    return np.clip(np.where(contact < TOUCHING, 0.0, light), -1.0, 1.0).mean(axis=-1)
+
+
+def find_the_edge(observation: np.ndarray, action: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """1 whenever a touch begins or ends: an agent that knows where the edge is stays about it."""
+    touches = observation[..., CONTACT] >= TOUCHING
+    touched = before[..., CONTACT] >= TOUCHING
+    return (touches != touched).astype(np.float64).mean(axis=-1)
+
+
+def _spaces(envs: Envs) -> tuple[gymnasium.spaces.Box, gymnasium.spaces.Box]:
+    low = np.tile(np.array([-360.0, 0.0, 0.0, 0.0], np.float32), envs.whiskers)
+    high = np.tile(np.array([360.0, 16383.0, 16383.0, np.inf], np.float32), envs.whiskers)
+    least, most = envs.limits
+    return (
+        gymnasium.spaces.Box(low, high),
+        gymnasium.spaces.Box(least, most, (envs.whiskers,), np.float32),
+    )
+
+
+class WhiskerEnv(gymnasium.Env):
+    """A scene in which an agent acts every ``ticks`` ticks until the scene has ended."""
+
+    metadata = {"render_modes": []}
+
+    def __init__(
+        self,
+        scene: Any = None,
+        *,
+        reward: Reward = touch_gently,
+        action: str = "setpoint",
+        ticks: int = 1,
+        model: Any = None,
+        set: Mapping[str, Any] | None = None,
+        render_mode: None = None,
+    ) -> None:
+        scene = SCENES["textures"] if scene is None else scene
+        self._envs = Envs(scene, 1, action=action, ticks=ticks, model=model, set=set)
+        self._reward = reward
+        self.render_mode = render_mode
+        self.observation_space, self.action_space = _spaces(self._envs)
+        self._before: np.ndarray | None = None
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[np.ndarray, dict[str, Any]]:
+        super().reset(seed=seed)
+        number = int(self.np_random.integers(2**32)) if seed is None else seed
+        observation, _ = self._step(np.zeros((1, self._envs.whiskers)), True, number)
+        self._before = observation
+        return observation, {"seed": number}
+
+    def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
+        if self._before is None:
+            raise gymnasium.error.ResetNeeded("step before reset")
+        action = np.asarray(action, dtype=np.float64).reshape(1, -1)
+        observation, ended = self._step(action, False, 0)
+        reward = float(self._reward(observation, action[0], self._before))
+        self._before = observation
+        return observation, reward, False, ended, {}
+
+    def _step(self, action: np.ndarray, begin: bool, seed: int) -> tuple[np.ndarray, bool]:
+        seen, ended = self._envs.step(action, np.array([begin]), np.array([seed], np.uint64))
+        return seen[0], bool(ended[0])
+
+
+class WhiskerVectorEnv(VectorEnv):
+    """So many of them on all cores; one that has ended begins anew with its next step."""
+
+    metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+
+    def __init__(
+        self,
+        num_envs: int,
+        scene: Any = None,
+        *,
+        reward: Reward = touch_gently,
+        action: str = "setpoint",
+        ticks: int = 1,
+        model: Any = None,
+        set: Mapping[str, Any] | None = None,
+    ) -> None:
+        scene = SCENES["textures"] if scene is None else scene
+        self._envs = Envs(scene, num_envs, action=action, ticks=ticks, model=model, set=set)
+        self._reward = reward
+        self.num_envs = num_envs
+        self.single_observation_space, self.single_action_space = _spaces(self._envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._ended = np.zeros(num_envs, bool)
+        self._seeds = np.zeros(num_envs, np.uint64)
+        self._before: np.ndarray | None = None
+
+    def reset(
+        self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[np.ndarray, dict[str, Any]]:
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        if seed is None:
+            seeds = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
+        elif isinstance(seed, int):
+            seeds = np.arange(seed, seed + self.num_envs, dtype=np.uint64)
+        else:
+            seeds = np.array(seed, np.uint64)
+        actions = np.zeros((self.num_envs, self._envs.whiskers))
+        observations, _ = self._envs.step(actions, np.ones(self.num_envs, bool), seeds)
+        self._ended = np.zeros(self.num_envs, bool)
+        self._before = observations
+        return observations, {"seed": seeds}
+
+    def step(
+        self, actions: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
+        if self._before is None:
+            raise gymnasium.error.ResetNeeded("step before reset")
+        begin = self._ended
+        if begin.any():
+            fresh = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
+            self._seeds = np.where(begin, fresh, self._seeds)
+        actions = np.ascontiguousarray(actions, dtype=np.float64)
+        observations, ended = self._envs.step(actions, begin, self._seeds)
+        rewards = np.asarray(self._reward(observations, actions, self._before), np.float64)
+        if begin.any():
+            rewards = np.where(begin, 0.0, rewards)
+        self._before, self._ended = observations, ended
+        return observations, rewards, np.zeros(self.num_envs, bool), ended.copy(), {}
+
+
+gymnasium.register(
+    "Whisker-v0",
+    entry_point="whisker.gym:WhiskerEnv",
+    vector_entry_point="whisker.gym:WhiskerVectorEnv",
+)

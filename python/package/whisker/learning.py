@@ -1,0 +1,170 @@
+"""Models from recordings, and what they are worth."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from whisker import _core
+
+
+class Share(NamedTuple):
+    """A share with its 95 % interval, and of how many."""
+
+    share: float
+    low: float
+    high: float
+    of: int
+
+
+class Evaluation(NamedTuple):
+    """What a model is worth on a recording that it was not trained on.
+
+    Hits, samples and calibration are of decisions that named a class, on labels that the model
+    knows; ``strange`` is of labels that it does not know.
+    """
+
+    hits: float | None
+    """Share of right decisions, mean over the classes presented."""
+    samples: float
+    """Mean samples of contact of a decision."""
+    samples_error: float
+    """Its standard error, as if decisions were independent."""
+    stated: float
+    """Mean posterior of the decisions."""
+    found: Share
+    """Share of decisions that were right: what ``stated`` should be."""
+    refused: Share
+    """Share of decisions that said "unknown"."""
+    strange: Share
+    """The same on labels that the model does not know."""
+    undecided: Share
+    """Share of streams in which no class was named."""
+    calibration: np.ndarray
+    """Stated against found, a row a bin."""
+    classes: np.ndarray
+    """The figures of each class."""
+    confusion: str
+    """The confusion matrix as text."""
+
+
+class _Prepared(NamedTuple):
+    name: str
+    streams: list[tuple[str, str, int, int]]
+    samples: np.ndarray
+    contact: np.ndarray | None
+    touch: np.ndarray | None
+
+
+def _column(recording: Any, name: str) -> Any:
+    """A column of a structured array, a mapping or a table; None if it has none."""
+    names = getattr(getattr(recording, "dtype", None), "names", None)
+    if names is None:
+        names = list(recording.keys())
+    return np.asarray(recording[name]) if name in names else None
+
+
+def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared:
+    found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
+    missing = [column for column, values in found.items() if values is None]
+    if missing:
+        raise ValueError(f"{name}: no column {missing[0]!r}; a recording has {', '.join(found)}")
+    label, trial, x, y = found.values()
+    contact, touch = _column(recording, "contact"), _column(recording, "touch")
+    columns = {**found, "contact": contact, "touch": touch}
+    for column, values in columns.items():
+        if values is not None and values.shape != label.shape:
+            raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
+    if touch is not None:
+        whole = touch.astype(np.int64)
+        if np.any(whole != touch) or np.any((whole < 0) | (whole > 65535)):
+            raise ValueError(f"{name}: touch: allowed: whole numbers from 0 to 65535")
+        touch = whole.astype(np.uint16)
+    changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
+    ends = [0, *changes.tolist(), len(label)]
+    streams = [
+        (str(label[a]), str(trial[a]), a, b) for a, b in zip(ends, ends[1:]) if b > a
+    ]
+    return _Prepared(
+        name,
+        streams,
+        np.ascontiguousarray(np.column_stack([x, y]), dtype=np.float64),
+        None if contact is None else np.ascontiguousarray(contact, dtype=np.float64),
+        None if touch is None else np.ascontiguousarray(touch),
+    )
+
+
+def _all(recordings: Any, channels: tuple[str, str]) -> list[_Prepared]:
+    if isinstance(recordings, Mapping) and "label" not in recordings:
+        named = list(recordings.items())
+    elif isinstance(recordings, (list, tuple)):
+        named = [(f"recording {n}", one) for n, one in enumerate(recordings, 1)]
+    else:
+        named = [("recording", recordings)]
+    return [_prepared(str(name), one, channels) for name, one in named]
+
+
+def train(
+    recordings: Any,
+    *,
+    channels: tuple[str, str] = ("x", "y"),
+    tables: str = "joint",
+    bins: int | None = None,
+    smooth: float | None = None,
+    block: int | None = None,
+    gate: float | None = None,
+    gap: float | None = None,
+    rate: int = 2000,
+) -> _core.Model:
+    """Trains a model; its bytes are what a board runs.
+
+    A recording has the columns ``label``, ``trial``, ``x``, ``y`` and, where samples are of the
+    air too, ``contact`` and ``touch``: a structured array as ``record`` returns it, a dictionary
+    of arrays, or a table of pandas. Several, as a list or by their names in a dictionary, are
+    each held out to tell what is to be expected of another one.
+
+    ``tables`` are "joint" or, as the papers have it, "single"; ``bins``, ``smooth`` (bins),
+    ``block`` (samples), ``gate`` (contact from which a sample counts) and ``gap`` (seconds without
+    contact that end a touch) are as the options of ``host-sim train``. ``rate`` is in Hz.
+    """
+    return _core.train(
+        _all(recordings, channels),
+        tables=tables,
+        bins=bins,
+        smooth=smooth,
+        block=block,
+        gate=gate,
+        gap=gap,
+        rate=rate,
+    )
+
+
+def classify(
+    model: Any,
+    recording: Any,
+    *,
+    channels: tuple[str, str] = ("x", "y"),
+    threshold: float = 0.99,
+    window: int | None = None,
+) -> np.ndarray:
+    """The decisions of a model on a recording, with the columns of ``decisions.csv``.
+
+    It decides when a posterior exceeds ``threshold`` or, where ``window`` is given, after so many
+    samples. The arithmetic is the board's.
+    """
+    data = _prepared("recording", recording, channels)
+    return _core.classify(model, data, threshold=threshold, window=window)
+
+
+def evaluate(
+    model: Any,
+    recording: Any,
+    *,
+    channels: tuple[str, str] = ("x", "y"),
+    threshold: float = 0.99,
+) -> Evaluation:
+    """What a model is worth on a recording that it was not trained on."""
+    data = _prepared("recording", recording, channels)
+    found = _core.evaluate(model, data, threshold=threshold)
+    shares = ("found", "refused", "strange", "undecided")
+    return Evaluation(**{**found, **{name: Share(*found[name]) for name in shares}})

@@ -1,0 +1,198 @@
+//! Many runs of a scene side by side, as an agent meets them.
+
+use std::sync::{Mutex, PoisonError};
+
+use host_sim::Error;
+use host_sim::run::Run;
+use host_sim::trace::WhiskerRow;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+use scene::Scene;
+
+use crate::scenes::{Given, raised};
+
+/// What is observed of a whisker: angle, x, y, contact.
+const OBSERVED: usize = 4;
+
+/// Runs that a thread takes at once: a tick is shorter than handing it over.
+const AT_ONCE: usize = 16;
+
+#[derive(Clone, Copy)]
+enum Action {
+    Setpoint,
+    Gain,
+}
+
+struct Member {
+    run: Run,
+    left: u64,
+    whiskers: Vec<WhiskerRow>,
+}
+
+impl Member {
+    fn reset(&mut self, seed: u64) -> Result<(), Error> {
+        self.run.reset(seed)?;
+        self.left = self.run.ticks();
+        Ok(())
+    }
+
+    fn act(&mut self, action: Action, values: &[f64]) -> Result<(), Error> {
+        for (n, value) in values.iter().enumerate() {
+            match action {
+                Action::Setpoint => self.run.set_setpoint_deg(n, Some(*value))?,
+                Action::Gain => self.run.set_gain(n, *value)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self, ticks: u64) {
+        for _ in 0..ticks.min(self.left) {
+            self.run.tick();
+        }
+        self.left = self.left.saturating_sub(ticks);
+    }
+
+    fn observe(&mut self, seen: &mut [f32]) {
+        self.run.look_at_whiskers(&mut self.whiskers);
+        for (seen, w) in seen.chunks_exact_mut(OBSERVED).zip(&self.whiskers) {
+            let [x, y] = w.codes;
+            seen.copy_from_slice(&[w.angle_deg, x, y, w.contact].map(|value| value as f32));
+        }
+    }
+}
+
+/// Envs(scene, count, *, action="setpoint", ticks=1, model=None, set=None)
+///
+/// `count` runs of a scene side by side, stepped on all cores; an action is a setpoint in degrees
+/// or a gain for each whisker, held for `ticks` ticks.
+#[pyclass(frozen, module = "whisker._core")]
+pub(crate) struct Envs {
+    members: Mutex<Vec<Member>>,
+    action: Action,
+    ticks: u64,
+    whiskers: usize,
+    count: usize,
+    limits: [f64; 2],
+}
+
+type Stepped<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<bool>>);
+
+#[pymethods]
+impl Envs {
+    #[new]
+    #[pyo3(signature = (scene, count, *, action="setpoint", ticks=1, model=None, set=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Bound<'_, PyAny>,
+        count: usize,
+        action: &str,
+        ticks: u64,
+        model: Option<&Bound<'_, PyAny>>,
+        set: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let action = match action {
+            "setpoint" => Action::Setpoint,
+            "gain" => Action::Gain,
+            _ => {
+                let fault = format!("action: found {action:?}, allowed: setpoint, gain");
+                return Err(PyValueError::new_err(fault));
+            }
+        };
+        if ticks == 0 {
+            return Err(PyValueError::new_err("ticks: found 0, allowed: above 0"));
+        }
+        let loaded = Given::new(scene, set)?.loaded(py, None, model)?;
+        let raise = |error| raised(py, error);
+        let classifier = loaded.classifier().map_err(raise)?;
+        let Scene { motor, .. } = &loaded.scene;
+        let limits = match (action, motor) {
+            (Action::Gain, Some(_)) => [0.0, 2.0],
+            (Action::Setpoint, Some(motor)) => [motor.min_deg, motor.max_deg],
+            (_, None) => {
+                return Err(PyValueError::new_err(
+                    "scene: its whiskers are passive; an action needs [whisking]",
+                ));
+            }
+        };
+        let member = |_| {
+            let run = Run::new(&loaded.scene, classifier.clone())?;
+            Ok(Member {
+                left: run.ticks(),
+                run,
+                whiskers: Vec::new(),
+            })
+        };
+        let members = py.detach(|| (0..count).map(member).collect::<Result<_, Error>>());
+        Ok(Self {
+            members: Mutex::new(members.map_err(raise)?),
+            action,
+            ticks,
+            whiskers: loaded.scene.whiskers(),
+            count,
+            limits,
+        })
+    }
+
+    /// Starts those anew that `begin` names, with their `seeds`; the others act, `actions` having
+    /// the shape (envs, whiskers). Returns what each whisker then feels, of shape
+    /// (envs, 4 × whiskers), and whether the scene has ended.
+    fn step<'py>(
+        &self,
+        py: Python<'py>,
+        actions: PyReadonlyArray2<'py, f64>,
+        begin: PyReadonlyArray1<'py, bool>,
+        seeds: PyReadonlyArray1<'py, u64>,
+    ) -> PyResult<Stepped<'py>> {
+        let (actions, begin, seeds) = (actions.as_slice()?, begin.as_slice()?, seeds.as_slice()?);
+        let (each, width) = (self.whiskers, OBSERVED * self.whiskers);
+        if actions.len() != self.count * each
+            || begin.len() != self.count
+            || seeds.len() != self.count
+        {
+            let fault = format!("actions: allowed: the shape ({}, {each})", self.count);
+            return Err(PyValueError::new_err(fault));
+        }
+        let mut seen = vec![0.0; self.count * width];
+        let mut ended = vec![false; self.count];
+        py.detach(|| {
+            let mut members = self.members.lock().unwrap_or_else(PoisonError::into_inner);
+            let given = actions.par_chunks_exact(each).zip(begin).zip(seeds);
+            let shown = seen.par_chunks_exact_mut(width).zip(&mut ended);
+            let all = members
+                .par_iter_mut()
+                .zip(given)
+                .zip(shown)
+                .with_min_len(AT_ONCE);
+            all.try_for_each(|((member, ((values, begin), seed)), (seen, ended))| {
+                if *begin {
+                    member.reset(*seed)?;
+                } else {
+                    member.act(self.action, values)?;
+                    member.advance(self.ticks);
+                }
+                member.observe(seen);
+                *ended = member.left == 0;
+                Ok(())
+            })
+        })
+        .map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+        let seen = seen.into_pyarray(py).reshape((self.count, width))?;
+        Ok((seen, ended.into_pyarray(py)))
+    }
+
+    /// How many whiskers each has.
+    #[getter]
+    const fn whiskers(&self) -> usize {
+        self.whiskers
+    }
+
+    /// The least and the largest action.
+    #[getter]
+    const fn limits(&self) -> [f64; 2] {
+        self.limits
+    }
+}

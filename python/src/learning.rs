@@ -1,0 +1,208 @@
+//! Record, train, classify, evaluate: the commands of host-sim on arrays.
+
+use host_sim::classifier::{self, Fault};
+use host_sim::decisions::{Columns, Decided, UNKNOWN};
+use host_sim::evaluation::{self, Evaluation};
+use host_sim::recording::Recorder;
+use host_sim::replay::Replay;
+use host_sim::run::Run;
+use host_sim::training::{How, Tables};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use scene::Rule;
+use tactile::score::Interval;
+
+use crate::model::{self, Model};
+use crate::recordings::{self, Prepared};
+use crate::scenes::{Given, raised};
+use crate::table::{self, Kind, Layout, Packed};
+
+fn wrong(fault: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(fault.to_string())
+}
+
+/// record(scene, *, seed=None, set=None)
+///
+/// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
+/// to train on. The scene's classifier is not used.
+#[pyfunction]
+#[pyo3(signature = (scene, *, seed=None, set=None))]
+pub(crate) fn record<'py>(
+    py: Python<'py>,
+    scene: &Bound<'py, PyAny>,
+    seed: Option<u64>,
+    set: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let scene = Given::new(scene, set)?.scene(py, seed)?;
+    let streams = py.detach(|| {
+        let mut run = Run::new(&scene, None)?;
+        let mut recorder = Recorder::default();
+        for _ in 0..run.ticks() {
+            run.tick();
+            recorder.take(&mut run);
+        }
+        Ok(recorder.into_streams())
+    });
+    recordings::array(py, &streams.map_err(|error| raised(py, error))?)
+}
+
+/// Trains a model from recordings that the Python side has prepared.
+#[pyfunction]
+#[pyo3(signature = (data, *, tables, bins, smooth, block, gate, gap, rate))]
+#[allow(clippy::too_many_arguments, reason = "they are Python's keywords")]
+pub(crate) fn train(
+    py: Python<'_>,
+    data: Vec<Prepared<'_>>,
+    tables: &str,
+    bins: Option<usize>,
+    smooth: Option<f64>,
+    block: Option<u32>,
+    gate: Option<f64>,
+    gap: Option<f64>,
+    rate: u32,
+) -> PyResult<Model> {
+    let tables = match tables {
+        "joint" => Tables::Joint,
+        "single" => Tables::Single,
+        _ => {
+            return Err(wrong(format!(
+                "tables: found {tables:?}, allowed: joint, single"
+            )));
+        }
+    };
+    let how = How {
+        tables,
+        bins,
+        smooth,
+        block,
+        gate,
+        gap,
+    };
+    how.check().map_err(wrong)?;
+    if rate == 0 {
+        return Err(wrong("rate: found 0, allowed: above 0"));
+    }
+    let read = data
+        .iter()
+        .map(Prepared::read)
+        .collect::<PyResult<Vec<_>>>()?;
+    let mut streams = read.iter().flat_map(|(_, streams)| streams);
+    if streams.any(|stream| stream.label == UNKNOWN) {
+        let fault = format!("label: {UNKNOWN:?} is what a decision for none of the classes says");
+        return Err(wrong(fault));
+    }
+    py.detach(|| how.train(&read, rate))
+        .map(Model::from)
+        .map_err(wrong)
+}
+
+/// The decisions of a model on a recording that the Python side has prepared.
+#[pyfunction]
+#[pyo3(signature = (model, data, *, threshold, window))]
+pub(crate) fn classify<'py>(
+    py: Python<'py>,
+    model: &Bound<'py, PyAny>,
+    data: Prepared<'py>,
+    threshold: f64,
+    window: Option<u32>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let rule = match window {
+        Some(samples) => Rule::Window { samples },
+        None => Rule::Sequential { threshold },
+    };
+    let name = if window.is_some() {
+        "window"
+    } else {
+        "threshold"
+    };
+    let replay = Replay::new(model::given(model)?, rule);
+    let mut replay = replay.map_err(|fault| match fault {
+        Fault::Model(fault) => wrong(format!("model: {fault}")),
+        Fault::Rule(fault) => wrong(format!("{name}: {fault}")),
+    })?;
+    let (_, streams) = data.read()?;
+    let decided = py.detach(|| {
+        let each = streams.iter().map(|stream| replay.stream(stream));
+        each.collect::<Result<Vec<Vec<Decided>>, _>>()
+    });
+    let decided = decided.map_err(wrong)?.concat();
+    table::decisions(py, &[(None, &decided)], Columns::OfRecording)
+}
+
+/// What a model is worth on a recording that the Python side has prepared.
+#[pyfunction]
+#[pyo3(signature = (model, data, *, threshold))]
+pub(crate) fn evaluate<'py>(
+    py: Python<'py>,
+    model: &Bound<'py, PyAny>,
+    data: Prepared<'py>,
+    threshold: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let model = model::given(model)?;
+    let classes = classifier::names(&model);
+    let (_, streams) = data.read()?;
+    let presented = py.detach(|| evaluation::presentations(&model, threshold, &streams));
+    let found = Evaluation::new(&classes, &presented.map_err(wrong)?);
+    let dict = PyDict::new(py);
+    dict.set_item("hits", found.hits)?;
+    dict.set_item("samples", found.samples)?;
+    dict.set_item("samples_error", found.samples_error)?;
+    let shares = [
+        ("refused", found.refused),
+        ("strange", found.strange),
+        ("undecided", found.undecided),
+        ("found", found.calibration.found),
+    ];
+    for (name, share) in shares {
+        let Interval {
+            share,
+            low,
+            high,
+            count,
+        } = share;
+        dict.set_item(name, (share, low, high, count))?;
+    }
+    dict.set_item("stated", found.calibration.stated)?;
+    dict.set_item("confusion", found.score.to_string())?;
+
+    let names = ["low", "high", "stated", "found", "found_low", "found_high"];
+    let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
+    columns.push(("decisions", Kind::Whole));
+    let mut rows = Packed::default();
+    for bin in &found.calibration.bins {
+        let Interval {
+            share,
+            low,
+            high,
+            count,
+        } = bin.found;
+        let cells = [bin.low, bin.high, bin.stated, share, low, high];
+        rows.numbers(cells);
+        rows.whole(count as i64);
+    }
+    dict.set_item("calibration", Layout::new(columns).array(py, rows.bytes)?)?;
+
+    let name = Kind::text(found.classes.iter().map(|class| class.name.as_str()));
+    let columns = [
+        ("name", name),
+        ("presented", Kind::Whole),
+        ("decisions", Kind::Whole),
+        ("hits", Kind::Number),
+        ("samples", Kind::Number),
+        ("refused", Kind::Number),
+        ("undecided", Kind::Number),
+    ];
+    let mut rows = Packed::default();
+    for class in &found.classes {
+        rows.text(&class.name, name);
+        rows.whole(class.presented as i64);
+        rows.whole(class.hits.count as i64);
+        rows.number(class.hits.share);
+        rows.number(class.samples.map_or(f64::NAN, |samples| samples.mean));
+        rows.number(class.refused.share);
+        rows.number(class.undecided.share);
+    }
+    dict.set_item("classes", Layout::new(columns).array(py, rows.bytes)?)?;
+    Ok(dict)
+}

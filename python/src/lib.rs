@@ -1,0 +1,35 @@
+//! `whisker._core`: the simulator, the trainer and the classifier for Python.
+//!
+//! What a scene, a column or a setting is called, its unit and its range are those of
+//! host-sim; here is only what turns Python's values into them and rows into arrays.
+//! Whatever takes longer than a moment runs without the interpreter's lock.
+
+#![allow(clippy::needless_pass_by_value, reason = "Python's arguments come so")]
+
+mod envs;
+mod files;
+mod learning;
+mod many;
+mod model;
+mod recordings;
+mod scenes;
+mod sim;
+mod table;
+
+use pyo3::prelude::pymodule;
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::envs::Envs;
+    #[pymodule_export]
+    use crate::learning::{classify, evaluate, record, train};
+    #[pymodule_export]
+    use crate::many::run_many;
+    #[pymodule_export]
+    use crate::model::Model;
+    #[pymodule_export]
+    use crate::scenes::{Problem, SceneError};
+    #[pymodule_export]
+    use crate::sim::{Sim, columns};
+}

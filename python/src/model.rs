@@ -1,0 +1,125 @@
+//! A model: the bytes that a board runs, and what held-out trials say of it.
+
+use std::path::PathBuf;
+
+use host_sim::classifier;
+use host_sim::training::TrainedModel;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use tactile::ModelBuf;
+use tactile::train::joint::Report;
+
+use crate::files::file_error;
+use crate::table::{Kind, Layout, Packed};
+
+/// Model(source)
+///
+/// A model, of its bytes or its file; `train` makes one. `bytes(model)` are what a board runs.
+#[pyclass(frozen, module = "whisker")]
+pub(crate) struct Model {
+    model: ModelBuf,
+    report: Option<Report>,
+}
+
+impl From<TrainedModel> for Model {
+    fn from(trained: TrainedModel) -> Self {
+        Self {
+            model: trained.model,
+            report: trained.joint.map(|joint| joint.report),
+        }
+    }
+}
+
+impl Model {
+    pub(crate) fn as_bytes(&self) -> &[u8] {
+        self.model.as_bytes()
+    }
+}
+
+#[pymethods]
+impl Model {
+    #[new]
+    fn new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Ok(Self {
+            model: given(source)?,
+            report: None,
+        })
+    }
+
+    fn __bytes__<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, self.as_bytes())
+    }
+
+    /// Writes the bytes to a file.
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        std::fs::write(&path, self.as_bytes()).map_err(|error| file_error(&path, error))
+    }
+
+    /// The names of its classes.
+    #[getter]
+    fn classes(&self) -> Vec<String> {
+        classifier::names(&self.model)
+    }
+
+    /// Of trials that were held out, at each threshold: the probability that decisions stated,
+    /// the share that was found right with its 95 % interval, mean samples, and the shares of
+    /// decisions for unknown and of trials without one. None of a model that was not just
+    /// trained, or of single tables.
+    #[getter]
+    fn calibration<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let Some(report) = &self.report else {
+            return Ok(None);
+        };
+        let names = [
+            "threshold",
+            "stated",
+            "found",
+            "low",
+            "high",
+            "samples",
+            "unknown",
+            "undecided",
+        ];
+        let mut layout = names.map(|name| (name, Kind::Number)).to_vec();
+        layout.insert(5, ("decisions", Kind::Whole));
+        let mut rows = Packed::default();
+        for at in &report.calibration {
+            let found = [
+                at.threshold,
+                at.stated,
+                at.found.share,
+                at.found.low,
+                at.found.high,
+            ];
+            rows.numbers(found);
+            rows.whole(at.found.count as i64);
+            let rest = [at.samples, at.unknown.share, at.undecided.share];
+            rows.numbers(rest);
+        }
+        Layout::new(layout).array(py, rows.bytes).map(Some)
+    }
+
+    fn __repr__(&self) -> String {
+        let (classes, bytes) = (self.classes().join(", "), self.as_bytes().len());
+        format!("<whisker.Model of {classes}: {bytes} bytes>")
+    }
+}
+
+/// A model's bytes: of a [`Model`], as they are, or of a file.
+pub(crate) fn bytes(model: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    if let Ok(model) = model.cast::<Model>() {
+        return Ok(model.get().as_bytes().to_vec());
+    }
+    if let Ok(bytes) = model.cast::<PyBytes>() {
+        return Ok(bytes.as_bytes().to_vec());
+    }
+    let path: PathBuf = model.extract()?;
+    std::fs::read(&path).map_err(|error| file_error(&path, error))
+}
+
+/// The model of a [`Model`], of bytes or of a file.
+pub(crate) fn given(model: &Bound<'_, PyAny>) -> PyResult<ModelBuf> {
+    let model = ModelBuf::from_bytes(&bytes(model)?);
+    model.map_err(|error| PyValueError::new_err(format!("model: {error}")))
+}

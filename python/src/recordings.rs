@@ -1,0 +1,101 @@
+//! Recordings from and to arrays.
+
+use host_sim::recording::{COLUMNS, Stream};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::table::{Kind, Layout, Packed};
+
+/// A recording as the Python side has prepared it.
+#[derive(FromPyObject)]
+pub(crate) struct Prepared<'py> {
+    name: String,
+    /// Label, trial, first row and the one after the last.
+    streams: Vec<(String, String, usize, usize)>,
+    /// x and y.
+    samples: PyReadonlyArray2<'py, f64>,
+    contact: Option<PyReadonlyArray1<'py, f64>>,
+    touch: Option<PyReadonlyArray1<'py, u16>>,
+}
+
+impl Prepared<'_> {
+    /// Its name and its streams.
+    pub(crate) fn read(&self) -> PyResult<(String, Vec<Stream>)> {
+        let wrong = |row: usize, fault: &str| {
+            PyValueError::new_err(format!("{}: row {row}: {fault}", self.name))
+        };
+        let samples: &[f64] = self.samples.as_slice()?;
+        let (samples, _) = samples.as_chunks::<2>();
+        let contact = self
+            .contact
+            .as_ref()
+            .map(PyReadonlyArray1::as_slice)
+            .transpose()?;
+        let touch = self
+            .touch
+            .as_ref()
+            .map(PyReadonlyArray1::as_slice)
+            .transpose()?;
+        if let Some(row) = samples
+            .iter()
+            .position(|xy| !xy.iter().all(|v| v.is_finite()))
+        {
+            return Err(wrong(row, "x or y is not a finite number"));
+        }
+        let is_wide = |contact: &f64| !(*contact as f32).is_finite();
+        if let Some(row) = contact.and_then(|all| all.iter().position(is_wide)) {
+            return Err(wrong(
+                row,
+                "contact is not a finite number of single precision",
+            ));
+        }
+        if samples.is_empty() {
+            return Err(PyValueError::new_err(format!("{}: no samples", self.name)));
+        }
+        let stream = |(label, trial, first, end): &(String, String, usize, usize)| {
+            if label.is_empty() {
+                return Err(wrong(*first, "the label is empty"));
+            }
+            let rows = *first..*end;
+            Ok(Stream {
+                label: label.clone(),
+                trial: trial.clone(),
+                samples: samples.get(rows.clone()).unwrap_or_default().to_vec(),
+                contact: contact.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
+                touch: touch.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
+            })
+        };
+        let streams = self.streams.iter().map(stream).collect::<PyResult<_>>()?;
+        Ok((self.name.clone(), streams))
+    }
+}
+
+/// Streams with the columns of a recording's file.
+pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<'py, PyAny>> {
+    let label = Kind::text(streams.iter().map(|stream| stream.label.as_str()));
+    let trial = Kind::text(streams.iter().map(|stream| stream.trial.as_str()));
+    let kinds = [
+        label,
+        trial,
+        Kind::Number,
+        Kind::Number,
+        Kind::Number,
+        Kind::Whole,
+    ];
+    let layout = Layout::new(COLUMNS.iter().map(|column| column.name).zip(kinds));
+    let mut rows = Packed::default();
+    for stream in streams {
+        for (n, [x, y]) in stream.samples.iter().enumerate() {
+            rows.text(&stream.label, label);
+            rows.text(&stream.trial, trial);
+            rows.number(*x);
+            rows.number(*y);
+            let contact = stream.contact.as_ref().and_then(|all| all.get(n));
+            rows.number(contact.copied().unwrap_or(1.0));
+            let touch = stream.touch.as_ref().and_then(|all| all.get(n));
+            rows.whole(touch.copied().unwrap_or(0).into());
+        }
+    }
+    layout.array(py, rows.bytes)
+}

@@ -1,0 +1,224 @@
+//! Scenes as they are given in Python: a path, a TOML text, or a dictionary.
+
+use std::path::{Path, PathBuf};
+
+use host_sim::Error;
+use host_sim::loaded::Loaded;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyList, PyTuple};
+use scene::{Override, Problems, Scene};
+use tactile::ModelBuf;
+
+use crate::files::file_error;
+use crate::model;
+
+create_exception!(
+    whisker,
+    SceneError,
+    PyValueError,
+    "What is wrong with a scene, one problem a line; `problems` has them singly."
+);
+
+/// One thing wrong with a scene.
+#[pyclass(frozen, get_all, module = "whisker")]
+pub(crate) struct Problem {
+    /// The scene's file, or where in the arguments it stands.
+    file: String,
+    /// Line, counted from 1; None for what is not in a file.
+    line: Option<usize>,
+    /// The key with its section, such as `head.sides`.
+    key: String,
+    /// What was found.
+    found: String,
+    /// What is allowed.
+    allowed: String,
+}
+
+#[pymethods]
+impl Problem {
+    fn __repr__(&self) -> String {
+        let Self {
+            file,
+            line,
+            key,
+            found,
+            allowed,
+        } = self;
+        let line = line.map_or("None".to_owned(), |line| line.to_string());
+        format!(
+            "Problem(file={file:?}, line={line}, key={key:?}, found={found:?}, allowed={allowed:?})"
+        )
+    }
+}
+
+fn scene_error(py: Python<'_>, message: String, problems: Vec<Problem>) -> PyErr {
+    let error = SceneError::new_err(message);
+    match error.value(py).setattr("problems", problems) {
+        Ok(()) => error,
+        Err(other) => other,
+    }
+}
+
+/// An error of the simulator as an exception.
+pub(crate) fn raised(py: Python<'_>, error: Error) -> PyErr {
+    match error {
+        Error::Input(message) => scene_error(py, message, Vec::new()),
+        Error::Work(message) => PyRuntimeError::new_err(message),
+        Error::Write { .. } => PyOSError::new_err(error.to_string()),
+    }
+}
+
+fn refused(py: Python<'_>, problems: &Problems) -> PyErr {
+    let each = problems.as_slice().iter().map(|problem| Problem {
+        file: problem.file.clone(),
+        line: problem.line,
+        key: problem.key.clone(),
+        found: problem.found.clone(),
+        allowed: problem.allowed.clone(),
+    });
+    scene_error(py, problems.to_string(), each.collect())
+}
+
+/// A scene as it was given: what is checked, and where its model is looked for.
+pub(crate) struct Given {
+    file: String,
+    text: String,
+    set: Vec<Override>,
+    folder: PathBuf,
+}
+
+impl Given {
+    /// Reads `scene`, with the keys of `set` in place of its own.
+    pub(crate) fn new(scene: &Bound<'_, PyAny>, set: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut given = Self::of(scene)?;
+        for (key, value) in set.into_iter().flatten() {
+            let key: String = key.extract()?;
+            let source = format!("set[{key:?}]");
+            given
+                .set
+                .push(Override::new(source, &key, &literal(&value)?));
+        }
+        Ok(given)
+    }
+
+    fn of(scene: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let beside = |file: &str, text: String| Self {
+            file: file.to_owned(),
+            text,
+            set: Vec::new(),
+            folder: PathBuf::new(),
+        };
+        if let Ok(table) = scene.cast::<PyDict>() {
+            let mut given = beside("scene", String::new());
+            flatten(table, "scene", "", &mut given.set)?;
+            return Ok(given);
+        }
+        // No path has a line break or a key with its value.
+        if let Ok(text) = scene.extract::<String>()
+            && text.contains(['\n', '='])
+        {
+            return Ok(beside("scene", text));
+        }
+        let path: PathBuf = scene.extract().map_err(|_| {
+            let found = scene.get_type();
+            PyTypeError::new_err(format!(
+                "scene: found {found}, allowed: a path, TOML text or a dict"
+            ))
+        })?;
+        Ok(Self {
+            file: path.display().to_string(),
+            text: std::fs::read_to_string(&path).map_err(|error| file_error(&path, error))?,
+            set: Vec::new(),
+            folder: path.parent().map(Path::to_owned).unwrap_or_default(),
+        })
+    }
+
+    /// The scene alone, as a recording needs it.
+    pub(crate) fn scene(&self, py: Python<'_>, seed: Option<u64>) -> PyResult<Scene> {
+        let read = Scene::from_str_with(&self.file, &self.text, &self.set);
+        let (mut scene, _) = read.map_err(|problems| refused(py, &problems))?;
+        let path = Path::new(&self.file);
+        plan::check(&scene).map_err(|fault| raised(py, Error::file(path, fault)))?;
+        scene.seed = seed.unwrap_or(scene.seed);
+        Ok(scene)
+    }
+
+    /// The scene with its model: `model` in place of the one that it names, if given.
+    pub(crate) fn loaded(
+        &self,
+        py: Python<'_>,
+        seed: Option<u64>,
+        model: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Loaded> {
+        // Problems singly; what follows has them as one text.
+        self.scene(py, seed)?;
+        let given = model.map(model::bytes).transpose()?;
+        let named = |path: &Path| match &given {
+            Some(bytes) => Ok(bytes.clone()),
+            None => std::fs::read(self.folder.join(path)).map_err(|error| error.to_string()),
+        };
+        let loaded = Loaded::from_text(&self.file, &self.text, &self.set, named);
+        let mut loaded = loaded.map_err(|error| raised(py, error))?;
+        if let Some(bytes) = given.as_ref().filter(|_| loaded.scene.awaits_model()) {
+            let model = ModelBuf::from_bytes(bytes);
+            let model = model.map_err(|error| PyValueError::new_err(format!("model: {error}")))?;
+            loaded = loaded.with_deployed(Path::new("model"), Some(model));
+        }
+        loaded.scene.seed = seed.unwrap_or(loaded.scene.seed);
+        Ok(loaded)
+    }
+}
+
+/// The keys of a table, of which messages say where they stand; None is left out.
+fn flatten(
+    table: &Bound<'_, PyDict>,
+    place: &str,
+    section: &str,
+    set: &mut Vec<Override>,
+) -> PyResult<()> {
+    for (name, value) in table {
+        let name: String = name.extract()?;
+        let place = format!("{place}[{name:?}]");
+        let key = if section.is_empty() {
+            name
+        } else {
+            format!("{section}.{name}")
+        };
+        if let Ok(table) = value.cast::<PyDict>() {
+            flatten(table, &place, &key, set)?;
+        } else if !value.is_none() {
+            set.push(Override::new(place, &key, &literal(&value)?));
+        }
+    }
+    Ok(())
+}
+
+/// A value as TOML has it.
+fn literal(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    if let Ok(truth) = value.cast::<PyBool>() {
+        return Ok(truth.is_true().to_string());
+    }
+    if let Ok(text) = value.extract::<String>() {
+        return Ok(toml::Value::String(text).to_string());
+    }
+    if let Ok(whole) = value.extract::<i64>() {
+        return Ok(whole.to_string());
+    }
+    if let Ok(number) = value.extract::<f64>() {
+        return Ok(toml::Value::Float(number).to_string());
+    }
+    let is_list = value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>();
+    if is_list || value.hasattr("tolist")? {
+        let items = value.try_iter()?.map(|item| literal(&item?));
+        return Ok(format!(
+            "[{}]",
+            items.collect::<PyResult<Vec<_>>>()?.join(", ")
+        ));
+    }
+    let found = value.get_type();
+    Err(PyTypeError::new_err(format!(
+        "found {found}, allowed: a number, text, truth or list"
+    )))
+}

@@ -1,0 +1,295 @@
+//! One run of a scene, tick by tick.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use host_sim::columns::Column;
+use host_sim::decisions::Decided;
+use host_sim::run::Run;
+use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
+use host_sim::{decisions, recording};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use scene::Texture;
+use tactile::Posteriors;
+
+use crate::scenes::{Given, raised};
+use crate::table::{self, Kind, Layout, Packed, RunTables};
+
+/// A run, and what it has decided so far.
+struct State {
+    run: Run,
+    done: u64,
+    seed: u64,
+    whiskers: Vec<WhiskerRow>,
+    decided: Vec<Decided>,
+    last: Option<Posteriors>,
+    posteriors: Packed,
+}
+
+impl State {
+    /// One tick; what it decided begins at the index that is returned.
+    fn tick(&mut self) -> usize {
+        let t_s = self.run.tick().t_s;
+        self.done += 1;
+        let first = self.decided.len();
+        self.decided.extend(self.run.decisions());
+        if self.run.samples().iter().any(Option::is_some) {
+            let now = self.run.posteriors();
+            if let Some(posteriors) = now.filter(|_| now != self.last) {
+                self.posteriors.number(t_s);
+                self.posteriors.numbers(posteriors.to_f64());
+            }
+            self.last = now;
+        }
+        first
+    }
+
+    /// Ticks, of which every `every`th has a row.
+    fn rows(&mut self, ticks: u64, every: u64, tables: &RunTables) -> Vec<u8> {
+        let mut rows = Packed::default();
+        let count = (ticks / every) as usize;
+        rows.bytes.reserve_exact(count * tables.trace.bytes());
+        for n in 1..=ticks {
+            let first = self.tick();
+            if n % every == 0 {
+                self.run.look_at_whiskers(&mut self.whiskers);
+                let fell = self.decided.get(first..).unwrap_or_default();
+                tables.row(&mut rows, &self.run.told(fell, &self.whiskers));
+            }
+        }
+        rows.bytes
+    }
+
+    fn left(&self) -> u64 {
+        self.run.ticks().saturating_sub(self.done)
+    }
+}
+
+/// Sim(scene, *, seed=None, model=None, set=None)
+///
+/// A scene in motion: the firmware's module on simulated sensors, motors and surfaces.
+///
+/// `scene` is a path, TOML text or a dictionary of the same keys; `seed` and the keys of `set`
+/// (such as {"plant.stiffness": 0.2}) take the place of the scene's own. `model` is a Model, its
+/// bytes or a path, in place of the one that the scene names.
+///
+/// Raises SceneError for a scene that is wrong.
+#[pyclass(frozen, module = "whisker")]
+pub(crate) struct Sim {
+    state: Mutex<State>,
+    tables: RunTables,
+    shape: TraceShape,
+    classes: Vec<String>,
+    name: String,
+    tick_hz: u32,
+    posteriors: Layout,
+}
+
+impl Sim {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[pymethods]
+impl Sim {
+    #[new]
+    #[pyo3(signature = (scene, *, seed=None, model=None, set=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Bound<'_, PyAny>,
+        seed: Option<u64>,
+        model: Option<&Bound<'_, PyAny>>,
+        set: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let loaded = Given::new(scene, set)?.loaded(py, seed, model)?;
+        let raised = |error| raised(py, error);
+        let scene = &loaded.scene;
+        let run = Run::new(scene, loaded.classifier().map_err(raised)?);
+        let mut run = run.map_err(raised)?;
+        let last = run.posteriors();
+        let classes = run.classes().to_vec();
+        let count = classes.len();
+        Ok(Self {
+            tables: RunTables::of(scene, &classes),
+            shape: TraceShape::of(scene),
+            name: scene.name.clone(),
+            tick_hz: scene.tick_hz,
+            posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
+            classes,
+            state: Mutex::new(State {
+                run,
+                done: 0,
+                seed: scene.seed,
+                whiskers: Vec::new(),
+                decided: Vec::new(),
+                last,
+                posteriors: Packed::default(),
+            }),
+        })
+    }
+
+    /// Advances by `n` ticks, beyond the scene's end too, and returns every `every`th row of
+    /// the trace as a structured array.
+    #[pyo3(signature = (n=1, *, every=1))]
+    fn step<'py>(&self, py: Python<'py>, n: u64, every: u64) -> PyResult<Bound<'py, PyAny>> {
+        if every == 0 {
+            return Err(PyValueError::new_err("every: found 0, allowed: above 0"));
+        }
+        let rows = py.detach(|| self.state().rows(n, every, &self.tables));
+        self.tables.trace.array(py, rows)
+    }
+
+    /// Advances to the scene's end and returns every `every`th row of the trace.
+    #[pyo3(signature = (*, every=1))]
+    fn run<'py>(&self, py: Python<'py>, every: u64) -> PyResult<Bound<'py, PyAny>> {
+        let left = py.detach(|| self.state().left());
+        self.step(py, left, every)
+    }
+
+    /// Starts again, with another seed if one is given: from here on all is as of a new Sim.
+    /// Setpoints and gains that were set are undone.
+    #[pyo3(signature = (seed=None))]
+    fn reset(&self, py: Python<'_>, seed: Option<u64>) -> PyResult<()> {
+        py.detach(|| {
+            let state = &mut *self.state();
+            state.seed = seed.unwrap_or(state.seed);
+            state.run.reset(state.seed)?;
+            state.done = 0;
+            state.decided.clear();
+            state.last = state.run.posteriors();
+            state.posteriors.bytes.clear();
+            Ok(())
+        })
+        .map_err(|error| raised(py, error))
+    }
+
+    /// Sets θ′ of a whisker, degrees, from the next tick on, limited to the scene's
+    /// `motor.min_deg` and `motor.max_deg`; None: the pattern generator's again. Whiskers are
+    /// counted from 0, left side first.
+    #[pyo3(signature = (degrees, whisker=0))]
+    fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: usize) -> PyResult<()> {
+        let set = py.detach(|| self.state().run.set_setpoint_deg(whisker, degrees));
+        set.map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// Sets the nominal gain g of a whisker from the next tick on, limited to 0 to 2.
+    #[pyo3(signature = (gain, whisker=0))]
+    fn gain(&self, py: Python<'_>, gain: f64, whisker: usize) -> PyResult<()> {
+        let set = py.detach(|| self.state().run.set_gain(whisker, gain));
+        set.map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+
+    /// Has a texture laid in place of the present one, once that is not touched, and left there.
+    fn lay(&self, py: Python<'_>, texture: &str) -> PyResult<()> {
+        let Some(texture) = Texture::named(texture) else {
+            let allowed = Texture::NAMES.join(", ");
+            let fault = format!("texture: found {texture:?}, allowed: {allowed}");
+            return Err(PyValueError::new_err(fault));
+        };
+        py.detach(|| self.state().run.lay(texture));
+        Ok(())
+    }
+
+    /// `trace.csv` from here to the scene's end, byte for byte as host-sim writes it.
+    fn trace_csv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let written = py.detach(|| {
+            let state = &mut *self.state();
+            let mut table = TraceWriter::new(Vec::new(), self.shape)?;
+            for _ in 0..state.left() {
+                let first = state.tick();
+                state.run.look_at_whiskers(&mut state.whiskers);
+                let fell = state.decided.get(first..).unwrap_or_default();
+                table.row(&state.run.told(fell, &state.whiskers))?;
+            }
+            std::io::Result::Ok(table.into_inner())
+        });
+        Ok(PyBytes::new(py, &written?))
+    }
+
+    /// The decisions since the start, with the columns of `decisions.csv`.
+    #[getter]
+    fn decisions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let decided = py.detach(|| self.state().decided.clone());
+        table::decisions(py, &[(None, &decided)], self.tables.decisions)
+    }
+
+    /// `t_s` and the posterior of each of `classes`, whenever a block has changed them, of the
+    /// first whisker or of all together: shape (blocks,), `posterior` of shape (blocks, classes).
+    #[getter]
+    fn posteriors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let bytes = py.detach(|| self.state().posteriors.bytes.clone());
+        self.posteriors.array(py, bytes)
+    }
+
+    /// The names of the classes that are decided among.
+    #[getter]
+    fn classes(&self) -> Vec<String> {
+        self.classes.clone()
+    }
+
+    /// The scene's name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Ticks a second.
+    #[getter]
+    const fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+
+    /// The seed of this run.
+    #[getter]
+    fn seed(&self, py: Python<'_>) -> u64 {
+        py.detach(|| self.state().seed)
+    }
+
+    /// How many ticks the scene lasts.
+    #[getter]
+    fn ticks(&self, py: Python<'_>) -> u64 {
+        py.detach(|| self.state().run.ticks())
+    }
+
+    /// How many have passed.
+    #[getter]
+    fn done(&self, py: Python<'_>) -> u64 {
+        py.detach(|| self.state().done)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let (done, ticks) = py.detach(|| {
+            let state = self.state();
+            (state.done, state.run.ticks())
+        });
+        format!("<whisker.Sim {:?}: tick {done} of {ticks}>", self.name)
+    }
+}
+
+/// Name to (unit, meaning) of every column: of "trace", "decisions" or "recording". Those of
+/// further whiskers of a side have their place for the `*`.
+#[pyfunction]
+pub(crate) fn columns<'py>(py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyDict>> {
+    let all: Vec<Column> = match table {
+        "trace" => [
+            &trace::FIRST[..],
+            &trace::OF_RIGHT,
+            &trace::SECOND,
+            &trace::OF_WHISKER,
+        ]
+        .concat(),
+        "decisions" => decisions::COLUMNS.to_vec(),
+        "recording" => recording::COLUMNS.to_vec(),
+        _ => {
+            let fault = format!("table: found {table:?}, allowed: trace, decisions, recording");
+            return Err(PyValueError::new_err(fault));
+        }
+    };
+    let dict = PyDict::new(py);
+    for column in all {
+        dict.set_item(column.name, (column.unit, column.meaning))?;
+    }
+    Ok(dict)
+}

@@ -1,0 +1,261 @@
+//! Tables as numpy's structured arrays: rows are packed here, and numpy sees the bytes as they
+//! lie.
+
+use host_sim::bench;
+use host_sim::decisions::{COLUMNS, Columns, Decided};
+use host_sim::trace::{Told, TraceShape, WhiskerRow};
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use scene::Scene;
+
+/// What a column has. All are multiples of eight bytes, so that numbers are aligned.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kind {
+    /// `float64`; not a number where a file has an empty cell.
+    Number,
+    /// So many of them.
+    Numbers(usize),
+    /// `int64`.
+    Whole,
+    /// Text of up to so many characters.
+    Text(usize),
+}
+
+impl Kind {
+    /// A text as wide as the longest of these.
+    pub(crate) fn text<'t>(all: impl Iterator<Item = &'t str>) -> Self {
+        let widest = all.map(|text| text.chars().count()).max();
+        Self::Text(widest.unwrap_or(0).max(1).next_multiple_of(2))
+    }
+
+    const fn bytes(self) -> usize {
+        match self {
+            Self::Number | Self::Whole => 8,
+            Self::Numbers(count) => 8 * count,
+            Self::Text(width) => 4 * width,
+        }
+    }
+}
+
+/// The columns of a table.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Layout {
+    columns: Vec<(String, Kind)>,
+}
+
+impl Layout {
+    pub(crate) fn new(columns: impl IntoIterator<Item = (&'static str, Kind)>) -> Self {
+        let columns = columns.into_iter();
+        Self {
+            columns: columns
+                .map(|(name, kind)| (name.to_owned(), kind))
+                .collect(),
+        }
+    }
+
+    /// The same with a column before all others.
+    pub(crate) fn after(mut self, name: &str, kind: Kind) -> Self {
+        self.columns.insert(0, (name.to_owned(), kind));
+        self
+    }
+
+    /// Of a row.
+    pub(crate) fn bytes(&self) -> usize {
+        self.columns.iter().map(|(_, kind)| kind.bytes()).sum()
+    }
+
+    /// Rows as an array that owns `bytes`.
+    pub(crate) fn array<'py>(
+        &self,
+        py: Python<'py>,
+        bytes: Vec<u8>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let fields = PyList::empty(py);
+        for (name, kind) in &self.columns {
+            match kind {
+                Kind::Number => fields.append((name, "f8"))?,
+                Kind::Numbers(count) => fields.append((name, "f8", (count,)))?,
+                Kind::Whole => fields.append((name, "i8"))?,
+                Kind::Text(width) => fields.append((name, format!("U{width}")))?,
+            }
+        }
+        let dtype = py.import("numpy")?.getattr("dtype")?.call1((fields,))?;
+        bytes.into_pyarray(py).call_method1("view", (dtype,))
+    }
+}
+
+/// Packs cells one after the other.
+#[derive(Debug, Default)]
+pub(crate) struct Packed {
+    pub(crate) bytes: Vec<u8>,
+}
+
+impl Packed {
+    pub(crate) fn number(&mut self, value: f64) {
+        self.bytes.extend(value.to_ne_bytes());
+    }
+
+    pub(crate) fn numbers(&mut self, values: impl IntoIterator<Item = f64>) {
+        for value in values {
+            self.number(value);
+        }
+    }
+
+    pub(crate) fn whole(&mut self, value: i64) {
+        self.bytes.extend(value.to_ne_bytes());
+    }
+
+    /// What is beyond the column's width is cut off.
+    pub(crate) fn text(&mut self, text: &str, kind: Kind) {
+        let Kind::Text(width) = kind else {
+            return;
+        };
+        let end = self.bytes.len() + 4 * width;
+        for c in text.chars().take(width) {
+            self.bytes.extend(u32::from(c).to_ne_bytes());
+        }
+        self.bytes.resize(end, 0);
+    }
+}
+
+/// The tables of a scene's run.
+#[derive(Debug, Clone)]
+pub(crate) struct RunTables {
+    shape: TraceShape,
+    decision: Kind,
+    label: Kind,
+    pub(crate) trace: Layout,
+    pub(crate) decisions: Columns,
+}
+
+impl RunTables {
+    /// Of a scene that decides among `classes`.
+    pub(crate) fn of(scene: &Scene, classes: &[String]) -> Self {
+        let shape = TraceShape::of(scene);
+        let names = || classes.iter().map(String::as_str);
+        let decision = Kind::text(names().chain([host_sim::decisions::UNKNOWN]));
+        let textured = scene.plant.textured.iter();
+        let textures = textured.flat_map(|textured| &textured.textures);
+        let label = Kind::text(textures.map(|texture| texture.name()).chain(["obstacle"]));
+        let columns = shape.names().into_iter().map(|name| {
+            let kind = match name.as_str() {
+                "touch" | "touch_right" | "trial" => Kind::Whole,
+                "decision" | "decision_right" => decision,
+                "label" => label,
+                _ => Kind::Number,
+            };
+            (name, kind)
+        });
+        Self {
+            shape,
+            decision,
+            label,
+            trace: Layout {
+                columns: columns.collect(),
+            },
+            decisions: match bench::heard(scene) {
+                1 => Columns::OfScene,
+                _ => Columns::OfSeveral,
+            },
+        }
+    }
+
+    /// A row of the trace, in the order of its columns.
+    pub(crate) fn row(&self, rows: &mut Packed, told: &Told<'_>) {
+        rows.number(told.row.t_s);
+        rows.numbers(told.row.pairs().into_iter().flatten());
+        let sides = told.row.touch.into_iter().zip(told.decisions);
+        for (touch, decision) in sides.take(1 + usize::from(self.shape.hears_right)) {
+            rows.whole(touch.into());
+            rows.text(decision.unwrap_or_default(), self.decision);
+        }
+        rows.text(told.presented.0, self.label);
+        rows.whole(told.presented.1 as i64);
+        let each = self.shape.whiskers_per_side.max(1);
+        let mut sides = told.whiskers.chunks(each);
+        let firsts = [sides.next(), sides.next()].map(|side| side.and_then(<[_]>::first));
+        let mut pair = |value: fn(&WhiskerRow) -> f64| {
+            for first in firsts {
+                rows.number(first.map_or(f64::NAN, value));
+            }
+        };
+        pair(|w| w.speed_deg_s);
+        pair(|w| w.duty);
+        pair(|w| w.fault);
+        for w in told
+            .whiskers
+            .chunks(each)
+            .flat_map(|side| side.iter().skip(1))
+        {
+            let [x, y] = w.codes;
+            let own = [
+                w.theta_deg,
+                w.angle_deg,
+                w.speed_deg_s,
+                w.duty,
+                x,
+                y,
+                w.contact,
+                w.fault,
+            ];
+            rows.numbers(own);
+        }
+    }
+}
+
+/// Decisions as `decisions.csv` has them, of each run with its seed if they are of several.
+pub(crate) fn decisions<'py>(
+    py: Python<'py>,
+    runs: &[(Option<u64>, &[Decided])],
+    columns: Columns,
+) -> PyResult<Bound<'py, PyAny>> {
+    let all = || runs.iter().flat_map(|(_, decided)| decided.iter());
+    let label = Kind::text(all().map(|d| d.label.as_str()));
+    let trial = Kind::text(all().map(|d| d.trial.as_str()));
+    let decision = Kind::text(all().map(|d| d.decision.as_str()));
+    let side = Kind::Text(6);
+    let kinds = [
+        label,
+        trial,
+        decision,
+        Kind::Whole,
+        Kind::Number,
+        Kind::Whole,
+        Kind::Number,
+        side,
+        Kind::Whole,
+    ];
+    let count = match columns {
+        Columns::OfRecording => 6,
+        Columns::OfScene => 7,
+        Columns::OfSeveral => 9,
+    };
+    let names = COLUMNS.iter().map(|column| column.name);
+    let mut layout = Layout::new(names.zip(kinds).take(count));
+    if runs.iter().any(|(seed, _)| seed.is_some()) {
+        layout = layout.after("seed", Kind::Whole);
+    }
+    let mut rows = Packed::default();
+    for (seed, decided) in runs {
+        for d in *decided {
+            if let Some(seed) = seed {
+                rows.whole(*seed as i64);
+            }
+            rows.text(&d.label, label);
+            rows.text(&d.trial, trial);
+            rows.text(&d.decision, decision);
+            rows.whole(d.samples.into());
+            rows.number(d.posterior);
+            rows.whole(d.touch.into());
+            if columns != Columns::OfRecording {
+                rows.number(d.t_s.unwrap_or(f64::NAN));
+            }
+            if columns == Columns::OfSeveral {
+                rows.text(d.place.map_or("", |place| place.side_name()), side);
+                rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
+            }
+        }
+    }
+    layout.array(py, rows.bytes)
+}

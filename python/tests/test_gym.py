@@ -1,0 +1,83 @@
+"""Environments."""
+
+import runpy
+import warnings
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import whisker
+from whisker.gym import CONTACT, WhiskerEnv, WhiskerVectorEnv, find_the_edge, touch_gently
+
+SHORT = {"duration_s": 0.5}
+
+
+@pytest.mark.parametrize("action", ["setpoint", "gain"])
+@pytest.mark.parametrize("scene", ["textures", "both"])
+def test_gymnasium_finds_nothing_wrong(action, scene):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        check_env(WhiskerEnv(whisker.SCENES[scene], action=action, set=SHORT), skip_render_check=True)
+
+
+def test_made_by_name():
+    env = gymnasium.make("Whisker-v0", set=SHORT, ticks=100)
+    observation, info = env.reset(seed=3)
+    assert observation.shape == (4,) and info["seed"] == 3
+    ended = [env.step(env.action_space.sample())[3] for _ in range(10)]
+    assert ended == [False] * 9 + [True]
+
+
+def test_an_observation_is_the_trace_s():
+    env = WhiskerEnv(ticks=200)
+    env.reset(seed=9)
+    observation, *_ = env.step(np.array([90.0], np.float32))
+    sim = whisker.Sim(whisker.SCENES["textures"], seed=9)
+    sim.setpoint(90.0)
+    row = sim.step(200)[-1]
+    names = ["angle_left_deg", "x_left", "y_left", "contact_left"]
+    assert np.allclose(observation, [row[name] for name in names], rtol=1e-6)
+
+
+def test_environments_side_by_side_are_single_ones_and_begin_anew():
+    many = WhiskerVectorEnv(3, set=SHORT, ticks=300, reward=find_the_edge)
+    first, _ = many.reset(seed=5)
+    one = WhiskerEnv(set=SHORT, ticks=300)
+    one.reset(seed=6)
+    action = np.full((3, 1), 105.0)
+    for n in range(4):
+        seen, rewards, ended, cut, _ = many.step(action)
+        assert np.array_equal(seen[1], one.step(action[0])[0])
+        assert seen.shape == (3, 4) and rewards.shape == (3,) and not ended.any()
+        assert cut.all() == (n == 3)
+    seen, rewards, _, cut, _ = many.step(action)
+    assert np.array_equal(seen[:, 0], first[:, 0]) and not rewards.any() and not cut.any()
+
+
+def test_rewards():
+    def at(contact):
+        return np.array([100.0, 8192.0, 8192.0, contact])
+
+    gentle = [float(touch_gently(at(c), None, at(0.0))) for c in (0.0, 0.2, 0.3, 0.9)]
+    assert gentle[0] == 0.0 and gentle[1] == 1.0 and 0.0 < gentle[2] < 1.0 and gentle[3] == -1.0
+    assert float(find_the_edge(at(0.2), None, at(0.0))) == 1.0
+    assert float(find_the_edge(at(0.2), None, at(0.2))) == 0.0
+    assert at(0.4)[CONTACT] == [0.4]
+
+
+def test_the_example_learns():
+    example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "learn_to_touch.py"))
+    before, after = example["main"]()
+    assert after > before + 0.5
+
+
+def test_what_is_wrong_is_said():
+    with pytest.raises(ValueError, match="passive"):
+        WhiskerEnv(whisker.SCENES["passive"])
+    with pytest.raises(ValueError, match="allowed: setpoint, gain"):
+        WhiskerEnv(action="force")
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        WhiskerEnv().step(np.zeros(1))

@@ -1,0 +1,168 @@
+"""Runs: rows, decisions and posteriors, and the same bytes as host-sim's."""
+
+import csv
+import hashlib
+import io
+import os
+import pathlib
+import re
+
+import numpy as np
+import pytest
+
+import whisker
+
+TEXTURES = whisker.SCENES["textures"]
+SHORT = {"duration_s": 4.0}
+STILL = {
+    "name": "still",
+    "tick_hz": 2000,
+    "duration_s": 1,
+    "seed": 1,
+    "head": {"whiskers_per_side": 1},
+    "plant": {"kind": "ideal"},
+}
+
+
+def test_rows_are_those_of_the_file():
+    for name in ("textures", "both"):
+        sim = whisker.Sim(whisker.SCENES[name], set=SHORT)
+        rows = sim.run()
+        sim.reset()
+        table = list(csv.reader(io.StringIO(sim.trace_csv().decode())))
+        assert list(rows.dtype.names) == table[0]
+        assert len(rows) == len(table) - 1 == sim.ticks
+        for row, cells in zip(rows.tolist()[::37], table[1::37]):
+            for value, cell in zip(row, cells):
+                if isinstance(value, str):
+                    assert value == cell
+                elif cell:
+                    decimals = len(cell.partition(".")[2])
+                    assert abs(value - float(cell)) <= 0.51 * 10.0**-decimals
+                else:
+                    assert np.isnan(value)
+
+
+def test_traces_have_the_hashes_of_host_sim():
+    folder = os.environ.get("WHISKER_TRACES")
+    if folder is None:
+        pytest.skip("cargo xtask python writes the traces")
+    wanted = {path.stem: path.read_text().strip() for path in pathlib.Path(folder).glob("*.sha256")}
+    assert len(wanted) >= 3
+    for name, hashed in wanted.items():
+        trace = whisker.Sim(whisker.SCENES[name]).trace_csv()
+        assert hashlib.sha256(trace).hexdigest() == hashed
+
+
+def test_rows_are_not_copied_and_aligned():
+    rows = whisker.Sim(TEXTURES).step(10)
+    assert rows.base is not None and rows.flags.aligned and rows.flags.writeable
+    assert np.shares_memory(rows["t_s"], rows)
+
+
+def test_steps_add_up_and_a_reset_run_is_a_new_one():
+    sim = whisker.Sim(TEXTURES, seed=5)
+    parts = np.concatenate([sim.step(700), sim.step(), sim.step(1299)])
+    assert sim.done == 2000
+    sim.reset()
+    assert sim.done == 0 and len(sim.decisions) == 0
+    assert np.array_equal(sim.step(2000)["angle_left_deg"], parts["angle_left_deg"])
+    sim.reset(6)
+    assert sim.seed == 6
+    other = sim.step(2000)["x_left"]
+    assert not np.array_equal(other, parts["x_left"])
+    assert np.array_equal(whisker.Sim(TEXTURES, seed=6).step(2000)["x_left"], other)
+
+
+def test_decisions_and_posteriors():
+    sim = whisker.Sim(TEXTURES)
+    rows = sim.run()
+    decisions, posteriors = sim.decisions, sim.posteriors
+    assert list(decisions.dtype.names) == list(whisker.columns("decisions"))[:7]
+    fell = rows["decision"] != ""
+    assert np.array_equal(rows["decision"][fell], decisions["decision"])
+    assert np.array_equal(rows["t_s"][fell], decisions["t_s"])
+    assert posteriors["posterior"].shape == (len(posteriors), len(sim.classes))
+    assert np.allclose(posteriors["posterior"].sum(axis=1), 1.0, atol=1e-6)
+    # A block is 40 samples.
+    assert np.diff(posteriors["t_s"]).min() > 39.5 / 2000
+    named = decisions[decisions["decision"] != "unknown"]
+    assert np.mean(named["decision"] == named["label"]) > 0.9
+
+
+def test_setpoint_and_gain_move_the_whisker():
+    sim = whisker.Sim(TEXTURES)
+    sim.setpoint(80.0)
+    assert abs(sim.step(2000)["angle_left_deg"][-1] - 80.0) < 1.0
+    sim.setpoint(None)
+    assert np.ptp(sim.step(2000)["angle_left_deg"]) > 20.0
+    sim.reset()
+    sim.gain(0.0)
+    assert np.ptp(sim.step(4000)["angle_left_deg"][2000:]) < 5.0
+    with pytest.raises(ValueError, match="whisker 3"):
+        sim.gain(1.0, whisker=3)
+    with pytest.raises(ValueError, match="finite"):
+        sim.setpoint(float("nan"))
+
+
+def test_a_texture_is_laid():
+    sim = whisker.Sim(TEXTURES)
+    sim.lay("carpet")
+    assert set(sim.step(8000)["label"]) == {"carpet"}
+    with pytest.raises(ValueError, match="allowed: smooth"):
+        sim.lay("silk")
+
+
+def test_a_scene_is_a_path_a_text_or_a_dictionary():
+    text = whisker.SCENES["free"].read_text()
+    rows = [whisker.Sim(scene).step(5)["theta_left_deg"] for scene in (whisker.SCENES["free"], text)]
+    assert np.array_equal(*rows)
+    assert len(whisker.Sim(STILL).run()) == 2000
+    nested = {**STILL, "head": {"whiskers_per_side": np.int64(2), "sides": "left"}}
+    assert "x_left_2" in whisker.Sim(nested).step().dtype.names
+
+
+def test_problems_are_told_with_line_or_place():
+    with pytest.raises(whisker.SceneError) as caught:
+        whisker.Sim({**STILL, "head": {"whiskers_per_side": 13}})
+    (problem,) = caught.value.problems
+    assert (problem.file, problem.key) == ('scene["head"]["whiskers_per_side"]', "head.whiskers_per_side")
+    assert (problem.found, problem.line) == ("found 13", None)
+    text = whisker.SCENES["free"].read_text().replace("2000", "20")
+    with pytest.raises(whisker.SceneError, match=r"^scene:\d+: tick_hz: found 20; ") as caught:
+        whisker.Sim(text)
+    assert text.splitlines()[caught.value.problems[0].line - 1].startswith("tick_hz")
+    with pytest.raises(whisker.SceneError, match=r'set\["rcp.gain"\]: rcp.gain: found -1'):
+        whisker.Sim(TEXTURES, set={"rcp.gain": -1})
+    with pytest.raises(FileNotFoundError, match="nowhere.toml"):
+        whisker.Sim("nowhere.toml")
+    with pytest.raises(TypeError, match="allowed: a path, TOML text or a dict"):
+        whisker.Sim(7)
+    with pytest.raises(whisker.SceneError, match="classifier.model"):
+        whisker.Sim(TEXTURES, model=b"no model")
+
+
+def test_many_seeds_are_each_a_run():
+    rows, decisions = whisker.run_many(TEXTURES, [7, 8, 7], every=100, set=SHORT)
+    assert rows.shape == (3, 80)
+    assert rows[0].tobytes() == rows[2].tobytes() != rows[1].tobytes()
+    one = whisker.Sim(TEXTURES, seed=8, set=SHORT)
+    assert np.array_equal(one.run(every=100)["x_left"], rows[1]["x_left"])
+    of_one = decisions[decisions["seed"] == 8]
+    assert np.array_equal(of_one["t_s"], one.decisions["t_s"])
+    none, _ = whisker.run_many(TEXTURES, range(2), every=0, set=SHORT)
+    assert none.shape == (2, 0)
+
+
+def test_every_column_is_described():
+    known = set(whisker.columns("trace"))
+    assert set(whisker.Sim(TEXTURES).step().dtype.names) <= known
+    unit, meaning = whisker.columns("trace")["angle_left_deg"]
+    assert unit == "degrees" and "angle" in meaning
+
+
+def test_the_readme_s_lines_decide(capsys):
+    readme = pathlib.Path(__file__).parents[1] / "README.md"
+    (lines,) = re.findall(r"```python\n(.*?)```", readme.read_text(), re.S)
+    exec(lines, {})
+    assert "smooth" in capsys.readouterr().out

@@ -1,0 +1,57 @@
+"""Sweeps: the same rows wherever they run."""
+
+import importlib.util
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import whisker
+from whisker.sweep import sweep
+
+KEYS = {"rcp.gain": [0.0, 0.7]}
+
+
+def figures(rows, decisions):
+    return {"deepest": float(rows["contact_left"].max()), "decisions": len(decisions)}
+
+
+def swept(monkeypatch, where):
+    monkeypatch.setenv("WHISKER_SWEEP", where)
+    # Workers find this module by its name.
+    here = str(Path(__file__).parent)
+    paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(paths))
+    monkeypatch.syspath_prepend(here)
+    scene = str(whisker.SCENES["textures"])
+    return sweep(scene, {**KEYS, "duration_s": [5.0]}, range(4), figures, batch=3)
+
+
+@pytest.mark.parametrize("where", ["processes", "dask", "ray"])
+def test_rows_are_those_of_single_runs(monkeypatch, where):
+    if where != "processes" and importlib.util.find_spec(where) is None:
+        assert "WHISKER_WHOLE" not in os.environ, f"{where} is not installed"
+        pytest.skip(f"{where} is not installed: pip install whisker[sweep]")
+    rows = swept(monkeypatch, where)
+    assert [(row["rcp.gain"], row["seed"]) for row in rows] == [
+        (gain, seed) for gain in (0.0, 0.7) for seed in range(4)
+    ]
+    for row in rows[::3]:
+        sim = whisker.Sim(
+            whisker.SCENES["textures"],
+            seed=row["seed"],
+            set={"rcp.gain": row["rcp.gain"], "duration_s": 5.0},
+        )
+        assert math.isclose(row["deepest"], sim.run(every=20)["contact_left"].max())
+        assert row["decisions"] == len(sim.decisions)
+    # RCP keeps a touch gentle.
+    deepest = np.array([row["deepest"] for row in rows])
+    assert deepest[4:].mean() < deepest[:4].mean()
+
+
+def test_an_unknown_place_is_refused(monkeypatch):
+    monkeypatch.setenv("WHISKER_SWEEP", "abacus")
+    with pytest.raises(ValueError, match="allowed: processes, dask, ray"):
+        sweep(whisker.SCENES["textures"], KEYS, [1], figures)

@@ -1,0 +1,105 @@
+//! What the page `web/page` computes: a scene that is played, and its trace with its hash.
+//!
+//! The simulation is host-sim without its command line. [`Player`] is what is drawn and heard,
+//! [`Tracer`] the same scene from its start to its end, written as `trace.csv`; both say what is
+//! wrong with a scene in the words of the command line. `cargo xtask page` makes one file of it.
+
+mod bundle;
+mod player;
+mod tracer;
+
+pub use bundle::{model, names, text};
+pub use player::Player;
+pub use tracer::Tracer;
+
+use host_sim::loaded::Loaded;
+use scene::{Override, key_facts};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Checks a scene's text, with the lines `key=value` of `set` in place of its own keys; what is
+/// wrong, a line each.
+fn loaded(text: &str, set: &str) -> Result<Loaded, String> {
+    let set = set.lines().filter_map(|line| {
+        let (key, value) = line.split_once('=')?;
+        Some(Override::new(key.to_owned(), key, value))
+    });
+    let set: Vec<Override> = set.collect();
+    let read = Loaded::from_text("scene", text, &set, |path| {
+        let name = path.to_string_lossy();
+        let found = model(&name).map(<[u8]>::to_vec);
+        found.ok_or_else(|| "not on this page".to_owned())
+    });
+    read.map_err(|error| error.to_string())
+}
+
+/// The names of the scenes that are on the page.
+#[wasm_bindgen]
+pub fn scenes() -> Vec<String> {
+    names().map(str::to_owned).collect()
+}
+
+/// The text of one of them; none of another name.
+#[wasm_bindgen]
+pub fn scene_text(name: &str) -> Option<String> {
+    text(name).map(str::to_owned)
+}
+
+/// The names of all textures.
+#[wasm_bindgen]
+pub fn textures() -> Vec<String> {
+    let own = |name: &&&str| !name.starts_with("own-");
+    let names = scene::Texture::NAMES.iter().filter(own);
+    names.map(|name| (*name).to_owned()).collect()
+}
+
+/// What a key of a scene means, with its range: for its slider.
+#[wasm_bindgen]
+pub fn meaning(key: &str) -> String {
+    key_facts(key).map_or_else(String::new, |facts| {
+        let unit = if facts.unit.is_empty() { "" } else { ", " };
+        format!("{} {}{unit}{}.", facts.meaning, facts.allowed, facts.unit)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Tracer, loaded, meaning, scenes};
+
+    #[test]
+    fn every_scene_on_the_page_can_be_played_with_its_model() {
+        assert!(scenes().len() > 10);
+        for name in scenes() {
+            let scene = loaded(super::text(&name).unwrap(), "").unwrap();
+            scene.classifier().unwrap();
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_the_scene_s_words() {
+        let text = super::text("whisker").unwrap();
+        let fault = loaded(&text.replace("2000", "20"), "").unwrap_err();
+        assert!(fault.starts_with("scene:7: tick_hz: found 20; "), "{fault}");
+        let fault = loaded(text, "rcp.gain=-1\n").unwrap_err();
+        assert!(
+            fault.starts_with("rcp.gain: rcp.gain: found -1; "),
+            "{fault}"
+        );
+        assert!(meaning("rcp.gain").starts_with("Gain"));
+    }
+
+    #[test]
+    fn the_trace_is_the_same_in_parts_and_its_hash_is_of_its_bytes() {
+        let text = super::text("cia").unwrap();
+        let mut whole = Tracer::new(text, "", true).unwrap();
+        assert!(whole.step(1_000_000));
+        let mut parts = Tracer::new(text, "", false).unwrap();
+        while !parts.step(777) {}
+        assert_eq!(whole.hash(), parts.hash());
+        assert!(parts.bytes().is_empty());
+        let head = b"t_s,theta_left_deg,theta_right_deg,";
+        assert!(whole.bytes().starts_with(head));
+        let mut other = Tracer::new(text, "cia.gain=0.4\n", false).unwrap();
+        assert!(other.step(1_000_000));
+        assert_ne!(whole.hash(), other.hash());
+    }
+}

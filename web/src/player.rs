@@ -1,0 +1,202 @@
+//! A scene as it is watched.
+
+use host_sim::run::Run;
+use host_sim::trace::WhiskerRow;
+use physics::Bent;
+use scene::{PlantKind, Rule, Scene, Texture};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::loaded;
+
+/// Ticks between two points of the curves.
+const EVERY: u64 = 4;
+
+/// A scene that is played tick by tick. Numbers of whiskers are those of the first of each side,
+/// left first.
+#[wasm_bindgen]
+pub struct Player {
+    scene: Scene,
+    run: Run,
+    done: u64,
+    whiskers: Vec<WhiskerRow>,
+    decided: Vec<String>,
+}
+
+#[wasm_bindgen]
+impl Player {
+    /// A scene before its first tick.
+    ///
+    /// # Errors
+    /// What is wrong with it, a line each.
+    #[wasm_bindgen(constructor)]
+    pub fn new(text: &str, set: &str) -> Result<Self, String> {
+        let loaded = loaded(text, set)?;
+        let told = |error: host_sim::Error| error.to_string();
+        let run = Run::new(&loaded.scene, loaded.classifier().map_err(told)?).map_err(told)?;
+        Ok(Self {
+            run,
+            scene: loaded.scene,
+            done: 0,
+            whiskers: Vec::new(),
+            decided: Vec::new(),
+        })
+    }
+
+    /// Goes on by so many ticks, beyond the scene's end too. Returns the points of the curves:
+    /// time (s), then of each side setpoint and angle (degrees), x and y (codes) and contact.
+    pub fn step(&mut self, ticks: u32) -> Vec<f64> {
+        let mut points = Vec::new();
+        for _ in 0..ticks {
+            let t_s = self.run.tick().t_s;
+            self.done += 1;
+            for d in self.run.decisions() {
+                let side = d.place.map_or("", |place| place.side_name());
+                let posterior = format!("{:.4}", d.posterior);
+                let samples = d.samples.to_string();
+                let t_s = format!("{t_s:.3}");
+                let cells = [&t_s, side, &d.decision, &posterior, &samples, &d.label];
+                self.decided.push(cells.join("\t"));
+            }
+            if self.done.is_multiple_of(EVERY) {
+                self.run.look_at_whiskers(&mut self.whiskers);
+                points.push(t_s);
+                for w in self
+                    .whiskers
+                    .iter()
+                    .step_by(self.scene.head.whiskers_per_side.max(1))
+                {
+                    let [x, y] = w.codes;
+                    points.extend([w.theta_deg, w.angle_deg, x, y, w.contact]);
+                }
+            }
+        }
+        points
+    }
+
+    /// What every whisker looks like: angle (degrees), length (m), deflection of the tip (m) and
+    /// rotation of the base (rad) against protraction, deflection of the tip across it (m), and
+    /// contact.
+    pub fn bodies(&mut self) -> Vec<f64> {
+        self.run.look_at_whiskers(&mut self.whiskers);
+        let mut bodies = Vec::new();
+        for (n, w) in self.whiskers.iter().enumerate() {
+            let Bent {
+                length_m,
+                tip_m: [tip, aside],
+                base_rad: [base, _],
+            } = self
+                .run
+                .bent(n)
+                .unwrap_or_else(|| self.held(n, w.angle_deg));
+            bodies.extend([w.angle_deg, length_m, tip, base, aside, w.contact]);
+        }
+        bodies
+    }
+
+    /// A shaft without a shape of its own is drawn as held by its obstacle.
+    fn held(&self, n: usize, angle_deg: f64) -> Bent {
+        const LENGTH_M: f64 = 0.112;
+        let side = n / self.scene.head.whiskers_per_side.max(1);
+        let limit = self.obstacle_deg(side);
+        let over = (angle_deg - limit).max(0.0).to_radians();
+        Bent {
+            length_m: LENGTH_M,
+            tip_m: [LENGTH_M * over, 0.0],
+            base_rad: [0.3 * over, 0.0],
+        }
+    }
+
+    fn obstacle_deg(&self, side: usize) -> f64 {
+        let obstacle = self.scene.plant.obstacle.as_ref();
+        let limit = obstacle.and_then(|obstacle| obstacle.obstacle_deg.get(side).copied());
+        limit.unwrap_or(f64::INFINITY)
+    }
+
+    /// Of each side the angle at which a straight tip touches, degrees; infinite: nothing is
+    /// there.
+    pub fn obstacles(&self) -> Vec<f64> {
+        let sides = 0..self.scene.head.sides.count();
+        sides.map(|side| self.obstacle_deg(side)).collect()
+    }
+
+    /// How surfaces stand: angle to the shaft in the plane of whisking, and inclination towards
+    /// the motor's axis, degrees.
+    pub fn facing_deg(&self) -> Vec<f64> {
+        match (self.scene.plant.kind, self.scene.plant.facing) {
+            (PlantKind::Whisker, Some(facing)) => vec![facing.slant_deg, facing.tilt_deg],
+            _ => vec![0.0; 2],
+        }
+    }
+
+    /// The decisions since the last call: time, side, decision, posterior, samples and the truth,
+    /// with tabulators between them.
+    pub fn decisions(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.decided)
+    }
+
+    /// The names of the classes.
+    pub fn classes(&self) -> Vec<String> {
+        self.run.classes().to_vec()
+    }
+
+    /// The posterior of each; empty without a classifier.
+    pub fn posteriors(&mut self) -> Vec<f64> {
+        let posteriors = self.run.posteriors();
+        posteriors.map_or_else(Vec::new, |posteriors| posteriors.to_f64().collect())
+    }
+
+    /// The posterior at which it decides; none where it does not.
+    pub fn threshold(&self) -> Option<f64> {
+        match self.scene.classifier.as_ref()?.rule {
+            Rule::Sequential { threshold } => Some(threshold),
+            Rule::Window { .. } => None,
+        }
+    }
+
+    /// What is touched, which no module knows.
+    pub fn presented(&self) -> String {
+        self.run.presented().0.to_owned()
+    }
+
+    /// Has a texture laid, once the present one is not touched, and left there.
+    pub fn lay(&mut self, texture: &str) {
+        if let (Some(texture), Some(_)) = (Texture::named(texture), &self.scene.plant.textured) {
+            self.run.lay(texture);
+        }
+    }
+
+    /// Whether it has textures.
+    pub fn has_textures(&self) -> bool {
+        self.scene.plant.textured.is_some()
+    }
+
+    /// Whiskers on each side.
+    pub fn whiskers_per_side(&self) -> usize {
+        self.scene.head.whiskers_per_side
+    }
+
+    /// Ticks a second.
+    pub fn tick_hz(&self) -> u32 {
+        self.scene.tick_hz
+    }
+
+    /// How long the scene lasts, s.
+    pub fn duration_s(&self) -> f64 {
+        self.scene.duration_s
+    }
+
+    /// The scene's number for the key of a slider; none where it has none.
+    pub fn setting(&self, key: &str) -> Option<f64> {
+        let Scene { whisking, .. } = &self.scene;
+        let whisking = || whisking.as_ref();
+        match key {
+            "whisking.gain" => whisking()?.gain.first().copied(),
+            "whisking.frequency_hz" => Some(whisking()?.frequency_hz),
+            "rcp.gain" => Some(self.scene.rcp.as_ref()?.gain),
+            "cia.gain" => Some(self.scene.cia.as_ref()?.gain),
+            "plant.friction" => self.scene.plant.textured.as_ref()?.friction,
+            "classifier.threshold" => self.threshold(),
+            _ => None,
+        }
+    }
+}
