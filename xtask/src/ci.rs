@@ -9,19 +9,21 @@ use crate::run::{Fault, cargo, run, take_built_programs, target, workspace_progr
 use crate::steps::Steps;
 use crate::{
     arrows, book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
-    panics, size, walk,
+    page, panics, python, size, walk,
 };
 
 /// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// All that runs on this PC in one build, so that nothing is compiled twice with other features:
-/// without debug probes, which take longer to build than all tests and are the nightly run's, and
-/// without the counts, which take the crates as a board does.
-pub(crate) const ALL: [&str; 6] = [
+/// without debug probes, which take longer to build than all tests and are the nightly run's,
+/// without the counts, which take the crates as a board does, and without what only Python loads.
+pub(crate) const ALL: [&str; 8] = [
     "--workspace",
     "--exclude",
     "count",
+    "--exclude",
+    "whisker-python",
     "--no-default-features",
     "--features",
     "host-sim/cli,fuzz/shards",
@@ -52,6 +54,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("main job and documents", docs::short)?;
     steps.run("chips as described", descriptions::compare)?;
     steps.run("the book", || book::test().and_then(|()| book::build()))?;
+    steps.run("Python", python::test)?;
+    steps.run("page", || page::build().and_then(|()| page::test(None)))?;
     steps.run("experiments, cut short", experiments)?;
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;

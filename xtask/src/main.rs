@@ -7,6 +7,7 @@ mod cost;
 mod count;
 mod dependencies;
 mod descriptions;
+mod desk;
 mod docs;
 mod elf;
 mod emulate;
@@ -16,12 +17,15 @@ mod figures;
 mod firmware;
 mod fuzz;
 mod nightly;
+mod page;
 mod panics;
+mod python;
 mod reproducible;
 mod run;
 mod size;
 mod speed;
 mod steps;
+mod traces;
 mod walk;
 
 use std::path::PathBuf;
@@ -50,6 +54,18 @@ enum Command {
         /// Only these packages
         packages: Vec<String>,
     },
+    /// Builds the page for a browser into target/page/whisker.html
+    Page {
+        /// Also uses it in headless Chromium as a person would
+        #[arg(long)]
+        test: bool,
+    },
+    /// Builds the Python module and tests it in clean environments of the oldest and the newest
+    /// Python of this machine
+    Python,
+    /// Measures the Python module and the page, and writes docs/measured/desk.md and
+    /// docs/page.png
+    Desk,
     /// Builds the firmware of a scene and prints its flash and RAM bytes
     Firmware(Build),
     /// Builds the firmware of a scene and runs it on an emulated board: writes
@@ -265,6 +281,10 @@ fn main() -> ExitCode {
         Command::Ci(Only { steps }) => ci::all(steps),
         Command::Nightly(Only { steps }) => nightly::all(steps),
         Command::Arrows { packages } => arrows::all(&packages),
+        Command::Page { test: false } => page::build(),
+        Command::Page { test: true } => page::build().and_then(|()| page::test(None)),
+        Command::Python => python::test(),
+        Command::Desk => desk::measure(),
         Command::Firmware(build) => firmware::build(build.board, &build.scene)
             .and_then(|elf| size::print(build.board, &build.scene, &elf)),
         Command::Emulate(emulate) => emulate.run(),

@@ -10,8 +10,8 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
-    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, reproducible, size,
-    walk,
+    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, python, reproducible,
+    size, walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -38,6 +38,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("counts and cost of every stage", || cost::all(None, true));
     steps.try_run("documents", || docs::all(true));
     steps.try_run("experiments", experiments);
+    steps.try_run("Python: sources, sweeps, notebooks", python::whole);
     steps.try_run("the walk through the book", walk::nightly);
     steps.try_run("endurance", endurance::nightly);
     steps.try_run("injected faults", faults::whole);

@@ -9,7 +9,14 @@ use crate::run::{Fault, cargo, output};
 /// The packages of the workspace: each may depend only on rows below its own.
 /// `physics` depends on none and serves what simulates.
 pub(super) const ROWS: [&[&str]; 10] = [
-    &["acceptance", "count", "fuzz", "xtask"],
+    &[
+        "acceptance",
+        "count",
+        "fuzz",
+        "page",
+        "whisker-python",
+        "xtask",
+    ],
     &["studies"],
     &["classifiers"],
     &["whisker"],

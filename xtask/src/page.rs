@@ -1,0 +1,62 @@
+//! The page for a browser, one HTML file, and its tests in one.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::run::{Fault, cargo, run, target, top};
+use crate::{python, traces};
+
+/// The file.
+pub(crate) fn path() -> PathBuf {
+    target().join("page/whisker.html")
+}
+
+/// Builds target/page/whisker.html.
+///
+/// # Errors
+/// If the core or the packer cannot be built.
+pub(crate) fn build() -> Result<(), Fault> {
+    let core = [
+        "build",
+        "--locked",
+        "-p",
+        "page",
+        "--lib",
+        "--profile",
+        "page",
+    ];
+    run(cargo(&core).args(["--target", "wasm32-unknown-unknown"]))?;
+    let pack = [
+        "run",
+        "--quiet",
+        "--locked",
+        "--manifest-path",
+        "web/pack/Cargo.toml",
+    ];
+    let mut command = cargo(&pack);
+    command
+        .arg("--target-dir")
+        .arg(target().join("packer"))
+        .arg("--");
+    command.arg(target().join("wasm32-unknown-unknown/page/page.wasm"));
+    run(command.arg(top().join("web/page")).arg(path()))
+}
+
+/// Opens it in headless Chromium and uses it as a person would; `picture` is where the one of the
+/// README goes.
+///
+/// # Errors
+/// If something does not work, or the browser's console has an error.
+pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
+    let mut tests = Command::new(python::with_browser()?);
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
+    tests.arg(top().join("web/tests"));
+    tests
+        .env("WHISKER_PAGE", path())
+        .env("WHISKER_TRACES", traces::written()?);
+    tests.env("WHISKER_FIGURES", python::to_write("page.json"));
+    if let Some(picture) = picture {
+        tests.env("WHISKER_PICTURE", picture);
+    }
+    run(&mut tests)
+}

@@ -1,0 +1,217 @@
+//! The Python module: built, and installed into clean environments as a user would.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+use crate::run::{Fault, output, read, run, target, top};
+use crate::traces;
+
+/// The oldest Python that the wheel is for.
+const OLDEST: u32 = 10;
+/// The first that there is not.
+const NEWEST: u32 = 16;
+
+/// How it is built.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Profile {
+    /// As tests are.
+    Dev,
+    /// As `pip install` does.
+    Release,
+}
+
+/// Where environments and wheels are.
+fn place(name: &str) -> PathBuf {
+    target().join("python").join(name)
+}
+
+/// An environment that is made anew with these packages.
+///
+/// # Errors
+/// If Python has no venv, or a package cannot be had.
+pub(crate) fn environment(python: &Path, name: &str, packages: &[&str]) -> Result<PathBuf, Fault> {
+    let folder = place(name);
+    run(Command::new(python)
+        .args(["-m", "venv", "--clear"])
+        .arg(&folder))?;
+    let inside = folder.join("bin").join("python");
+    if !packages.is_empty() {
+        run(pip(&inside).args(packages))?;
+    }
+    Ok(inside)
+}
+
+fn pip(python: &Path) -> Command {
+    let mut command = Command::new(python);
+    command.args([
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+    ]);
+    command
+}
+
+/// The Pythons of this machine that the wheel is for: number and program, the oldest first.
+fn pythons() -> Vec<(u32, PathBuf)> {
+    let home = env::var_os("HOME").map(PathBuf::from).unwrap_or_default();
+    let versions = fs::read_dir(home.join(".pyenv/versions"))
+        .into_iter()
+        .flatten();
+    let installed = versions.filter_map(|entry| Some(entry.ok()?.path().join("bin")));
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = installed.chain(env::split_paths(&path)).collect();
+    let of = |minor: u32| {
+        let all = folders
+            .iter()
+            .map(move |folder| folder.join(format!("python3.{minor}")));
+        let mut there = all.filter(|program| {
+            // A shim of a version that is not chosen is there and does not run.
+            program.exists() && output(Command::new(program).arg("--version")).is_ok()
+        });
+        there.next().map(|program| (minor, program))
+    };
+    (OLDEST..NEWEST).filter_map(of).collect()
+}
+
+/// Builds the wheel and returns its path.
+fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
+    let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
+    let wheels = place("wheels");
+    let _ = fs::remove_dir_all(&wheels);
+    let mut build = Command::new(tools);
+    build
+        .args(["-m", "maturin", "build", "--locked", "--out"])
+        .arg(&wheels);
+    build
+        .arg("--interpreter")
+        .arg(python)
+        .current_dir(top().join("python"));
+    if profile == Profile::Release {
+        build.arg("--release");
+    }
+    run(&mut build)?;
+    let built = crate::run::listing(&wheels, "whl")?;
+    built
+        .into_iter()
+        .next()
+        .ok_or_else(|| "no wheel was built".to_owned())
+}
+
+/// The wheel in a clean environment of the oldest and of the newest Python of this machine, where
+/// its tests are run.
+///
+/// # Errors
+/// If there is no Python for it, the wheel cannot be built, or a test fails.
+pub(crate) fn test() -> Result<(), Fault> {
+    let pythons = pythons();
+    let (Some(oldest), Some(newest)) = (pythons.first(), pythons.last()) else {
+        return Err(format!("no Python from 3.{OLDEST} on"));
+    };
+    let wheel = wheel(&newest.1, Profile::Dev)?;
+    let traces = traces::written()?;
+    let mut ends = vec![oldest, newest];
+    ends.dedup();
+    for (minor, python) in ends {
+        println!("Python 3.{minor}, of {} here", pythons.len());
+        let packages = ["gymnasium", "mypy", "pytest"];
+        let inside = environment(python, &format!("3.{minor}"), &packages)?;
+        run(pip(&inside).arg(&wheel))?;
+        // The stubs say what is there.
+        let mut stubs = Command::new(&inside);
+        run(stubs.args(["-m", "mypy.stubtest", "whisker._core"]))?;
+        let mut tests = Command::new(inside);
+        tests
+            .args(["-m", "pytest", "--quiet"])
+            .env("WHISKER_TRACES", &traces);
+        run(tests.current_dir(top().join("python")))?;
+    }
+    Ok(())
+}
+
+/// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;
+/// every notebook.
+///
+/// # Errors
+/// If one of them fails.
+pub(crate) fn whole() -> Result<(), Fault> {
+    let pythons = pythons();
+    let (_, python) = pythons.last().ok_or("no Python")?;
+    let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
+    let sources = place("sources");
+    let _ = fs::remove_dir_all(&sources);
+    let mut pack = Command::new(tools);
+    pack.args(["-m", "maturin", "sdist", "--out"]).arg(&sources);
+    run(pack.current_dir(top().join("python")))?;
+    let packed = crate::run::listing(&sources, "gz")?;
+    let packed = packed.first().ok_or("no source distribution was made")?;
+    let packages = [
+        "dask[distributed]",
+        "ray",
+        "gymnasium",
+        "pytest",
+        "ipykernel",
+        "matplotlib",
+        "nbclient",
+        "nbformat",
+        "pandas",
+        "xarray",
+    ];
+    // Ray comes to a new Python late.
+    let (_, oldest) = pythons.first().ok_or("no Python")?;
+    let inside = environment(oldest, "whole", &packages)?;
+    let elsewhere = env::temp_dir();
+    run(pip(&inside).arg(packed).current_dir(&elsewhere))?;
+    let folder = top().join("python");
+    let mut tests = Command::new(&inside);
+    tests
+        .args(["-m", "pytest", "--quiet"])
+        .env("WHISKER_WHOLE", "1");
+    run(tests
+        .env("WHISKER_TRACES", traces::written()?)
+        .current_dir(&folder))?;
+    run(Command::new(&inside).arg(folder.join("notebooks/execute.py")))
+}
+
+/// The figures of the wheel that `pip install` would make, as JSON.
+///
+/// # Errors
+/// If it cannot be built or measured.
+pub(crate) fn figures() -> Result<String, Fault> {
+    let pythons = pythons();
+    let (_, python) = pythons.last().ok_or("no Python")?;
+    let wheel = wheel(python, Profile::Release)?;
+    let inside = environment(python, "speeds", &["gymnasium"])?;
+    run(pip(&inside).arg(&wheel))?;
+    let bytes = fs::metadata(&wheel)
+        .map_err(|error| error.to_string())?
+        .len();
+    let said = output(Command::new(inside).arg(top().join("python/tests/speeds.py")))?;
+    let figures = said.trim().trim_start_matches('{');
+    Ok(format!("{{\"wheel_bytes\": {bytes}, {figures}"))
+}
+
+/// A file that a Python program has written.
+///
+/// # Errors
+/// If it is not there.
+pub(crate) fn written(name: &str) -> Result<String, Fault> {
+    read(&place(name))
+}
+
+/// Where it is to be written.
+pub(crate) fn to_write(name: &str) -> PathBuf {
+    place(name)
+}
+
+/// The program that runs the page's tests, with Selenium.
+///
+/// # Errors
+/// If there is no Python, or a package cannot be had.
+pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
+    let pythons = pythons();
+    let (_, python) = pythons.last().ok_or("no Python")?;
+    environment(python, "browser", &["pytest", "selenium"])
+}
