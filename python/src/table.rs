@@ -7,7 +7,7 @@ use host_sim::trace::{Told, TraceShape, WhiskerRow};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
-use scene::Scene;
+use scene::{Scene, Texture};
 
 /// What a column has. All are multiples of eight bytes, so that numbers are aligned.
 #[derive(Debug, Clone, Copy)]
@@ -135,9 +135,13 @@ impl RunTables {
         let shape = TraceShape::of(scene);
         let names = || classes.iter().map(String::as_str);
         let decision = Kind::text(names().chain([host_sim::decisions::UNKNOWN]));
-        let textured = scene.plant.textured.iter();
-        let textures = textured.flat_map(|textured| &textured.textures);
-        let label = Kind::text(textures.map(|texture| texture.name()).chain(["obstacle"]));
+        // Any of them may be laid.
+        let textures = scene
+            .plant
+            .textured
+            .as_ref()
+            .map_or(&[][..], |_| Texture::NAMES);
+        let label = Kind::text(textures.iter().copied().chain(["obstacle"]));
         let columns = shape.names().into_iter().map(|name| {
             let kind = match name.as_str() {
                 "touch" | "touch_right" | "trial" => Kind::Whole,

@@ -44,7 +44,7 @@ def test_an_observation_is_the_trace_s():
 
 def test_environments_side_by_side_are_single_ones_and_begin_anew():
     many = WhiskerVectorEnv(3, set=SHORT, ticks=300, reward=find_the_edge)
-    first, _ = many.reset(seed=5)
+    first, _ = many.reset(seed=np.int64(5))
     one = WhiskerEnv(set=SHORT, ticks=300)
     one.reset(seed=6)
     action = np.full((3, 1), 105.0)

@@ -107,8 +107,8 @@ def test_setpoint_and_gain_move_the_whisker():
 
 def test_a_texture_is_laid():
     sim = whisker.Sim(TEXTURES)
-    sim.lay("carpet")
-    assert set(sim.step(8000)["label"]) == {"carpet"}
+    sim.lay("rough-carpet")
+    assert set(sim.step(8000)["label"]) == {"rough-carpet"}
     with pytest.raises(ValueError, match="allowed: smooth"):
         sim.lay("silk")
 

@@ -33,7 +33,7 @@ def swept(monkeypatch, where):
 def test_rows_are_those_of_single_runs(monkeypatch, where):
     if where != "processes" and importlib.util.find_spec(where) is None:
         assert "WHISKER_WHOLE" not in os.environ, f"{where} is not installed"
-        pytest.skip(f"{where} is not installed: pip install whisker[sweep]")
+        pytest.skip(f"{where} is not installed")
     rows = swept(monkeypatch, where)
     assert [(row["rcp.gain"], row["seed"]) for row in rows] == [
         (gain, seed) for gain in (0.0, 0.7) for seed in range(4)

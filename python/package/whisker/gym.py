@@ -6,7 +6,7 @@ of all whiskers. An action is a setpoint in degrees or a gain for each whisker. 
 something is the user's to say, by a function of the observation, the action and the observation
 before, whose arrays have one more axis in front where there are several environments.
 
-Needs ``pip install whisker[gym]``.
+Needs ``gymnasium``.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -133,11 +133,12 @@ class WhiskerVectorEnv(VectorEnv):
     def reset(
         self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[np.ndarray, dict[str, Any]]:
-        super().reset(seed=seed if isinstance(seed, int) else None)
+        one = None if seed is None or np.ndim(seed) else int(seed)
+        super().reset(seed=one)
         if seed is None:
             seeds = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
-        elif isinstance(seed, int):
-            seeds = np.arange(seed, seed + self.num_envs, dtype=np.uint64)
+        elif one is not None:
+            seeds = np.arange(one, one + self.num_envs, dtype=np.uint64)
         else:
             seeds = np.array(seed, np.uint64)
         actions = np.zeros((self.num_envs, self._envs.whiskers))

@@ -5,7 +5,7 @@ The environment variable ``WHISKER_SWEEP`` says where: ``processes`` (if it is n
 cluster that ``RAY_ADDRESS`` names, or workers of this machine). Seeds go in batches, so that a
 task takes about a second, whatever the scene takes.
 
-Needs ``pip install whisker[sweep]`` for the latter two.
+The latter two need ``dask[distributed]`` and ``ray``.
 """
 
 import itertools
