@@ -410,7 +410,13 @@
     setTimeout(() => { $("link").textContent = "Link to this scene"; }, 2000);
   };
   $("download").onclick = () => {
-    const whole = new Tracer(text, asked(), true);
+    let whole;
+    try {
+      whole = new Tracer(text, asked(), true);
+    } catch (fault) {
+      tell(String(fault));
+      return;
+    }
     while (!whole.step(100000));
     saved("trace.csv", whole.bytes(), "text/csv");
     whole.free();

@@ -145,6 +145,8 @@ def test_the_editor_says_what_is_wrong_and_both_sides_are_drawn(page):
     wait(page, lambda d: "tick_hz: found 20" in element(d, "problems").text)
     line = text.splitlines().index("tick_hz    = 2000") + 1
     assert f"line {line}" in element(page, "problems").text
+    element(page, "download").click()
+    assert "tick_hz: found 20" in element(page, "problems").text
     editor.send_keys(Keys.CONTROL, "a")
     editor.send_keys(text)
     wait(page, lambda d: element(d, "problems").text == "")

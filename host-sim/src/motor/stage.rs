@@ -97,23 +97,12 @@ impl Stage {
 
     /// The winding's torque at a rotor angle with the pins as they are.
     pub(super) fn winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
+        let terminals = self.terminals(s, wires, angle);
+        let mean = mean(&terminals);
         let mut winding = Winding {
             drive_nm: 0.0,
             damping_nm_s: 0.0,
         };
-        if self == Self::Brushed {
-            // The sums below, of two terminals: a twentieth of a run's time.
-            if !wires.is_cut(0) && !wires.is_cut(1) {
-                let (factor, ohm) = (s.torque_nm_per_a / 2.0, s.resistance_ohm / 2.0);
-                let torque = factor * (s.supply_v * wires.duty(0)) / ohm;
-                let forward = wires.is_high(0) != wires.are_windings_turned();
-                winding.drive_nm = if forward { torque } else { 0.0 - torque };
-                winding.damping_nm_s = 2.0 * (factor * factor / ohm);
-            }
-            return winding;
-        }
-        let terminals = self.terminals(s, wires, angle);
-        let mean = mean(&terminals);
         for terminal in terminals.iter().flatten() {
             let factor = terminal.factor - mean.factor;
             winding.drive_nm += factor * terminal.volts / (s.resistance_ohm / 2.0);
