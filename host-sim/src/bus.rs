@@ -182,14 +182,10 @@ impl Slave {
     /// no byte that carries any has been clocked yet; what happens to it stays.
     pub fn latch_again(&mut self, exchange: &mut Exchange) {
         self.measure(exchange.fault);
-        let frame = match exchange.fault {
+        exchange.replace(match exchange.fault {
             Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
             fault => self.frame(fault),
-        };
-        let mut rest = frame.into_iter();
-        let done = usize::try_from(exchange.bytes).unwrap_or(FRAME_LEN);
-        rest.by_ref().take(done).for_each(drop);
-        exchange.frame = rest;
+        });
     }
 
     /// What has gone over the bus so far.
@@ -263,24 +259,30 @@ impl Default for Slave {
 /// One transaction: the frame latched at its start, byte by byte.
 #[derive(Debug)]
 pub struct Exchange {
-    frame: std::array::IntoIter<u8, FRAME_LEN>,
+    /// What is answered next on top, and the line as nobody pulls it behind the last byte.
+    answer: u64,
     /// What happens to the frame.
     fault: Option<WireFault>,
     /// What noise inverts, in the same positions.
-    noise: std::array::IntoIter<u8, FRAME_LEN>,
+    noise: u64,
+    /// What the line can be at most: low, if it is held there.
+    most: u8,
     bytes: u64,
 }
 
 impl Exchange {
     fn new(frame: [u8; FRAME_LEN], fault: Option<WireFault>) -> Self {
-        let flipped = match fault {
-            Some(WireFault::Flip(bit @ 0..64)) => 1_u64 << (63 - bit),
-            _ => 0,
-        };
         Self {
-            frame: frame.into_iter(),
+            answer: u64::from_be_bytes(frame),
             fault,
-            noise: flipped.to_be_bytes().into_iter(),
+            noise: match fault {
+                Some(WireFault::Flip(bit @ 0..64)) => 1 << (63 - bit),
+                _ => 0,
+            },
+            most: match fault {
+                Some(WireFault::LineLow) => 0,
+                _ => RELEASED,
+            },
             bytes: 0,
         }
     }
@@ -288,10 +290,19 @@ impl Exchange {
     /// Eight clocks: what the master reads while it sends a byte.
     pub fn byte(&mut self, sent: u8) -> u8 {
         self.bytes += 1;
-        let answered = self.frame.next().unwrap_or(RELEASED);
-        let held_low = self.fault == Some(WireFault::LineLow);
-        let line = if held_low { 0 } else { sent & answered };
-        line ^ self.noise.next().unwrap_or(0)
+        let [answered, ..] = self.answer.to_be_bytes();
+        let [inverted, ..] = self.noise.to_be_bytes();
+        self.answer = self.answer << 8 | u64::from(RELEASED);
+        self.noise <<= 8;
+        (sent & answered & self.most) ^ inverted
+    }
+
+    /// Answers from here on as if this frame had been latched.
+    fn replace(&mut self, frame: [u8; FRAME_LEN]) {
+        self.answer = u64::from_be_bytes(frame);
+        for _ in 0..self.bytes.min(8) {
+            self.answer = self.answer << 8 | u64::from(RELEASED);
+        }
     }
 
     /// Bytes clocked so far.

@@ -82,11 +82,34 @@ pub enum Pins {
 #[derive(Debug)]
 pub struct SimMotor {
     settings: MotorSettings,
+    derived: Derived,
     stage: Stage,
     rotor: Rotor,
     wires: Arc<Wires>,
     blocked: bool,
+    /// Outer torque at the rotor, N·m.
     load_nm: f64,
+}
+
+/// What follows from the settings alone.
+#[derive(Debug)]
+struct Derived {
+    inertia_kg_m2: f64,
+    /// The rotor's deceleration by Coulomb friction, rad/s².
+    friction: f64,
+    /// The rotor's angles at the end stops, rad.
+    stops: [f64; 2],
+}
+
+impl Derived {
+    fn of(settings: &MotorSettings) -> Self {
+        let inertia_kg_m2 = settings.inertia_kg_m2();
+        Self {
+            inertia_kg_m2,
+            friction: settings.coulomb_nm / inertia_kg_m2,
+            stops: settings.stops_deg.map(|stop| settings.rotor_angle(stop)),
+        }
+    }
 }
 
 impl SimMotor {
@@ -116,6 +139,7 @@ impl SimMotor {
         let counts_per_rad = f64::from(settings.counts_per_rev) / core::f64::consts::TAU;
         Ok(Self {
             settings,
+            derived: Derived::of(&settings),
             stage,
             rotor: Rotor::default(),
             wires: Arc::new(Wires::new(counts_per_rad, settings.pwm_counts)),
@@ -179,41 +203,29 @@ impl SimMotor {
             return;
         }
         let s = &self.settings;
-        let load = self.load_nm / s.gear;
-        let inertia = s.inertia_kg_m2();
+        let inertia = self.derived.inertia_kg_m2;
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
-        let stops = self.stops();
         for _ in 0..steps {
             let winding = self.stage.winding(s, &self.wires, self.rotor.angle);
             let law = rotor::Law {
-                push: (winding.drive_nm + load) / inertia,
+                push: (winding.drive_nm + self.load_nm) / inertia,
                 rate: (winding.damping_nm_s + s.viscous_nm_s) / inertia,
-                friction: s.coulomb_nm / inertia,
+                friction: self.derived.friction,
             };
             self.rotor.advance(&law, step_s);
-            self.rotor.stop_at(stops);
+            self.rotor.stop_at(self.derived.stops);
         }
         self.wires.set_angle(self.rotor.angle);
-    }
-
-    /// The rotor's angles at the end stops, rad.
-    fn stops(&self) -> [f64; 2] {
-        self.settings.stops_deg.map(|stop| self.rotor_angle(stop))
-    }
-
-    /// The rotor's angle where the whisker's θ′ is `angle_deg`, rad.
-    fn rotor_angle(&self, angle_deg: f64) -> f64 {
-        (angle_deg - self.settings.rest_deg).to_radians() * self.settings.gear
     }
 
     /// Turns the whisker by hand to θ′ = `angle_deg`, or to the stop before it, and holds it
     /// there for a moment; what is not finite does nothing.
     pub fn turn_to_deg(&mut self, angle_deg: f64) {
         if angle_deg.is_finite() {
-            self.rotor.angle = self.rotor_angle(angle_deg);
+            self.rotor.angle = self.settings.rotor_angle(angle_deg);
             self.rotor.speed = 0.0;
-            self.rotor.stop_at(self.stops());
+            self.rotor.stop_at(self.derived.stops);
             self.wires.set_angle(self.rotor.angle);
         }
     }
@@ -226,7 +238,8 @@ impl SimMotor {
     /// An outer torque on the whisker from now on, N·m, positive towards
     /// protraction; what is not finite counts as 0.
     pub fn set_load_nm(&mut self, load_nm: f64) {
-        self.load_nm = if load_nm.is_finite() { load_nm } else { 0.0 };
+        let load_nm = if load_nm.is_finite() { load_nm } else { 0.0 };
+        self.load_nm = load_nm / self.settings.gear;
     }
 
     /// Cuts a wire.

@@ -26,6 +26,7 @@ use presented::Presented;
 /// otherwise.
 pub struct Run<B: ?Sized = dyn HostModule> {
     tick_hz: f64,
+    dt_s: f64,
     ticks: u64,
     done: u64,
     sides: usize,
@@ -37,8 +38,9 @@ pub struct Run<B: ?Sized = dyn HostModule> {
     snapshot: Snapshot,
     row: Row,
     events: Vec<Event>,
-    /// What each whisker's sensor was given in the last tick.
+    /// What bent each whisker's sensor in the last tick, and what it was given of that.
     deflections: Vec<[f64; 2]>,
+    sensed: Vec<[f64; 2]>,
     /// The faults of each whisker's sensor and motor that have not ended; 0: none.
     faults: Vec<[u8; 2]>,
     bench: Box<B>,
@@ -168,6 +170,7 @@ impl<B: Bench + ?Sized> Run<B> {
         let whiskers = scene.head.whiskers_per_side;
         let mut run = Self {
             tick_hz: f64::from(scene.tick_hz),
+            dt_s: 1.0 / f64::from(scene.tick_hz),
             ticks: scene.ticks(),
             done: 0,
             sides,
@@ -180,6 +183,7 @@ impl<B: Bench + ?Sized> Run<B> {
             row: Row::default(),
             events: Vec::new(),
             deflections: vec![[0.0; 2]; sides * whiskers],
+            sensed: vec![[0.0; 2]; sides * whiskers],
             faults: vec![[0; 2]; sides * whiskers],
             bench,
         };
@@ -213,6 +217,7 @@ impl<B: Bench + ?Sized> Run<B> {
         };
         self.events.clear();
         self.deflections.fill([0.0; 2]);
+        self.sensed.fill([0.0; 2]);
         self.faults.fill([0; 2]);
     }
 
@@ -278,11 +283,18 @@ impl<B: Bench + ?Sized> Run<B> {
     /// One tick: the surface is presented, the sensors read, the module ticks,
     /// motors and plant move on. Returns the row of the trace.
     pub fn tick(&mut self) -> Row {
+        self.pass();
+        self.look();
+        self.row
+    }
+
+    /// The same for a tick whose row nobody asks for: events, decisions and samples are of this
+    /// tick, while row, whiskers and line of the trace stay those of the last [`Run::tick`].
+    pub fn pass(&mut self) {
         self.events.clear();
         if let Some(texture) = self.presented.change(self.done, self.world.touches()) {
             self.world.present(texture);
         }
-        let t_s = self.done as f64 / self.tick_hz;
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {
                 let n = side * self.whiskers + whisker;
@@ -291,25 +303,36 @@ impl<B: Bench + ?Sized> Run<B> {
                 }
             }
         }
-        for side in 0..self.sides {
-            for whisker in 0..self.whiskers {
-                let n = side * self.whiskers + whisker;
-                let sensed = self.flaws.sensed(n, t_s, &self.deflections);
-                self.bench.bend(n, sensed);
-                if whisker == 0 {
-                    [self.row.x[side], self.row.y[side]] = codes(sensed);
-                }
+        self.sensed.clone_from(&self.deflections);
+        if self.flaws.are_there() {
+            let t_s = self.t_s();
+            for (n, sensed) in self.sensed.iter_mut().enumerate() {
+                *sensed = self.flaws.sensed(n, t_s, &self.deflections);
             }
+        }
+        for (n, sensed) in self.sensed.iter().enumerate() {
+            self.bench.bend(n, *sensed);
         }
 
         self.bench.tick(&mut self.events);
-        self.bench.look(&mut self.snapshot);
-        self.world
-            .advance(&self.snapshot.theta_deg, 1.0 / self.tick_hz);
+        if self.world.follows_setpoints() {
+            self.bench.look(&mut self.snapshot);
+        }
+        self.world.advance(&self.snapshot.theta_deg, self.dt_s);
 
         self.keep_faults();
         self.done += 1;
-        self.row.t_s = self.done as f64 / self.tick_hz;
+    }
+
+    /// Time that has passed, s.
+    pub fn t_s(&self) -> f64 {
+        self.done as f64 / self.tick_hz
+    }
+
+    /// The row of the last tick.
+    fn look(&mut self) {
+        self.bench.look(&mut self.snapshot);
+        self.row.t_s = self.t_s();
         self.row.z = self.snapshot.z;
         self.row.g = self.snapshot.g;
         self.row.contact = self.snapshot.contact;
@@ -318,8 +341,8 @@ impl<B: Bench + ?Sized> Run<B> {
             let first = side * self.whiskers;
             self.row.theta_deg[side] = self.snapshot.theta_deg[first];
             self.row.angle_deg[side] = self.world.angles_deg()[first];
+            [self.row.x[side], self.row.y[side]] = codes(self.sensed[first]);
         }
-        self.row
     }
 
     fn keep_faults(&mut self) {
@@ -341,8 +364,8 @@ impl<B: Bench + ?Sized> Run<B> {
 
     /// Every whisker after the last tick, left side first, into `rows`.
     pub fn look_at_whiskers(&self, rows: &mut Vec<WhiskerRow>) {
-        let faults = self.faults.iter().zip(&self.deflections).enumerate();
-        let whisker = |(n, ([sensor, motor], deflection)): (usize, (&[u8; 2], &[f64; 2]))| {
+        let faults = self.faults.iter().zip(&self.sensed).enumerate();
+        let whisker = |(n, ([sensor, motor], sensed)): (usize, (&[u8; 2], &[f64; 2]))| {
             let side = n / self.whiskers.max(1);
             let of_side = || self.snapshot.contact.get(side).copied();
             let fault = if *sensor == 0 { *motor } else { *sensor };
@@ -351,7 +374,7 @@ impl<B: Bench + ?Sized> Run<B> {
                 angle_deg: self.world.angles_deg().get(n).copied().unwrap_or(f64::NAN),
                 speed_deg_s: self.world.speed_deg_s(n),
                 duty: self.world.duty(n).unwrap_or(f64::NAN),
-                codes: codes(*deflection),
+                codes: codes(*sensed),
                 contact: self.bench.felt_by(n).or_else(of_side).unwrap_or(f64::NAN),
                 fault: if self.bench.tells_faults() {
                     f64::from(fault)
@@ -393,7 +416,7 @@ impl<B: Bench + ?Sized> Run<B> {
             };
             Some(Decided {
                 place: Some(*place),
-                t_s: Some(self.row.t_s),
+                t_s: Some(self.t_s()),
                 label: self.presented.label.to_owned(),
                 trial: self.presented.trial.to_string(),
                 decision: decisions::name(*decision, &self.classes).to_owned(),

@@ -149,6 +149,11 @@ impl World {
         }
     }
 
+    /// Whether the whiskers are where the module's setpoints are, as motors are ideal.
+    pub const fn follows_setpoints(&self) -> bool {
+        matches!(self.motors, Motors::Ideal(_))
+    }
+
     /// Advances by `dt_s`; `theta_deg` are the module's setpoints, used by ideal motors.
     pub fn advance(&mut self, theta_deg: &[f64], dt_s: f64) {
         match &mut self.motors {

@@ -39,11 +39,11 @@ pub(super) fn clock(
     traffic: &mut Traffic,
     mut byte: impl FnMut(u8) -> u8,
 ) {
+    let (mut bytes, mut delay_ns) = (0_u64, 0_u64);
     let mut byte = |sent| {
-        traffic.bytes = traffic.bytes.saturating_add(1);
+        bytes += 1;
         byte(sent)
     };
-    let mut delay_ns = 0_u64;
     for operation in operations {
         match operation {
             Operation::Read(buffer) => transfer(buffer, &[], &mut byte),
@@ -57,6 +57,7 @@ pub(super) fn clock(
             Operation::DelayNs(ns) => delay_ns = delay_ns.saturating_add(u64::from(*ns)),
         }
     }
+    traffic.bytes = traffic.bytes.saturating_add(bytes);
     traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
 }
 

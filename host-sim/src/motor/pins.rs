@@ -122,9 +122,9 @@ impl Wires {
         self.high.get(i).is_some_and(|high| high.load(Relaxed))
     }
 
-    /// Whether the terminals of a brushed winding are exchanged.
-    pub(super) fn are_windings_turned(&self) -> bool {
-        self.windings_turned.load(Relaxed)
+    /// Whether the driver of a brushed motor pulls terminal 0 up.
+    pub(super) fn is_forward(&self) -> bool {
+        self.is_high(0) != self.windings_turned.load(Relaxed)
     }
 
     pub(super) fn is_cut(&self, i: usize) -> bool {
@@ -227,6 +227,9 @@ impl AngleInput for SimEncoder {
         let turned = self.0.encoder_turned.load(Relaxed);
         let seen = if turned { -seen } else { seen };
         // Through i64, so that the count wraps as a counter does.
-        (seen * self.0.counts_per_rad + 0.5).floor() as i64 as i32
+        let counts = seen * self.0.counts_per_rad + 0.5;
+        let cut = counts as i64;
+        // Down, not towards zero.
+        cut.wrapping_sub(i64::from(cut as f64 > counts)) as i32
     }
 }

@@ -74,6 +74,11 @@ impl MotorSettings {
         self.rotor_kg_m2 + self.whisker_kg_m2 / (self.gear * self.gear)
     }
 
+    /// The rotor's angle where the whisker's θ′ is `angle_deg`, rad; 0 at rest.
+    pub(super) fn rotor_angle(&self, angle_deg: f64) -> f64 {
+        (angle_deg - self.rest_deg).to_radians() * self.gear
+    }
+
     /// Degrees of the whisker a count of the encoder.
     pub const fn degrees_per_count(&self) -> f64 {
         360.0 / (self.gear * self.counts_per_rev as f64)

@@ -27,7 +27,7 @@ pub(super) enum Stage {
 }
 
 /// Torque of the winding: drive − damping ω.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Winding {
     /// At standstill, N·m.
     pub(super) drive_nm: f64,
@@ -74,8 +74,7 @@ impl Stage {
         };
         let volts = |i| match self {
             Self::Brushed => {
-                let forward = wires.is_high(0) != wires.are_windings_turned();
-                if (i == 0) == forward {
+                if (i == 0) == wires.is_forward() {
                     s.supply_v * wires.duty(0)
                 } else {
                     0.0
@@ -97,12 +96,34 @@ impl Stage {
 
     /// The winding's torque at a rotor angle with the pins as they are.
     pub(super) fn winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
+        match self {
+            Self::Brushed => Self::brushed_winding(s, wires),
+            Self::Brushless => self.star_winding(s, wires, angle),
+        }
+    }
+
+    /// The sums above for two terminals, which are alike but for their signs: they need no star
+    /// point.
+    fn brushed_winding(s: &MotorSettings, wires: &Wires) -> Winding {
+        if wires.is_cut(0) || wires.is_cut(1) {
+            return Winding::default();
+        }
+        let (factor, ohm) = (s.torque_nm_per_a / 2.0, s.resistance_ohm / 2.0);
+        let drive_nm = factor * (s.supply_v * wires.duty(0)) / ohm;
+        Winding {
+            drive_nm: if wires.is_forward() {
+                drive_nm
+            } else {
+                -drive_nm
+            },
+            damping_nm_s: 2.0 * (factor * factor / ohm),
+        }
+    }
+
+    fn star_winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
         let terminals = self.terminals(s, wires, angle);
         let mean = mean(&terminals);
-        let mut winding = Winding {
-            drive_nm: 0.0,
-            damping_nm_s: 0.0,
-        };
+        let mut winding = Winding::default();
         for terminal in terminals.iter().flatten() {
             let factor = terminal.factor - mean.factor;
             winding.drive_nm += factor * terminal.volts / (s.resistance_ohm / 2.0);

@@ -51,6 +51,8 @@ const CODES: f64 = 8191.0;
 #[derive(Debug, Clone)]
 struct Whisker {
     shaft: WhiskerSettings,
+    /// Way of the tip.
+    metres_per_degree: f64,
     /// θ′_lim.
     limit_deg: f64,
     angle_deg: Option<f64>,
@@ -141,6 +143,8 @@ struct World<'a> {
     surface: &'a SurfaceSettings,
     stiffness: f64,
     settings: &'a TexturedSettings,
+    /// Of the sensor, a deflection.
+    noise: f64,
     dt_s: f64,
 }
 
@@ -148,6 +152,7 @@ impl Whisker {
     fn new(shaft: WhiskerSettings, limit_deg: f64, seed: u64) -> Self {
         Self {
             shaft,
+            metres_per_degree: shaft.length_m * PI / 180.0,
             limit_deg,
             angle_deg: None,
             speed_deg_s: 0.0,
@@ -168,6 +173,7 @@ impl Whisker {
             stiffness,
             settings,
             dt_s,
+            ..
         } = *world;
         let from = (before - self.limit_deg).max(0.0);
         let to = (after - self.limit_deg).max(0.0);
@@ -176,7 +182,7 @@ impl Whisker {
         if !self.touching {
             return [0.0; 2];
         }
-        let metres_per_degree = self.shaft.length_m * PI / 180.0;
+        let metres_per_degree = self.metres_per_degree;
         let grains = (to - from).abs() * metres_per_degree / surface.grain_m;
         let path = Path::new(grains);
         let noise = &mut self.noise;
@@ -223,7 +229,7 @@ impl Whisker {
         let parts = self.modes.iter_mut().zip(targets);
         for ((mode, target), reading) in parts.zip(&mut self.reading) {
             mode.step(&self.over.1, target);
-            let noise = settings.noise_codes / CODES * self.noise.next();
+            let noise = world.noise * self.noise.next();
             *reading = (mode.x + noise).clamp(-1.0, 1.0);
         }
     }
@@ -254,6 +260,7 @@ impl Plant for Textured {
             surface: &self.surface,
             stiffness: self.head.stiffness,
             settings: &self.settings,
+            noise: self.settings.noise_codes / CODES,
             dt_s,
         };
         let angles = angles_deg.iter().copied().chain(repeat(f64::NAN));

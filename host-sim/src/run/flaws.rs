@@ -23,6 +23,7 @@ pub(super) struct Flaws {
     /// By side: deflections at the start, and by how much they change in a second.
     zero: [[f64; 2]; 2],
     drift: [[f64; 2]; 2],
+    are_there: bool,
 }
 
 impl Flaws {
@@ -43,7 +44,18 @@ impl Flaws {
             held: vec![[0.0; 2]; scene.whiskers()],
             zero: of(&plant.zero_codes),
             drift: of(&plant.zero_drift),
+            are_there: sine != 0.0
+                || plant.gain_y != 1.0
+                || plant.cross_talk > 0.0
+                || plant.hysteresis_codes > 0.0
+                || plant.zero_codes.is_some()
+                || plant.zero_drift.is_some(),
         }
+    }
+
+    /// Whether sensors make anything else of a deflection than what it is.
+    pub(super) const fn are_there(&self) -> bool {
+        self.are_there
     }
 
     /// What the sensor of whisker `n`, left side first, reads `t_s` after the start, of the

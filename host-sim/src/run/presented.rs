@@ -91,11 +91,12 @@ impl Presented {
             self.label = texture.name();
             return Some(texture);
         }
-        let count = done / self.length;
+        let is_over = done >= self.begun.saturating_mul(self.length);
         let may = |air| self.begun == 0 || done - self.touched >= air;
-        if count < self.begun || !self.air.is_none_or(may) {
+        if !is_over || !self.air.is_none_or(may) {
             return None;
         }
+        let count = done / self.length;
         self.begun = count + 1;
         let among = self.textures.len() as u64;
         let texture = *self.textures.get(count.checked_rem(among)? as usize)?;
