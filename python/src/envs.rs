@@ -50,10 +50,15 @@ impl Member {
     }
 
     fn advance(&mut self, ticks: u64) {
-        for _ in 0..ticks.min(self.left) {
-            self.run.tick();
+        let ticks = ticks.min(self.left);
+        for n in 1..=ticks {
+            if n < ticks {
+                self.run.pass();
+            } else {
+                self.run.tick();
+            }
         }
-        self.left = self.left.saturating_sub(ticks);
+        self.left -= ticks;
     }
 
     fn observe(&mut self, seen: &mut [f32]) {
@@ -102,6 +107,9 @@ impl Envs {
                 return Err(PyValueError::new_err(fault));
             }
         };
+        if count == 0 {
+            return Err(PyValueError::new_err("count: found 0, allowed: above 0"));
+        }
         if ticks == 0 {
             return Err(PyValueError::new_err("ticks: found 0, allowed: above 0"));
         }

@@ -14,6 +14,7 @@ use scene::Rule;
 use tactile::score::Interval;
 
 use crate::model::{self, Model};
+use crate::outside;
 use crate::recordings::{self, Prepared};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, Packed};
@@ -35,16 +36,18 @@ pub(crate) fn record<'py>(
     set: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let scene = Given::new(scene, set)?.scene(py, seed)?;
+    let run = Run::new(&scene, None);
+    let mut run = run.map_err(|error| raised(py, error))?;
     let streams = py.detach(|| {
-        let mut run = Run::new(&scene, None)?;
         let mut recorder = Recorder::default();
-        for _ in 0..run.ticks() {
-            run.tick();
+        for n in 1..=run.ticks() {
+            outside::heed(n)?;
+            run.pass();
             recorder.take(&mut run);
         }
-        Ok(recorder.into_streams())
+        PyResult::Ok(recorder.into_streams())
     });
-    recordings::array(py, &streams.map_err(|error| raised(py, error))?)
+    recordings::array(py, &streams?)
 }
 
 /// Trains a model from recordings that the Python side has prepared.

@@ -7,10 +7,10 @@
 #![allow(clippy::needless_pass_by_value, reason = "Python's arguments come so")]
 
 mod envs;
-mod files;
 mod learning;
 mod many;
 mod model;
+mod outside;
 mod recordings;
 mod scenes;
 mod sim;

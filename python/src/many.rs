@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Scene;
 
+use crate::outside;
 use crate::scenes::{Given, raised};
 use crate::table::{self, Packed, RunTables};
 
@@ -25,10 +26,15 @@ fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<D
     let mut row = Packed::default();
     let mut places = rows.chunks_exact_mut(width);
     for n in 1..=run.ticks() {
-        run.tick();
+        let is_told = every > 0 && n.is_multiple_of(every);
+        if is_told {
+            run.tick();
+        } else {
+            run.pass();
+        }
         let first = decided.len();
         decided.extend(run.decisions());
-        if every == 0 || n % every != 0 {
+        if !is_told {
             continue;
         }
         run.look_at_whiskers(&mut whiskers);
@@ -76,7 +82,7 @@ pub(crate) fn run_many<'py>(
             "seeds: more rows than there is memory",
         ));
     };
-    let mut rows = vec![0; size];
+    let mut rows = outside::zeros(size)?;
     let new = |seed: u64| {
         let scene = Scene {
             seed,

@@ -6,11 +6,11 @@ use host_sim::classifier;
 use host_sim::training::TrainedModel;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyType};
 use tactile::ModelBuf;
 use tactile::train::joint::Report;
 
-use crate::files::file_error;
+use crate::outside::file_error;
 use crate::table::{Kind, Layout, Packed};
 
 /// Model(source)
@@ -49,6 +49,11 @@ impl Model {
 
     fn __bytes__<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, self.as_bytes())
+    }
+
+    /// For other processes: its bytes alone, without what held-out trials said.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, (Bound<'py, PyBytes>,)) {
+        (slf.get_type(), (slf.get().__bytes__(slf.py()),))
     }
 
     /// Writes the bytes to a file.

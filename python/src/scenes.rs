@@ -7,12 +7,12 @@ use host_sim::loaded::Loaded;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyList, PyTuple};
+use pyo3::types::{PyBool, PyDict, PyList, PyTuple, PyType};
 use scene::{Override, Problems, Scene};
 use tactile::ModelBuf;
 
-use crate::files::file_error;
 use crate::model;
+use crate::outside::file_error;
 
 create_exception!(
     whisker,
@@ -21,8 +21,12 @@ create_exception!(
     "What is wrong with a scene, one problem a line; `problems` has them singly."
 );
 
+/// The fields of a [`Problem`], in order.
+type Fields = (String, Option<usize>, String, String, String);
+
 /// One thing wrong with a scene.
 #[pyclass(frozen, get_all, module = "whisker")]
+#[derive(Clone)]
 pub(crate) struct Problem {
     /// The scene's file, or where in the arguments it stands.
     file: String,
@@ -38,6 +42,30 @@ pub(crate) struct Problem {
 
 #[pymethods]
 impl Problem {
+    #[new]
+    fn new(file: String, line: Option<usize>, key: String, found: String, allowed: String) -> Self {
+        Self {
+            file,
+            line,
+            key,
+            found,
+            allowed,
+        }
+    }
+
+    /// For other processes.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, Fields) {
+        let problem = slf.get().clone();
+        let Self {
+            file,
+            line,
+            key,
+            found,
+            allowed,
+        } = problem;
+        (slf.get_type(), (file, line, key, found, allowed))
+    }
+
     fn __repr__(&self) -> String {
         let Self {
             file,

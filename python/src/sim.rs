@@ -13,6 +13,7 @@ use pyo3::types::{PyBytes, PyDict};
 use scene::Texture;
 use tactile::Posteriors;
 
+use crate::outside;
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, Packed, RunTables};
 
@@ -28,16 +29,20 @@ struct State {
 }
 
 impl State {
-    /// One tick; what it decided begins at the index that is returned.
-    fn tick(&mut self) -> usize {
-        let t_s = self.run.tick().t_s;
+    /// One tick, whose row is told or not; what it decided begins at the index that is returned.
+    fn tick(&mut self, is_told: bool) -> usize {
+        if is_told {
+            self.run.tick();
+        } else {
+            self.run.pass();
+        }
         self.done += 1;
         let first = self.decided.len();
         self.decided.extend(self.run.decisions());
         if self.run.samples().iter().any(Option::is_some) {
             let now = self.run.posteriors();
             if let Some(posteriors) = now.filter(|_| now != self.last) {
-                self.posteriors.number(t_s);
+                self.posteriors.number(self.run.t_s());
                 self.posteriors.numbers(posteriors.to_f64());
             }
             self.last = now;
@@ -46,19 +51,22 @@ impl State {
     }
 
     /// Ticks, of which every `every`th has a row.
-    fn rows(&mut self, ticks: u64, every: u64, tables: &RunTables) -> Vec<u8> {
-        let mut rows = Packed::default();
-        let count = (ticks / every) as usize;
-        rows.bytes.reserve_exact(count * tables.trace.bytes());
+    fn rows(&mut self, ticks: u64, every: u64, tables: &RunTables) -> PyResult<Vec<u8>> {
+        let count = usize::try_from(ticks / every).unwrap_or(usize::MAX);
+        let mut rows = Packed {
+            bytes: outside::room(count.saturating_mul(tables.trace.bytes()))?,
+        };
         for n in 1..=ticks {
-            let first = self.tick();
-            if n % every == 0 {
+            outside::heed(n)?;
+            let is_told = n.is_multiple_of(every);
+            let first = self.tick(is_told);
+            if is_told {
                 self.run.look_at_whiskers(&mut self.whiskers);
                 let fell = self.decided.get(first..).unwrap_or_default();
                 tables.row(&mut rows, &self.run.told(fell, &self.whiskers));
             }
         }
-        rows.bytes
+        Ok(rows.bytes)
     }
 
     fn left(&self) -> u64 {
@@ -82,6 +90,7 @@ pub(crate) struct Sim {
     shape: TraceShape,
     classes: Vec<String>,
     name: String,
+    has_textures: bool,
     tick_hz: u32,
     posteriors: Layout,
 }
@@ -115,6 +124,7 @@ impl Sim {
             tables: RunTables::of(scene, &classes),
             shape: TraceShape::of(scene),
             name: scene.name.clone(),
+            has_textures: scene.plant.textured.is_some(),
             tick_hz: scene.tick_hz,
             posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
             classes,
@@ -137,7 +147,7 @@ impl Sim {
         if every == 0 {
             return Err(PyValueError::new_err("every: found 0, allowed: above 0"));
         }
-        let rows = py.detach(|| self.state().rows(n, every, &self.tables));
+        let rows = py.detach(|| self.state().rows(n, every, &self.tables))?;
         self.tables.trace.array(py, rows)
     }
 
@@ -188,6 +198,10 @@ impl Sim {
             let fault = format!("texture: found {texture:?}, allowed: {allowed}");
             return Err(PyValueError::new_err(fault));
         };
+        if !self.has_textures {
+            let fault = format!("texture: scene {:?} has none to exchange", self.name);
+            return Err(PyValueError::new_err(fault));
+        }
         py.detach(|| self.state().run.lay(texture));
         Ok(())
     }
@@ -197,13 +211,14 @@ impl Sim {
         let written = py.detach(|| {
             let state = &mut *self.state();
             let mut table = TraceWriter::new(Vec::new(), self.shape)?;
-            for _ in 0..state.left() {
-                let first = state.tick();
+            for n in 1..=state.left() {
+                outside::heed(n)?;
+                let first = state.tick(true);
                 state.run.look_at_whiskers(&mut state.whiskers);
                 let fell = state.decided.get(first..).unwrap_or_default();
                 table.row(&state.run.told(fell, &state.whiskers))?;
             }
-            std::io::Result::Ok(table.into_inner())
+            PyResult::Ok(table.into_inner())
         });
         Ok(PyBytes::new(py, &written?))
     }

@@ -18,6 +18,8 @@ pub(crate) enum Kind {
     Numbers(usize),
     /// `int64`.
     Whole,
+    /// `uint64`.
+    Seed,
     /// Text of up to so many characters.
     Text(usize),
 }
@@ -31,7 +33,7 @@ impl Kind {
 
     const fn bytes(self) -> usize {
         match self {
-            Self::Number | Self::Whole => 8,
+            Self::Number | Self::Whole | Self::Seed => 8,
             Self::Numbers(count) => 8 * count,
             Self::Text(width) => 4 * width,
         }
@@ -77,6 +79,7 @@ impl Layout {
                 Kind::Number => fields.append((name, "f8"))?,
                 Kind::Numbers(count) => fields.append((name, "f8", (count,)))?,
                 Kind::Whole => fields.append((name, "i8"))?,
+                Kind::Seed => fields.append((name, "u8"))?,
                 Kind::Text(width) => fields.append((name, format!("U{width}")))?,
             }
         }
@@ -103,6 +106,10 @@ impl Packed {
     }
 
     pub(crate) fn whole(&mut self, value: i64) {
+        self.bytes.extend(value.to_ne_bytes());
+    }
+
+    pub(crate) fn seed(&mut self, value: u64) {
         self.bytes.extend(value.to_ne_bytes());
     }
 
@@ -238,13 +245,13 @@ pub(crate) fn decisions<'py>(
     let names = COLUMNS.iter().map(|column| column.name);
     let mut layout = Layout::new(names.zip(kinds).take(count));
     if runs.iter().any(|(seed, _)| seed.is_some()) {
-        layout = layout.after("seed", Kind::Whole);
+        layout = layout.after("seed", Kind::Seed);
     }
     let mut rows = Packed::default();
     for (seed, decided) in runs {
         for d in *decided {
             if let Some(seed) = seed {
-                rows.whole(*seed as i64);
+                rows.seed(*seed);
             }
             rows.text(&d.label, label);
             rows.text(&d.trial, trial);

@@ -5,7 +5,9 @@ import hashlib
 import io
 import os
 import pathlib
+import pickle
 import re
+import signal
 
 import numpy as np
 import pytest
@@ -111,6 +113,8 @@ def test_a_texture_is_laid():
     assert set(sim.step(8000)["label"]) == {"rough-carpet"}
     with pytest.raises(ValueError, match="allowed: smooth"):
         sim.lay("silk")
+    with pytest.raises(ValueError, match='"still" has none'):
+        whisker.Sim(STILL).lay("carpet")
 
 
 def test_a_scene_is_a_path_a_text_or_a_dictionary():
@@ -142,6 +146,40 @@ def test_problems_are_told_with_line_or_place():
         whisker.Sim(TEXTURES, model=b"no model")
 
 
+def test_problems_and_models_reach_other_processes():
+    with pytest.raises(whisker.SceneError) as caught:
+        whisker.Sim({**STILL, "tick_hz": 20})
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert str(copy) == str(caught.value) and repr(copy.problems) == repr(caught.value.problems)
+    shipped = whisker.Model(TEXTURES.parent / "models" / "textures.model")
+    assert bytes(pickle.loads(pickle.dumps(shipped))) == bytes(shipped)
+
+
+def test_more_rows_than_there_is_memory_are_refused():
+    with pytest.raises(MemoryError, match="no room"):
+        whisker.Sim(STILL).step(10**15)
+    with pytest.raises(MemoryError, match="no room"):
+        whisker.run_many(STILL, range(10), every=1, set={"duration_s": 80_000})
+    # A row for each of a billion ticks is none of them.
+    assert len(whisker.Sim(STILL).step(10, every=2**63)) == 0
+
+
+def test_an_interrupt_ends_a_long_run():
+    # A handler of one's own, as an interrupt would end the test.
+    def handler(*_):
+        raise TimeoutError("enough")
+
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        for work in (lambda: whisker.Sim(STILL).step(10**12, every=10**9),
+                     lambda: whisker.run_many(STILL, range(10**6), every=0, set={"duration_s": 500})):
+            signal.setitimer(signal.ITIMER_REAL, 0.3)
+            with pytest.raises(TimeoutError, match="enough"):
+                work()
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
 def test_many_seeds_are_each_a_run():
     rows, decisions = whisker.run_many(TEXTURES, [7, 8, 7], every=100, set=SHORT)
     assert rows.shape == (3, 80)
@@ -152,6 +190,19 @@ def test_many_seeds_are_each_a_run():
     assert np.array_equal(of_one["t_s"], one.decisions["t_s"])
     none, _ = whisker.run_many(TEXTURES, range(2), every=0, set=SHORT)
     assert none.shape == (2, 0)
+    _, decisions = whisker.run_many(TEXTURES, [2**64 - 1], every=0, set=SHORT)
+    assert set(decisions["seed"].tolist()) == {2**64 - 1}
+
+
+def test_rows_that_are_passed_over_change_nothing():
+    for name in ("textures", "cia"):
+        scene = whisker.SCENES[name]
+        every = whisker.Sim(scene, set=SHORT)
+        tenth = whisker.Sim(scene, set=SHORT)
+        rows = every.run()[9::10]
+        assert tenth.run(every=10).tobytes() == rows.tobytes()
+        assert tenth.decisions.tobytes() == every.decisions.tobytes()
+        assert tenth.posteriors.tobytes() == every.posteriors.tobytes()
 
 
 def test_every_column_is_described():

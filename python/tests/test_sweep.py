@@ -51,6 +51,17 @@ def test_rows_are_those_of_single_runs(monkeypatch, where):
     assert deepest[4:].mean() < deepest[:4].mean()
 
 
+def test_a_model_and_what_is_wrong_come_through(monkeypatch):
+    monkeypatch.setenv("WHISKER_SWEEP", "processes")
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    scene = whisker.SCENES["textures"]
+    model = whisker.Model(scene.parent / "models" / "textures.model")
+    keys = {"duration_s": [2.0]}
+    assert sweep(scene, keys, [1], figures, model=model) == sweep(scene, keys, [1], figures)
+    with pytest.raises(whisker.SceneError, match="rcp.gain: found -1"):
+        sweep(scene, {"rcp.gain": [0.7, -1.0]}, [1], figures, batch=1)
+
+
 def test_an_unknown_place_is_refused(monkeypatch):
     monkeypatch.setenv("WHISKER_SWEEP", "abacus")
     with pytest.raises(ValueError, match="allowed: processes, dask, ray"):

@@ -28,6 +28,9 @@ class SceneError(ValueError):
 
 @final
 class Problem:
+    def __new__(
+        cls, file: str, line: int | None, key: str, found: str, allowed: str
+    ) -> Self: ...
     file: str
     line: int | None
     key: str
