@@ -6,7 +6,7 @@
   const unpacked = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   const core = await new Response(unpacked).arrayBuffer();
   await wasm_bindgen({ module_or_path: core });
-  const { Player, Tracer, scenes, scene_text, textures, meaning } = wasm_bindgen;
+  const { Player, Tracer, scenes, scene_text, textures, meaning, fault_of } = wasm_bindgen;
 
   // Least, most, step; friction has no value of the scene's own.
   const SLIDERS = [
@@ -26,7 +26,7 @@
   let set = {};
   let player = null, tracer = null, laid = null;
   let playing = !still.matches, points = [], sides = 1, width = 6;
-  let right = 0, wrong = 0, unknown = 0, owed = 0, stale = true;
+  let right = 0, wrong = 0, unknown = 0, owed = 0, stale = true, looked = null;
 
   // A gate that the last player had from here on counts as given by the page.
   const gates = {};
@@ -38,6 +38,16 @@
     for (const key of Object.keys(gates)) if (key in set) all.push(BESIDE[key]);
     return all.join("\n");
   };
+
+  // Which sliders the scene can take that has no value for them; it depends on the text alone.
+  const usable = {};
+  function look() {
+    for (const [key, , low, high] of SLIDERS) {
+      const beside = BESIDE[key] && player.setting(key) === undefined ? `\n${BESIDE[key]}` : "";
+      usable[key] = fault_of(text, `${key}=${(low + high) / 2}${beside}`) === "";
+      $(key).closest(".slider").title = usable[key] ? meaning(key) : "This scene has no use for it.";
+    }
+  }
 
   // What is wrong, with a way to its line.
   function tell(fault) {
@@ -77,6 +87,8 @@
     if (laid) player.lay(laid);
     sides = player.obstacles().length;
     width = 1 + 5 * sides;
+    if (text !== looked) look();
+    looked = text;
     points = [];
     [right, wrong, unknown, owed] = [0, 0, 0, 0];
     $("decisions").replaceChildren();
@@ -109,7 +121,8 @@
       const value = player.setting(key);
       const input = $(key);
       if (document.activeElement !== input) input.value = value ?? input.min;
-      const none = key === "plant.friction" ? "own" : "–";
+      input.disabled = value === undefined && !usable[key];
+      const none = key === "plant.friction" && usable[key] ? "own" : "–";
       $(`${key}-value`).textContent = value === undefined ? none : +value.toFixed(4);
     }
     $("textures").hidden = !player.has_textures();
@@ -236,35 +249,41 @@
     pen.fillText(`in place: ${player.presented()}`, 10, 20);
   }
 
+  // Name, column, range, and the column that is drawn faintly behind it.
   const STRIPS = [
-    ["angle, degrees", 1, [30, 130], 0], ["x, codes", 2, [0, 16383], null], ["contact", 4, [0, 1], null],
+    ["angle and, faint, setpoint, degrees", 1, [30, 130], 0],
+    ["deflection x and, faint, y, codes", 2, [0, 16383], 3],
+    ["contact", 4, [0, 1], null],
   ];
   function drawStrips() {
     const [pen, w, h] = fitted($("strips"));
     const end = points.length ? points[points.length - 1][0] : 0;
     pen.font = "12px system-ui, sans-serif";
-    STRIPS.forEach(([name, column, [low, high], dashed], n) => {
+    STRIPS.forEach(([name, column, [low, high], faint], n) => {
       const top = n * h / 3 + 4, room = h / 3 - 8;
       const y = (value) => top + room * (1 - (value - low) / (high - low));
       pen.strokeStyle = colours.line;
       pen.lineWidth = 1;
       pen.strokeRect(0.5, top, w - 1, room);
       for (let side = 0; side < sides; side++) {
-        const curve = (at, colour, thick) => {
-          pen.strokeStyle = colour;
-          pen.lineWidth = thick;
+        pen.strokeStyle = side === 0 ? colours.left : colours.right;
+        const curve = (at, alpha) => {
+          pen.globalAlpha = alpha;
+          pen.lineWidth = 1.5;
           pen.beginPath();
           for (let k = 0; k < points.length; k++) {
             const point = points[k];
             pen.lineTo(w - (end - point[0]) * w / SPAN_S, y(point[1 + 5 * side + at]));
           }
           pen.stroke();
+          pen.globalAlpha = 1;
         };
-        if (dashed !== null) curve(dashed, colours.faint, 1);
-        curve(column, side === 0 ? colours.left : colours.right, 1.5);
+        if (faint !== null) curve(faint, 0.45);
+        curve(column, 1);
       }
       pen.fillStyle = colours.faint;
-      pen.fillText(name, 6, top + 14);
+      pen.fillText(`${high} ${name}`, 6, top + 14);
+      pen.fillText(String(low), 6, top + room - 5);
     });
   }
 
@@ -367,7 +386,6 @@
   for (const [key, name, low, high, step] of SLIDERS) {
     const row = document.createElement("div");
     row.className = "slider";
-    row.title = meaning(key);
     row.innerHTML = `<label for="${key}">${name}</label>
       <input type="range" id="${key}" min="${low}" max="${high}" step="${step}">
       <output id="${key}-value" for="${key}"></output>`;

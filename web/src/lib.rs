@@ -32,6 +32,12 @@ fn loaded(text: &str, set: &str) -> Result<Loaded, String> {
     read.map_err(|error| error.to_string())
 }
 
+/// What is wrong with a scene's text and the lines `key=value` of `set`; empty: nothing.
+#[wasm_bindgen]
+pub fn fault_of(text: &str, set: &str) -> String {
+    loaded(text, set).err().unwrap_or_default()
+}
+
 /// The names of the scenes that are on the page.
 #[wasm_bindgen]
 pub fn scenes() -> Vec<String> {
