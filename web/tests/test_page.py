@@ -152,6 +152,20 @@ def test_the_editor_says_what_is_wrong_and_both_sides_are_drawn(page):
     wait(page, lambda d: element(d, "problems").text == "")
 
 
+def test_sliders_that_a_scene_has_no_use_for_are_grey(page):
+    def usable():
+        sliders = page.find_elements(By.CSS_SELECTOR, "#sliders input")
+        return {slider.get_attribute("id") for slider in sliders if slider.is_enabled()}
+
+    every = {"whisking.gain", "whisking.frequency_hz", "rcp.gain", "cia.gain"}
+    every |= {"plant.friction", "classifier.threshold"}
+    assert usable() == every
+    choose(page, "cia")
+    assert usable() == every - {"plant.friction", "classifier.threshold"}
+    choose(page, "passive")
+    assert usable() == set()
+
+
 def test_keys_play_and_step(page):
     body = page.find_element(By.TAG_NAME, "body")
     body.send_keys(" ")

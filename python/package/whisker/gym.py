@@ -156,7 +156,7 @@ class WhiskerVectorEnv(VectorEnv):
         if begin.any():
             fresh = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
             self._seeds = np.where(begin, fresh, self._seeds)
-        actions = np.ascontiguousarray(actions, dtype=np.float64)
+        actions = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, -1)
         observations, ended = self._envs.step(actions, begin, self._seeds)
         rewards = np.asarray(self._reward(observations, actions, self._before), np.float64)
         if begin.any():
