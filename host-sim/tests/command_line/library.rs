@@ -98,6 +98,44 @@ fn a_run_that_is_reset_equals_a_new_one() {
 }
 
 #[test]
+fn ticks_whose_rows_nobody_asks_for_change_nothing() {
+    for text in scenes() {
+        let all = see(&mut run(&scene(&text, 1)));
+        let mut few = run(&scene(&text, 1));
+        let (mut samples, mut decisions, mut events) = (Vec::new(), Vec::new(), Vec::new());
+        for n in 1..=few.ticks() {
+            if n.is_multiple_of(7) {
+                let row = few.tick();
+                let seen = all.rows[n as usize - 1];
+                let pairs = row.pairs();
+                let bits = pairs.as_flattened().iter().map(|value| value.to_bits());
+                assert!(bits.eq(seen[1..].iter().copied()), "{text} {n}");
+            } else {
+                few.pass();
+            }
+            samples.push(few.sample());
+            decisions.extend(few.decisions());
+            events.extend_from_slice(few.events());
+        }
+        assert!(samples == all.samples && decisions == all.decisions && events == all.events);
+    }
+}
+
+#[test]
+fn every_whisker_is_told_by_what_its_sensor_was_given() {
+    let shifted = IDEAL.replace("kind =", "zero_codes = [[500, -300], [0, 0]]\nkind =");
+    let mut run = run(&scene(&shifted, 1));
+    // In the first tick no frame has come yet.
+    run.tick();
+    run.tick();
+    let mut whiskers = Vec::new();
+    run.look_at_whiskers(&mut whiskers);
+    let codes = whiskers.iter().map(|whisker| whisker.codes);
+    let shifted = [8192.0 + 500.0, 8192.0 - 300.0];
+    assert!(codes.eq([shifted, shifted, [8192.0; 2], [8192.0; 2]]));
+}
+
+#[test]
 fn gains_and_setpoints_are_taken_between_ticks() {
     let free = IDEAL.replace("[80.0, 90.0]", "[170.0, 170.0]");
     let mut run = run(&scene(&free, 1));
