@@ -259,13 +259,13 @@ impl Default for Slave {
 /// One transaction: the frame latched at its start, byte by byte.
 #[derive(Debug)]
 pub struct Exchange {
-    /// What is answered next on top, and the line as nobody pulls it behind the last byte.
+    /// The shift register: the next byte on top, behind the last one a line that is released.
     answer: u64,
     /// What happens to the frame.
     fault: Option<WireFault>,
     /// What noise inverts, in the same positions.
     noise: u64,
-    /// What the line can be at most: low, if it is held there.
+    /// All ones, or zeros where the line is held low.
     most: u8,
     bytes: u64,
 }

@@ -85,6 +85,7 @@ impl Run {
         self.bench.restart(seed, pins)?;
         self.done = 0;
         self.presented.restart();
+        self.flaws.restart();
         self.rest();
         Ok(())
     }

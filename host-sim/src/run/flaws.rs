@@ -53,6 +53,11 @@ impl Flaws {
         }
     }
 
+    /// Sensors as before the first tick.
+    pub(super) fn restart(&mut self) {
+        self.held.fill([0.0; 2]);
+    }
+
     /// Whether sensors make anything else of a deflection than what it is.
     pub(super) const fn are_there(&self) -> bool {
         self.are_there

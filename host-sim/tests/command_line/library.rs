@@ -66,7 +66,7 @@ fn see(run: &mut Run) -> Seen {
     seen
 }
 
-/// Scenes of every plant, of both motors, and in every number format.
+/// Scenes of every plant, of both motors, in every number format, and of a sensor that holds.
 fn scenes() -> Vec<String> {
     let six_step = "[motor]\ndriver = \"six-step\"\n";
     vec![
@@ -74,6 +74,7 @@ fn scenes() -> Vec<String> {
         format!("{TEXTURED}{six_step}"),
         TEXTURED.replace("noise =", "numbers = \"fixed\"\nnoise ="),
         elastic(),
+        TEXTURED.replace("kind =", "hysteresis_codes = 400\nkind ="),
         IDEAL.to_owned(),
         IDEAL.replace("noise =", "numbers = \"f64\"\nnoise ="),
     ]
