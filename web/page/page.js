@@ -251,16 +251,16 @@
 
   // Name, column, range, and the column that is drawn faintly behind it.
   const STRIPS = [
-    ["angle and, faint, setpoint, degrees", 1, [30, 130], 0],
-    ["deflection x and, faint, y, codes", 2, [0, 16383], 3],
-    ["contact", 4, [0, 1], null],
+    ["angle (faint: setpoint), 30 to 130 degrees", 1, [30, 130], 0],
+    ["deflection x (faint: y), codes 0 to 16383", 2, [0, 16383], 3],
+    ["contact, 0 to 1", 4, [0, 1], null],
   ];
   function drawStrips() {
     const [pen, w, h] = fitted($("strips"));
     const end = points.length ? points[points.length - 1][0] : 0;
     pen.font = "12px system-ui, sans-serif";
     STRIPS.forEach(([name, column, [low, high], faint], n) => {
-      const top = n * h / 3 + 4, room = h / 3 - 8;
+      const top = n * h / 3 + 20, room = h / 3 - 24;
       const y = (value) => top + room * (1 - (value - low) / (high - low));
       pen.strokeStyle = colours.line;
       pen.lineWidth = 1;
@@ -282,8 +282,7 @@
         curve(column, 1);
       }
       pen.fillStyle = colours.faint;
-      pen.fillText(`${high} ${name}`, 6, top + 14);
-      pen.fillText(String(low), 6, top + room - 5);
+      pen.fillText(name, 6, top - 6);
     });
   }
 
