@@ -273,8 +273,13 @@ fn sensors<const S: usize, const N: usize>(
     section: &SensorSection,
     seed: u64,
 ) -> Result<Sensors<S, N>, Error> {
-    let mut seeds = seed..;
-    array(|| AnySensor::new(section, seeds.next()?)).ok_or_else(|| misfit("sensors"))
+    let mut next = seed;
+    let sensor = || {
+        let seed = next;
+        next = next.wrapping_add(1);
+        AnySensor::new(section, seed)
+    };
+    array(sensor).ok_or_else(|| misfit("sensors"))
 }
 
 fn motors<R: Real, const S: usize, const N: usize>(

@@ -99,6 +99,15 @@ fn a_run_that_is_reset_equals_a_new_one() {
 }
 
 #[test]
+fn the_largest_seed_is_one_like_any_other() {
+    for text in scenes() {
+        let mut run = run(&scene(&text, u64::MAX));
+        assert_eq!(see(&mut run).rows.len() as u64, run.ticks());
+        run.reset(u64::MAX).unwrap();
+    }
+}
+
+#[test]
 fn ticks_whose_rows_nobody_asks_for_change_nothing() {
     for text in scenes() {
         let all = see(&mut run(&scene(&text, 1)));
