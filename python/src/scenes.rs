@@ -55,15 +55,9 @@ impl Problem {
 
     /// For other processes.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, Fields) {
-        let problem = slf.get().clone();
-        let Self {
-            file,
-            line,
-            key,
-            found,
-            allowed,
-        } = problem;
-        (slf.get_type(), (file, line, key, found, allowed))
+        let its = slf.get().clone();
+        let fields = (its.file, its.line, its.key, its.found, its.allowed);
+        (slf.get_type(), fields)
     }
 
     fn __repr__(&self) -> String {
