@@ -20,5 +20,6 @@ mod stability;
 mod starting;
 mod terrain;
 mod tilted_module;
+mod unchanged;
 mod unstable_scenes;
 mod zero;
