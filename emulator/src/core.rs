@@ -20,6 +20,10 @@ use crate::memory::{FLASH, Memories};
 
 /// The exception number in xPSR.
 pub(crate) const EXCEPTION: u32 = 0x1FF;
+/// What is left of an IT block, in xPSR.
+pub(crate) const IT_BLOCK: u32 = 0x3F << 10 | 3 << 25;
+/// Where an exception's frame has xPSR.
+const FRAME_XPSR: u32 = 28;
 /// CPUID of a Cortex-M0+, r0p1.
 const CPUID_M0_PLUS: u32 = 0x410C_C601;
 /// CCR.UNALIGN_TRP, which is always set on ARMv6-M.
@@ -120,6 +124,24 @@ impl Core {
     /// Whether it executes nothing more until it is reset.
     pub(crate) fn has_locked_up(&self) -> bool {
         self.stuck || self.inner.is_locked_up()
+    }
+
+    /// Has an exception that was entered within an IT block return into it: rsemu 0.0.7 leaves what
+    /// is left of the `block` out of the frame, and runs the rest of it without its condition.
+    /// `interrupted` is the exception before; one that takes its turn after that has no frame of
+    /// its own.
+    pub(crate) fn keep_block(
+        &self,
+        block: u32,
+        interrupted: u32,
+        memories: &Memories,
+    ) -> Result<(), Fault> {
+        let at = self.inner.msp().wrapping_add(FRAME_XPSR);
+        let kept = memories.word(at)?;
+        if kept & EXCEPTION != interrupted {
+            return Ok(());
+        }
+        memories.write(at, &(kept | block).to_le_bytes())
     }
 
     /// Lets SysTick count while the core executes nothing for `time`.

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
-use crate::core::{Core, EXCEPTION};
+use crate::core::{Core, EXCEPTION, IT_BLOCK};
 use crate::memory::{FLASH, Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
@@ -74,6 +74,8 @@ pub(crate) struct Machine {
     /// A cycle of the core.
     pub(crate) cycle: Ps,
     exception: u32,
+    /// What is left of an IT block, as in xPSR.
+    block: u32,
     ready: bool,
     /// Until when the core waits for its flash.
     stalled: Ps,
@@ -107,6 +109,7 @@ impl Machine {
             cycle,
             shared,
             exception: 0,
+            block: 0,
             ready: false,
             stalled: 0,
             is_locked_up: false,
@@ -257,7 +260,12 @@ impl Machine {
     /// Counts the step that was just made; whether the tick's handler has returned.
     fn account(&mut self, observer: &mut impl Observer) -> Result<bool, Fault> {
         let before = self.exception;
-        self.exception = self.core.xpsr() & EXCEPTION;
+        let xpsr = self.core.xpsr();
+        self.exception = xpsr & EXCEPTION;
+        let block = std::mem::replace(&mut self.block, xpsr & IT_BLOCK);
+        if block != 0 && self.exception != 0 && before != self.exception {
+            self.core.keep_block(block, before, &self.memories)?;
+        }
         if self.exception != 0 && before != self.exception && (before == 0 || self.exception < 16) {
             // An entry is no instruction.
             if self.exception == self.tick {
@@ -329,7 +337,7 @@ impl Machine {
         self.shared.set_now(self.now);
         drop(chip);
         self.follow_chip();
-        self.exception = 0;
+        (self.exception, self.block) = (0, 0);
         self.ready = false;
         self.is_locked_up = false;
         self.stalled = 0;

@@ -1,6 +1,6 @@
 //! What a core must not execute, seen to trap.
 
-use super::{Core, v6m};
+use super::{Core, EXCEPTION, IT_BLOCK, v6m};
 use crate::chip::{Chip, CoreKind, MODELS};
 use crate::memory::{FLASH, Memories, Shared};
 
@@ -10,13 +10,19 @@ const RAM: u32 = 0x2000_0000;
 const HARD_FAULT: u32 = 3;
 
 /// A core of that kind whose flash begins with a vector table, a handler of hard faults that
-/// loops, and the code.
+/// loops, one of the NMI that returns, and the code.
 fn core(kind: CoreKind, code: &[u16]) -> Core {
+    core_in_memory(kind, code).0
+}
+
+fn core_in_memory(kind: CoreKind, code: &[u16]) -> (Core, Memories) {
     let mut words = vec![0_u32; 0x40];
     words[0] = RAM + 0x800;
     words[1] = CODE | 1;
+    words[2] = (HANDLER + 4) | 1;
     words[3] = HANDLER | 1;
     words[0x20] = 0xE7FE_E7FE;
+    words[0x21] = 0x4770_4770;
     let mut flash: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     flash.extend(code.iter().flat_map(|half| half.to_le_bytes()));
     let model = MODELS.iter().find(|model| model.core == kind).unwrap();
@@ -26,7 +32,7 @@ fn core(kind: CoreKind, code: &[u16]) -> Core {
     let space = memories.space(&shared).unwrap();
     let mut core = Core::new(model, &memories, space);
     core.step();
-    core
+    (core, memories)
 }
 
 /// Whether the first instruction traps, with its own address for the return.
@@ -149,4 +155,32 @@ fn within_a_hard_fault_there_is_only_the_lock_up() {
     core.set_pc(CODE);
     core.step();
     assert!(core.has_locked_up());
+}
+
+#[test]
+fn an_interrupt_within_an_it_block_returns_into_it() {
+    // cmp r0, #1; ite eq; moveq r1, #5; movne r2, #6
+    let code = [0x2801, 0xBF0C, 0x2105, 0x2206, 0xBF00];
+    for kind in [CoreKind::M3, CoreKind::M4F] {
+        for before in 0..=4 {
+            let (mut core, memories) = core_in_memory(kind, &code);
+            for register in 0..3 {
+                core.set_reg(register, 0);
+            }
+            let mut block = 0;
+            for step in 0..7 {
+                if step == before {
+                    core.raise_nmi();
+                }
+                core.step();
+                let xpsr = core.xpsr();
+                if step == before {
+                    assert_eq!(xpsr & EXCEPTION, 2, "the NMI is taken");
+                    core.keep_block(block, 0, &memories).unwrap();
+                }
+                block = xpsr & IT_BLOCK;
+            }
+            assert_eq!((core.reg(1), core.reg(2)), (0, 6), "{kind:?}, {before}");
+        }
+    }
 }
