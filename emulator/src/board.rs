@@ -5,10 +5,10 @@
 //! next return. Between two, the core asleep, the world moves on by a tick at
 //! once, as in host-sim: the motors follow the pins as the tick left them, the
 //! plant follows the motors, and the sensors are set. A frame that was begun in
-//! the tick before clocks its first byte a slot (50 µs or more) after /SS has
-//! fallen, so it latches the new deflection, as long as a tick is shorter than
-//! that; the next tick uses it. So tick n uses the deflection after tick n − 1
-//! on the board as on the PC. In the first tick there is no frame yet, and the
+//! the tick before is latched again then, and what was clocked of it meanwhile is
+//! put right, where the DMA has put it; the next tick uses it. So tick n uses the
+//! deflection after tick n − 1 on the board as on the PC, as long as a tick is
+//! shorter than a frame. In the first tick there is no frame yet, and the
 //! module takes its sensor to be at rest, which in host-sim's first tick it is.
 
 use embedded_hal::digital::{InputPin, OutputPin};
@@ -17,6 +17,8 @@ use firmware::{AngleInput, Event, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{Pins, SimPwm};
+use mlx90333::FRAME_LEN;
+use scene::Scene;
 use wire::Packet;
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
@@ -30,39 +32,42 @@ use crate::watch::{Said, Watch};
 #[derive(Debug, Default)]
 struct Wired {
     slave: Slave,
+    /// The last frame as it began, and as it is now.
+    begun: Option<Exchange>,
     exchange: Option<Exchange>,
-    /// When the last frame began.
+    /// What the master has sent in it.
+    sent: Vec<u8>,
+    /// When it began.
     latched: Ps,
-    /// The world has moved on since, and the frame has not told of it yet.
-    stale: bool,
 }
 
 impl Wired {
-    /// The tick is over, and the world moves on.
-    fn tick_ends(&mut self) {
-        let begun = self.exchange.as_ref().map(Exchange::bytes);
-        self.stale = begun.is_some_and(|bytes| bytes <= CONSTANT);
+    /// The tick is over, and the world has moved on: what a frame under way has said so far
+    /// becomes this.
+    fn moved(&mut self) -> Option<Vec<u8>> {
+        if self.sent.len() >= FRAME_LEN {
+            return None;
+        }
+        let mut exchange = self.begun.clone()?;
+        self.slave.latch_again(&mut exchange);
+        let said = self.sent.iter().map(|sent| exchange.byte(*sent)).collect();
+        self.exchange = Some(exchange);
+        Some(said)
     }
 }
-
-/// Bytes of a frame that are always the same: its first.
-const CONSTANT: u64 = 1;
 
 impl SensorEnd for Wired {
     fn latch(&mut self, now: Ps) {
         self.latched = now;
-        self.stale = false;
+        self.sent.clear();
         self.exchange = Some(self.slave.select());
+        self.begun.clone_from(&self.exchange);
     }
 
     fn exchange(&mut self, sent: u8) -> u8 {
-        let Some(exchange) = &mut self.exchange else {
-            return 0xFF;
-        };
-        if std::mem::take(&mut self.stale) {
-            self.slave.latch_again(exchange);
-        }
-        exchange.byte(sent)
+        self.sent.push(sent);
+        let exchange = self.exchange.as_mut();
+        exchange.map_or(0xFF, |exchange| exchange.byte(sent))
     }
 }
 
@@ -86,6 +91,8 @@ pub(crate) struct Board {
     pub(crate) world_waits: Option<Ps>,
     /// No tick has ended since the world moved on last.
     pub(crate) is_late: bool,
+    /// A tick has ended, and the world has moved on since.
+    has_ticked: bool,
 }
 
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
@@ -98,12 +105,13 @@ fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
 }
 
 impl Board {
-    /// A board with `program` in its flash, sensors on so many `sides`, and the motors
+    /// A board with `program` in its flash, sensors on the sides of `scene`, and the motors
     /// behind `pins`; started, and before its first tick.
-    pub(crate) fn new(program: &Program, sides: usize, pins: Vec<Pins>) -> Result<Self, Fault> {
+    pub(crate) fn new(program: &Program, scene: &Scene, pins: Vec<Pins>) -> Result<Self, Fault> {
+        let sides = scene.head.sides.count();
         let mut board = Self {
             machine: Machine::new(program)?,
-            watch: Watch::new(program)?,
+            watch: Watch::new(program, scene)?,
             sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
             pins,
             log: Vec::new(),
@@ -112,18 +120,31 @@ impl Board {
             reset: None,
             world_waits: None,
             is_late: false,
+            has_ticked: false,
         };
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
-            Stop::Tick | Stop::Time => return Err(Fault::Asleep),
+            Stop::Tick | Stop::Time => {
+                board.drain()?;
+                let lines = program.log_decoder()?.lines(&board.log);
+                return Err(Fault::NoStart(lines.join("\n  ")));
+            }
         }
+        board.drain()?;
         Ok(board)
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.
     pub(crate) fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
         self.inputs();
+        if std::mem::take(&mut self.has_ticked) {
+            for (side, sensor) in self.sensors.iter_mut().enumerate() {
+                if let Some(said) = sensor.moved() {
+                    self.machine.say_again(side, &said)?;
+                }
+            }
+        }
         let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
             let stop = self.machine.run(limit, &mut self.sensors, observer)?;
@@ -141,7 +162,7 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
-        self.sensors.iter_mut().for_each(Wired::tick_ends);
+        self.has_ticked = true;
         self.drain()
     }
 
@@ -231,6 +252,11 @@ impl Board {
     /// Levels of the pins of contact and of decisions.
     pub(crate) fn signals(&mut self) -> [bool; 2] {
         self.machine.with_chip(|chip| chip.signals())
+    }
+
+    /// What was logged that nobody has taken yet.
+    pub(crate) fn logged(&self) -> &[u8] {
+        &self.log
     }
 
     fn drain(&mut self) -> Result<(), Fault> {

@@ -250,6 +250,12 @@ impl Chip {
         }
     }
 
+    /// A side's sensor has said this so far, and nothing else: where the DMA has put it. None
+    /// of a frame in which the sensor was not connected all the time.
+    pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Vec<u32> {
+        self.lines[side].say_again(said)
+    }
+
     /// The clock of a side's SPI.
     fn spi_clock(&self, side: usize) -> Ps {
         self.clocks.bus(self.model.spis[side])

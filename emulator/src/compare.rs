@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
+use config::AnyConfig;
 use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
-use plan::NumberFormat;
 use scene::Numbers;
 
 use crate::board::Emulated;
 use crate::counters::Started;
+use crate::deployment::{flashed, image};
 use crate::emulate::{pwm_counts, start};
 use crate::program::Program;
 
@@ -54,35 +55,70 @@ pub(crate) struct Pair {
     pub(crate) target: Run<Emulated>,
     /// Whether the scene uses contact.
     pub(crate) feels: bool,
+    classifies: bool,
 }
 
 impl Pair {
     /// Both before their first tick; the scene gets the board's number format.
     pub(crate) fn new(loaded: &mut Loaded, program: &Program) -> Result<Self, Error> {
         let model = program.model()?;
-        let format = plan::in_simulation(&loaded.scene);
-        if let Some(whisking) = &mut loaded.scene.whisking {
-            if !model.has_fpu() {
-                whisking.numbers = Numbers::Fixed;
-            } else if format == NumberFormat::Double {
-                whisking.numbers = Numbers::Single;
-            }
-        }
-        let scene = &loaded.scene;
         let classifier = loaded.classifier()?;
         let touch = classifier.as_ref().and_then(Classifier::touch_rule);
-        let least = plan::contact_min(scene, touch.map(|touch| touch.gate));
+        let least = config::contact_min(&loaded.scene, touch.map(|touch| touch.gate));
         let listens = matches!(least, Ok(Some(_)));
-        let feels = matches!(plan::contact::<f32>(scene, listens), Ok(Some(_)));
+        let feels = matches!(config::contact::<f32>(&loaded.scene, listens), Ok(Some(_)));
+        let format = image(&loaded.scene, None, model.facts)?.config;
+        if let Some(whisking) = &mut loaded.scene.whisking {
+            whisking.numbers = match format {
+                AnyConfig::Single(_) => Numbers::Single,
+                AnyConfig::Fixed(_) => Numbers::Fixed,
+            };
+        }
+        let scene = &loaded.scene;
         let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
-        let mut program = program.clone();
-        program.add_model(loaded.deployed())?;
-        let target = start(scene, host.classes().to_vec(), &program)?;
+        let target = start(scene, host.classes().to_vec(), program)?;
         Ok(Self {
             host,
             target,
             feels,
+            classifies: scene.classifier.is_some(),
         })
+    }
+
+    /// One tick of both, of which the `n`-th must be the same, with the touches of the PC
+    /// numbered as on the board; how many decisions fell.
+    ///
+    /// # Errors
+    /// [`Error::Work`] says what is not the same.
+    pub(crate) fn tick(&mut self, n: u64, touch: impl Fn(u16) -> u16) -> Result<u64, Error> {
+        let mut expected = self.host.tick();
+        let mut found = self.target.tick();
+        self.target.module_mut().check()?;
+        if !self.feels {
+            expected.contact = [0.0; 2];
+            found.contact = [0.0; 2];
+        }
+        expected.touch = if self.classifies {
+            expected.touch.map(&touch)
+        } else {
+            [0; 2]
+        };
+        if let Some(column) = difference(&expected, &found) {
+            return Err(Error::Work(format!(
+                "tick {n}: {column} on the PC, on the board\n  {expected:?}\n  {found:?}"
+            )));
+        }
+        let mut expected: Vec<Decided> = self.host.decisions().collect();
+        for decided in &mut expected {
+            decided.touch = touch(decided.touch);
+        }
+        let found: Vec<Decided> = self.target.decisions().collect();
+        if expected != found {
+            return Err(Error::Work(format!(
+                "tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}"
+            )));
+        }
+        Ok(found.len() as u64)
     }
 }
 
@@ -119,11 +155,11 @@ pub fn compare(
     program: &Path,
     circumstances: Circumstances,
 ) -> Result<Agreement, Error> {
-    let loaded = Loaded::new(path)?;
-    compare_loaded(loaded, path, &Program::load(program)?, circumstances)
+    let (loaded, program) = flashed(path, program)?;
+    compare_loaded(loaded, path, &program, circumstances)
 }
 
-/// The same of a scene that messages call `path`, with the model that is deployed to it.
+/// The same of a scene that messages call `path`, and its model, and what is flashed.
 pub(crate) fn compare_loaded(
     mut loaded: Loaded,
     path: &Path,
@@ -138,15 +174,12 @@ pub(crate) fn compare_loaded(
     if let Some(duration_s) = duration_s {
         loaded.scene.duration_s = duration_s;
     }
-    let Pair {
-        mut host,
-        mut target,
-        feels,
-    } = Pair::new(&mut loaded, program)?;
+    let mut pair = Pair::new(&mut loaded, program)?;
     let scene = &loaded.scene;
+    let named = |fault: &dyn std::fmt::Display| Error::Work(format!("{}: {fault}", path.display()));
 
-    let board = &mut target.module_mut().board;
-    let started = wraps.then(|| Started::new(program, board, scene.tick_hz));
+    let board = &mut pair.target.module_mut().board;
+    let started = wraps.then(|| Started::new(program, board, scene));
     let mut started = started.transpose()?;
     if probe == Probe::Pulled {
         board.attach_reader()?;
@@ -157,61 +190,33 @@ pub(crate) fn compare_loaded(
     };
 
     let mut agreement = Agreement::default();
-    for n in 1..=host.ticks() {
+    for n in 1..=pair.host.ticks() {
         if gone_at == Some(n) {
-            target.module_mut().board.lose_reader()?;
+            pair.target.module_mut().board.lose_reader()?;
         }
-        let mut expected = host.tick();
-        let mut found = target.tick();
-        target.module_mut().check()?;
-        if !feels {
-            expected.contact = [0.0; 2];
-            found.contact = [0.0; 2];
-        }
-        if scene.classifier.is_none() {
-            expected.touch = [0; 2];
-        }
-        agreement.touches = agreement.touches.max(expected.touch[0].into());
-        if let Some(started) = &mut started {
-            started.look(&target.module_mut().board)?;
-            expected.touch = expected.touch.map(|number| started.touch(number));
-        }
-        if let Some(column) = difference(&expected, &found) {
-            return Err(Error::Work(format!(
-                "{}: tick {n}: {column} on the PC, on the board\n  {expected:?}\n  {found:?}",
-                path.display()
-            )));
-        }
-        let mut expected: Vec<Decided> = host.decisions().collect();
-        if let Some(started) = &started {
-            for decided in &mut expected {
-                decided.touch = started.touch(decided.touch);
-            }
-        }
-        let found: Vec<Decided> = target.decisions().collect();
-        if expected != found {
-            return Err(Error::Work(format!(
-                "{}: tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}",
-                path.display()
-            )));
-        }
+        let touch = |number| {
+            started
+                .as_ref()
+                .map_or(number, |started| started.touch(number))
+        };
+        let decisions = pair.tick(n, touch).map_err(|fault| named(&fault))?;
+        agreement.decisions += decisions;
         agreement.ticks = n;
-        agreement.decisions += found.len() as u64;
+        agreement.touches = agreement.touches.max(pair.host.row().touch[0].into());
+        if let Some(started) = &mut started {
+            started.look(&pair.target.module_mut().board)?;
+        }
     }
-    let board = target.module_mut();
+    let board = pair.target.module_mut();
     let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
-        return Err(Error::Work(format!(
-            "{}: a tick lasts {period} times as long as it should",
-            path.display()
-        )));
+        let fault = format!("a tick lasts {period} times as long as it should");
+        return Err(named(&fault));
     }
     agreement.stack = board.board.machine.stack_used()?;
     agreement.missed = board.board.missed()?;
     if let Some(started) = started {
-        let wrapped = started.wrapped();
-        let told = |left| Error::Work(format!("{}: {left}", path.display()));
-        agreement.wrapped = wrapped.map_err(told)?;
+        agreement.wrapped = started.wrapped().map_err(|left| named(&left))?;
     }
     Ok(agreement)
 }

@@ -107,43 +107,41 @@ const CLOCK: fn(i64) -> i64 = |_| -40_000_000;
 const ENCODER: fn(i64) -> i64 = |_| -50;
 const TOTAL: fn(i64) -> i64 = |_| -100;
 
-const COUNTERS: [Counter; 16] = [
-    Counter::in_ram("ticks", "TICKS.__0.v.value", 32, TICKS),
-    Counter::in_step("idle.__0.value.value.value.__0.fed", 32, TICKS),
-    Counter::in_step("idle.__0.value.value.value.__0.logged", 32, TICKS),
+const COUNTERS: [Counter; 14] = [
+    Counter::in_ram("ticks", "TICKS.v", 32, TICKS),
+    Counter::in_step("IDLE.fed", 32, TICKS),
+    Counter::in_step("IDLE.logged", 32, TICKS),
     // The next full second.
-    Counter::in_step("value.__0.second", 32, |tick_hz| tick_hz / 4),
-    Counter::in_ram("events put in", "queue.__0.value.put", 32, |_| -3),
-    Counter::in_ram("events taken out", "queue.__0.value.taken", 32, |_| -3),
+    Counter::in_step("module.second", 32, |tick_hz| tick_hz / 4),
     Counter::in_ram(TOUCHES, "touches.last", 16, |_| -4),
     Counter {
         what: "the clock that measures the ticks",
         place: Place::Tim5,
-        seen: Some("inner.timing.begun.Some.__0"),
+        seen: Some("INNER.timing.begun"),
         width: 32,
         is_signed: false,
         start: CLOCK,
     },
-    Counter::in_step("inner.clock.now", 32, CLOCK),
+    Counter::in_step("INNER.clock.now", 32, CLOCK),
     Counter {
         what: "the encoder's timer",
-        place: Place::TimerOf("servos.angle.timer.ptr"),
-        seen: Some("servos.angle.last"),
+        place: Place::TimerOf("servo.angle.timer.ptr"),
+        seen: Some("servo.angle.last"),
         width: 16,
         is_signed: false,
         start: ENCODER,
     },
-    Counter::in_step("servos.angle.last", 16, ENCODER),
+    Counter::in_step("servo.angle.last", 16, ENCODER),
     Counter {
         what: "the encoder's total",
-        seen: Some("servos.angle.counts"),
-        ..Counter::of_total("servos.angle.counts")
+        seen: Some("servo.angle.counts"),
+        ..Counter::of_total("servo.angle.counts")
     },
-    Counter::of_total("servos.counts"),
+    Counter::of_total("servo.counts"),
     // Where rest is.
-    Counter::of_total("servos.home.first"),
-    Counter::of_total("servos.home.second"),
-    Counter::of_total("servos.home.third"),
+    Counter::of_total("servo.home.first"),
+    Counter::of_total("servo.home.second"),
+    Counter::of_total("servo.home.third"),
 ];
 
 /// What each counts, its bits, and how many counts before its wrap it starts, at 2,000 ticks

@@ -8,61 +8,64 @@ use host_sim::loaded::Loaded;
 
 use crate::chip::{Fault, Ps};
 use crate::debug_info::{DebugInfo, Place};
+use crate::deployment::flashed;
 use crate::program::Program;
 use crate::trouble::Trouble;
 
-/// What is made at the start, in lists of one: the settings, and in the perception what no
-/// sample changes.
-const PLACE: &str = "__rtic_internal_local_init_place";
-const SETTINGS: &[&str] = &["settings", "buffer", "buffer"];
-const PERCEPTION: &[&str] = &["perception", "buffer", "buffer"];
+/// The settings, and how fast the module ticks by them.
+const SETTINGS: [(&str, &[&str]); 2] = [("SETTINGS", &["val"]), ("PACE", &[])];
+/// In the module: what the classifier holds that no sample changes.
+const MODULE: &str = "INNER";
 const CONSTANTS: [&[&str]; 2] = [
-    &["classifier", "bayes", "constants"],
-    &["classifier", "factors"],
+    &[
+        "perception",
+        "classifier",
+        "found",
+        "classifier",
+        "constants",
+    ],
+    &["perception", "classifier", "found", "factors"],
 ];
 
 /// Words of each of which a bit is flipped, evenly spread.
 const WORDS: u32 = 4;
-/// Ticks after which no motor may be driven: idle looks at 16 words of each in a tick.
-const WITHIN: [u32; 2] = [20, 400];
-/// The first bytes of a model.
-const MODEL: &[u8] = b"WLIK\x02\x00";
+/// Words of each that idle looks at in a tick.
+const LOOKED_AT: u32 = 16;
+/// Bytes of the largest model that is damaged here.
+const MODEL_BYTES: u32 = 12 * 1024;
 
 /// Flips bits in the settings of the scene in `path`, each after a new start, and, if it has
-/// a classifier, in its model and in what it holds of that. The motors must be off within 20
-/// ticks, with the model within 400, and the log must say fault 55 or 56. Returns these lines.
+/// a classifier, in its model and in what it holds of that. The motors must be off once idle has
+/// looked at all of it, and the log must say fault 55 or 56. Returns these lines.
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
 pub fn damage(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
-    let loaded = Loaded::new(path)?;
-    let elf = Program::load(program)?;
-    let info = DebugInfo::new(&elf)?;
-    let place = info.variable(PLACE)?;
-    let mut flips = evenly(member(place, SETTINGS)?, WITHIN[0], "fault 55")?;
-    if loaded.scene.classifier.is_some() && !loaded.scene.awaits_model() {
-        let perception = member(place, PERCEPTION)?.element(0)?;
-        for path in CONSTANTS {
-            flips.extend(evenly(member(perception, path)?, WITHIN[0], "fault 56")?);
-        }
+    let (loaded, program) = flashed(path, program)?;
+    let info = DebugInfo::new(&program)?;
+    let mut flips = Vec::new();
+    for (name, path) in SETTINGS {
+        flips.extend(evenly(member(info.variable(name)?, path)?, "fault 55")?);
     }
-    let model = elf.segments().find_map(|(address, contents)| {
-        let at = contents
-            .windows(MODEL.len())
-            .position(|bytes| bytes == MODEL)?;
-        Some(address + at as u32)
-    });
-    flips.extend(model.map(|address| Flip {
-        // In the row of a table.
-        address: address + 1_024,
-        bit: 0,
-        within: WITHIN[1],
-        fault: "fault 56",
-    }));
+    let classifier = loaded.scene.classifier.as_ref();
+    if classifier.is_some_and(|classifier| classifier.model.is_some()) {
+        let module = info.variable(MODULE)?;
+        for path in CONSTANTS {
+            flips.extend(evenly(member(module, path)?, "fault 56")?);
+        }
+        let [slot, _] = program.model()?.facts.flash.slots;
+        flips.push(Flip {
+            // In the row of a table.
+            address: slot.model.start + 1_024,
+            bit: 0,
+            within: within(MODEL_BYTES),
+            fault: "fault 56",
+        });
+    }
 
     let mut heard = Vec::new();
     for flip in flips {
-        let mut trouble = whisking(&loaded, program)?;
+        let mut trouble = whisking(&loaded, &program)?;
         let memories = &mut trouble.board_mut().machine.memories;
         memories.flip(flip.address, 1 << flip.bit)?;
         heard.push(must_stop(&mut trouble, loaded.scene.tick_hz, &flip)?);
@@ -85,8 +88,15 @@ fn member<'d>(of: Place<'d>, path: &[&str]) -> Result<Place<'d>, Fault> {
     path.iter().try_fold(of, |place, name| place.member(name))
 }
 
+/// Ticks after which every word of so many bytes was looked at: that of a walk which had just
+/// passed the word, and a whole one; and two in which idle is late.
+const fn within(bytes: u32) -> u32 {
+    2 * (bytes / 4).div_ceil(LOOKED_AT) + 2
+}
+
 /// Bits of [`WORDS`] of its words, evenly spread.
-fn evenly(of: Place<'_>, within: u32, fault: &'static str) -> Result<Vec<Flip>, Fault> {
+fn evenly(of: Place<'_>, fault: &'static str) -> Result<Vec<Flip>, Fault> {
+    let within = within(of.size()?);
     let last = of.size()? / 4 - 1;
     let mut words: Vec<u32> = (0..WORDS).map(|n| last * n / (WORDS - 1)).collect();
     words.dedup();
@@ -100,7 +110,7 @@ fn evenly(of: Place<'_>, within: u32, fault: &'static str) -> Result<Vec<Flip>, 
 }
 
 /// A board that has whisked for a while.
-fn whisking(loaded: &Loaded, program: &Path) -> Result<Trouble, Error> {
+fn whisking(loaded: &Loaded, program: &Program) -> Result<Trouble, Error> {
     let mut trouble = Trouble::new(&loaded.scene, program)?;
     let tick_hz = loaded.scene.tick_hz;
     trouble.pass(tick_hz / 10)?;

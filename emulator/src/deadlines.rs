@@ -4,13 +4,12 @@ use std::fmt;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 use host_sim::progress::{Progress, Verbosity};
 
 use crate::chip::Ps;
+use crate::deployment::flashed;
 use crate::emulate::start;
 use crate::meter::{Figures, Tally};
-use crate::program::Program;
 
 /// What was measured.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,9 +38,8 @@ pub fn measure(
     minutes: f64,
     verbosity: Verbosity,
 ) -> Result<Deadlines, Error> {
-    let mut loaded = Loaded::new(path)?;
+    let (mut loaded, program) = flashed(path, program)?;
     loaded.scene.duration_s = 60.0 * minutes;
-    let program = Program::load(program)?;
     let mut run = start(&loaded.scene, Vec::new(), &program)?;
     let mut progress = Progress::new(verbosity, "measuring", run.ticks());
     for n in 0..run.ticks() {

@@ -1,21 +1,27 @@
-//! Models deployed to a board: right ones, wrong ones, and such as were interrupted.
+//! Scenes and models deployed to a board: right ones, wrong ones, and such as were interrupted.
 
 use std::path::Path;
 
-use firmware::Refusal;
-use host_sim::Error;
+use firmware::boards::{BoardFacts, Region, SlotHeader, newest_first};
+use firmware::{ConfigError, Header, Part, Refusal, decode};
 use host_sim::loaded::Loaded;
+use host_sim::{Error, files};
+use scene::Integrator;
 use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
-use wire::{Command, CommandStatus, WhiskerId};
+use whisking::Fix;
+use wire::{Command, CommandStatus, Load, WhiskerId};
 
 use crate::compare::{Agreement, Circumstances, compare_loaded};
-use crate::loading::{ask, load, must};
+use crate::damaged;
+use crate::deployment::{Deployment, flashed_for};
+use crate::loading::{ask, load, load_watched, must, refuses};
 use crate::program::Program;
 use crate::session::Session;
 
-/// How long PC and board are compared, s.
+/// How long PC and board are compared, s, and how long after what changes nothing.
 const COMPARED_S: f64 = 8.0;
-/// How long a board that has refused a model is watched, s: it whisks and may touch.
+const SHORT_S: f64 = 1.0;
+/// How long a board that was deployed to is watched, s: it whisks and may touch.
 const WATCHED_S: f64 = 2.0;
 /// How long a whisker takes to come to rest, s.
 const TO_REST_S: f64 = 0.3;
@@ -28,7 +34,7 @@ const LENGTH: usize = 12;
 
 /// A scene without a model, the world that it is in, and what is flashed for it.
 #[derive(Debug, Clone, Copy)]
-pub struct Deployment<'p> {
+pub struct Boards<'p> {
     /// The scene.
     pub scene: &'p Path,
     /// That of the world.
@@ -37,61 +43,79 @@ pub struct Deployment<'p> {
     pub program: &'p Path,
 }
 
-impl Deployment<'_> {
-    fn load(&self) -> Result<Loaded, Error> {
-        Loaded::new(self.scene)?.in_world(self.world)
-    }
-
-    fn session(&self) -> Result<Session, Error> {
-        Session::open(&self.load()?.scene, self.program)
-    }
+/// A scene, what a board has of it, and that in its flash.
+struct Flashed {
+    loaded: Loaded,
+    deployment: Deployment,
+    flash: Vec<u8>,
 }
 
-/// Deploys the model in `model` to a board that has none: PC and board must then agree to the
-/// last bit, in decisions too, as they must before. A model that was interrupted after some
-/// words, or that is wrong, must be refused with its reason, and the board must whisk on and
-/// decide nothing. Returns what was seen, a line each.
+/// By what requests go.
+#[derive(Debug, Clone, Copy)]
+enum Way {
+    Probe,
+    Serial,
+}
+
+/// A board that has a scene without a model, and the same scene with one.
+struct Case<'p> {
+    path: &'p Path,
+    program: Program,
+    /// Whether the program brings its scene with it, and so was built of the parts of that.
+    is_lean: bool,
+    old: Flashed,
+    new: Flashed,
+}
+
+/// Deploys the scene with the model in `model` to a board that has it without, by a probe and by
+/// the serial port: PC and board must then agree to the last bit, in decisions too, as they must
+/// before. What was interrupted after any word, and configurations that are wrong, must leave the
+/// scene before, and what is wrong must be refused with its reason: configurations before
+/// anything is written, too. Returns what was seen, a line each.
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
-pub fn deploying(bench: Deployment<'_>, model: &Path) -> Result<Vec<String>, Error> {
+pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> {
+    let case = Case::new(bench, model)?;
     let mut told = Vec::new();
-    let program = Program::load(bench.program)?;
-    let compared = |loaded: Loaded| {
-        let circumstances = Circumstances {
-            duration_s: Some(COMPARED_S),
-            ..Circumstances::default()
-        };
-        compare_loaded(loaded, bench.scene, &program, circumstances)
-    };
-    let without = compared(bench.load()?)?;
-    told.push(agreed("no model", without));
-    let with = compared(bench.load()?.with_model(model)?)?;
-    told.push(agreed("a model", with));
+    let without = case.agree(&case.old, &case.old.flash, COMPARED_S)?;
+    told.push(agreed("without a model", without));
+    let with = case.agree(&case.new, &case.new.flash, COMPARED_S)?;
+    told.push(agreed("with a model", with));
     if without.decisions != 0 || with.decisions == 0 {
         return Err(Error::Work(told.join("\n")));
     }
-
-    let loaded = bench.load()?.with_model(model)?;
-    let right = loaded.deployed();
-    told.push(refuses_to_load(bench)?);
-    let words = right.len() / 4;
-    for written in [0, 1, words / 2, words - 2, words - 1] {
-        let said = refuses(bench, right, written, Refusal::Absent)?;
-        told.push(format!("{written} of {words} words written: {said}"));
+    told.push(case.refuses_to_load()?);
+    let words = case.new.deployment.load().words() as usize;
+    for (way, written) in [
+        (Way::Probe, 0),
+        (Way::Serial, words / 2),
+        (Way::Probe, words - 1),
+    ] {
+        case.keeps(way, &case.new.deployment, written, None)?;
+        told.push(format!(
+            "{written} of {words} words written: the scene before runs, as on the PC"
+        ));
     }
-    let session = bench.session()?;
-    for (what, wrong, why) in wrong_models(right, &session)? {
-        let said = refuses(bench, &wrong, usize::MAX, why)?;
-        told.push(format!("{what}: {said}"));
+    for (config, error) in case.wrong_configs()? {
+        let wrong = Deployment {
+            config,
+            model: Vec::new(),
+        };
+        let said = case.keeps(Way::Probe, &wrong, usize::MAX, Some(error))?;
+        told.push(format!("{said}; the scene before runs, as on the PC"));
     }
-    told.push(decides(bench, right)?);
+    for (what, model, why) in wrong_models(&case.new.deployment.model, case.facts()?)? {
+        told.push(format!("{what}: {}", case.refuses(&model, why)?));
+    }
+    told.push(case.refuses_another()?);
+    told.extend(case.decides()?);
     Ok(told)
 }
 
-fn agreed(with: &str, of: Agreement) -> String {
+fn agreed(what: &str, of: Agreement) -> String {
     format!(
-        "with {with}: PC and board agree to the last bit in {} ticks, {} decisions",
+        "{what}: PC and board agree to the last bit in {} ticks, {} decisions",
         of.ticks, of.decisions
     )
 }
@@ -100,7 +124,7 @@ fn agreed(with: &str, of: Agreement) -> String {
 type Wrong = (&'static str, Vec<u8>, Refusal);
 
 /// Models that a board must refuse.
-fn wrong_models(right: &[u8], session: &Session) -> Result<Vec<Wrong>, Error> {
+fn wrong_models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Error> {
     let changed = |at: usize, by: &[u8]| {
         let mut model = right.to_vec();
         for (byte, other) in model.iter_mut().skip(at).zip(by) {
@@ -109,7 +133,8 @@ fn wrong_models(right: &[u8], session: &Session) -> Result<Vec<Wrong>, Error> {
         model
     };
     let mut long = right.to_vec();
-    let length = session.model_room() as u32 + 4;
+    let [slot, _] = facts.flash.slots;
+    let length = slot.model.bytes + 4;
     for (byte, other) in long.iter_mut().skip(LENGTH).zip(length.to_le_bytes()) {
         *byte = other;
     }
@@ -118,7 +143,7 @@ fn wrong_models(right: &[u8], session: &Session) -> Result<Vec<Wrong>, Error> {
     contradictory[8] = 0;
     let (body, sum) = contradictory.split_at_mut(right.len() - CRC_BYTES);
     sum.copy_from_slice(&checksum(body).to_le_bytes());
-    let many = session.model_classes() + 1;
+    let many = facts.max_classes + 1;
     Ok(vec![
         ("something else", changed(0, &[1]), Refusal::Strange),
         ("another version", changed(VERSION, &[1]), Refusal::Version),
@@ -179,21 +204,6 @@ fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, bool), Erro
     Ok((lines, driven))
 }
 
-/// A board whose motor was on, and is off, its whisker at rest.
-fn stopped(bench: Deployment<'_>) -> Result<Session, Error> {
-    let mut session = bench.session()?;
-    let (lines, driven) = pass(&mut session, 0.5)?;
-    if !driven || !says(&lines, Refusal::Absent) {
-        return Err(missing("a board without a model whisks", &lines));
-    }
-    // From where it is when it is armed anew.
-    ask(&mut session, Command::Setpoint(WhiskerId::default(), 0))?;
-    pass(&mut session, TO_REST_S)?;
-    ask(&mut session, Command::Stop)?;
-    session.tick()?;
-    Ok(session)
-}
-
 fn missing(what: &str, lines: &[String]) -> Error {
     Error::Work(format!("not so: {what}\n  {}", lines.join("\n  ")))
 }
@@ -204,71 +214,320 @@ fn says(lines: &[String], refusal: Refusal) -> bool {
     why.is_some_and(|line| line.contains(refusal.text()))
 }
 
-/// Nothing is loaded while a motor is armed, nor what there is no room for.
-fn refuses_to_load(bench: Deployment<'_>) -> Result<String, Error> {
-    let mut session = bench.session()?;
-    must(&mut session, Command::Load(4), CommandStatus::Armed)?;
-    pass(&mut session, 0.5)?;
-    let is_driven = session.drives();
-    must(&mut session, Command::Load(4), CommandStatus::Armed)?;
-    let mut session = stopped(bench)?;
-    let room = session.model_room() as u32 / 4;
-    for words in [0, room + 1, u32::MAX] {
-        must(
-            &mut session,
-            Command::Load(words),
-            CommandStatus::OutOfRange,
-        )?;
-    }
-    must(&mut session, Command::Word(0, 0), CommandStatus::NotHere)?;
-    must(&mut session, Command::Restart, CommandStatus::NotHere)?;
-    if !is_driven {
-        return Err(missing("a motor is driven", &[]));
-    }
-    Ok(format!(
-        "nothing is loaded while a motor is armed, or of more than {room} words"
-    ))
+/// The CRC of the configuration that a board runs by.
+fn running(session: &mut Session) -> Result<u32, Error> {
+    Ok(ask(session, Command::Scene)?.values[0].cast_unsigned())
 }
 
-/// A board that gets so many words of a model refuses it, whisks on and decides nothing.
-fn refuses(
-    bench: Deployment<'_>,
-    model: &[u8],
-    words: usize,
-    refusal: Refusal,
-) -> Result<String, Error> {
-    let mut session = stopped(bench)?;
-    load(&mut session, model, words)?;
-    let (lines, driven) = pass(&mut session, WATCHED_S)?;
-    let has = |what: &str| lines.iter().any(|line| line.contains(what));
-    if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
-        return Err(missing(refusal.text(), &lines));
-    }
-    let answer = ask(&mut session, Command::Model)?.values;
-    if answer != [0, -i32::from(refusal.code())] {
-        return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
-    }
-    Ok(refusal.text().to_owned())
+/// Stops a board that whisks, once its whisker is at rest: that is where it starts from.
+fn stop(session: &mut Session) -> Result<(), Error> {
+    ask(session, Command::Setpoint(WhiskerId::default(), 0))?;
+    pass(session, TO_REST_S)?;
+    ask(session, Command::Stop)?;
+    session.tick()
 }
 
-/// A board that gets a right model decides by it.
-fn decides(bench: Deployment<'_>, model: &[u8]) -> Result<String, Error> {
-    let mut session = stopped(bench)?;
-    load(&mut session, model, usize::MAX)?;
-    let buf = ModelBuf::from_bytes(model).map_err(|error| Error::Work(error.to_string()))?;
-    let (lines, _) = pass(&mut session, PATIENCE_S)?;
-    let [crc, classes] = ask(&mut session, Command::Model)?.values;
-    let is_it = crc.cast_unsigned() == buf.crc() && classes as usize == buf.classes();
-    let is_named = |line: &&String| {
-        let names = buf.names().chain(["unknown"]);
-        names
-            .into_iter()
-            .any(|name| line.contains(&format!("decision: {name},")))
-    };
-    let by = format!("decides by model {:08x}", buf.crc());
-    let has = lines.iter().any(|line| line.contains(&by));
-    match lines.iter().find(is_named) {
-        Some(line) if is_it && has => Ok(format!("deployed: {by}, first {line}")),
-        _ => Err(missing(&by, &lines)),
+impl Flashed {
+    fn new(loaded: Loaded, model: Option<&ModelBuf>, program: &Program) -> Result<Self, Error> {
+        let deployment = Deployment::of(&loaded.scene, model, program.model()?.facts)?;
+        let mut program = program.clone();
+        deployment.flash(&mut program)?;
+        Ok(Self {
+            flash: Session::of(&loaded.scene, &program)?.flash()?,
+            loaded,
+            deployment,
+        })
+    }
+
+    fn crc(&self) -> Result<u32, Error> {
+        let header = Header::of(&self.deployment.config);
+        let header = header.map_err(|error| Error::Work(error.to_string()))?;
+        Ok(header.crc)
+    }
+}
+
+impl<'p> Case<'p> {
+    fn new(bench: Boards<'p>, model: &Path) -> Result<Self, Error> {
+        let path = bench.scene;
+        let old = Loaded::new(path)?.in_world(bench.world)?;
+        let new = old.clone().with_model(model)?;
+        let (_, model) = files::load_model(model)?;
+        let program = flashed_for(&old.scene, path, bench.program)?;
+        Ok(Self {
+            path,
+            is_lean: Program::load(bench.program)?.brings_scene()?,
+            old: Flashed::new(old, None, &program)?,
+            new: Flashed::new(new, Some(&model), &program)?,
+            program,
+        })
+    }
+
+    fn facts(&self) -> Result<&'static BoardFacts, Error> {
+        Ok(self.program.model()?.facts)
+    }
+
+    /// The program with these scenes and models.
+    fn with(&self, flash: &[u8]) -> Result<Program, Error> {
+        let mut program = self.program.clone();
+        program.add(program.scenes()?.start, flash)?;
+        Ok(program)
+    }
+
+    /// PC and board must agree about a scene, where the board's flash is so.
+    fn agree(&self, scene: &Flashed, flash: &[u8], seconds: f64) -> Result<Agreement, Error> {
+        let circumstances = Circumstances {
+            duration_s: Some(seconds),
+            ..Circumstances::default()
+        };
+        let program = self.with(flash)?;
+        compare_loaded(scene.loaded.clone(), self.path, &program, circumstances)
+    }
+
+    /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,
+    /// that of another integrator is one.
+    fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
+        let mut wrong = damaged::configs(&self.new.deployment.config);
+        if self.is_lean {
+            let mut scene = self.old.loaded.scene.clone();
+            let mut error = None;
+            if let Some(whisking) = &mut scene.whisking {
+                let (other, part) = match whisking.integrator {
+                    Integrator::Exact => (Integrator::Euler, Part::Euler),
+                    Integrator::Euler => (Integrator::Exact, Part::Exact),
+                };
+                whisking.integrator = other;
+                error = Some(ConfigError::NotBuilt(part));
+            }
+            let config = Deployment::of(&scene, None, self.facts()?)?.config;
+            wrong.extend(error.map(|error| (config, error)));
+        }
+        Ok(wrong)
+    }
+
+    /// A board with the old scene whose motor was on, and is off, its whisker at rest.
+    fn stopped(&self, way: Way) -> Result<Session, Error> {
+        let program = self.with(&self.old.flash)?;
+        let mut session = Session::of(&self.old.loaded.scene, &program)?;
+        if let Way::Serial = way {
+            session = session.by_serial();
+        }
+        let (lines, driven) = pass(&mut session, 0.5)?;
+        if !driven || !says(&lines, Refusal::Absent) {
+            return Err(missing("a board without a model whisks", &lines));
+        }
+        stop(&mut session)?;
+        Ok(session)
+    }
+
+    /// Nothing is loaded while a motor is armed, nor what there is no room for.
+    fn refuses_to_load(&self) -> Result<String, Error> {
+        let right = self.new.deployment.load();
+        let program = self.with(&self.old.flash)?;
+        let mut session = Session::of(&self.old.loaded.scene, &program)?;
+        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        pass(&mut session, 0.5)?;
+        let is_driven = session.drives();
+        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        let mut session = self.stopped(Way::Probe)?;
+        let [slot, _] = self.facts()?.flash.slots;
+        let room = Load {
+            config: slot.config().words() as u16,
+            model: slot.model.words() as u16,
+        };
+        let with_config = |config| Load { config, ..right };
+        let with_model = |model| Load { model, ..right };
+        for load in [
+            with_config(0),
+            with_config(4),
+            with_config(right.config + 1),
+            with_config(room.config + 2),
+            with_config(u16::MAX),
+            with_model(room.model + 2),
+            with_model(u16::MAX),
+        ] {
+            must(&mut session, Command::Load(load), CommandStatus::OutOfRange)?;
+        }
+        must(&mut session, Command::Word(0, 0), CommandStatus::NotHere)?;
+        must(&mut session, Command::Restart, CommandStatus::NotHere)?;
+        for (config, error) in self.wrong_configs()? {
+            refuses(&mut session, &config, error)?;
+        }
+        let is_as_before = session.flash()? == self.old.flash;
+        if !is_driven || !is_as_before || running(&mut session)? != self.old.crc()? {
+            return Err(missing("the scene before runs on", &session.log()));
+        }
+        Ok(format!(
+            "nothing is loaded while a motor is armed, or of more than {} and {} words, and what is \
+             wrong is refused before it is written",
+            room.config, room.model
+        ))
+    }
+
+    /// A board that gets so many words of something, with which there is this wrong, whisks on by
+    /// the scene before, and does so as the PC does; what its log says of it.
+    fn keeps(
+        &self,
+        way: Way,
+        what: &Deployment,
+        words: usize,
+        wrong: Option<ConfigError>,
+    ) -> Result<String, Error> {
+        let mut session = self.stopped(way)?;
+        load(&mut session, what, words)?;
+        let (lines, driven) = pass(&mut session, WATCHED_S)?;
+        let is_old = running(&mut session)? == self.old.crc()?;
+        let text = wrong.map(|error| error.to_string()).unwrap_or_default();
+        // Of a version the log says no more than that it is another.
+        let text = text.split(',').next().unwrap_or_default();
+        let said = lines.iter().find(|line| line.contains("slot B: "));
+        let said = said.map_or("", |line| line);
+        if !driven || !is_old || !said.contains(text) {
+            let what = format!("the scene before runs, and why is told: {text}");
+            return Err(missing(&what, &lines));
+        }
+        self.agree(&self.old, &session.flash()?, SHORT_S)?;
+        Ok(text.to_owned())
+    }
+
+    /// A board that has a scene with a model that is wrong runs it, and refuses the model: it
+    /// whisks and decides nothing.
+    fn refuses(&self, model: &[u8], refusal: Refusal) -> Result<String, Error> {
+        let mut program = self.with(&self.new.flash)?;
+        let wrong = Deployment {
+            model: model.to_vec(),
+            ..self.new.deployment.clone()
+        };
+        wrong.flash(&mut program)?;
+        let session = Session::of(&self.new.loaded.scene, &program)?;
+        self.has_refused(session, refusal)
+    }
+
+    fn has_refused(&self, mut session: Session, refusal: Refusal) -> Result<String, Error> {
+        let (lines, driven) = pass(&mut session, WATCHED_S)?;
+        let has = |what: &str| lines.iter().any(|line| line.contains(what));
+        if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
+            return Err(missing(refusal.text(), &lines));
+        }
+        let answer = ask(&mut session, Command::Model)?.values;
+        if answer != [0, -i32::from(refusal.code())] || running(&mut session)? != self.new.crc()? {
+            return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
+        }
+        Ok(refusal.text().to_owned())
+    }
+
+    /// A board whose model is not the one that its scene was deployed with refuses it.
+    fn refuses_another(&self) -> Result<String, Error> {
+        let mut program = self.with(&self.new.flash)?;
+        let [slot, _] = self.facts()?.flash.slots;
+        let header = SlotHeader::linked(!self.new.deployment.model_crc());
+        program.add(slot.head.start, &header.bytes())?;
+        let session = Session::of(&self.new.loaded.scene, &program)?;
+        let said = self.has_refused(session, Refusal::Other)?;
+        Ok(format!("another: {said}"))
+    }
+
+    /// The CRC of the configuration by which a board starts whose flash is so.
+    fn newest(&self, flash: &[u8]) -> Result<Option<u32>, Error> {
+        let facts = self.facts()?;
+        let first = self.program.scenes()?.start;
+        let at = |region: Region| {
+            let from = flash.get((region.start - first) as usize..);
+            let bytes = from.and_then(|from| from.get(..region.bytes as usize));
+            bytes.unwrap_or_default()
+        };
+        let slots = facts.flash.slots;
+        let headers = slots.map(|slot| SlotHeader::of(at(slot.head)));
+        let is_valid = |bytes: &&[u8]| {
+            if facts.has_fpu {
+                decode::<f32>(bytes, facts.code).is_ok()
+            } else {
+                decode::<Fix>(bytes, facts.code).is_ok()
+            }
+        };
+        let present = newest_first(headers).into_iter();
+        let present = present.filter(|slot| headers[*slot].is_some());
+        let config = present.map(|slot| at(slots[slot].config())).find(is_valid);
+        Ok(config.and_then(|bytes| Some(Header::of(bytes).ok()?.crc)))
+    }
+
+    /// A board that gets the scene with its model: it starts by that once the last word is
+    /// written, and by the scene before wherever it is cut off.
+    fn loaded(&self, way: Way) -> Result<Session, Error> {
+        let mut session = self.stopped(way)?;
+        let words = self.new.deployment.load().words() as usize;
+        let watch = |session: &mut Session, written| {
+            let expected = if written < words {
+                &self.old
+            } else {
+                &self.new
+            };
+            if self.newest(&session.flash()?)? == Some(expected.crc()?) {
+                return Ok(());
+            }
+            let fault = format!("{way:?}: another scene after {written} of {words} words");
+            Err(Error::Work(fault))
+        };
+        load_watched(&mut session, &self.new.deployment, usize::MAX, watch)?;
+        Ok(session)
+    }
+
+    /// A board that gets the scene with its model decides by it, and does all as the PC does; a
+    /// second deployment that is cut off leaves it, where each slot has a model of its own.
+    fn decides(&self) -> Result<[String; 3], Error> {
+        let by_serial = self.loaded(Way::Serial)?.flash()?;
+        let mut session = self.loaded(Way::Probe)?;
+        if session.flash()? != by_serial {
+            let fault = "the serial port and a probe leave different scenes";
+            return Err(Error::Work(fault.to_owned()));
+        }
+        let right = &self.new.deployment;
+        let wrong = |error: tactile::ModelError| Error::Work(error.to_string());
+        let model = ModelBuf::from_bytes(&right.model).map_err(wrong)?;
+        let (lines, _) = pass(&mut session, PATIENCE_S)?;
+        let [crc, classes] = ask(&mut session, Command::Model)?.values;
+        let is_it = crc.cast_unsigned() == model.crc() && classes as usize == model.classes();
+        let is_named = |line: &&String| {
+            let mut names = model.names().chain(["unknown"]);
+            names.any(|name| line.contains(&format!("decision: {name},")))
+        };
+        let by = format!("decides by model {:08x}", model.crc());
+        let has = lines.iter().any(|line| line.contains(&by));
+        let first = match lines.iter().find(is_named) {
+            Some(line) if is_it && has && running(&mut session)? == self.new.crc()? => line,
+            _ => return Err(missing(&by, &lines)),
+        };
+        let deployed = self.agree(&self.new, &session.flash()?, COMPARED_S)?;
+
+        stop(&mut session)?;
+        // In the middle of the model, which comes first.
+        load(&mut session, right, usize::from(right.load().model / 2))?;
+        pass(&mut session, SHORT_S)?;
+        if running(&mut session)? != self.new.crc()? {
+            return Err(missing("the deployed scene runs on", &session.log()));
+        }
+        let [slot, _] = self.facts()?.flash.slots;
+        let left = if slot.has_model() {
+            &self.new
+        } else {
+            &self.old
+        };
+        let left = Flashed {
+            loaded: left.loaded.clone(),
+            deployment: right.clone(),
+            flash: session.flash()?,
+        };
+        let again = self.agree(&left, &left.flash, COMPARED_S)?;
+        if (again.decisions > 0) != slot.has_model() {
+            return Err(missing("the deployed scene has its model or not", &[]));
+        }
+        Ok([
+            format!("deployed: {by}, first {first}"),
+            agreed(
+                "deployed by the serial port and by a probe, the scene before after each word but \
+                 the last",
+                deployed,
+            ),
+            agreed("deployed again, cut off in the middle of the model", again),
+        ])
     }
 }

@@ -5,8 +5,6 @@ use std::path::Path;
 
 use host_sim::Error;
 use host_sim::commands::run::play;
-use host_sim::loaded::Loaded;
-use host_sim::motor::Pins;
 use host_sim::output::Output;
 use host_sim::plot::{self, Film};
 use host_sim::progress::Verbosity;
@@ -16,6 +14,7 @@ use scene::{Scene, SensorMode};
 
 use crate::board::{Board, Emulated};
 use crate::chip::{Chip, Fault, Model};
+use crate::deployment::{flashed, image};
 use crate::program::Program;
 
 impl From<Fault> for Error {
@@ -24,39 +23,49 @@ impl From<Fault> for Error {
     }
 }
 
-/// Counts of a period of the motors' PWM: half as many where the core's clock is halved for
-/// slow sensors.
+/// Counts of a period of the motors' PWM, and of so many Hz: half as many where the core's clock
+/// is halved for slow sensors.
 pub(crate) fn pwm_counts(scene: &Scene, model: &Model) -> u16 {
-    match scene.sensor.mode {
-        SensorMode::Fast => model.pwm_counts,
-        SensorMode::Slow => model.pwm_counts / 2,
-    }
+    let is_slow = scene.sensor.mode == SensorMode::Slow;
+    model.facts.clocks_of(is_slow).pwm_counts()
 }
 
 /// A scene on the emulated board before its first tick; `classes` are those of
 /// the program's classifier.
+///
+/// # Errors
+/// [`Error::Work`] for what the board cannot go along with, a scene that it refuses among it.
 pub(crate) fn start(
     scene: &Scene,
     classes: Vec<String>,
     program: &Program,
 ) -> Result<Run<Emulated>, Error> {
+    let mut run = start_without(scene, classes, program)?;
+    let log = run.module_mut().board.logged();
+    let lines = program.log_decoder()?.lines(log);
+    if lines.iter().any(|line| line.contains(NO_SCENE)) {
+        return Err(Error::Work(lines.join("\n")));
+    }
+    Ok(run)
+}
+
+/// What the log of a board says that runs no scene.
+pub(crate) const NO_SCENE: &str = ": no scene, ";
+
+/// As [`start`], of a board that may have no scene, or refuse it.
+///
+/// # Errors
+/// [`Error::Work`] for what the board cannot go along with.
+pub(crate) fn start_without(
+    scene: &Scene,
+    classes: Vec<String>,
+    program: &Program,
+) -> Result<Run<Emulated>, Error> {
     let model = program.model()?;
+    // What hangs on the board.
+    image(scene, None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
-    if scene.head.whiskers_per_side != 1 {
-        return Err(Error::Work(
-            "the board carries one whisker a side".to_owned(),
-        ));
-    }
-    if pins.len() > 1 && pins.iter().any(|pins| matches!(pins, Pins::Brushless(_))) {
-        return Err(Error::Work(
-            "the board carries one six-step motor".to_owned(),
-        ));
-    }
-    let sides = model.sides();
-    if scene.head.sides.count() > sides {
-        return Err(Error::Work(format!("the board carries {sides} side")));
-    }
-    let mut board = Board::new(program, scene.head.sides.count(), pins)?;
+    let mut board = Board::new(program, scene, pins)?;
     if scene.sensor.mode == SensorMode::Slow {
         board.machine.with_chip(Chip::slow_sensors);
     }
@@ -84,9 +93,8 @@ pub fn emulate(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<Option<String>, Error> {
-    let loaded = Loaded::new(path)?;
+    let (loaded, program) = flashed(path, program)?;
     let classes = loaded.classes()?;
-    let program = Program::load(program)?;
     let mut decoder = program.log_decoder()?;
     let run = start(&loaded.scene, classes, &program)?;
     let written = Output::create(&out.join("log.txt"))?;

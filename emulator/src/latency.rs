@@ -13,12 +13,12 @@ use std::fmt;
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 use host_sim::trace::Row;
 use mlx90333::Word;
 use scene::Scene;
 
 use crate::chip::{Ps, SIDE_NAMES};
+use crate::deployment::flashed;
 use crate::emulate::start;
 use crate::program::Program;
 
@@ -62,8 +62,8 @@ impl fmt::Display for Latency {
 /// [`Error::Work`] if the scene is no such one, both sides touch at once, nothing touches
 /// or nothing is excited, or a tick goes wrong.
 pub fn measure(path: &Path, program: &Path) -> Result<[Latency; 2], Error> {
-    let mut scene = Loaded::new(path)?.scene;
-    let program = Program::load(program)?;
+    let (loaded, program) = flashed(path, program)?;
+    let mut scene = loaded.scene;
     let first = once(&scene, &program)?;
     if let Some(obstacle) = &mut scene.plant.obstacle {
         obstacle.obstacle_deg.reverse();

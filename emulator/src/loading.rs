@@ -1,8 +1,10 @@
-//! A model to a board whose loader writes it, by requests in the memory that a probe writes.
+//! A scene and its model to a board whose loader writes them, by requests.
 
+use firmware::{ConfigError, refusal_code};
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand, load_order};
+use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
 
+use crate::deployment::{Deployment, words};
 use crate::session::Session;
 
 /// Ticks that an answer may take, as flash that is erased takes a second; and that a board waits
@@ -42,19 +44,52 @@ pub(crate) fn must(
     )))
 }
 
-/// Has a board whose motors are off load `model`, of which only so many `words` come: then
-/// nobody asks for anything any more, and it starts anew by itself.
+/// Sends a configuration that the board puts aside, and must refuse for this reason; nothing is
+/// written.
+///
+/// # Errors
+/// [`Error::Work`] if it does not.
+pub(crate) fn refuses(
+    session: &mut Session,
+    config: &[u8],
+    error: ConfigError,
+) -> Result<(), Error> {
+    must(session, Command::Forget, CommandStatus::Done)?;
+    for (number, word) in words(config).into_iter().enumerate() {
+        let stage = Command::Stage(number as u8, word);
+        must(session, stage, CommandStatus::Done)?;
+    }
+    let answer = ask(session, Command::Apply(config.len() as u32))?;
+    if answer.status == CommandStatus::OutOfRange && answer.values == refusal_code(error) {
+        return Ok(());
+    }
+    Err(Error::Work(format!("not refused ({error}): {answer:?}")))
+}
+
+/// Has a board whose motors are off load a scene and its model, of which only so many `words`
+/// come: then there are no more requests, and it starts again by itself.
 ///
 /// # Errors
 /// [`Error::Work`] if it refuses, drives a motor meanwhile, or does not start.
-pub(crate) fn load(session: &mut Session, model: &[u8], words: usize) -> Result<(), Error> {
-    let all = model.as_chunks::<4>().0;
-    let count = all.len() as u32;
+pub(crate) fn load(session: &mut Session, what: &Deployment, words: usize) -> Result<(), Error> {
+    load_watched(session, what, words, |_, _| Ok(()))
+}
+
+/// The same; `watch` looks at it after each word, with the number of those that were written.
+///
+/// # Errors
+/// As [`load`], and what `watch` says.
+pub(crate) fn load_watched(
+    session: &mut Session,
+    what: &Deployment,
+    words: usize,
+    mut watch: impl FnMut(&mut Session, usize) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let count = what.load().words() as usize;
     session.bear_resets(true);
-    must(session, Command::Load(count), CommandStatus::Done)?;
-    for number in (0..count).take(words) {
-        let word = all.get(load_order(number, count) as usize);
-        let word = word.map_or(0, |word| u32::from_le_bytes(*word));
+    must(session, Command::Load(what.load()), CommandStatus::Done)?;
+    watch(session, 0)?;
+    for (number, word) in what.words().take(words).enumerate() {
         let command = Command::Word(number as u8, word);
         must(session, command, CommandStatus::Done)?;
         if number == 0 {
@@ -64,12 +99,13 @@ pub(crate) fn load(session: &mut Session, model: &[u8], words: usize) -> Result<
             must(session, other, CommandStatus::OutOfRange)?;
             must(session, Command::Arm, CommandStatus::NotHere)?;
         }
+        watch(session, number + 1)?;
     }
     if session.drives() {
-        let fault = "a motor is driven while a model is loaded";
+        let fault = "a motor is driven while a scene is loaded";
         return Err(Error::Work(fault.to_owned()));
     }
-    if words >= all.len() {
+    if words >= count {
         must(session, Command::Restart, CommandStatus::Done)?;
     }
     for _ in 0..PATIENCE {
@@ -79,6 +115,6 @@ pub(crate) fn load(session: &mut Session, model: &[u8], words: usize) -> Result<
             return Ok(());
         }
     }
-    let fault = "a board whose model was not loaded whole does not start anew";
+    let fault = "a board does not start again after loading";
     Err(Error::Work(fault.to_owned()))
 }

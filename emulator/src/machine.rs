@@ -156,6 +156,16 @@ impl Machine {
         Ok(held)
     }
 
+    /// A side's sensor has said this so far in the frame that is under way.
+    ///
+    /// # Errors
+    /// [`Fault::Memory`] if what was said lies outside of RAM.
+    pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Result<(), Fault> {
+        let places = self.shared.chip().say_again(side, said);
+        let mut bytes = places.into_iter().zip(said);
+        bytes.try_for_each(|(place, byte)| self.memories.write(place, &[*byte]))
+    }
+
     /// Raises the non-maskable interrupt without a cause.
     pub(crate) fn raise_nmi(&self) {
         self.core.raise_nmi();

@@ -113,8 +113,9 @@ enum Command {
     /// Flips bits in the settings and in the model of a scene; fails if the motors are not
     /// switched off, or the log does not say why
     Damage(Flashed),
-    /// Deploys models to a board whose scene names none: a right one, after which PC and board
-    /// must agree, and wrong and interrupted ones; fails if one of these is not refused
+    /// Deploys a scene with a model to a board whose scene names none: after a right one PC and
+    /// board must agree; fails if a wrong or interrupted one is not refused, or does not leave
+    /// the scene before
     Deploying {
         #[command(flatten)]
         flashed: Flashed,
@@ -240,12 +241,13 @@ impl From<Reader> for Probe {
     }
 }
 
-/// A scene and what is flashed for it.
+/// A scene and what is flashed for it; to a program that brings no scene with it this one is
+/// deployed.
 #[derive(Args)]
 struct Flashed {
     /// The scene file
     scene: PathBuf,
-    /// The program that was built for it
+    /// The program: built for it, or for any scene
     #[arg(long, value_name = "ELF")]
     program: PathBuf,
 }
@@ -291,9 +293,9 @@ fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
     }
 }
 
-/// Deploys models, and tells what was seen.
+/// Deploys scenes, and tells what was seen.
 fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
-    let bench = deploying::Deployment {
+    let bench = deploying::Boards {
         scene: &flashed.scene,
         world,
         program: &flashed.program,

@@ -6,9 +6,9 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 
 use crate::chip::{Ps, ResetCause};
+use crate::deployment::flashed;
 use crate::trouble::Trouble;
 
 /// A tick of two periods and a quarter lets one period pass without a tick.
@@ -26,8 +26,8 @@ const HANG: Ps = 60_000_000_000;
 /// # Errors
 /// [`Error::Work`] says what did not happen.
 pub fn overload(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
-    let loaded = Loaded::new(path)?;
-    let mut trouble = Trouble::new(&loaded.scene, program)?;
+    let (loaded, program) = flashed(path, program)?;
+    let mut trouble = Trouble::new(&loaded.scene, &program)?;
     trouble.run.module_mut().bears_resets = true;
     let second = loaded.scene.tick_hz;
     let period = 1_000_000_000_000 / Ps::from(second);

@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 use host_sim::plot::{Panel, sides};
 
+use crate::deployment::flashed;
 use crate::emulate::start;
-use crate::program::Program;
 
 /// Runs each scene on the board that the program beside it was built for, and draws them one
 /// below the other: an SVG document.
@@ -21,14 +20,14 @@ pub fn picture(flashed: &[(&Path, &Path)]) -> Result<String, Error> {
 }
 
 fn panel(path: &Path, program: &Path) -> Result<Panel, Error> {
-    let loaded = Loaded::new(path)?;
+    let (loaded, program) = flashed(path, program)?;
     let scene = &loaded.scene;
     let obstacle = scene.plant.obstacle.as_ref();
     let Some(&[left, right]) = obstacle.map(|obstacle| obstacle.obstacle_deg.as_slice()) else {
         let reason = "plant.obstacle_deg: found none for each of two sides; the picture shows both";
         return Err(Error::file(path, reason));
     };
-    let mut run = start(scene, loaded.classes()?, &Program::load(program)?)?;
+    let mut run = start(scene, loaded.classes()?, &program)?;
     let mut rows = Vec::new();
     for _ in 0..run.ticks() {
         rows.push(run.tick());

@@ -80,27 +80,30 @@ impl Program {
         Ok(LogDecoder::new(&self.bytes)?)
     }
 
-    /// Where a model lies that is deployed apart from it.
-    pub(crate) fn model_place(&self) -> Result<Range<u32>, Fault> {
-        Ok(self.symbol("_model_start")?..self.symbol("_model_end")?)
+    /// Where scenes and models lie: the slots, and what lies behind them.
+    pub(crate) fn scenes(&self) -> Result<Range<u32>, Fault> {
+        let [a, b] = self.model()?.facts.flash.slots;
+        Ok(a.erased.start..b.erased.end().max(b.model.end()))
     }
 
-    /// Most classes that its board takes.
-    pub(crate) fn model_classes(&self) -> Result<usize, Fault> {
-        Ok(self.symbol("_model_classes")? as usize)
+    /// Whether it brings a scene with it.
+    pub(crate) fn brings_scene(&self) -> Result<bool, Fault> {
+        let places = self.scenes()?;
+        let mut segments = self.segments();
+        Ok(segments.any(|(at, _)| places.contains(&at)))
     }
 
-    /// Has `contents` lie where a model is deployed to, when it is flashed.
-    pub(crate) fn add_model(&mut self, contents: &[u8]) -> Result<(), Fault> {
-        let place = self.model_place()?;
-        if contents.len() > place.len() {
-            return Err(bad(format!(
-                "found {} bytes for the model's flash, allowed: at most {}",
-                contents.len(),
-                place.len()
-            )));
+    /// Has `contents` lie at an address where scenes and models do, when it is flashed.
+    ///
+    /// # Errors
+    /// [`Fault::Program`] where they lie elsewhere.
+    pub(crate) fn add(&mut self, at: u32, contents: &[u8]) -> Result<(), Fault> {
+        let places = self.scenes()?;
+        if at < places.start || at as usize + contents.len() > places.end as usize {
+            let found = contents.len();
+            return Err(bad(format!("no room for {found} bytes at {at:#010x}")));
         }
-        self.segments.push((place.start, contents.to_vec()));
+        self.segments.push((at, contents.to_vec()));
         Ok(())
     }
 

@@ -7,11 +7,11 @@ use std::path::Path;
 use firmware::Event;
 use host_sim::Error;
 use host_sim::bus::{Slave, WireFault};
-use host_sim::loaded::Loaded;
 use mlx90333::Faults;
 use scene::OnFault;
 
 use crate::chip::SIDE_NAMES;
+use crate::deployment::flashed;
 use crate::trouble::Trouble;
 
 /// What befalls a sensor, and what the log then says of its whisker.
@@ -72,8 +72,8 @@ const DRIVEN: f64 = 0.5;
 /// # Errors
 /// [`Error::Work`] says what did not happen.
 pub fn lose(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
-    let loaded = Loaded::new(path)?;
-    let mut trouble = Trouble::new(&loaded.scene, program)?;
+    let (loaded, program) = flashed(path, program)?;
+    let mut trouble = Trouble::new(&loaded.scene, &program)?;
     let tenth = loaded.scene.tick_hz / 10;
     let sides: Vec<usize> = (0..loaded.scene.head.sides.count()).collect();
     let mut lost: Vec<&[usize]> = sides.chunks(1).collect();

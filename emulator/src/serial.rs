@@ -2,7 +2,6 @@
 //! that the tick takes no longer for it.
 
 mod cost;
-mod ear;
 mod talk;
 mod told;
 
@@ -14,8 +13,8 @@ use scene::Scene;
 use wire::{Command, CommandStatus, Flags, Framed, Packet, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::compare::Pair;
-use crate::program::Program;
-use ear::Ear;
+use crate::deployment::{flashed, flashed_for};
+use crate::ear::{self, Ear};
 use talk::{Talk, wrong};
 
 /// For how long an answer is waited for, and the records of a part are taken, s.
@@ -32,16 +31,16 @@ pub const SLOW_BAUD: u32 = 115_200;
 /// # Errors
 /// [`Error::Work`] says what is not as it should be.
 pub fn talk(path: &Path, [program, slow, without]: [&Path; 3]) -> Result<Vec<String>, Error> {
-    let mut said = converse(path, &Program::load(program)?)?;
-    said.push(refuse_records(path, &Program::load(slow)?)?);
+    let mut said = converse(path, program)?;
+    said.push(refuse_records(path, slow)?);
     said.extend(cost::cost(path, program, without)?);
     Ok(said)
 }
 
 /// All that is said at a baud that carries records.
-fn converse(path: &Path, program: &Program) -> Result<Vec<String>, Error> {
-    let mut loaded = Loaded::new(path)?;
-    let pair = Pair::new(&mut loaded, program)?;
+fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
+    let (mut loaded, program) = flashed(path, program)?;
+    let pair = Pair::new(&mut loaded, &program)?;
     let scene = &loaded.scene;
     let mut talk = Talk {
         pair,
@@ -218,10 +217,11 @@ fn garbage(talk: &mut Talk) -> Result<String, Error> {
 }
 
 /// At [`SLOW_BAUD`] records are refused, and all else is as before.
-fn refuse_records(path: &Path, program: &Program) -> Result<String, Error> {
+fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     let mut loaded = Loaded::new(path)?;
     loaded.scene.telemetry.serial_baud = Some(SLOW_BAUD);
-    let pair = Pair::new(&mut loaded, program)?;
+    let program = flashed_for(&loaded.scene, path, program)?;
+    let pair = Pair::new(&mut loaded, &program)?;
     let part = (PART_S * f64::from(loaded.scene.tick_hz)) as u32;
     let mut talk = Talk {
         pair,

@@ -7,11 +7,12 @@ use std::path::Path;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::{Packet, TaggedCommand};
+use wire::{Framed, Packet, TaggedCommand};
 
 use crate::board::Emulated;
 use crate::chip::Ps;
-use crate::emulate::start;
+use crate::ear::{Ear, Heard};
+use crate::emulate::start_without;
 use crate::program::Program;
 use rtt::LogDecoder;
 
@@ -23,51 +24,55 @@ pub struct Session {
     run: Run<Emulated>,
     decoder: LogDecoder,
     board: &'static str,
-    /// Where a model is deployed to, and most classes of it.
+    /// Where scenes and models lie.
     place: Range<u32>,
-    classes: usize,
     /// Longer than any tick takes.
     most_wait: Ps,
+    /// Who listens to the serial line, where that is what requests go by.
+    ear: Option<Ear>,
 }
 
 impl Session {
-    /// The board that `program` was built for, in the world of `scene`.
+    /// The board that `program` was built for, in the world of `scene`; empty `flash`: scenes and
+    /// models are what the program brings with it, otherwise what is there, as
+    /// [`Session::flash`] gives it.
     ///
     /// # Errors
-    /// [`Error::Work`] for a program that cannot be run, or a scene that its board cannot
-    /// carry.
-    pub fn open(scene: &Scene, program: &Path) -> Result<Self, Error> {
-        Self::flashed(scene, program, &[])
+    /// [`Error::Work`] for a program that cannot be run, a scene that its board cannot carry, and
+    /// for flash of another size.
+    pub fn flashed(scene: &Scene, program: &Path, flash: &[u8]) -> Result<Self, Error> {
+        let mut program = Program::load(program)?;
+        let (found, allowed) = (flash.len(), program.scenes()?.len());
+        if found != 0 && found != allowed {
+            return Err(Error::Work(format!(
+                "found {found} bytes of flash for scenes, allowed: {allowed}; are they of another \
+                 board?"
+            )));
+        }
+        program.add(program.scenes()?.start, flash)?;
+        Self::of(scene, &program)
     }
 
-    /// The same with `model` in the flash where a model is deployed to, as [`Session::flash`]
-    /// gives it.
-    ///
-    /// # Errors
-    /// As [`Session::open`], and if it is more than there is room for.
-    pub fn flashed(scene: &Scene, program: &Path, model: &[u8]) -> Result<Self, Error> {
-        let mut program = Program::load(program)?;
-        program.add_model(model)?;
+    /// The same of what is flashed.
+    pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
         Ok(Self {
             // Decisions are told in the log, by their names.
-            run: start(scene, Vec::new(), &program)?,
+            run: start_without(scene, Vec::new(), program)?,
             decoder: program.log_decoder()?,
             board: program.model()?.program,
-            place: program.model_place()?,
-            classes: program.model_classes()?,
+            place: program.scenes()?,
             // Ticks are not equally long.
             most_wait: (1.5 * PS / f64::from(scene.tick_hz)) as Ps,
+            ear: None,
         })
     }
 
-    /// Bytes of flash for a model.
-    pub fn model_room(&self) -> usize {
-        self.place.len()
-    }
-
-    /// Most classes of a model that the board takes.
-    pub const fn model_classes(&self) -> usize {
-        self.classes
+    /// The same, where requests go by the serial line, as frames, and not by a probe.
+    pub(crate) fn by_serial(self) -> Self {
+        Self {
+            ear: Some(Ear::default()),
+            ..self
+        }
     }
 
     /// Whether a motor is driven.
@@ -77,7 +82,7 @@ impl Session {
         duties.iter().any(|(on, _)| *on > 0)
     }
 
-    /// What lies in the flash where a model is deployed to.
+    /// What lies in the flash where scenes and models do.
     ///
     /// # Errors
     /// [`Error::Work`] if it cannot be read.
@@ -117,6 +122,10 @@ impl Session {
     /// [`Error::Work`] if the program's memory is not as it should be.
     pub fn request(&mut self, request: TaggedCommand) -> Result<bool, Error> {
         let board = &mut self.run.module_mut().board;
+        if self.ear.is_some() {
+            board.serial_write(Framed::request(&request).bytes());
+            return Ok(true);
+        }
         Ok(board.request(&request.bytes())?)
     }
 
@@ -125,7 +134,16 @@ impl Session {
     /// # Errors
     /// As [`Session::request`].
     pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
-        Ok(self.run.module_mut().board.packets()?)
+        let board = &mut self.run.module_mut().board;
+        let Some(ear) = &mut self.ear else {
+            return Ok(board.packets()?);
+        };
+        let heard = ear.hear(&board.serial_read())?;
+        let packets = heard.into_iter().filter_map(|heard| match heard {
+            Heard::Packet(packet) => Some(packet),
+            Heard::Line(_) => None,
+        });
+        Ok(packets.collect())
     }
 
     /// Has the other end of the board's serial line, which has the scene's baud, send bytes

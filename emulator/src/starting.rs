@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 
 use crate::chip::{Ps, ResetCause};
+use crate::deployment::flashed;
 use crate::trouble::Trouble;
 use crate::upset::{MIDDLE, Upset};
 
@@ -29,8 +29,8 @@ const RUN_ON_DEG: f64 = 60.0;
 /// # Errors
 /// [`Error::Work`] says what did not happen.
 pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
-    let loaded = Loaded::new(path)?;
-    let mut trouble = Trouble::new(&loaded.scene, program)?;
+    let (loaded, program) = flashed(path, program)?;
+    let mut trouble = Trouble::new(&loaded.scene, &program)?;
     trouble.run.module_mut().bears_resets = true;
     let hundredth = loaded.scene.tick_hz / 100;
     let mut heard = Vec::new();
@@ -57,7 +57,7 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     rests(&mut trouble, 10 * hundredth, "after many resets")?;
     heard.push(trouble.hear("not armed: fault 59")?);
 
-    let mut trouble = Trouble::new(&loaded.scene, program)?;
+    let mut trouble = Trouble::new(&loaded.scene, &program)?;
     trouble.run.module_mut().bears_resets = true;
     whisks(&mut trouble, 100 * hundredth, "after power-up")?;
     heard.push(crash(&mut trouble, Upset::NoStack, "fault 54", hundredth)?);

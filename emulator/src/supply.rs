@@ -7,7 +7,9 @@ use host_sim::Error;
 use host_sim::loaded::Loaded;
 
 use crate::chip::{Chip, Ps, ResetCause, WELL_MV};
+use crate::deployment::flashed;
 use crate::machine::Machine;
+use crate::program::Program;
 use crate::starting::{rests, whisks};
 use crate::trouble::Trouble;
 
@@ -47,8 +49,8 @@ const DIP: Ps = 45 * MS;
 /// # Errors
 /// [`Error::Work`] says what did not happen.
 pub fn dip(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
-    let loaded = Loaded::new(path)?;
-    let board = || Bench::new(&loaded, program);
+    let (loaded, program) = flashed(path, program)?;
+    let board = || Bench::new(&loaded, &program);
     let mut heard = Vec::new();
     for within_tick in [false, true] {
         heard.extend(board()?.falls(within_tick)?);
@@ -67,7 +69,7 @@ struct Bench {
 }
 
 impl Bench {
-    fn new(loaded: &Loaded, program: &Path) -> Result<Self, Error> {
+    fn new(loaded: &Loaded, program: &Program) -> Result<Self, Error> {
         let mut trouble = Trouble::new(&loaded.scene, program)?;
         trouble.run.module_mut().bears_resets = true;
         let tick_hz = loaded.scene.tick_hz;

@@ -1,7 +1,5 @@
 //! A board in trouble, and what its log says of it.
 
-use std::path::Path;
-
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::Scene;
@@ -22,11 +20,10 @@ pub(crate) struct Trouble {
 }
 
 impl Trouble {
-    /// A board that runs `scene`, for which `program` was built.
-    pub(crate) fn new(scene: &Scene, program: &Path) -> Result<Self, Error> {
-        let program = Program::load(program)?;
+    /// A board that runs `scene`, for which `program` was flashed.
+    pub(crate) fn new(scene: &Scene, program: &Program) -> Result<Self, Error> {
         Ok(Self {
-            run: start(scene, Vec::new(), &program)?,
+            run: start(scene, Vec::new(), program)?,
             sides: scene.head.sides.count(),
             decoder: program.log_decoder()?,
             log: Vec::new(),

@@ -5,6 +5,7 @@
 
 use firmware::Place as Whisker;
 use host_sim::bench::Snapshot;
+use scene::Scene;
 use tactile::Decision;
 use whisking::{Fix, Real};
 
@@ -18,17 +19,22 @@ use crate::program::Program;
 mod name {
     use crate::notice::Notice;
 
-    /// The module, a shared resource of RTIC.
-    pub(super) const MODULE: &str = "__rtic_internal_shared_resource_module";
-    /// The queue from the tick to idle.
-    pub(super) const QUEUE: &str = "__rtic_internal_local_init_queue";
+    /// The module.
+    pub(super) const MODULE: &str = "INNER";
+    /// The queues between the tick and idle, and in them that of the events.
+    pub(super) const QUEUES: &str = "__rtic_internal_local_init_queues";
+    pub(super) const EVENTS: &str = "events";
+    /// In a queue: its ring, and where the next goes.
+    pub(super) const RING: &str = "buffer";
+    pub(super) const TAIL: &str = "tail";
     /// Contact π of each side.
     pub(super) const CONTACT: &str = "contact";
     /// The pattern generator.
     pub(super) const STATE: [&str; 2] = ["motion", "state"];
-    /// In it: the gate of each side.
+    /// In it: the sides, and the gate of each.
+    pub(super) const SIDES: &str = "sides";
     pub(super) const Z: &str = "z";
-    /// In it: the whiskers of each side.
+    /// In it: the whiskers.
     pub(super) const WHISKERS: &str = "whiskers";
     /// In a whisker: its protraction.
     pub(super) const THETA: [&str; 2] = ["muscle", "theta"];
@@ -37,18 +43,10 @@ mod name {
     pub(super) const NOMINAL: [&str; 2] = ["nominal", "first"];
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
-    /// What is made at the start; in it where perception lies, a list of one.
-    pub(super) const PLACE: &str = "__rtic_internal_local_init_place";
-    pub(super) const PERCEPTION: &str = "perception";
-    /// In it: what tells the touches of the whiskers of each side.
-    pub(super) const TOUCHES: &str = "touches";
+    /// What tells the touches of the whiskers.
+    pub(super) const TOUCHES: [&str; 2] = ["perception", "touches"];
     /// In that: the number of the touch.
     pub(super) const TOUCHING: [&str; 2] = ["touching", "number"];
-    /// In the queue: its ring, and how many events were put in since the start.
-    pub(super) const EVENTS: &str = "events";
-    pub(super) const PUT: &str = "put";
-    /// In a list.
-    pub(super) const BUFFER: &str = "buffer";
     /// The event, and what stands in it.
     pub(super) const DECISION: &str = "Decision";
     pub(super) const SAMPLES: &str = "samples";
@@ -94,7 +92,8 @@ impl Variable {
 /// The events that the tick has queued.
 #[derive(Debug)]
 struct Queue {
-    put: u32,
+    /// Where the place of the next stands.
+    tail: u32,
     length: u32,
     events: u32,
     stride: u32,
@@ -106,6 +105,7 @@ struct Queue {
     whisker: [u32; 2],
     /// The tags of faults and their ends.
     notices: Vec<(u8, Notice)>,
+    /// The place of the first that nobody has seen.
     seen: u32,
 }
 
@@ -121,83 +121,57 @@ pub(crate) enum Said {
 pub(crate) struct Watch {
     contact: Vec<Variable>,
     z: Vec<Variable>,
-    /// θ and g of every whisker, left side first; g counts for the first of a side.
+    /// θ and g of every whisker, left side first.
     theta: Vec<Variable>,
     gain: Vec<[Variable; 2]>,
     missed: u32,
-    /// Of the first whisker of each side that is heard.
+    /// Of each whisker.
     touch: Vec<u32>,
     queue: Queue,
 }
 
-fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Option<Place<'d>>, Fault> {
-    let mut place = from;
-    for name in names {
-        match place.find(name)? {
-            Some(found) => place = found,
-            None => return Ok(None),
-        }
-    }
-    Ok(Some(place))
-}
-
-fn elements(array: Place<'_>) -> Result<Vec<Place<'_>>, Fault> {
-    (0..array.length()?).map(|n| array.element(n)).collect()
-}
-
-/// Where the numbers of touches stand, of the first whisker of each side; nowhere, if
-/// nothing is felt.
-fn touches(info: &DebugInfo) -> Result<Vec<u32>, Fault> {
-    let place = info.variable(name::PLACE)?;
-    let list = place.member(name::PERCEPTION)?;
-    // The list's storage, and the array in it.
-    let storage = list.member(name::BUFFER)?.member(name::BUFFER)?;
-    let perception = storage.element(0)?;
-    let Some(sides) = perception.find(name::TOUCHES)? else {
-        return Ok(Vec::new());
-    };
-    let mut addresses = Vec::new();
-    for side in elements(sides)? {
-        let number = along(side.element(0)?, &name::TOUCHING)?;
-        addresses.extend(number.map(|number| number.address));
-    }
-    Ok(addresses)
+fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Place<'d>, Fault> {
+    names
+        .iter()
+        .try_fold(from, |place, name| place.member(name))
 }
 
 impl Watch {
-    pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
+    /// Of a board that runs `scene`.
+    pub(crate) fn new(program: &Program, scene: &Scene) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
         let module = info.variable(name::MODULE)?;
-        let numbers = |array: Place<'_>| -> Result<Vec<Variable>, Fault> {
-            elements(array)?.into_iter().map(Variable::at).collect()
+        // There is a whisker a side.
+        let sides = scene.head.sides.count() as u32;
+        let each = |names: &[&str], part: &[&str]| -> Result<Vec<Place<'_>>, Fault> {
+            let list = along(module, names)?;
+            (0..sides).map(|n| along(list.element(n)?, part)).collect()
         };
-        let missing = |what: &str| Fault::Program(format!("debug information: no {what}"));
-        let missed = along(module, &name::MISSED)?.ok_or_else(|| missing("count of ticks"))?;
+        let numbers = |places: Vec<Place<'_>>| -> Result<Vec<Variable>, Fault> {
+            places.into_iter().map(Variable::at).collect()
+        };
         let mut watch = Self {
-            missed: missed.scalar()?.0,
-            touch: touches(&info)?,
-            contact: numbers(module.member(name::CONTACT)?)?,
+            missed: along(module, &name::MISSED)?.scalar()?.0,
+            touch: Vec::new(),
+            contact: numbers(each(&[name::CONTACT], &[])?)?,
             z: Vec::new(),
             theta: Vec::new(),
             gain: Vec::new(),
             queue: Queue::new(&info)?,
         };
-        if let Some(state) = along(module, &name::STATE)? {
-            watch.z = numbers(state.member(name::Z)?)?;
-            for side in elements(state.member(name::WHISKERS)?)? {
-                for (w, whisker) in elements(side)?.into_iter().enumerate() {
-                    let theta = along(whisker, &name::THETA)?.ok_or_else(|| missing("θ"))?;
-                    watch.theta.push(Variable::at(theta)?);
-                    if w == 0 {
-                        let nominal =
-                            along(whisker, &name::NOMINAL)?.ok_or_else(|| missing("gain"))?;
-                        let lift = whisker.member(name::LIFT)?;
-                        watch
-                            .gain
-                            .push([Variable::at(nominal)?, Variable::at(lift)?]);
-                    }
-                }
-            }
+        if scene.classifier.is_some() {
+            let numbers = each(&name::TOUCHES, &name::TOUCHING)?.into_iter();
+            watch.touch = numbers.map(|number| number.address).collect();
+        }
+        if scene.whisking.is_some() {
+            let [motion, state] = name::STATE;
+            let whiskers = [motion, state, name::WHISKERS];
+            watch.z = numbers(each(&[motion, state, name::SIDES], &[name::Z])?)?;
+            watch.theta = numbers(each(&whiskers, &name::THETA)?)?;
+            let nominal = numbers(each(&whiskers, &name::NOMINAL)?)?;
+            let lift = numbers(each(&whiskers, &[name::LIFT])?)?;
+            let gains = nominal.into_iter().zip(lift);
+            watch.gain = gains.map(|(nominal, lift)| [nominal, lift]).collect();
         }
         Ok(watch)
     }
@@ -244,8 +218,8 @@ impl Watch {
 
 impl Queue {
     fn new(info: &DebugInfo) -> Result<Self, Fault> {
-        let queue = info.variable(name::QUEUE)?;
-        let events = queue.member(name::EVENTS)?;
+        let queue = info.variable(name::QUEUES)?.member(name::EVENTS)?;
+        let events = queue.member(name::RING)?;
         let first = events.element(0)?;
         let (tag, value, event) = first.variant(name::DECISION)?;
         let [whisker, decision] = name::PLACED.map(|part| event.member(part));
@@ -255,7 +229,7 @@ impl Queue {
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
-            put: queue.member(name::PUT)?.address,
+            tail: queue.member(name::TAIL)?.address,
             length: events.length()?,
             events: first.address,
             stride: first.size()?,
@@ -275,12 +249,11 @@ impl Queue {
     }
 
     fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Said)>, Fault> {
-        let put = ram.word(self.put)?;
+        // A flipped bit may have led it out of the ring.
+        let tail = ram.word(self.tail)? % self.length;
         let mut said = Vec::new();
-        // What has been overwritten since is lost; idle has seen it.
-        self.seen = put.wrapping_sub(put.wrapping_sub(self.seen).min(self.length));
-        while self.seen != put {
-            let event = self.events + self.seen % self.length * self.stride;
+        while self.seen != tail {
+            let event = self.events + self.seen * self.stride;
             let mut tag = [0];
             ram.read(event + self.tag.0, &mut tag)?;
             let mut place = [[0]; 2];
@@ -303,7 +276,7 @@ impl Queue {
                 None => None,
             };
             said.extend(found.map(|found| (Whisker::new(side, whisker), found)));
-            self.seen = self.seen.wrapping_add(1);
+            self.seen = (self.seen + 1) % self.length;
         }
         Ok(said)
     }

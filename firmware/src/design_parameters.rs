@@ -40,17 +40,17 @@ pub const RETRY_S: f64 = 1.0;
 /// Within how long too many faults give a motor up, s.
 pub const WINDOW_S: u32 = 60;
 
-/// How long a button's level must last, s: contacts bounce for a few milliseconds.
-pub const BUTTON_SETTLE_S: f64 = 0.02;
+/// How long a button's level must last, ms: contacts bounce for a few of them.
+pub const BUTTON_SETTLE_MS: u32 = 20;
 
-/// How long a button may be held, s: whoever leans on it holds it for longer.
-pub const BUTTON_LONGEST_S: f64 = 1.0;
+/// How long a button may be held, ms: whoever leans on it holds it for longer.
+pub const BUTTON_LONGEST_MS: u32 = 1_000;
 
 /// What is a press of a button that is asked `tick_hz` times a second.
 pub const fn button(tick_hz: u32) -> ButtonLimits {
     ButtonLimits {
-        settle: ticks(BUTTON_SETTLE_S, tick_hz),
-        longest: ticks(BUTTON_LONGEST_S, tick_hz),
+        settle: whole_ticks(BUTTON_SETTLE_MS, tick_hz),
+        longest: whole_ticks(BUTTON_LONGEST_MS, tick_hz),
     }
 }
 
@@ -72,7 +72,7 @@ impl Plausible {
     };
 }
 
-/// What is borne of a sensor at `tick_hz` ticks a second.
+/// What is tolerated of a sensor at `tick_hz` ticks a second.
 ///
 /// After a bad frame /SS is high for [`SS_HIGH_US`] and [`JITTER_US`] at least, in whole ticks.
 pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
@@ -90,11 +90,11 @@ pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
         // A number too large becomes the largest.
         jump: jump as u16,
         burst: ticks(BURST_S, tick_hz),
-        zero: ZeroLimits::NONE,
+        zero: None,
     }
 }
 
-/// When a sensor's zero is found anew at `tick_hz` ticks a second: in a silence of `after_s`
+/// When a sensor's zero is found at `tick_hz` ticks a second: in a silence of `after_s`
 /// seconds, in which contact π stays below `calm`, as far as `most` codes from mid-scale.
 pub const fn zero_limits(tick_hz: u32, after_s: f64, calm: f64, most: u16) -> ZeroLimits {
     ZeroLimits {
@@ -112,10 +112,10 @@ pub const fn retry(tick_hz: u32) -> Retry {
     }
 }
 
-/// How long the pin of decisions is high after one, s: long enough for a program that looks
+/// How long the pin of decisions is high after one, ms: long enough for a program that looks
 /// at its pins a hundred times a second. A level that changed with each decision would tell
 /// nothing to one that has missed a change.
-pub const DECIDED_S: f64 = 0.01;
+pub const DECIDED_MS: u32 = 10;
 
 /// `seconds` in ticks of a module that runs `tick_hz` times a second; at least
 /// one, at most `u16::MAX`.
@@ -130,9 +130,21 @@ pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
     }
 }
 
+/// As [`ticks`], of milliseconds: for a board, which has no time for numbers of 64 bits.
+pub const fn whole_ticks(milliseconds: u32, tick_hz: u32) -> u16 {
+    let ticks = milliseconds.saturating_mul(tick_hz).saturating_add(500) / 1_000;
+    if ticks == 0 {
+        1
+    } else if ticks > u16::MAX as u32 {
+        u16::MAX
+    } else {
+        ticks as u16
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{BURST_S, HOLD_S, Plausible, RETRY_S, sensor_limits, ticks};
+    use super::{BURST_S, HOLD_S, Plausible, RETRY_S, sensor_limits, ticks, whole_ticks};
     use crate::BAD_WEIGHT;
     use mlx90333::timing::SS_HIGH_US;
 
@@ -143,6 +155,13 @@ mod tests {
         assert_eq!(ticks(RETRY_S, 20_000), 20_000);
         assert_eq!(ticks(1e-9, 200), 1);
         assert_eq!(ticks(1e9, 200), u16::MAX);
+        for tick_hz in [200, 333, 2_000, 20_000] {
+            for milliseconds in [0, 1, 10, 20, 1_000, 10_000] {
+                let same = ticks(f64::from(milliseconds) / 1e3, tick_hz);
+                assert_eq!(whole_ticks(milliseconds, tick_hz), same);
+            }
+        }
+        assert_eq!(whole_ticks(u32::MAX, u32::MAX), u16::MAX);
     }
 
     #[test]

@@ -4,7 +4,6 @@ use embedded_hal::spi::SpiDevice;
 use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
 
 use crate::SensorFault;
-use crate::zero::Zero;
 
 /// The bus did not deliver: no transfer ran, or the controller reported an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,12 +40,6 @@ pub trait WordSource {
     /// Starts to read the next. Nothing to do where [`words`](Self::words) itself reads.
     #[inline]
     fn begin(&mut self) {}
-
-    /// The zero that is taken out of good words, where one is found by itself.
-    #[inline]
-    fn zero(&mut self) -> Option<&mut Zero> {
-        None
-    }
 }
 
 #[inline]

@@ -8,7 +8,8 @@
 //! - *frame*: the eight bytes of one sensor reading; the tick uses the one
 //!   that was complete before it began.
 //! - *fault*: the motor of that whisker is off until a retry succeeds; meanwhile it
-//!   feels nothing. Whether the others go on is the scene's choice ([`StopAll`]).
+//!   feels nothing. Whether the others go on is the scene's choice
+//!   ([`MotionConfig::stops_all`]).
 //! - *limit*: something out of the ordinary while the module still runs. Both are listed in
 //!   [`faults`].
 //! - *armed*: motors may be driven; a module that is not armed computes on.
@@ -18,15 +19,16 @@
 //!
 //! # Composition
 //!
-//! A module is generic over what it reads ([`WordSource`], mostly by [`FrameSource`]), how
-//! it moves ([`Motion`]: [`Passive`] or [`Active`]), what it decides ([`Perception`]:
-//! `()` or [`Classifying`]) and its [`Clock`]. Its constants are one [`Config`],
-//! which each tick reads. What a scene leaves out is a type without state and
-//! code. Between ticks a [`Command`] changes a whisker's gain or setpoint.
+//! A [`Module`] is generic over its number format and its [`Hardware`], nothing else. All else
+//! is data: one [`Config`], which a scene comes to, which is checked once, and which each tick
+//! reads. What a scene leaves out is `None` there, and is not computed; what an image is built
+//! without ([`Part`]) is not linked. Between ticks a [`Command`] changes a whisker's gain or
+//! setpoint, and another configuration may take the place of the first ([`take_over`]).
 #![cfg_attr(not(test), no_std)]
 
-mod active;
+pub mod boards;
 mod button;
+mod config;
 pub mod design_parameters;
 mod event;
 pub mod faults;
@@ -35,7 +37,6 @@ pub mod lines;
 mod module;
 mod motion;
 mod perception;
-mod queue;
 mod record;
 mod sensing;
 mod servo;
@@ -44,33 +45,33 @@ mod telemetry;
 #[cfg(feature = "tmag5170")]
 mod tilt;
 mod timing;
-mod tunable;
 mod tuning;
 mod zero;
 
-pub use active::{Active, ActiveConfig, StopAll};
 pub use button::{Button, ButtonLimits};
+pub use config::{
+    BoardCode, CONFIG_BYTES, Config, ConfigBytes, ConfigError, Field, HEADER_BYTES, HeadConfig,
+    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, VERSION, decode,
+    decode_into, encode,
+};
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;
 pub use event::{Event, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
-pub use module::{Config, Module};
-pub use motion::{
-    Command, Motion, MotionRecord, MotorControl, MotorRecord, NoActiveWhisker, Passive,
-};
+pub use module::{Hardware, Module, Whisker, WhiskerParts};
+pub use motion::{Command, Motion, NoActiveWhisker};
 pub use perception::{
-    Classifying, ClassifyingConfig, CodeClassifier, Deployed, ModelLimits, ModelState, NotCodes,
-    Perception, Refusal, Sample, SampleClassifier, TakesRule, shifts,
+    ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
+    Sample, SampleClassifier, Sensed, shifts,
 };
-pub use queue::Queue;
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
-pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, Zeroed};
-pub use servo::{FAULTS, Retry, Servo, ServoConfig, ServoState};
+pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
+pub use servo::{FAULTS, MotorRecord, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
 pub use telemetry::{About, Link, Notes, PacketSink, PacketSlot, may_load};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;
-pub use tunable::{TUNABLE_COUNT, Tunable, Visitor, number as tunable_number, tunable_name};
-pub use tuning::Tuning;
+pub use tuning::{Prepared, Tuning, answer, applied, refusal_code, refusal_of, take_over};
+pub use whisking::motor::Driver;
 pub use zero::{Zero, ZeroLimits};

@@ -1,188 +1,269 @@
 //! The tick.
 
+use heapless::Vec;
 use mlx90333::Decoder;
-use whisking::{Optional, Real, filter};
+use whisking::motor::MotorDriver;
+use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, filter};
 
-use crate::sensing::{Reading, Sensor, SensorLimits};
-use crate::zero::ZeroLimits;
-use crate::{
-    Clock, Command, Event, Motion, MotorControl, NoActiveWhisker, Perception, Place, Timing,
-    WordSource,
-};
+use crate::config::Part;
+use crate::io::{AngleInput, Clock, WordSource};
+use crate::motion::{Command, Motion, NoActiveWhisker};
+use crate::perception::{Perception, SampleClassifier, Sensed};
+use crate::sensing::{Reading, Sensor};
+use crate::servo::Servo;
+use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
 
-/// The settings of a module: every constant that its tick reads. A board copies
-/// them from flash to RAM when it starts. What is left out is left out by type:
-/// `()` for motion or perception, [`Absent`](whisking::Absent) for the filter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Config<M, P, H> {
-    /// How the sensors' frames are read.
-    pub decoder: Decoder,
-    /// What is borne of the sensors.
-    pub sensor_limits: SensorLimits,
-    /// H50 on x, where something needs contact signals.
-    pub contact: H,
-    /// How it moves.
-    pub motion: M,
-    /// What it decides.
-    pub perception: P,
-    /// Counts of the clock between ticks; 0 where they mean nothing.
-    pub period: u32,
+/// What a module is made of: a board's, or a simulation's.
+pub trait Hardware {
+    /// Where a whisker's words come from.
+    type Source: WordSource;
+    /// What drives a motor.
+    type Motor: MotorDriver;
+    /// Where a whisker's angle comes from.
+    type Angle: AngleInput;
+    /// What decides by samples.
+    type Classifier: SampleClassifier;
+    /// What ticks are timed by.
+    type Clock: Clock;
 }
 
-/// A module of `S` sides (1 or 2) with `N` whiskers each.
-#[derive(Debug)]
-pub struct Module<R, F, M, P, C, const S: usize, const N: usize> {
-    sensors: [[Sensor<F>; N]; S],
-    filters: [[filter::State<R>; N]; S],
-    felt: [[R; N]; S],
-    contact: [R; S],
-    motion: M,
-    perception: P,
-    clock: C,
+/// The hardware of one whisker.
+pub struct WhiskerParts<H: Hardware> {
+    /// Its sensor.
+    pub source: H::Source,
+    /// Its motor and its angle; `None`: it is passive.
+    pub motor: Option<(H::Motor, H::Angle)>,
+}
+
+/// One whisker, in one tick.
+pub struct Whisker<R, H: Hardware> {
+    place: Place,
+    sensor: Sensor<H::Source>,
+    filter: filter::State<R>,
+    /// Its contact π.
+    felt: R,
+    /// What counts of its reading: nothing while its motor [inhibits](Servo::is_inhibited) it.
+    reading: Reading,
+    servo: Option<Servo<R, H::Motor, H::Angle>>,
+}
+
+impl<R: Real, H: Hardware> Whisker<R, H> {
+    /// Where it stands.
+    pub const fn place(&self) -> Place {
+        self.place
+    }
+
+    /// Its sensor.
+    pub const fn sensor(&self) -> &Sensor<H::Source> {
+        &self.sensor
+    }
+
+    /// Its sensor.
+    pub const fn sensor_mut(&mut self) -> &mut Sensor<H::Source> {
+        &mut self.sensor
+    }
+
+    /// Its contact π in the last tick.
+    #[inline]
+    pub const fn felt(&self) -> R {
+        if Part::Contact.is_built() {
+            self.felt
+        } else {
+            R::ZERO
+        }
+    }
+
+    /// Its motor, if it has one.
+    #[inline]
+    pub const fn servo(&self) -> Option<&Servo<R, H::Motor, H::Angle>> {
+        if Part::Motion.is_built() {
+            self.servo.as_ref()
+        } else {
+            None
+        }
+    }
+
+    /// Its motor, for a simulation that looks at its hardware.
+    #[inline]
+    pub const fn servo_mut(&mut self) -> Option<&mut Servo<R, H::Motor, H::Angle>> {
+        if Part::Motion.is_built() {
+            self.servo.as_mut()
+        } else {
+            None
+        }
+    }
+}
+
+/// A module: its whiskers, left side first, their pattern generator, and what they decide.
+pub struct Module<R: Real, H: Hardware> {
+    whiskers: Vec<Whisker<R, H>, MAX_WHISKERS>,
+    contact: [R; MAX_SIDES],
+    motion: Option<Motion<R>>,
+    perception: Option<Perception<H::Classifier>>,
+    clock: H::Clock,
+    /// Counts of the clock between ticks; 0 where they mean nothing.
+    period: u32,
     timing: Timing,
 }
 
-impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
-where
-    R: Real,
-    F: WordSource,
-    C: Clock,
-{
-    /// A module that has not ticked yet, from its sensors (left side first),
-    /// its motion, its perception and its clock.
-    pub fn new(sources: [[F; N]; S], motion: M, perception: P, clock: C) -> Self {
+impl<R: Real, H: Hardware> Module<R, H> {
+    /// A module that has not ticked yet, by a configuration that is [checked](Config::check);
+    /// `parts` is the hardware of each whisker, left side first.
+    ///
+    /// Its motors are off and not armed, its whiskers at rest (θ = 0) where they now are.
+    pub fn new(
+        config: &Config<R>,
+        parts: impl IntoIterator<Item = WhiskerParts<H>>,
+        classifier: Option<H::Classifier>,
+        clock: (H::Clock, u32),
+    ) -> Self {
+        let mut module = Self::empty(clock);
+        module.build(config, parts, classifier);
+        module
+    }
+
+    /// One without whiskers, which [`build`](Self::build) gives it.
+    pub fn empty((clock, period): (H::Clock, u32)) -> Self {
         Self {
-            sensors: sources.map(|side| side.map(Sensor::new)),
-            filters: [[filter::State::default(); N]; S],
-            felt: [[R::ZERO; N]; S],
-            contact: [R::ZERO; S],
-            motion,
-            perception,
+            whiskers: Vec::new(),
+            contact: [R::ZERO; MAX_SIDES],
+            motion: None,
+            perception: None,
             clock,
-            timing: Timing::default(),
+            period,
+            timing: Timing::new(),
         }
     }
 
-    /// One tick. `events` gets what is worth telling; nothing is formatted here.
+    /// Makes an [empty](Self::empty) module what [`new`](Self::new) makes, where it lies: for a
+    /// board, whose stack has no room for it.
     #[inline]
-    pub fn tick<MC, PC, H>(&mut self, config: &Config<MC, PC, H>, events: &mut impl FnMut(Event))
-    where
-        M: Motion<R, MC, S, N>,
-        P: Perception<R, PC, S, N>,
-        H: Optional<filter::Config<R>>,
-    {
-        self.timing.begin(self.clock.now(), config.period);
-
-        let sensed = self.sense(config.decoder, config.sensor_limits, events);
-        let mut readings = sensed;
-        for (side, readings) in readings.iter_mut().enumerate() {
-            for (w, reading) in readings.iter_mut().enumerate() {
-                if self.motion.is_deaf(side, w) {
-                    *reading = Reading::FAULT;
-                }
-            }
-        }
-        if let Some(h50) = config.contact.part() {
-            self.feel(h50, &readings);
-            self.follow_zeros(config.sensor_limits.zero, &readings, events);
-        }
-        self.motion
-            .step(&config.motion, self.contact, &sensed, events);
-        self.perception
-            .step(&config.perception, &self.felt, &readings, events);
-
-        self.timing.end(self.clock.now());
-    }
-
-    #[inline]
-    fn sense(
+    pub fn build(
         &mut self,
-        decoder: Decoder,
-        limits: SensorLimits,
-        events: &mut impl FnMut(Event),
-    ) -> [[Reading; N]; S] {
-        let mut readings = [[Reading::REST; N]; S];
-        for (side, (sensors, readings)) in self.sensors.iter_mut().zip(&mut readings).enumerate() {
-            for (w, (sensor, reading)) in sensors.iter_mut().zip(readings).enumerate() {
-                let place = Place::new(side as u8, w as u8);
-                *reading = sensor.read(decoder, limits, place, events);
-            }
-        }
-        readings
-    }
-
-    /// Follows the zeros of sensors, where they are found by themselves. A whisker that is
-    /// deaf, as its motor is being homed, may lean against its stop.
-    #[inline]
-    fn follow_zeros(
-        &mut self,
-        limits: ZeroLimits,
-        readings: &[[Reading; N]; S],
-        events: &mut impl FnMut(Event),
+        config: &Config<R>,
+        parts: impl IntoIterator<Item = WhiskerParts<H>>,
+        classifier: Option<H::Classifier>,
     ) {
-        for (side, sensors) in self.sensors.iter_mut().enumerate() {
-            for (w, sensor) in sensors.iter_mut().enumerate() {
-                let place = Place::new(side as u8, w as u8);
-                let is_calm =
-                    || readings[side][w].valid && self.felt[side][w].to_q24() < limits.calm;
-                sensor.follow_zero(is_calm, limits, place, events);
-            }
+        let finds_zero = config.sensor.limits.zero.is_some();
+        let HeadConfig {
+            sides,
+            whiskers_per_side,
+            ..
+        } = config.head;
+        let places = (0..sides)
+            .flat_map(|side| (0..whiskers_per_side).map(move |number| Place::new(side, number)));
+        for (place, WhiskerParts { source, motor }) in places.zip(parts) {
+            // As many as a checked configuration has, there is room for.
+            let _ = self.whiskers.push(Whisker {
+                place,
+                sensor: Sensor::new(source, finds_zero),
+                filter: filter::State::default(),
+                felt: R::ZERO,
+                reading: Reading::REST,
+                servo: motor
+                    .filter(|_| Part::Motion.is_built())
+                    .map(|(motor, angle)| Servo::new(motor, angle)),
+            });
+        }
+        let count = self.whiskers.len();
+        if Part::Motion.is_built() {
+            self.motion = config.motion.as_ref().map(Motion::new);
+        }
+        if Part::Classifier.is_built() {
+            self.perception = classifier.map(|classifier| Perception::new(classifier, count));
+        }
+    }
+
+    /// Follows the zeros of sensors, where they are found. A whisker that is inhibited, as its
+    /// motor is being homed, may lean against its stop.
+    #[inline]
+    fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
+        for whisker in &mut self.whiskers {
+            let is_calm = whisker.reading.valid && whisker.felt.to_q24() < limits.calm;
+            whisker
+                .sensor
+                .follow_zero(is_calm, limits, whisker.place, events);
         }
     }
 
     /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9). A
-    /// whisker with a fault has none, and begins anew when it is gone.
+    /// whisker with a fault has none, and its filter is reset.
     #[inline]
-    fn feel(&mut self, h50: &filter::Config<R>, readings: &[[Reading; N]; S]) {
-        for (side, felt) in self.felt.iter_mut().enumerate() {
-            let whiskers = self.filters[side].iter_mut().zip(&readings[side]);
-            for (felt, (filter, reading)) in felt.iter_mut().zip(whiskers) {
-                if reading.valid {
-                    *felt = h50.process(filter, normalised::<R>(reading.x)).abs();
-                } else {
-                    *filter = filter::State::default();
-                    *felt = R::ZERO;
-                }
+    fn feel(&mut self, h50: &filter::Config<R>) {
+        let mut most = const { [R::ZERO; MAX_SIDES] };
+        for whisker in &mut self.whiskers {
+            if whisker.reading.valid {
+                let x = normalised::<R>(whisker.reading.x);
+                whisker.felt = h50.process(&mut whisker.filter, x).abs();
+            } else {
+                whisker.filter = filter::State::default();
+                whisker.felt = R::ZERO;
             }
-            // No comparison with zero where there is one whisker.
-            let most = felt.iter().copied().reduce(|most, size| size.max(most));
-            self.contact[side] = most.unwrap_or(R::ZERO);
+            if let Some(most) = most.get_mut(usize::from(whisker.place.side)) {
+                *most = whisker.felt.max(*most);
+            }
         }
+        self.contact = most;
     }
 
-    /// Contact π of each side in the last tick.
-    pub const fn contact(&self) -> [R; S] {
+    /// Contact π of each side in the last tick; zero of a side that is not there.
+    pub const fn contact(&self) -> [R; MAX_SIDES] {
         self.contact
     }
 
-    /// Contact of each whisker in the last tick.
-    pub const fn felt(&self) -> &[[R; N]; S] {
-        &self.felt
+    /// The whiskers, left side first.
+    pub fn whiskers(&self) -> &[Whisker<R, H>] {
+        &self.whiskers
     }
 
-    /// The sensor of every whisker, left side first.
-    pub const fn sensors(&self) -> &[[Sensor<F>; N]; S] {
-        &self.sensors
+    /// The same, for a board's interrupts and a simulation's bus.
+    pub fn whiskers_mut(&mut self) -> &mut [Whisker<R, H>] {
+        &mut self.whiskers
     }
 
-    /// How it moves.
-    pub const fn motion(&self) -> &M {
-        &self.motion
+    /// The whisker at `place`.
+    pub fn whisker(&self, place: Place) -> Option<(usize, &Whisker<R, H>)> {
+        let mut all = self.whiskers.iter().enumerate();
+        all.find(|(_, whisker)| whisker.place == place)
     }
 
-    /// How it moves, for a simulation that looks at its hardware.
-    pub const fn motion_mut(&mut self) -> &mut M {
-        &mut self.motion
+    /// How it moves; `None`: its whiskers are passive.
+    #[inline]
+    pub const fn motion(&self) -> Option<&Motion<R>> {
+        if Part::Motion.is_built() {
+            self.motion.as_ref()
+        } else {
+            None
+        }
     }
 
-    /// What it decides.
-    pub const fn perception_mut(&mut self) -> &mut P {
-        &mut self.perception
+    #[inline]
+    const fn motion_mut(&mut self) -> Option<&mut Motion<R>> {
+        if Part::Motion.is_built() {
+            self.motion.as_mut()
+        } else {
+            None
+        }
     }
 
-    /// The sensor of a whisker, left side first.
-    pub fn sensor_mut(&mut self, side: usize, whisker: usize) -> Option<&mut Sensor<F>> {
-        self.sensors.get_mut(side)?.get_mut(whisker)
+    /// What it decides, if anything.
+    pub const fn perception(&self) -> Option<&Perception<H::Classifier>> {
+        self.perception.as_ref()
+    }
+
+    /// What it decides, if anything.
+    pub const fn perception_mut(&mut self) -> Option<&mut Perception<H::Classifier>> {
+        self.perception.as_mut()
+    }
+
+    /// What it decides with, which leaves the module without it.
+    pub const fn take_perception(&mut self) -> Option<Perception<H::Classifier>> {
+        self.perception.take()
+    }
+
+    /// What it decides with, from another module.
+    pub fn set_perception(&mut self, perception: Option<Perception<H::Classifier>>) {
+        self.perception = perception;
     }
 
     /// Longest tick and missed deadlines.
@@ -190,31 +271,128 @@ where
         &self.timing
     }
 
-    /// The same, for who takes them.
+    /// Longest tick and missed deadlines, to be taken.
     pub const fn timing_mut(&mut self) -> &mut Timing {
         &mut self.timing
+    }
+
+    /// Another configuration has taken effect between two ticks, which this one
+    /// [may become](Config::may_become).
+    pub fn retune(&mut self, config: &Config<R>) {
+        if let (Some(perception), Some(classifier)) = (&mut self.perception, &config.classifier) {
+            perception.retune(classifier.rule.as_ref());
+        }
+    }
+
+    /// Whether motors are armed: otherwise they are off, and all else goes on.
+    pub fn is_armed(&self) -> bool {
+        self.motion().is_some_and(Motion::is_armed)
     }
 
     /// Carries out `command` for the whisker at `place`, between two ticks.
     ///
     /// # Errors
-    /// [`NoActiveWhisker`] if there is none.
-    pub fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker>
-    where
-        M: MotorControl<R>,
-    {
-        self.motion.command(place, command)
+    /// [`NoActiveWhisker`] if there is none, or if it is passive.
+    pub fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker> {
+        let mut all = self.whiskers.iter_mut().enumerate();
+        let found = all.find(|(_, whisker)| whisker.place == place);
+        let (n, whisker) = found.ok_or(NoActiveWhisker)?;
+        let servo = whisker.servo_mut().ok_or(NoActiveWhisker)?;
+        match command {
+            Command::Gain(gain) => {
+                let motion = self.motion_mut().ok_or(NoActiveWhisker)?;
+                motion.set_gain(n, gain)?;
+            }
+            Command::Setpoint(setpoint) => servo.set_setpoint(setpoint),
+            Command::Clear => servo.clear(),
+            Command::Home => servo.home(),
+        }
+        Ok(())
     }
 
     /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
     /// off from the next tick on; all else goes on. A module starts with motors that are not
     /// armed. Whoever arms a motor that is off says that its whisker is at rest, unless it is
     /// homed.
-    pub fn arm(&mut self, is_armed: bool)
-    where
-        M: MotorControl<R>,
-    {
-        self.motion.arm(is_armed);
+    pub fn arm(&mut self, is_armed: bool) {
+        let Some(motion) = self.motion_mut() else {
+            return;
+        };
+        motion.set_armed(is_armed);
+        if is_armed {
+            let servos = self.whiskers.iter_mut().filter_map(Whisker::servo_mut);
+            servos.for_each(Servo::arm);
+        }
+    }
+}
+
+impl<R: Number, H: Hardware> Module<R, H> {
+    /// One tick. `events` gets what is worth reporting; nothing is formatted here.
+    #[inline]
+    pub fn tick(&mut self, config: &Config<R>, events: &mut impl FnMut(Event)) {
+        self.timing.begin(self.clock.now(), self.period);
+        for whisker in &mut self.whiskers {
+            let limits = &config.sensor.limits;
+            let reading = whisker
+                .sensor
+                .read(Decoder::new(), limits, whisker.place, events);
+            let is_inhibited = whisker.servo().is_some_and(Servo::is_inhibited);
+            whisker.reading = if is_inhibited {
+                Reading::FAULT
+            } else {
+                reading
+            };
+        }
+        if Part::Contact.is_built()
+            && let Some(h50) = &config.contact
+        {
+            self.feel(h50);
+            if Part::Zero.is_built()
+                && let Some(limits) = config.sensor.limits.zero
+            {
+                self.follow_zeros(limits, events);
+            }
+        }
+        if Part::Motion.is_built()
+            && let Some(config) = &config.motion
+        {
+            self.step(config, events);
+        }
+        if Part::Classifier.is_built()
+            && let (Some(perception), Some(config)) = (&mut self.perception, &config.classifier)
+        {
+            for (n, whisker) in self.whiskers.iter().enumerate() {
+                let heard = Sensed {
+                    place: whisker.place,
+                    reading: whisker.reading,
+                    contact: whisker.felt,
+                    least: config.contact_min,
+                };
+                perception.step(n, heard, events);
+            }
+        }
+        self.timing.end(self.clock.now());
+    }
+
+    /// Moves the whiskers: pattern generator, then the servo of each.
+    #[inline]
+    fn step(&mut self, config: &MotionConfig<R>, events: &mut impl FnMut(Event)) {
+        let Some(motion) = &mut self.motion else {
+            return;
+        };
+        config.whisking.step(&mut motion.state, &self.contact);
+        let has_fault = |whisker: &Whisker<R, H>| {
+            !whisker.sensor.reading().valid || whisker.servo.as_ref().is_some_and(Servo::rests)
+        };
+        let all_stop = config.stops_all && self.whiskers.iter().any(has_fault);
+        for (whisker, moved) in self.whiskers.iter_mut().zip(&motion.state.whiskers) {
+            let is_valid = whisker.sensor.reading().valid;
+            let may_run = motion.is_armed && is_valid && !all_stop;
+            if let Some(servo) = &mut whisker.servo {
+                let theta = moved.muscle.theta;
+                servo.step(&config.servo, theta, may_run, whisker.place, events);
+            }
+        }
     }
 }
 

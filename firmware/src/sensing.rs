@@ -2,16 +2,15 @@
 
 mod limits;
 mod plausible;
-mod zeroed;
 
 use mlx90333::{Decoder, Word};
 
+use crate::config::Part;
 use crate::io::WordSource;
-use crate::zero::ZeroLimits;
+use crate::zero::{Zero, ZeroLimits};
 use crate::{Event, Place, SensorFault};
 pub use limits::{BAD_WEIGHT, SensorLimits};
 use plausible::Course;
-pub use zeroed::Zeroed;
 
 /// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +64,8 @@ pub enum SensorHealth {
 #[derive(Debug)]
 pub struct Sensor<F> {
     source: F,
+    /// Where it is found.
+    zero: Option<Zero>,
     last: Reading,
     health: SensorHealth,
     course: Course,
@@ -77,10 +78,11 @@ pub struct Sensor<F> {
 }
 
 impl<F: WordSource> Sensor<F> {
-    /// A sensor that has not been read yet.
-    pub const fn new(source: F) -> Self {
+    /// A sensor that has not been read yet, and whose zero is found or is mid-scale.
+    pub fn new(source: F, finds_zero: bool) -> Self {
         Self {
             source,
+            zero: finds_zero.then(Zero::default),
             last: Reading::REST,
             health: SensorHealth::Ok { bad: 0 },
             course: Course::UNKNOWN,
@@ -93,6 +95,11 @@ impl<F: WordSource> Sensor<F> {
     /// Where the words come from.
     pub const fn source_mut(&mut self) -> &mut F {
         &mut self.source
+    }
+
+    /// The zero that is taken out of its words, where it is found.
+    pub fn zero(&self) -> Option<&Zero> {
+        self.zero.as_ref().filter(|_| Part::Zero.is_built())
     }
 
     /// What it read in the last tick.
@@ -113,19 +120,25 @@ impl<F: WordSource> Sensor<F> {
     pub fn read(
         &mut self,
         decoder: Decoder,
-        limits: SensorLimits,
+        limits: &SensorLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) -> Reading {
         let read = self.next(decoder, limits.resync);
         let judged = read.and_then(|words| self.course.follow(words, limits));
-        match (judged, self.health) {
+        let is_accepted = match (judged, self.health) {
             (Ok(()), SensorHealth::Ok { .. }) => {
                 self.burst = self.burst.saturating_sub(1);
-                self.accept(limits);
+                true
             }
             (Ok(()), SensorHealth::Faulted { good }) => self.recover(good, limits, place, events),
-            (Err(fault), health) => self.hold(health, limits, fault, place, events),
+            (Err(fault), health) => {
+                self.hold(health, limits, fault, place, events);
+                false
+            }
+        };
+        if is_accepted {
+            self.accept(limits);
         }
         self.last
     }
@@ -151,10 +164,10 @@ impl<F: WordSource> Sensor<F> {
 
     /// A good frame of a trusted sensor.
     #[inline]
-    fn accept(&mut self, limits: SensorLimits) {
+    fn accept(&mut self, limits: &SensorLimits) {
         self.health = SensorHealth::Ok { bad: 0 };
         let words = self.course.words;
-        let [x, y] = self.source.zero().map_or(words, |zero| zero.out_of(words));
+        let [x, y] = self.zero().map_or(words, |zero| zero.out_of(words));
         self.last = Reading {
             x,
             y,
@@ -169,40 +182,41 @@ impl<F: WordSource> Sensor<F> {
     #[inline]
     pub fn follow_zero(
         &mut self,
-        is_calm: impl FnOnce() -> bool,
+        is_calm: bool,
         limits: ZeroLimits,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
         let Reading { x, y, valid, .. } = self.last;
         if valid
-            && let Some(zero) = self.source.zero()
-            && let Some(codes) = zero.follow([x, y], is_calm(), limits)
+            && let Some(zero) = &mut self.zero
+            && let Some(codes) = zero.follow([x, y], is_calm, limits)
         {
             events(Event::ZeroMoved(place, codes));
         }
     }
 
-    /// A good frame of a faulty sensor, after `good` others.
+    /// A good frame of a faulty sensor, after `good` others; whether it ends the fault.
     #[cold]
     #[inline(never)]
     fn recover(
         &mut self,
         good: u16,
-        limits: SensorLimits,
+        limits: &SensorLimits,
         place: Place,
         events: &mut impl FnMut(Event),
-    ) {
+    ) -> bool {
         let good = good.saturating_add(1);
         if self.course.repeats > limits.stale {
             self.health = SensorHealth::Faulted { good: 0 };
         } else if good >= limits.recover {
             self.burst = 0;
-            self.accept(limits);
             events(Event::SensorBack(place));
+            return true;
         } else {
             self.health = SensorHealth::Faulted { good };
         }
+        false
     }
 
     /// No good frame.
@@ -211,7 +225,7 @@ impl<F: WordSource> Sensor<F> {
     fn hold(
         &mut self,
         health: SensorHealth,
-        limits: SensorLimits,
+        limits: &SensorLimits,
         fault: SensorFault,
         place: Place,
         events: &mut impl FnMut(Event),

@@ -4,19 +4,21 @@
 #[cfg(test)]
 mod tests;
 
+use serde::{Deserialize, Serialize};
 use whisking::motor::{
     self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver,
 };
-use whisking::{Absent, Optional, Real, Voted, pd};
+use whisking::{Real, Voted, pd};
 use wire::{Flags, q13};
 
+use crate::config::Part;
 use crate::io::AngleInput;
-use crate::motion::MotorRecord;
 use crate::{Event, Place};
 
-/// Constants of a servo; `H` says whether it has [`HomingConfig`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ServoConfig<R: Real, H = Absent> {
+/// Constants of a servo.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct ServoConfig<R: Real> {
     /// Position control.
     pub pd: pd::Config<R>,
     /// What is done after a fault.
@@ -26,12 +28,19 @@ pub struct ServoConfig<R: Real, H = Absent> {
     /// Soft start: by how much a tick brings the setpoint from where the whisker is nearer to
     /// where it should be, protraction, above 0.
     pub approach: R,
-    /// How it finds where it is; absent: it is at rest, θ = 0, when it is armed.
-    pub homing: H,
+    /// How it finds where it is; `None`: it is at rest, θ = 0, when it is armed.
+    pub homing: Option<HomingConfig>,
+}
+
+impl<R: Real> ServoConfig<R> {
+    #[inline]
+    fn homing(&self) -> Option<&HomingConfig> {
+        self.homing.as_ref().filter(|_| Part::Homing.is_built())
+    }
 }
 
 /// What is done after a fault of a motor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Retry {
     /// Ticks that it rests before it is tried again; 0 is taken as 1.
     pub rest: u16,
@@ -46,7 +55,7 @@ pub const FAULTS: usize = 3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ServoState<R> {
     /// The motor is off: before the first tick, while it is not armed or the whisker's
-    /// sensor has a fault, and where any fault [stops all](crate::StopAll).
+    /// sensor has a fault, and where any fault [stops all](crate::MotionConfig::stops_all).
     Off,
     /// It is driven gently to its retracted stop, to find out where it is.
     Homing(Homing),
@@ -68,12 +77,26 @@ pub enum ServoState<R> {
     GivenUp,
 }
 
+/// What the last tick has done with a motor, in the formats of a
+/// [`TickRecord`](wire::TickRecord).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MotorRecord {
+    /// Where the whisker should be: protraction, Q13.
+    pub setpoint: i16,
+    /// Where it is: protraction, Q13.
+    pub measured: i16,
+    /// What drives it, Q15.
+    pub duty: i16,
+    /// What it is doing, and [`Flags::ARMED`].
+    pub flags: Flags,
+}
+
 /// The motor of one whisker, its angle input and its controller.
 #[derive(Debug)]
 pub struct Servo<R, M, A> {
     motor: M,
     angle: A,
-    /// Counts at rest, θ = 0. Like the setpoint it is told once and never worked out again.
+    /// Counts at rest, θ = 0. Like the setpoint it is set once and never computed again.
     home: Voted<i32>,
     /// Counts at the last tick.
     counts: i32,
@@ -124,7 +147,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// Whether nothing that its whisker feels is of use: the motor rests, was given up, or
     /// is being homed.
     #[inline]
-    pub const fn is_deaf(&self) -> bool {
+    pub const fn is_inhibited(&self) -> bool {
         self.rests() || matches!(self.state, ServoState::Homing(_))
     }
 
@@ -148,6 +171,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// The setpoint that was commanded, if any.
+    #[allow(clippy::inline_always, reason = "a call costs more than it does")]
+    #[inline(always)]
     pub fn setpoint(&self) -> Option<R> {
         self.setpoint.get().flatten()
     }
@@ -158,7 +183,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.setpoint = Voted::new(setpoint);
     }
 
-    /// Finds rest anew with the next tick, where it is found; a motor that rests after a
+    /// Finds rest again with the next tick, where it is found; a motor that rests after a
     /// fault rests on.
     pub fn home(&mut self) {
         self.off();
@@ -167,17 +192,13 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
 
     /// What a tick towards protraction `theta` has done.
     #[inline]
-    pub fn told<H: Optional<HomingConfig>>(
-        &self,
-        config: &ServoConfig<R, H>,
-        theta: R,
-    ) -> MotorRecord {
+    pub fn record(&self, config: &ServoConfig<R>, theta: R) -> MotorRecord {
         let (setpoint, measured, duty, flags) = match &self.state {
             ServoState::Running { pd, .. } => {
-                let measured = self.measured(config);
-                (measured + pd.error, measured, pd.duty(), Flags::RUNNING)
+                let setpoint = pd.measured + pd.error;
+                (setpoint, pd.measured, pd.duty(), Flags::RUNNING)
             }
-            _ => self.told_without_pd(config, theta),
+            _ => self.record_without_pd(config, theta),
         };
         MotorRecord {
             setpoint: q13(setpoint.to_q24()),
@@ -191,14 +212,10 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     // Apart, as records are of motors that run, and need fewer registers without this.
     #[cold]
     #[inline(never)]
-    fn told_without_pd<H: Optional<HomingConfig>>(
-        &self,
-        config: &ServoConfig<R, H>,
-        theta: R,
-    ) -> (R, R, Duty, Flags) {
+    fn record_without_pd(&self, config: &ServoConfig<R>, theta: R) -> (R, R, Duty, Flags) {
         let measured = self.measured(config);
         let wanted = || config.pd.clamp(self.setpoint().unwrap_or(theta));
-        match (&self.state, config.homing.part()) {
+        match (&self.state, config.homing()) {
             (ServoState::Homing(homing), Some(how)) => {
                 (measured, measured, homing.duty(how), Flags::HOMING)
             }
@@ -210,8 +227,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// Where it is: protraction.
-    #[inline]
-    fn measured<H>(&self, config: &ServoConfig<R, H>) -> R {
+    fn measured(&self, config: &ServoConfig<R>) -> R {
         let home = self.home.get().unwrap_or(self.counts);
         config.pd.measured(self.counts.wrapping_sub(home))
     }
@@ -228,9 +244,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// off unless it `may_run`.
     // Apart: a tick in one piece runs out of registers.
     #[inline(never)]
-    pub fn step<H: Optional<HomingConfig>>(
+    pub fn step(
         &mut self,
-        config: &ServoConfig<R, H>,
+        config: &ServoConfig<R>,
         setpoint: R,
         may_run: bool,
         place: Place,
@@ -250,7 +266,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 self.cool(&config.guards);
                 return;
             }
-            ServoState::Off if config.homing.part().is_some() && !self.is_homed => {
+            ServoState::Off if config.homing().is_some() && !self.is_homed => {
                 self.state = ServoState::Homing(Homing::new(counts));
             }
             ServoState::Off => {
@@ -272,56 +288,51 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 return;
             }
         }
-        let ServoState::Running { pd, guards, behind } = &mut self.state else {
-            self.find_home(config, moved, place, events);
-            return;
-        };
-        *behind = if behind.is_within(R::TWO + R::TWO) {
-            toward_zero(*behind, config.approach)
+        let judged = if let ServoState::Running { pd, guards, behind } = &mut self.state {
+            *behind = if behind.is_within(R::TWO + R::TWO) {
+                toward_zero(*behind, config.approach)
+            } else {
+                // So far from where it should be no whisker is: its bits were flipped.
+                R::ZERO
+            };
+            let duty = config.pd.follow(pd, setpoint - *behind, at, moved);
+            // Where rest is not known, no angle is within the travel.
+            home.ok_or(motor::Fault::Travel)
+                .and_then(|_| guards.check(&config.guards, duty, pd.error, at, moved))
+                .map(|()| duty)
         } else {
-            // So far from where it should be no whisker is: its bits were flipped.
-            R::ZERO
+            match self.find_home(config, moved).transpose() {
+                Some(judged) => judged,
+                None => return,
+            }
         };
-        let duty = config.pd.follow(pd, setpoint - *behind, at, moved);
-        // Where rest is not known, no angle is within the travel.
-        let checked = home
-            .ok_or(motor::Fault::Travel)
-            .and_then(|_| guards.check(&config.guards, duty, pd.error, at, moved))
-            .and_then(|()| self.heat.check(&config.guards, duty))
-            .and_then(|()| self.motor.drive(duty));
-        if let Err(fault) = checked {
+        let driven = judged.and_then(|duty| {
+            self.heat.check(&config.guards, duty)?;
+            self.motor.drive(duty)
+        });
+        if let Err(fault) = driven {
             self.fail(fault, config.retry, place, events);
         }
     }
 
-    /// One tick of homing.
+    /// One tick of homing: what is to be driven; nothing where it is at home.
     #[cold]
-    fn find_home<H: Optional<HomingConfig>>(
+    fn find_home(
         &mut self,
-        config: &ServoConfig<R, H>,
+        config: &ServoConfig<R>,
         moved: i32,
-        place: Place,
-        events: &mut impl FnMut(Event),
-    ) {
-        let (ServoState::Homing(homing), Some(how)) = (&mut self.state, config.homing.part())
-        else {
-            return;
+    ) -> Result<Option<Duty>, motor::Fault> {
+        let (ServoState::Homing(homing), Some(how)) = (&mut self.state, config.homing()) else {
+            return Ok(None);
         };
-        let driven = match homing.step(how, &config.guards, self.counts, moved) {
-            Ok(Homed::Not(duty)) => {
-                let checked = self.heat.check(&config.guards, duty);
-                checked.and_then(|()| self.motor.drive(duty))
-            }
-            Ok(Homed::At(home)) => {
+        match homing.step(how, &config.guards, self.counts, moved)? {
+            Homed::Not(duty) => Ok(Some(duty)),
+            Homed::At(home) => {
                 self.home = Voted::new(home);
                 self.is_homed = true;
                 self.off();
-                Ok(())
+                Ok(None)
             }
-            Err(fault) => Err(fault),
-        };
-        if let Err(fault) = driven {
-            self.fail(fault, config.retry, place, events);
         }
     }
 
@@ -335,8 +346,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             }
             return;
         }
-        for window in &mut self.windows {
-            *window = window.saturating_sub(1).min(retry.window);
+        // Nearly always there is none, and nothing to count.
+        let [first, second] = self.windows;
+        if first | second != 0 {
+            let older = |window: u32| window.saturating_sub(1).min(retry.window);
+            self.windows = [older(first), older(second)];
         }
     }
 

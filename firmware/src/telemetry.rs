@@ -5,17 +5,16 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use whisking::{Optional, Real, filter};
+use whisking::Real;
 use wire::{
-    Answer, Command as Said, CommandStatus, Flags, PACKET_WORDS, TaggedCommand, TickRecord,
+    Answer, Command as Said, CommandStatus, Flags, Load, PACKET_WORDS, TaggedCommand, TickRecord,
     UnknownCommand, WhiskerId, q13,
 };
 
-use crate::sensing::{Reading, Sensor};
-use crate::{
-    Clock, Command, Config, Event, ModelState, Module, Motion, MotionRecord, MotorControl, Place,
-    WordSource,
-};
+use crate::config::Part;
+use crate::module::{Hardware, Module, Whisker};
+use crate::servo::MotorRecord;
+use crate::{Command, Config, Event, ModelState, Place};
 
 /// Where packets go.
 pub trait PacketSink {
@@ -38,9 +37,13 @@ impl PacketSlot {
     /// Puts a packet there. Who reads it is told of it afterwards.
     #[inline]
     pub fn set(&self, words: [u32; PACKET_WORDS]) {
-        for (place, word) in self.0.iter().zip(words) {
-            place.store(word, Ordering::Relaxed);
-        }
+        // One by one: a program for size makes a loop of it that takes ten times as long.
+        let [first, second, third, fourth, fifth] = &self.0;
+        first.store(words[0], Ordering::Relaxed);
+        second.store(words[1], Ordering::Relaxed);
+        third.store(words[2], Ordering::Relaxed);
+        fourth.store(words[3], Ordering::Relaxed);
+        fifth.store(words[4], Ordering::Relaxed);
     }
 
     /// What lies there.
@@ -50,13 +53,9 @@ impl PacketSlot {
     }
 }
 
-/// What a module says of itself.
+/// What a module says of itself besides its configuration.
 #[derive(Debug, Clone, Copy)]
-pub struct About<'n> {
-    /// The name of its scene.
-    pub name: &'n str,
-    /// Ticks a second.
-    pub tick_hz: u32,
+pub struct About {
     /// Which model it decides by.
     pub model: ModelState,
 }
@@ -169,29 +168,26 @@ impl Link {
     // Apart: with the rest of a board's link it jumps by tables that the bound of its stack
     // cannot follow.
     #[inline(never)]
-    pub fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+    pub fn carry_out<R: Real, H: Hardware>(
         &mut self,
-        module: &mut Module<R, F, M, P, C, S, N>,
-        config: &Config<MC, PC, H>,
+        module: &mut Module<R, H>,
+        config: &Config<R>,
         request: TaggedCommand,
-        about: About<'_>,
+        about: About,
         sequence: u32,
-    ) where
-        R: Real,
-        F: WordSource,
-        M: Motion<R, MC, S, N> + MotorControl<R>,
-        C: Clock,
-    {
+    ) {
         let mut values = [0; 2];
         let mut done = |place: WhiskerId, command| {
             let place = Place::new(place.side, place.number);
-            module.motion().allows(&config.motion, &command)?;
+            let motion = config.motion.as_ref().filter(|_| Part::Motion.is_built());
+            let motion = motion.ok_or(CommandStatus::NoWhisker)?;
+            motion.allows(&command)?;
             let found = module.command(place, command);
             found.map_err(|_| CommandStatus::NoWhisker)
         };
         let done = match request.command {
             Said::Hello => {
-                values = [about.tick_hz as i32, (S * N) as i32];
+                values = [config.head.tick_hz as i32, module.whiskers().len() as i32];
                 Ok(())
             }
             Said::Status => {
@@ -199,7 +195,7 @@ impl Link {
                 Ok(())
             }
             Said::Name(from) => {
-                values = letters(about.name, from);
+                values = letters(&config.head.name, from);
                 Ok(())
             }
             Said::Stream(on) => {
@@ -207,11 +203,10 @@ impl Link {
                 self.gap = Flags::NONE;
                 Ok(())
             }
-            // What can be cleared can be armed: there is a motor.
             Said::Arm | Said::Stop => {
                 let is_armed = request.command == Said::Arm;
-                let found = module.motion().allows(&config.motion, &Command::Clear);
-                found.map(|()| module.arm(is_armed))
+                let found = config.motion.as_ref().ok_or(CommandStatus::NoWhisker);
+                found.map(|_| module.arm(is_armed))
             }
             Said::Clear(whisker) => done(whisker, Command::Clear),
             Said::Home(whisker) => done(whisker, Command::Home),
@@ -221,12 +216,11 @@ impl Link {
             }
             Said::Release(whisker) => done(whisker, Command::Setpoint(None)),
             Said::Zero(whisker) => {
-                let (side, number) = (whisker.side.into(), whisker.number.into());
-                module
-                    .sensor_mut(side, number)
-                    .ok_or(CommandStatus::NoWhisker)
-                    .and_then(|sensor| sensor.source_mut().zero().ok_or(CommandStatus::NotHere))
-                    .map(|zero| values = zero.codes().map(i32::from))
+                let place = Place::new(whisker.side, whisker.number);
+                let found = module.whisker(place).ok_or(CommandStatus::NoWhisker);
+                let zero = found
+                    .and_then(|(_, whisker)| whisker.sensor().zero().ok_or(CommandStatus::NotHere));
+                zero.map(|zero| values = zero.codes().map(i32::from))
             }
             Said::Version => {
                 values = VERSION;
@@ -244,7 +238,9 @@ impl Link {
                 ModelState::NotHere => Err(CommandStatus::NotHere),
             },
             // By `Tuning`, or by a board's loader.
-            Said::Constant(_)
+            Said::Config(_)
+            | Said::Scene
+            | Said::Board
             | Said::Stage(..)
             | Said::Apply(_)
             | Said::Forget
@@ -288,66 +284,61 @@ impl Link {
 
     /// Sends the records of a tick, the `sequence`-th since the start, with what was noted in
     /// it, if they were asked for.
-    pub fn send<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+    pub fn send<R: Real, H: Hardware>(
         &mut self,
-        module: &Module<R, F, M, P, C, S, N>,
-        config: &Config<MC, PC, H>,
+        module: &Module<R, H>,
+        config: &Config<R>,
         sequence: u32,
         notes: &Notes,
         sink: &mut impl PacketSink,
-    ) where
-        R: Real,
-        F: WordSource,
-        M: Motion<R, MC, S, N>,
-        C: Clock,
-        H: Optional<filter::Config<R>>,
-    {
+    ) {
         if !self.streams {
             return;
         }
         let (said, touching) = notes.take();
-        for side in 0..S {
-            for whisker in 0..N {
-                let place = Place::new(side as u8, whisker as u8);
-                let said = said | Flags::TOUCHING.when(touching & bit(place) != 0) | self.gap;
-                let is_sent = sink.put(|slot| {
-                    module.write_record(config, place, sequence, said, slot);
-                });
-                if is_sent {
-                    self.gap = Flags::NONE;
-                } else {
-                    self.gap = Flags::LOST;
-                    self.lost = self.lost.wrapping_add(1);
-                }
-            }
+        let tick = Tick {
+            module,
+            config,
+            sequence,
+            said,
+            touching,
+        };
+        for whisker in module.whiskers().iter().enumerate() {
+            self.send_record(&tick, whisker, sink);
+        }
+    }
+
+    /// Sends the record of a whisker, which has this number.
+    // Apart: the loop would load all that whiskers have alike ahead, for which there are not
+    // registers enough.
+    #[inline(never)]
+    fn send_record<R: Real, H: Hardware>(
+        &mut self,
+        tick: &Tick<'_, R, H>,
+        whisker: (usize, &Whisker<R, H>),
+        sink: &mut impl PacketSink,
+    ) {
+        if sink.put(|slot| tick.write_record(whisker, self.gap, slot)) {
+            self.gap = Flags::NONE;
+        } else {
+            self.gap = Flags::LOST;
+            self.lost = self.lost.wrapping_add(1);
         }
     }
 }
 
-/// Whether a board may write a model of so many `words` into its flash, which has `room` for
-/// some: with motors that are off, as nothing moves them meanwhile.
+/// Whether a board may write a scene and its model into its flash, which has room for so much
+/// of each: with motors that are off, as nothing moves them meanwhile.
 ///
 /// # Errors
 /// [`CommandStatus::Armed`], or [`CommandStatus::OutOfRange`].
-pub fn may_load<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
-    module: &Module<R, F, M, P, C, S, N>,
-    config: &Config<MC, PC, H>,
-    words: u32,
-    room: u32,
-) -> Result<(), CommandStatus>
-where
-    R: Real,
-    F: WordSource,
-    M: Motion<R, MC, S, N>,
-    C: Clock,
-{
-    let is_armed = |side, whisker| {
-        let told = module.motion().told(&config.motion, side, whisker);
-        told.motor.flags.contains(Flags::ARMED)
-    };
-    if (0..S).any(|side| (0..N).any(|whisker| is_armed(side, whisker))) {
-        Err(CommandStatus::Armed)
-    } else if (1..=room).contains(&words) {
+pub const fn may_load(load: Load, room: Load, is_armed: bool) -> Result<(), CommandStatus> {
+    if is_armed {
+        return Err(CommandStatus::Armed);
+    }
+    // A header is four words.
+    let has_room = 4 < load.config && load.config <= room.config && load.model <= room.model;
+    if has_room {
         Ok(())
     } else {
         Err(CommandStatus::OutOfRange)
@@ -371,68 +362,56 @@ fn letters(name: &str, from: u8) -> [i32; 2] {
     })
 }
 
-impl<R, F, M, P, C, const S: usize, const N: usize> Module<R, F, M, P, C, S, N>
-where
-    R: Real,
-    F: WordSource,
-    C: Clock,
-{
-    /// Writes a record.
-    // Apart: a loop over whiskers would load all of this before it looks for room.
-    #[inline(never)]
-    fn write_record<MC, PC, H>(
-        &self,
-        config: &Config<MC, PC, H>,
-        place: Place,
-        sequence: u32,
-        said: Flags,
-        slot: &PacketSlot,
-    ) where
-        M: Motion<R, MC, S, N>,
-        H: Optional<filter::Config<R>>,
-    {
-        slot.set(self.record(config, place, sequence, said).words());
-    }
+/// A tick whose records are sent.
+struct Tick<'a, R: Real, H: Hardware> {
+    module: &'a Module<R, H>,
+    config: &'a Config<R>,
+    /// Its number since the start.
+    sequence: u32,
+    /// What is so in it, and the whiskers that touch something.
+    said: Flags,
+    touching: u32,
+}
 
-    /// The record of a whisker after a tick, the `sequence`-th since the start, of which
-    /// `said` is so too.
+impl<R: Real, H: Hardware> Tick<'_, R, H> {
+    /// Writes the record of the `n`-th whisker, for which `gap` is set too.
     #[inline]
-    pub fn record<MC, PC, H>(
-        &self,
-        config: &Config<MC, PC, H>,
-        place: Place,
-        sequence: u32,
-        said: Flags,
-    ) -> TickRecord
-    where
-        M: Motion<R, MC, S, N>,
-        H: Optional<filter::Config<R>>,
-    {
-        let (side, whisker) = (usize::from(place.side), usize::from(place.whisker));
-        let MotionRecord { motor, z } = self.motion().told(&config.motion, side, whisker);
-        let sensors = self.sensors().get(side);
-        let reading = sensors.and_then(|sensors| sensors.get(whisker));
-        let reading = reading.map_or(Reading::REST, Sensor::reading);
-        let felt = self.felt().get(side).and_then(|side| side.get(whisker));
-        // What the scene does not feel is left out of the program.
-        let contact = match (config.contact.part(), felt) {
-            (Some(_), Some(felt)) => q13(felt.to_q24()),
-            _ => 0,
-        };
-        TickRecord {
-            sequence,
+    fn write_record(&self, (n, whisker): (usize, &Whisker<R, H>), gap: Flags, slot: &PacketSlot) {
+        let (motor, z) = self.moved(n, whisker).unwrap_or_default();
+        let place = whisker.place();
+        let reading = whisker.sensor().reading();
+        let touches = self.touching != 0 && self.touching & bit(place) != 0;
+        let record = TickRecord {
+            sequence: self.sequence,
             x: reading.x.raw(),
             y: reading.y.raw(),
             setpoint: motor.setpoint,
             measured: motor.measured,
             duty: motor.duty,
             z,
-            contact,
-            flags: motor.flags
-                | said
-                | Flags::RIGHT.when(side > 0)
+            contact: q13(whisker.felt().to_q24()),
+            flags: self.said
+                | gap
+                | motor.flags
+                | Flags::TOUCHING.when(touches)
+                | Flags::RIGHT.when(place.side > 0)
                 | Flags::FRESH.when(reading.fresh)
                 | Flags::VALID.when(reading.valid),
-        }
+        };
+        slot.set(record.words());
+    }
+
+    /// What the last tick has done with the motor of the `n`-th whisker, if it has one, and z of
+    /// its side, Q13.
+    #[inline]
+    fn moved(&self, n: usize, whisker: &Whisker<R, H>) -> Option<(MotorRecord, i16)> {
+        let motion = self.module.motion()?;
+        let config = self.config.motion.as_ref()?;
+        let servo = whisker.servo()?;
+        let moved = motion.state().whiskers.get(n)?;
+        let side = motion.state().sides.get(usize::from(moved.side))?;
+        let mut motor = servo.record(&config.servo, moved.muscle.theta);
+        motor.flags = motor.flags | Flags::ARMED.when(motion.is_armed());
+        Some((motor, q13(side.z.value.to_q24())))
     }
 }

@@ -11,6 +11,15 @@ pub struct Timing {
 }
 
 impl Timing {
+    /// Before the first tick.
+    pub const fn new() -> Self {
+        Self {
+            worst: 0,
+            missed: 0,
+            begun: None,
+        }
+    }
+
     /// A tick begins at `now`; one is due every `period` counts (0: not known).
     #[inline]
     pub fn begin(&mut self, now: u32, period: u32) {

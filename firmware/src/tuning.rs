@@ -1,272 +1,256 @@
-//! Constants that a PC reads and changes between two ticks.
+//! Another configuration for a module that runs.
 //!
-//! Those that belong together are put aside one by one, and take effect all at once, if the PC's
-//! sum says that they are all there, and if each is within its bounds. What was put aside stays
+//! A PC sends the words of one, which are put aside. [`Command::Apply`] has it decoded and
+//! checked where there is time for that, on a board in idle ([`Tuning::prepare`]); then it takes
+//! effect between two ticks ([`take_over`]), all at once, or not at all. What was put aside stays
 //! until it is forgotten, so that a request whose answer was lost can be repeated.
 
-use whisking::{AsWords, Bound, Real, WordRow};
-use wire::{Answer, Command, CommandStatus, SECOND_WORD, SETTINGS_DIFFER, TaggedCommand, word_sum};
+use whisking::Real;
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
-use crate::tunable::{TUNABLE_COUNT, Tunable, Visitor};
-use crate::{Clock, Config, Module, Perception, WordSource};
+use crate::config::{
+    BoardCode, CONFIG_BYTES, ConfigError, HEADER_BYTES, Header, VERSION, decode_into,
+};
+use crate::module::{Hardware, Module};
+use crate::{Config, Field, Part};
 
-/// AsWords that were put aside.
+/// Room for another configuration, where an image takes one.
+const ROOM: usize = if Part::Set.is_built() {
+    CONFIG_BYTES
+} else {
+    0
+};
+
+type Bytes = heapless::Vec<u8, ROOM>;
+
+/// The configuration that a module runs by, as bytes, and the next; `B` has those of its start.
 #[derive(Debug)]
-struct Staged {
-    words: [[u32; 2]; TUNABLE_COUNT],
-    /// Which of a constant's two there are: its lowest two bits.
-    there: [u8; TUNABLE_COUNT],
+pub struct Tuning<B> {
+    board: BoardCode,
+    first: B,
+    /// What has taken its place; empty: nothing.
+    since: Bytes,
+    staged: Bytes,
 }
 
-impl Staged {
-    const fn new() -> Self {
+/// What idle, or a simulation, has made of a request about configurations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Prepared {
+    /// This is the answer.
+    Done(CommandStatus, [i32; 2]),
+    /// The next configuration is to take effect, by [`take_over`]; then [`Tuning::has_taken`] is
+    /// called.
+    Next,
+}
+
+/// The first value of an answer to [`Command::Apply`] that refuses a configuration; the second
+/// is the number of a field or part, or 0.
+#[must_use]
+pub const fn refusal_code(error: ConfigError) -> [i32; 2] {
+    match error {
+        ConfigError::Absent => [1, 0],
+        ConfigError::Strange => [2, 0],
+        ConfigError::Version(version) => [3, version as i32],
+        ConfigError::Board(board) => [4, board as i32],
+        ConfigError::Format(format) => [5, format as i32],
+        ConfigError::TooLong => [6, 0],
+        ConfigError::Damaged => [7, 0],
+        ConfigError::Unreadable(part) => [8, part.code() as i32],
+        ConfigError::NotBuilt(part) => [9, part.code() as i32],
+        ConfigError::Range(field) => [10, field.code() as i32],
+        ConfigError::Room(field) => [11, field.code() as i32],
+        ConfigError::Shape(field) => [12, field.code() as i32],
+        ConfigError::Armed(field) => [13, field.code() as i32],
+    }
+}
+
+/// What [`refusal_code`] says; `None` for numbers of a later version.
+pub fn refusal_of([kind, number]: [i32; 2]) -> Option<ConfigError> {
+    let byte = u8::try_from(number);
+    let part = || Part::from_code(byte.ok()?);
+    let field = || Field::from_code(byte.ok()?);
+    Some(match kind {
+        1 => ConfigError::Absent,
+        2 => ConfigError::Strange,
+        3 => ConfigError::Version(u16::try_from(number).ok()?),
+        4 => ConfigError::Board(byte.ok()?),
+        5 => ConfigError::Format(byte.ok()?),
+        6 => ConfigError::TooLong,
+        7 => ConfigError::Damaged,
+        8 => ConfigError::Unreadable(part()?),
+        9 => ConfigError::NotBuilt(part()?),
+        10 => ConfigError::Range(field()?),
+        11 => ConfigError::Room(field()?),
+        12 => ConfigError::Shape(field()?),
+        13 => ConfigError::Armed(field()?),
+        _ => return None,
+    })
+}
+
+impl<B: AsRef<[u8]>> Tuning<B> {
+    /// Of a module that starts by the configuration at the start of `first`, which may go on
+    /// behind it; or by none, and nothing is there.
+    pub const fn new(board: BoardCode, first: B) -> Self {
         Self {
-            words: [[0; 2]; TUNABLE_COUNT],
-            there: [0; TUNABLE_COUNT],
+            board,
+            first,
+            since: Bytes::new(),
+            staged: Bytes::new(),
         }
     }
 
-    fn put(&mut self, number: u8, word: u32) {
-        let (constant, half) = (number & !SECOND_WORD, usize::from(number / SECOND_WORD));
-        let at = usize::from(constant);
-        let words = self.words.get_mut(at);
-        let place = words.and_then(|words| words.get_mut(half));
-        if let (Some(place), Some(there)) = (place, self.there.get_mut(at)) {
-            *place = word;
-            *there |= 1 << half;
-        }
+    /// The module has started again.
+    pub fn restart(&mut self) {
+        self.since.clear();
+        self.staged.clear();
     }
 
-    /// The words of a constant that has `now`; none if nothing is there for it.
-    fn instead(&self, constant: u8, now: [u32; 2]) -> Option<[u32; 2]> {
-        let at = usize::from(constant);
-        let ([first, second], there) = (self.words.get(at)?, self.there.get(at)?);
-        Some(match there & 3 {
-            1 => [*first, now[1]],
-            2 => [now[0], *second],
-            3 => [*first, *second],
+    /// The bytes of the configuration that runs.
+    pub fn running(&self) -> &[u8] {
+        let bytes = match self.since.as_slice() {
+            [] => self.first.as_ref(),
+            since => since,
+        };
+        let length = Header::of(bytes).map_or(0, |header| header.length as usize);
+        let length = HEADER_BYTES.saturating_add(length);
+        bytes.get(..length).unwrap_or_default()
+    }
+
+    /// Whether it is another than that of the start.
+    pub fn has_changed(&self) -> bool {
+        let sum = |bytes: &[u8]| Header::of(bytes).ok().map(|header| header.crc);
+        !self.since.is_empty() && sum(&self.since) != sum(self.first.as_ref())
+    }
+
+    /// The answer to a question about the configuration that runs; `None` if it is none.
+    #[inline(never)]
+    pub fn read<R: Real>(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
+        let running = self.running();
+        let values = match command {
+            Command::Config(word) => {
+                let first = usize::try_from(word).unwrap_or(usize::MAX);
+                if first.saturating_mul(4) >= running.len() {
+                    return Some((CommandStatus::OutOfRange, [0; 2]));
+                }
+                [first, first.saturating_add(1)].map(|n| word_of(running, n).cast_signed())
+            }
+            Command::Scene => match Header::of(running) {
+                Ok(header) => {
+                    let changed = if self.has_changed() {
+                        CONFIG_CHANGED
+                    } else {
+                        0
+                    };
+                    [header.crc.cast_signed(), running.len() as i32 | changed]
+                }
+                Err(error) => [0, -refusal_code(error)[0]],
+            },
+            Command::Board => {
+                let program = u16::from_le_bytes([self.board as u8, R::FORMAT as u8]);
+                [i32::from(program), i32::from(VERSION)]
+            }
             _ => return None,
-        })
+        };
+        Some((CommandStatus::Done, values))
     }
 
-    /// The sum of all, in the order of their numbers: of each constant the first word, then the
-    /// second.
-    fn sum(&self) -> u32 {
-        let words = (0..).zip(&self.words).zip(&self.there);
-        let words = words.flat_map(|((constant, words), there)| {
-            let halves = [
-                (constant, 1, words[0]),
-                (constant | SECOND_WORD, 2, words[1]),
-            ];
-            let halves = halves
-                .into_iter()
-                .filter(move |(_, bit, _)| there & bit != 0);
-            halves.map(|(number, _, word)| (number, word))
-        });
-        word_sum(words)
-    }
-}
-
-/// What is done with every constant.
-enum Task<'s> {
-    /// One is read.
-    Read(u8, Option<[u32; 2]>),
-    /// All are summed up.
-    Sum(u32),
-    /// What was put aside is looked at: the first that is none, or out of bounds.
-    Check(&'s Staged, Option<u8>),
-    /// It takes effect.
-    Write(&'s Staged),
-}
-
-impl Task<'_> {
-    /// What takes a constant's place, if anything does.
-    // Apart: there are many constants.
+    /// What to do about a request for another configuration, which is read into `next` where it
+    /// is to take effect; `None` if it is not one.
     #[inline(never)]
-    fn meet(&mut self, constant: u8, now: [u32; 2]) -> Option<[u32; 2]> {
-        match self {
-            Self::Read(asked, found) => {
-                if *asked == constant {
-                    *found = Some(now);
-                }
-                None
-            }
-            Self::Sum(sum) => {
-                let [first, second] = now;
-                let words = [(constant, first), (constant | SECOND_WORD, second)];
-                *sum = sum.rotate_left(1) ^ word_sum(words.into_iter());
-                None
-            }
-            Self::Check(staged, _) | Self::Write(staged) => staged.instead(constant, now),
+    pub fn prepare<R: Real>(&mut self, command: Command, next: &mut Config<R>) -> Option<Prepared> {
+        if !Part::Set.is_built() {
+            return None;
         }
-    }
-
-    /// A constant has another value now, by `place`; or it is none.
-    #[inline]
-    fn settle<T: Copy>(&mut self, constant: u8, place: &mut T, value: Option<T>) {
-        match (self, value) {
-            (Self::Write(_), Some(value)) => *place = value,
-            (Self::Check(_, wrong), None) => *wrong = wrong.or(Some(constant)),
-            _ => {}
-        }
-    }
-}
-
-impl Visitor for Task<'_> {
-    #[inline(never)]
-    fn constant<T: AsWords>(&mut self, number: u8, place: &mut T, bound: Bound) {
-        if let Some(words) = self.meet(number, place.words()) {
-            self.settle(number, place, T::from_words(words, bound));
-        }
-    }
-
-    #[inline(never)]
-    fn in_row<T: WordRow>(&mut self, number: u8, row: &mut T, n: usize, bound: Bound) {
-        if let Some(words) = self.meet(number, row.words(n)) {
-            let mut changed = *row;
-            let is_sound = changed.set_words(n, words, bound);
-            self.settle(number, row, is_sound.then_some(changed));
-        }
-    }
-}
-
-/// The module's end of tuning.
-#[derive(Debug)]
-pub struct Tuning {
-    staged: Staged,
-    /// The sum of the constants that the program was built with, once one was changed.
-    built_with: Option<u32>,
-    differs: bool,
-}
-
-impl Default for Tuning {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Tuning {
-    /// Nothing was put aside, and nothing changed.
-    pub const fn new() -> Self {
-        Self {
-            staged: Staged::new(),
-            built_with: None,
-            differs: false,
-        }
-    }
-
-    /// Whether constants differ from those that the program was built with.
-    pub const fn differs(&self) -> bool {
-        self.differs
-    }
-
-    /// Carries out a request between two ticks, after the `sequence`-th, if it is one about
-    /// constants. They have changed if its [`Command::Apply`] is [done](CommandStatus::Done).
-    #[cold]
-    #[inline(never)]
-    pub fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
-        &mut self,
-        module: &mut Module<R, F, M, P, C, S, N>,
-        config: &mut Config<MC, PC, H>,
-        request: TaggedCommand,
-        sequence: u32,
-    ) -> Option<Answer>
-    where
-        R: Real,
-        F: WordSource,
-        P: Perception<R, PC, S, N>,
-        C: Clock,
-        Config<MC, PC, H>: Tunable<R>,
-    {
-        let done = match request.command {
-            Command::Constant(0) => {
-                let differs = if self.differs { SETTINGS_DIFFER } else { 0 };
-                let format = R::FORMAT as u32 | differs;
-                Ok([format, sum::<R, _>(config)])
-            }
-            Command::Constant(constant) => {
-                read::<R, _>(config, constant).ok_or((CommandStatus::NotHere, 0))
-            }
-            Command::Stage(number, word) => {
-                let constant = number & !SECOND_WORD;
-                match read::<R, _>(config, constant) {
-                    Some(_) => {
-                        self.staged.put(number, word);
-                        Ok([0; 2])
-                    }
-                    None => Err((CommandStatus::NotHere, constant)),
+        let (status, values) = match command {
+            Command::Stage(number, word) => self.stage(number, word),
+            Command::Apply(length) => {
+                let bytes = usize::try_from(length).ok();
+                let bytes = bytes.and_then(|length| self.staged.get(..length));
+                let bytes = bytes.ok_or(ConfigError::TooLong);
+                match bytes.and_then(|bytes| decode_into(next, bytes, self.board)) {
+                    Ok(()) => return Some(Prepared::Next),
+                    Err(error) => (CommandStatus::OutOfRange, refusal_code(error)),
                 }
             }
-            Command::Apply(sum) => self.apply::<R, _>(config, sum).map(|()| {
-                module.perception_mut().retune(&config.perception);
-                [0; 2]
-            }),
             Command::Forget => {
-                self.staged.there = [0; TUNABLE_COUNT];
-                Ok([0; 2])
+                self.staged.clear();
+                (CommandStatus::Done, [0; 2])
             }
             _ => return None,
         };
-        let (status, values) = match done {
-            Ok(values) => (CommandStatus::Done, values),
-            Err((status, constant)) => (status, [constant.into(), 0]),
-        };
-        Some(Answer {
-            sequence,
-            tag: request.tag,
-            command: request.command.number(),
-            status,
-            values: values.map(u32::cast_signed),
-        })
+        Some(Prepared::Done(status, values))
     }
 
-    /// What was put aside takes effect, if it has this sum and is sound; otherwise says which
-    /// constant is not, or 0 where the sum is not.
-    fn apply<R, T: Tunable<R>>(
-        &mut self,
-        config: &mut T,
-        asked: u32,
-    ) -> Result<(), (CommandStatus, u8)> {
-        if self.staged.sum() != asked {
-            return Err((CommandStatus::OutOfRange, 0));
+    /// Puts the next word aside. The last one may come again, from whoever missed the answer.
+    fn stage(&mut self, number: u8, word: u32) -> (CommandStatus, [i32; 2]) {
+        let count = self.staged.len() / 4;
+        let is_last = count > 0 && number == (count - 1) as u8;
+        let is_again = is_last && word_of(&self.staged, count - 1) == word;
+        let is_next = number == count as u8;
+        let is_put = is_next && self.staged.extend_from_slice(&word.to_le_bytes()).is_ok();
+        if is_put || is_again {
+            (CommandStatus::Done, [(self.staged.len() / 4) as i32, 0])
+        } else {
+            (CommandStatus::OutOfRange, [count as i32, 0])
         }
-        let mut check = Task::Check(&self.staged, None);
-        walk::<R, _>(config, &mut check);
-        if let Task::Check(_, Some(constant)) = check {
-            return Err((CommandStatus::OutOfRange, constant));
+    }
+
+    /// What was put aside, of so many bytes, has taken effect.
+    pub fn has_taken(&mut self, length: u32) {
+        // It was decoded from there.
+        if let Some(bytes) = self.staged.get(..length as usize) {
+            self.since.clear();
+            // There is as much room.
+            let _ = self.since.extend_from_slice(bytes);
         }
-        let built_with = match self.built_with {
-            Some(sum) => sum,
-            None => sum::<R, _>(config),
-        };
-        self.built_with = Some(built_with);
-        walk::<R, _>(config, &mut Task::Write(&self.staged));
-        self.differs = sum::<R, _>(config) != built_with;
-        Ok(())
     }
 }
 
-/// Does a task for every constant.
-// Apart: it is the larger part of all this, and there are several tasks.
-#[inline(never)]
-fn walk<R, T: Tunable<R>>(config: &mut T, task: &mut Task<'_>) {
-    config.visit(task);
-}
-
-fn read<R, T: Tunable<R>>(config: &mut T, constant: u8) -> Option<[u32; 2]> {
-    let mut read = Task::Read(constant, None);
-    walk::<R, _>(config, &mut read);
-    match read {
-        Task::Read(_, found) => found,
-        _ => None,
+/// The answer to a request, of the `sequence`-th tick.
+pub fn answer(
+    request: TaggedCommand,
+    sequence: u32,
+    (status, values): (CommandStatus, [i32; 2]),
+) -> Answer {
+    Answer {
+        sequence,
+        tag: request.tag,
+        command: request.command.number(),
+        status,
+        values,
     }
 }
 
-fn sum<R, T: Tunable<R>>(config: &mut T) -> u32 {
-    let mut sum = Task::Sum(0);
-    walk::<R, _>(config, &mut sum);
-    match sum {
-        Task::Sum(sum) => sum,
-        _ => 0,
+/// The `n`-th word; zeros follow the last byte.
+fn word_of(bytes: &[u8], n: usize) -> u32 {
+    let mut word = [0; 4];
+    let rest = bytes.get(n.saturating_mul(4)..).unwrap_or_default();
+    for (place, byte) in word.iter_mut().zip(rest) {
+        *place = *byte;
+    }
+    u32::from_le_bytes(word)
+}
+
+/// Has a module that runs by `config` go on by `next` from now on, between two ticks: its caller
+/// gives it that one in each tick from now on.
+///
+/// # Errors
+/// [`ConfigError::Shape`] or [`ConfigError::Armed`]; nothing has changed.
+pub fn take_over<R: Real, H: Hardware>(
+    module: &mut Module<R, H>,
+    config: &Config<R>,
+    next: &Config<R>,
+) -> Result<(), ConfigError> {
+    config.may_become(next, module.is_armed())?;
+    module.retune(next);
+    Ok(())
+}
+
+/// The status and values that answer [`Command::Apply`].
+pub const fn applied(taken: Result<(), ConfigError>) -> (CommandStatus, [i32; 2]) {
+    match taken {
+        Ok(()) => (CommandStatus::Done, [0; 2]),
+        Err(error @ ConfigError::Armed(_)) => (CommandStatus::Armed, refusal_code(error)),
+        Err(error) => (CommandStatus::OutOfRange, refusal_code(error)),
     }
 }

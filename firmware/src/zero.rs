@@ -1,4 +1,4 @@
-//! The zero of a sensor, found anew by itself in every long silence.
+//! The zero of a sensor, found in every long silence.
 //!
 //! Temperature and a magnet that settles move what a sensor reads at rest by a per cent or two
 //! of its range, which a model of deflections takes for a push. While a whisker touches nothing
@@ -6,6 +6,7 @@
 //! mid-scale is none: the whisker leans against something, or its magnet is not in its place.
 
 use mlx90333::Word;
+use serde::{Deserialize, Serialize};
 use whisking::Voted;
 
 /// Steps of a word in a code of 14 bits.
@@ -15,9 +16,9 @@ const CODE: i32 = 4;
 /// of a sample, and what part of a whisk at the end of a silence may add.
 const STEP: u32 = 8 * CODE as u32;
 
-/// What a silence is, in which the zero of a sensor is found anew, and how far that may lie from
+/// What a silence is, in which the zero of a sensor is found, and how far that may lie from
 /// mid-scale.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ZeroLimits {
     /// Ticks of a silence.
     pub ticks: u16,
@@ -25,15 +26,6 @@ pub struct ZeroLimits {
     pub most: u16,
     /// Contact π from which a whisker touches something, Q24.
     pub calm: i32,
-}
-
-impl ZeroLimits {
-    /// No mean is a zero.
-    pub const NONE: Self = Self {
-        ticks: u16::MAX,
-        most: 0,
-        calm: 0,
-    };
 }
 
 /// The zero that is found, and the silence that goes on. Nothing of it is a fault: words are
@@ -53,7 +45,7 @@ impl Zero {
         self.codes.get().unwrap_or_default()
     }
 
-    /// Takes words that [`out_of`](Self::out_of) has given into the silence, or begins it anew
+    /// Takes words that [`out_of`](Self::out_of) has given into the silence, or resets it
     /// where the whisker is not calm. Returns the zero where they end it, and have moved the
     /// zero.
     #[inline]

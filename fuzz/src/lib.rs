@@ -1,14 +1,16 @@
-//! What reads data that nobody vouches for: frames of a sensor, models, scenes, recordings and
-//! the tables of a campaign's shards. Whatever the bytes, each target ends soon, in little memory, without a
-//! panic; and what it takes holds what the rest relies on.
+//! What reads data that nobody vouches for: frames of a sensor, configurations, models,
+//! scenes, recordings and the tables of a campaign's shards. Whatever the bytes, each target ends
+//! soon, in little memory, without a panic; and what it takes holds what the rest relies on.
 //!
 //! `cargo xtask fuzz` feeds them; the tests here run them over the corpus.
 
+mod config;
 mod model;
 mod scene;
 #[cfg(feature = "shards")]
 mod shards;
 
+pub use config::config;
 pub use model::model;
 pub use scene::{scene, simulation};
 #[cfg(feature = "shards")]
@@ -81,6 +83,11 @@ mod tests {
             }
         }
         assert!(files > 0, "{}", folder.display());
+    }
+
+    #[test]
+    fn configurations() {
+        over(super::config, "fuzz/corpus/config");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 use tactile::{
-    AnyRule, AnyRuleSettings, CRC_BYTES, MAX_CHANNELS, Model, ModelBuf, NaiveBayes, Posteriors,
-    Threshold, checksum,
+    CRC_BYTES, Deciding, MAX_CHANNELS, Model, ModelBuf, RuleSettings, StreamClassifier, Threshold,
+    checksum,
 };
 
 /// Samples that a model which is taken classifies at most.
@@ -42,38 +42,50 @@ fn read(bytes: &[u8]) {
             let _ = view.log2_likelihood(channel, bin, classes - 1);
         }
     }
-    let threshold = Threshold::new(0.99).map(AnyRuleSettings::Sequential);
-    let rules = threshold.into_iter().chain([AnyRuleSettings::Window(100)]);
+    let threshold = Threshold::new(0.99).map(RuleSettings::Sequential);
+    let rules = threshold.into_iter().chain([RuleSettings::Window(100)]);
     for rule in rules {
-        classify(model.view(), rule, channels, bytes);
+        for deciding in [Deciding::First, Deciding::Each, Deciding::Together] {
+            classify(model.view(), (rule, deciding), channels, bytes);
+        }
     }
 }
 
+/// Whiskers that are heard.
+const WHISKERS: usize = 2;
+
 /// Classifies codes taken from the bytes themselves, with touches and pauses among them.
-fn classify(model: Model<&[u32]>, rule: AnyRuleSettings, channels: usize, bytes: &[u8]) {
-    let Ok(mut bayes) = NaiveBayes::<AnyRule, _>::new(model, rule) else {
+fn classify(
+    model: Model<&[u32]>,
+    (rule, deciding): (RuleSettings, Deciding),
+    channels: usize,
+    bytes: &[u8],
+) {
+    let Ok(mut classifier) = StreamClassifier::new(model, rule, deciding, WHISKERS) else {
         return;
     };
     let bytes = bytes.iter().rev().cycle();
     let mut bytes = bytes.copied();
     let mut codes = vec![0; channels];
     for number in 0..SAMPLES {
+        let whisker = number % classifier.streams();
         for code in &mut codes {
             let word = [(); 4].map(|()| bytes.next().unwrap_or(0));
             let wide = i32::from_le_bytes(word);
             *code = if number % 8 == 0 { wide } else { wide >> 18 };
         }
-        if number % 256 == 0 {
-            bayes.touch((number / 256) as u16);
+        if number % 256 < WHISKERS {
+            classifier.begin_touch(whisker, (number / 256) as u16);
         }
         let done = match number % 100 {
-            90.. => bayes.pass(&codes),
-            _ => bayes.push(&codes).map(drop),
+            90.. => classifier.pass_to(whisker, &codes),
+            _ => classifier.push_to(whisker, &codes).map(drop),
         };
         assert!(done.is_ok());
     }
-    let _ = bayes.finish();
-    let posteriors: Posteriors = bayes.posteriors();
-    let sum: f64 = posteriors.to_f64().sum();
-    assert!((sum - 1.0).abs() < 1e-3, "posteriors sum to {sum}");
+    for whisker in 0..classifier.streams() {
+        let sum: f64 = classifier.posteriors(whisker).to_f64().sum();
+        assert!((sum - 1.0).abs() < 1e-3, "posteriors sum to {sum}");
+    }
+    classifier.restart();
 }

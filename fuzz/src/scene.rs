@@ -1,6 +1,8 @@
+use config::{RunsOn, Target};
+use firmware::{BoardCode, encode};
 use host_sim::run::Run;
 use scene::Scene;
-use whisking::Fix;
+use whisking::{Fix, Real};
 
 /// Ticks of a scene that is taken.
 const TICKS: u64 = 8;
@@ -16,23 +18,36 @@ fn read(data: &[u8]) -> Option<Scene> {
     }
 }
 
-/// The reader of scenes, and the plan of those it takes.
+/// The reader of scenes, and the configurations of those it takes.
 ///
 /// # Panics
-/// If problems are nameless.
+/// If problems are nameless, or if a module would refuse a configuration.
 pub fn scene(data: &[u8]) {
     let Some(scene) = read(data) else { return };
-    let _ = plan::settings(&scene);
-    let _ = plan::check(&scene);
-    let _ = plan::cautions(&scene);
-    let _ = plan::in_simulation(&scene);
+    let _ = config::settings(&scene);
+    let _ = config::check(&scene);
+    let _ = config::cautions(&scene);
+    let _ = config::in_simulation(&scene);
     for has_fpu in [false, true] {
-        let _ = plan::on_board(&scene, "board", has_fpu);
+        let _ = config::on_board(&scene, "board", has_fpu);
     }
-    let _ = plan::motion::<f32, 1, 1>(&scene);
-    let _ = plan::motion::<Fix, 2, 1>(&scene);
-    let _ = plan::contact::<f32>(&scene, true);
-    let _ = plan::contact::<Fix>(&scene, true);
+    for runs_on in [RunsOn::Simulation { records: false }, RunsOn::Board] {
+        build::<f32>(&scene, runs_on);
+        build::<f64>(&scene, runs_on);
+        build::<Fix>(&scene, runs_on);
+    }
+}
+
+fn build<R: Real>(scene: &Scene, runs_on: RunsOn) {
+    let target = Target {
+        runs_on,
+        gate: None,
+        overrides: "",
+    };
+    if let Ok(config) = config::build::<R>(scene, target) {
+        assert_eq!(config.check(), Ok(()));
+        let _ = encode(&config, BoardCode::Simulation);
+    }
 }
 
 /// The first ticks of the scenes that are taken, without their classifiers.

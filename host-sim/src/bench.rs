@@ -1,43 +1,28 @@
-//! A module of any shape behind one interface: the firmware's [`Module`] on
-//! mock hardware.
+//! A module of any scene behind one interface: the firmware's [`Module`] on mock hardware.
 
-mod config;
 mod line;
+mod mock;
 mod sensor;
-mod tunable;
 
-pub use config::RunsOn;
-pub use tunable::{ConstantWords, TunableConstant, TunableConstants, tunable_constants};
-
+use config::{Mismatch, NumberFormat, RunsOn, Target};
 use firmware::{
-    Active, Classifying, Clock, Command, Event, ModelState, Module, NoActiveWhisker, Perception,
-    Place, Refusal, Servo,
+    Command, Config, Event, ModelState, Module, NoActiveWhisker, Perception, Place, Refusal,
+    Whisker, WhiskerParts,
 };
-use plan::NumberFormat;
-use scene::{Arm, Deciding, Scene, SensorSection};
-use whisking::motor::StallConfig;
-use whisking::{Fix, Real, Start};
+use scene::{Deciding, Scene, SensorSection};
+use whisking::{Fix, Number, Real};
 use wire::{Packet, TaggedCommand};
 
 use crate::Error;
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, Tap};
-use crate::drive::{self, AnyAngle, AnyMotor};
+use crate::drive;
 use crate::motor::Pins;
-use config::{HostConfig, broken};
 use line::Line;
+use mock::Mock;
+pub use mock::NoClock;
 use sensor::AnySensor;
-
-/// Time does not pass within a tick of the simulation.
-#[derive(Debug, Clone, Copy)]
-pub struct NoClock;
-
-impl Clock for NoClock {
-    fn now(&mut self) -> u32 {
-        0
-    }
-}
 
 /// What a module shows of itself after a tick. Values of a side that does
 /// not exist are NaN.
@@ -121,28 +106,29 @@ pub trait HostModule: Bench + Send {
     fn take_packets(&mut self) -> Vec<Packet>;
 }
 
-type Motors<R, const S: usize, const N: usize> = Option<Active<R, AnyMotor, AnyAngle, S, N>>;
-type Ears<const S: usize, const N: usize> = Option<Classifying<Tap, S, N>>;
-type Sensors<const S: usize, const N: usize> = [[AnySensor; N]; S];
-
-struct Shaped<R: Real, const S: usize, const N: usize> {
-    module: Module<R, AnySensor, Motors<R, S, N>, Ears<S, N>, NoClock, S, N>,
-    config: HostConfig<R>,
+/// A module in one number format.
+struct Hosted<R: Number> {
+    module: Module<R, Mock>,
+    config: Config<R>,
     /// As the scene has it.
-    built_with: HostConfig<R>,
-    start: Option<Start<R, S, N>>,
-    arms_at_start: bool,
+    built_with: Config<R>,
     sensor: SensorSection,
     line: Line,
 }
 
-impl<R: Real, const S: usize, const N: usize> Shaped<R, S, N> {
+impl<R: Number> Hosted<R> {
     fn sensor_mut(&mut self, n: usize) -> Option<&mut AnySensor> {
-        Some(self.module.sensor_mut(n / N, n % N)?.source_mut())
+        let whisker = self.module.whiskers_mut().get_mut(n)?;
+        Some(whisker.sensor_mut().source_mut())
+    }
+
+    /// The place of whisker `n`.
+    fn place(&self, n: usize) -> Option<Place> {
+        self.module.whiskers().get(n).map(Whisker::place)
     }
 }
 
-impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
+impl<R: Number> Bench for Hosted<R> {
     fn tick(&mut self, events: &mut Vec<Event>) {
         if let Some(perception) = self.module.perception_mut() {
             perception.classifier_mut().samples.fill(None);
@@ -155,31 +141,34 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
-        if let Some(perception) = self.module.perception_mut() {
-            for (place, touching) in snapshot.touch.iter_mut().zip(perception.touching()) {
-                *place = touching.first().map_or(0, |touching| touching.number);
+        let each = usize::from(self.config.head.whiskers_per_side);
+        let sides = usize::from(self.config.head.sides);
+        if let Some(perception) = self.module.perception() {
+            for (side, place) in snapshot.touch.iter_mut().take(sides).enumerate() {
+                *place = perception.touching(side * each).number;
             }
         }
-        for (place, pi) in snapshot.contact.iter_mut().zip(self.module.contact()) {
+        let contact = self.module.contact();
+        for (place, pi) in snapshot.contact.iter_mut().take(sides).zip(contact) {
             *place = pi.to_f64();
         }
-        let Some(active) = self.module.motion() else {
+        let Some(motion) = self.module.motion() else {
             return;
         };
-        let state = active.state();
-        let theta = state.theta();
-        let servos = active.servos().iter().flatten();
-        let setpoints = theta.iter().flatten().zip(servos);
+        let state = motion.state();
+        let servos = self.module.whiskers().iter().map(Whisker::servo);
+        let setpoints = state.theta().zip(servos);
+        let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
         for (place, (theta, servo)) in snapshot.theta_deg.iter_mut().zip(setpoints) {
-            let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
-            let commanded = pd.and_then(|pd| Some(pd.clamp(servo.setpoint()?)));
-            *place = whisking::degrees(commanded.unwrap_or(*theta).to_f64());
+            let commanded = pd.and_then(|pd| Some(pd.clamp(servo?.setpoint()?)));
+            *place = whisking::degrees(commanded.unwrap_or(theta).to_f64());
         }
-        for (place, z) in snapshot.z.iter_mut().zip(state.z) {
-            *place = z.value.to_f64();
+        for (place, side) in snapshot.z.iter_mut().zip(&state.sides) {
+            *place = side.z.value.to_f64();
         }
-        for (place, whiskers) in snapshot.g.iter_mut().zip(&state.whiskers) {
-            *place = whiskers.first().map_or(f64::NAN, whisking::Whisker::gain);
+        let firsts = state.whiskers.iter().step_by(each.max(1));
+        for (place, whisker) in snapshot.g.iter_mut().zip(firsts) {
+            *place = whisker.gain();
         }
     }
 
@@ -198,41 +187,33 @@ impl<R: Real, const S: usize, const N: usize> Bench for Shaped<R, S, N> {
     }
 
     fn felt_by(&self, n: usize) -> Option<f64> {
-        let felt = self.module.felt().as_flattened();
-        felt.get(n).map(|felt| felt.to_f64())
+        let whisker = self.module.whiskers().get(n)?;
+        Some(whisker.felt().to_f64())
     }
 }
 
-impl<R: Real, const S: usize, const N: usize> HostModule for Shaped<R, S, N>
+impl<R: Number> HostModule for Hosted<R>
 where
     Self: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        self.config = self.built_with;
-        let stall = self
-            .config
-            .motion
-            .as_ref()
-            .map(|motion| motion.servo.guards.stall);
-        let motors = match (&self.start, stall) {
-            (Some(start), Some(stall)) => Some(motors(start, stall, seed, pins)?),
-            _ => None,
-        };
-        let perception = self.module.perception_mut().take();
-        let mut perception = perception.map(Classifying::restarted);
-        Perception::<R, _, S, N>::retune(&mut perception, &self.config.perception);
-        let sensors = sensors(&self.sensor, seed)?;
-        self.module = Module::new(sensors, motors, perception, NoClock);
-        self.module.arm(self.arms_at_start);
+        self.config.clone_from(&self.built_with);
+        if let Some(motion) = &mut self.config.motion {
+            motion.seed = seed;
+        }
+        let perception = self.module.take_perception();
+        let mut perception = perception.map(Perception::restarted);
+        if let (Some(perception), Some(classifier)) = (&mut perception, &self.config.classifier) {
+            perception.retune(classifier.rule.as_ref());
+        }
+        self.module = module(&self.config, &self.sensor, (seed, pins), None)?;
+        self.module.set_perception(perception);
         self.line.restart();
         Ok(())
     }
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker> {
-        if n >= S * N {
-            return Err(NoActiveWhisker);
-        }
-        let place = Place::new((n / N) as u8, (n % N) as u8);
+        let place = self.place(n).ok_or(NoActiveWhisker)?;
         let command = match command {
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
             Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
@@ -247,12 +228,12 @@ where
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {
-        Some(self.module.perception_mut().as_mut()?.classifier_mut())
+        Some(self.module.perception_mut()?.classifier_mut())
     }
 
     fn felt(&self) -> Vec<f64> {
-        let felt = self.module.felt().as_flattened();
-        felt.iter().map(|felt| felt.to_f64()).collect()
+        let felt = self.module.whiskers().iter().map(Whisker::felt);
+        felt.map(Real::to_f64).collect()
     }
 
     fn request(&mut self, request: TaggedCommand) {
@@ -265,36 +246,43 @@ where
     }
 }
 
-fn misfit(what: &str) -> Error {
-    Error::Work(format!("the module's {what} do not fit the scene"))
-}
-
-fn sensors<const S: usize, const N: usize>(
-    section: &SensorSection,
-    seed: u64,
-) -> Result<Sensors<S, N>, Error> {
-    let mut next = seed;
-    let sensor = || {
-        let seed = next;
-        next = next.wrapping_add(1);
-        AnySensor::new(section, seed)
-    };
-    array(sensor).ok_or_else(|| misfit("sensors"))
-}
-
-fn motors<R: Real, const S: usize, const N: usize>(
-    start: &Start<R, S, N>,
-    stall: StallConfig,
-    seed: u64,
-    pins: Vec<Pins>,
-) -> Result<Active<R, AnyMotor, AnyAngle, S, N>, Error> {
-    let mut pins = pins.into_iter();
-    let servos = array(|| {
-        let (motor, angle) = drive::on(pins.next()?, stall);
-        Some(Servo::new(motor, angle))
+/// A module at rest, its motors on `pins`, its sensors' noise from the seed beside those.
+fn module<R: Number>(
+    config: &Config<R>,
+    sensor: &SensorSection,
+    (seed, pins): (u64, Vec<Pins>),
+    classifier: Option<Tap>,
+) -> Result<Module<R, Mock>, Error> {
+    let count = config.head.whiskers();
+    let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
+    let sensors: Option<Vec<AnySensor>> = (0..count as u64)
+        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n)))
+        .collect();
+    let mut sensors = sensors.ok_or_else(|| misfit("sensors"))?.into_iter();
+    let stall = config
+        .motion
+        .as_ref()
+        .map(|motion| motion.servo.guards.stall);
+    let motors = stall.map_or_else(Vec::new, |stall| {
+        pins.into_iter()
+            .map(|pins| drive::on(pins, stall))
+            .collect()
     });
-    let state = whisking::State::new(start, seed);
-    Ok(Active::new(state, servos.ok_or_else(|| misfit("motors"))?))
+    if stall.is_some() && motors.len() != count {
+        return Err(misfit("motors"));
+    }
+    let mut motors = motors.into_iter();
+    let parts = std::iter::from_fn(|| {
+        let (source, motor) = (sensors.next()?, motors.next());
+        Some(WhiskerParts { source, motor })
+    });
+    let mut module = Module::new(config, parts, classifier, (NoClock, 0));
+    let arms = config
+        .motion
+        .as_ref()
+        .is_some_and(|motion| motion.arms_at_start);
+    module.arm(arms);
+    Ok(module)
 }
 
 /// How many whiskers of a scene are heard by its classifier.
@@ -320,79 +308,66 @@ pub fn build(
     pins: Vec<Pins>,
     classifier: Option<Classifier>,
 ) -> Result<Box<dyn HostModule>, Error> {
-    macro_rules! shapes {
-        ($number:ty: $($n:literal)*) => {
-            match (scene.head.sides.count(), scene.head.whiskers_per_side) {
-                $(
-                    (1, $n) => shaped::<$number, 1, $n>(scene, pins, classifier),
-                    (2, $n) => shaped::<$number, 2, $n>(scene, pins, classifier),
-                )*
-                (sides, whiskers) => {
-                    Err(Error::Work(format!("no module of {sides} sides with {whiskers} whiskers")))
-                }
-            }
-        };
-    }
-    match plan::in_simulation(scene) {
-        NumberFormat::Double => shapes!(f64: 1 2 3 4 5 6 7 8 9 10 11 12),
-        NumberFormat::Fixed => shapes!(Fix: 1 2 3 4 5 6 7 8 9 10 11 12),
-        NumberFormat::Single => shapes!(f32: 1 2 3 4 5 6 7 8 9 10 11 12),
+    match config::in_simulation(scene) {
+        NumberFormat::Double => hosted::<f64>(scene, pins, classifier),
+        NumberFormat::Fixed => hosted::<Fix>(scene, pins, classifier),
+        NumberFormat::Single => hosted::<f32>(scene, pins, classifier),
     }
 }
 
-fn shaped<R: Real, const S: usize, const N: usize>(
+/// What is wrong with a scene for its module.
+fn broken(mismatch: Mismatch) -> Error {
+    match mismatch {
+        Mismatch::Unstable(_) | Mismatch::Gate { .. } | Mismatch::Threshold { .. } => {
+            Error::Input(mismatch.to_string())
+        }
+        mismatch => Error::Work(mismatch.to_string()),
+    }
+}
+
+/// The configuration of the simulated module of `scene`, which decides by a model with this
+/// contact, if any, or records for one.
+///
+/// # Errors
+/// What is wrong with the scene for it.
+pub fn config_of<R: Number>(
+    scene: &Scene,
+    gate: Option<f32>,
+    records: bool,
+    overrides: &str,
+) -> Result<Config<R>, Error> {
+    let target = Target {
+        runs_on: RunsOn::Simulation { records },
+        gate,
+        overrides,
+    };
+    config::build(scene, target).map_err(broken)
+}
+
+fn hosted<R: Number>(
     scene: &Scene,
     pins: Vec<Pins>,
     classifier: Option<Classifier>,
 ) -> Result<Box<dyn HostModule>, Error>
 where
-    Shaped<R, S, N>: Send + 'static,
+    Hosted<R>: Send + 'static,
 {
-    let plan = plan::motion::<R, S, N>(scene).map_err(broken)?;
     let tap = Tap::new(classifier, heard(scene));
     let gate = tap.touch_rule().map(|touch| touch.gate);
-    let model = tap.model();
-    let runs_on = RunsOn::Simulation {
-        records: tap.is_recording(),
-    };
-    let config = config::config(scene, plan.as_ref(), gate, runs_on)?;
-    let start = plan.as_ref().map(|plan| plan.start);
-    let motors = match (&start, &config.motion) {
-        (Some(start), Some(motion)) => {
-            Some(motors(start, motion.servo.guards.stall, scene.seed, pins)?)
-        }
-        _ => None,
-    };
-    let perception = Some(Classifying::new(tap));
-    let motor = scene.motor.as_ref();
-    let arms_at_start = motor.is_some_and(|motor| motor.arm == Arm::AtStart);
-    let sensors = sensors(&scene.sensor, scene.seed)?;
-    let mut module = Module::new(sensors, motors, perception, NoClock);
-    module.arm(arms_at_start);
-    let model = match (model, &scene.classifier) {
+    let model = match (tap.model(), &scene.classifier) {
         (Some(model), _) => model,
         (None, Some(_)) => ModelState::Refused(Refusal::Absent),
         (None, None) => ModelState::NotHere,
     };
-    Ok(Box::new(Shaped {
-        module,
+    let config = config_of::<R>(scene, gate, tap.is_recording(), "")?;
+    config
+        .check()
+        .map_err(|fault| Error::Work(fault.to_string()))?;
+    Ok(Box::new(Hosted {
+        module: module(&config, &scene.sensor, (scene.seed, pins), Some(tap))?,
+        line: Line::new(&config, model),
+        built_with: config.clone(),
         config,
-        built_with: config,
-        start,
-        arms_at_start,
         sensor: scene.sensor,
-        line: Line::new(scene, model),
     }))
-}
-
-/// S × N things, or `None` if `make` runs out of them.
-fn array<T, const S: usize, const N: usize>(
-    mut make: impl FnMut() -> Option<T>,
-) -> Option<[[T; N]; S]> {
-    let mut sides = Vec::with_capacity(S);
-    for _ in 0..S {
-        let side: Vec<T> = (0..N).map_while(|_| make()).collect();
-        sides.push(<[T; N]>::try_from(side).ok()?);
-    }
-    <[[T; N]; S]>::try_from(sides).ok()
 }

@@ -257,7 +257,7 @@ impl Default for Slave {
 }
 
 /// One transaction: the frame latched at its start, byte by byte.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Exchange {
     /// The shift register: the next byte on top, behind the last one a line that is released.
     answer: u64,

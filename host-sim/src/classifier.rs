@@ -1,14 +1,12 @@
-//! The classifier of the firmware with its rule known only now.
+//! The classifier of the firmware, with its model in memory of its own.
 
 use std::fmt::Display;
 
-use firmware::{
-    CodeClassifier, Deployed, ModelLimits, ModelState, Refusal, Sample, SampleClassifier, TakesRule,
-};
+use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
-    AnyRule, AnyRuleSettings, Decision, Each, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
-    Streams, Threshold, Together, TouchRule,
+    AnyRule, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
+    RuleSettings, Threshold, TouchRule,
 };
 use zerocopy::IntoBytes;
 
@@ -17,25 +15,12 @@ use crate::Error;
 /// Contact from which a sample counts, unless scene or model say otherwise.
 pub const GATE: f64 = 0.05;
 
-/// Most whiskers that a module has; those beyond it say nothing.
-const MOST: usize = 24;
-
 type Words = Box<[u32]>;
-type Borrowed<'w> = NaiveBayes<AnyRule, &'w [u32]>;
-
-/// How decisions come from whiskers.
-#[derive(Debug, Clone)]
-enum Judge {
-    /// By the evidence of each.
-    Each(Box<CodeClassifier<Each<AnyRule, Words, MOST>>>),
-    /// By the sum of all.
-    Together(Box<CodeClassifier<Together<Words, MOST>>>),
-}
 
 /// The classifier that a board runs, with its model.
 #[derive(Debug, Clone)]
 pub struct Classifier {
-    judge: Judge,
+    codes: Box<CodeClassifier<Words>>,
     deciding: Deciding,
     classes: Vec<String>,
 }
@@ -58,21 +43,12 @@ impl Classifier {
     pub fn of(model: ModelBuf, rule: Rule, deciding: Deciding) -> Result<Self, Fault> {
         quantisers(&model)?;
         let classes = names(&model);
-        let judge = match (deciding, settings(rule)?) {
-            (Deciding::First | Deciding::Each, settings) => {
-                let bayes = Each::new(model, settings).map_err(of_rule)?;
-                Judge::Each(Box::new(CodeClassifier::new(bayes).map_err(of_model)?))
-            }
-            (Deciding::Together, AnyRuleSettings::Sequential(threshold)) => {
-                let bayes = Together::new(model, threshold).map_err(of_rule)?;
-                Judge::Together(Box::new(CodeClassifier::new(bayes).map_err(of_model)?))
-            }
-            (Deciding::Together, AnyRuleSettings::Window(_)) => {
-                return Err(Fault::Rule("a window counts the samples of one".to_owned()));
-            }
-        };
+        // Whiskers that a module does not have say nothing.
+        let classifier =
+            tactile::StreamClassifier::new(model, settings(rule)?, deciding, MAX_STREAMS);
+        let codes = CodeClassifier::new(classifier.map_err(of_rule)?).map_err(of_model)?;
         Ok(Self {
-            judge,
+            codes: Box::new(codes),
             deciding,
             classes,
         })
@@ -90,18 +66,12 @@ impl Classifier {
 
     /// What a touch means to its model.
     pub fn touch_rule(&self) -> Option<TouchRule> {
-        match &self.judge {
-            Judge::Each(codes) => codes.bayes().model().touch_rule(),
-            Judge::Together(codes) => codes.bayes().model().touch_rule(),
-        }
+        self.codes.model()?.touch_rule()
     }
 
     /// Which model it decides by.
     pub fn model(&self) -> ModelState {
-        match &self.judge {
-            Judge::Each(codes) => ModelState::of(codes.bayes().model()),
-            Judge::Together(codes) => ModelState::of(codes.bayes().model()),
-        }
+        self.codes.state()
     }
 
     /// Posterior of each class after the last full block: of the first whisker, or of all
@@ -112,65 +82,36 @@ impl Classifier {
 
     /// The same of a whisker, counted from 0, left side first, or of all together.
     pub fn posteriors_of(&self, whisker: usize) -> Posteriors {
-        match &self.judge {
-            Judge::Each(codes) => codes.bayes().posteriors(whisker),
-            Judge::Together(codes) => codes.bayes().posteriors(whisker),
-        }
-    }
-
-    fn codes(&self) -> &dyn SampleClassifier {
-        match &self.judge {
-            Judge::Each(codes) => &**codes,
-            Judge::Together(codes) => &**codes,
-        }
-    }
-
-    fn codes_mut(&mut self) -> &mut dyn SampleClassifier {
-        match &mut self.judge {
-            Judge::Each(codes) => &mut **codes,
-            Judge::Together(codes) => &mut **codes,
-        }
+        let classifier = self.codes.classifier();
+        // It was made with one.
+        classifier.map_or_else(Posteriors::default, |one| one.posteriors(whisker))
     }
 }
 
 impl SampleClassifier for Classifier {
     fn hears(&self, whisker: usize) -> bool {
-        whisker == 0 || self.deciding != Deciding::First
+        self.codes.hears(whisker)
     }
 
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
-        self.codes_mut().push(whisker, sample)
+        self.codes.push(whisker, sample)
     }
 
     fn knows_touches(&self) -> bool {
-        self.codes().knows_touches()
+        self.codes.knows_touches()
     }
 
     fn interrupt(&mut self, whisker: usize) {
-        self.codes_mut().interrupt(whisker);
+        self.codes.interrupt(whisker);
     }
 
     fn reset(&mut self) {
-        self.codes_mut().reset();
+        self.codes.reset();
     }
-}
 
-impl TakesRule<AnyRuleSettings> for Classifier {
-    fn set_rule(&mut self, settings: &AnyRuleSettings) {
-        match (&mut self.judge, settings) {
-            (Judge::Each(codes), settings) => codes.set_rule(settings),
-            (Judge::Together(codes), AnyRuleSettings::Sequential(threshold)) => {
-                codes.set_rule(threshold);
-            }
-            // There is no such classifier.
-            (Judge::Together(_), AnyRuleSettings::Window(_)) => {}
-        }
+    fn set_rule(&mut self, settings: &RuleSettings) {
+        self.codes.set_rule(settings);
     }
-}
-
-/// One whose rule stays as it was made.
-impl TakesRule<()> for Classifier {
-    fn set_rule(&mut self, (): &()) {}
 }
 
 /// What stands between the whiskers that are heard and their classifier, if there is one:
@@ -239,11 +180,9 @@ impl SampleClassifier for Tap {
             classifier.reset();
         }
     }
-}
 
-impl TakesRule<Option<AnyRuleSettings>> for Tap {
-    fn set_rule(&mut self, settings: &Option<AnyRuleSettings>) {
-        if let (Some(classifier), Some(settings)) = (&mut self.classifier, settings) {
+    fn set_rule(&mut self, settings: &RuleSettings) {
+        if let Some(classifier) = &mut self.classifier {
             classifier.set_rule(settings);
         }
     }
@@ -288,8 +227,8 @@ pub fn deployed(
         .iter()
         .map(|word| u32::from_le_bytes(*word))
         .collect();
-    let join = |model| Borrowed::new(model, rule);
-    let found = Deployed::new(words.as_bytes(), limits, join);
+    let rule = (rule, classifier.whiskers);
+    let found = CodeClassifier::at_start(words.as_bytes(), limits, rule, scene.whiskers());
     Ok(match (found.state(), found.model()) {
         (ModelState::Refused(refusal), _) => Err(refusal),
         (_, Some(model)) => {
@@ -300,12 +239,12 @@ pub fn deployed(
     })
 }
 
-pub(crate) fn settings(rule: Rule) -> Result<AnyRuleSettings, Fault> {
+pub(crate) fn settings(rule: Rule) -> Result<RuleSettings, Fault> {
     Ok(match rule {
         Rule::Sequential { threshold } => {
-            AnyRuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
+            RuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
         }
-        Rule::Window { samples } => AnyRuleSettings::Window(samples),
+        Rule::Window { samples } => RuleSettings::Window(samples),
     })
 }
 

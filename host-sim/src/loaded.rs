@@ -45,7 +45,7 @@ impl Loaded {
         (scene, places): (Scene, Places),
         model: impl FnOnce(&Scene) -> Option<Result<(PathBuf, ModelBuf), Error>>,
     ) -> Result<Self, Error> {
-        plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
+        config::check(&scene).map_err(|refused| Error::file(path, refused))?;
         let model = model(&scene)
             .transpose()
             .map_err(|fault| Error::Input(places.fault("classifier.model", fault)))?;
@@ -59,7 +59,7 @@ impl Loaded {
 
     /// What its user should know of the scene, though nothing is wrong with it.
     pub fn caution(&self) -> Option<String> {
-        let caution = plan::cautions(&self.scene)?;
+        let caution = config::cautions(&self.scene)?;
         Some(Error::file(&self.path, caution).to_string())
     }
 
@@ -129,7 +129,7 @@ impl Loaded {
             Fault::Rule(fault) => refused(key, fault),
         })?;
         let gate = classifier.touch_rule().map(|touch| touch.gate);
-        plan::contact_min(&self.scene, gate).map_err(|fault| {
+        config::contact_min(&self.scene, gate).map_err(|fault| {
             let place = self.places.of("classifier.contact_min");
             Error::Input(format!("{place}: {fault}"))
         })?;

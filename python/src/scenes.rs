@@ -162,7 +162,7 @@ impl Given {
         let read = Scene::from_str_with(&self.file, &self.text, &self.set);
         let (mut scene, _) = read.map_err(|problems| refused(py, &problems))?;
         let path = Path::new(&self.file);
-        plan::check(&scene).map_err(|fault| raised(py, Error::file(path, fault)))?;
+        config::check(&scene).map_err(|fault| raised(py, Error::file(path, fault)))?;
         scene.seed = seed.unwrap_or(scene.seed);
         Ok(scene)
     }

@@ -40,9 +40,7 @@ impl Decides {
         match self {
             Self::By(crc, _) if crc == model.crc() => Ok(()),
             Self::By(..) => Err(Error::Work(
-                "it decides by another model than was written: one that is linked into its \
-                 program?"
-                    .to_owned(),
+                "it decides by another model than was written".to_owned(),
             )),
             Self::Not(_) => Err(Error::Work("it has refused the model".to_owned())),
         }

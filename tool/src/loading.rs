@@ -1,11 +1,13 @@
-//! A model to a board whose own program writes it: by whatever its requests go.
+//! A scene and its model to a board whose own program writes them: by whatever its requests go.
 
 use std::time::{Duration, Instant};
 
+use firmware::Part;
 use host_sim::Error;
-use tactile::ModelBuf;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand, load_order};
+use wire::{Answer, Command, CommandStatus, Load, LoadedWord, Packet, TaggedCommand};
 
+use crate::configuration::not_built;
+use crate::deployment::Deployment;
 use crate::source::Source;
 
 /// After so long without its answer a word is sent again, which changes nothing.
@@ -64,40 +66,51 @@ impl<S: Source + ?Sized> Asking<'_, S> {
 
 fn refused(command: Command, status: CommandStatus) -> Error {
     let why = match (command, status) {
-        (Command::Load(_), CommandStatus::NotHere) => {
-            "this board's program does not write its flash; that of a scene whose [classifier] has \
-             no model does"
-        }
-        (Command::Load(_), CommandStatus::Unknown) => {
-            "its firmware is older than this program: whisker flash"
-        }
+        (Command::Load(_), CommandStatus::NotHere) => return not_built(Part::Deploy),
+        (Command::Load(_), CommandStatus::OutOfRange) => "its flash has no room for so much",
         (_, CommandStatus::NotWritten) => "its flash did not take what was written; try again",
         _ => return Error::Work(format!("{}: {status}", command.name())),
     };
     Error::Work(why.to_owned())
 }
 
-/// Has the board erase what it has, write the model, and start anew; comes back once it answers
-/// again. Interrupted, it leaves a board without a model.
+/// Has the board erase the slot that it does not run by, write a scene and its model there, and
+/// start by them; comes back once it answers again. Interrupted, it leaves the board the scene
+/// before.
 ///
 /// # Errors
 /// [`Error::Work`] if it does not answer, or refuses.
-pub(crate) fn load<S: Source + ?Sized>(source: &mut S, model: &ModelBuf) -> Result<(), Error> {
-    // A model is whole words.
-    let (words, _) = model.as_bytes().as_chunks::<4>();
-    let count = words.len() as u32;
+pub(crate) fn load<S: Source + ?Sized>(source: &mut S, what: &Deployment) -> Result<(), Error> {
+    let [config, model] = what.words();
+    let count = |words: &[u32]| {
+        let fault = |_| Error::Work("the model is longer than any board's flash".to_owned());
+        u16::try_from(words.len()).map_err(fault)
+    };
+    let load = Load {
+        config: count(&config)?,
+        model: count(&model)?,
+    };
     let mut board = Asking {
         source,
         tag: FIRST_TAG,
     };
-    board.done(Command::Load(count), 1, LONG)?;
-    for number in 0..count {
-        let word = words.get(load_order(number, count) as usize);
-        let word = u32::from_le_bytes(*word.unwrap_or(&[0; 4]));
-        board.done(Command::Word(number as u8, word), TIMES, AGAIN)?;
+    board.done(Command::Load(load), 1, LONG)?;
+    let words = (0..).map_while(|number| {
+        let word = match load.word(number)? {
+            LoadedWord::Config(n) => config.get(usize::from(n)),
+            LoadedWord::Model(n) => model.get(usize::from(n)),
+        };
+        Some((number as u8, *word?))
+    });
+    for (number, word) in words {
+        board.done(Command::Word(number, word), TIMES, AGAIN)?;
     }
     // The answer may be lost with the reset.
     board.ask(Command::Restart, AGAIN)?;
+    board.source.speaks(what.config.links)?;
     let times = LONG.as_secs() / AGAIN.as_secs();
     board.done(Command::Hello, times as usize, AGAIN)
 }
+
+#[cfg(test)]
+mod tests;

@@ -10,9 +10,12 @@
 mod calibrate;
 mod capture;
 mod commands;
+mod configuration;
 mod conversation;
 mod decides;
+mod deployment;
 mod doctor;
+mod exchange;
 mod loading;
 mod log_line;
 mod monitor;
@@ -79,7 +82,7 @@ enum Command {
     Home(commands::order::ToSide),
     /// Says what a module is and what it has lost and missed
     Status(commands::order::ToAll),
-    /// Gives a module a model to decide by, without building its program anew
+    /// Gives a module another scene, a model to decide by, or both; its program stays
     Deploy(commands::deploy::Arguments),
     /// Runs a board's program on an emulated chip, with its serial port as a pseudo-terminal
     #[cfg(unix)]

@@ -9,17 +9,15 @@ mod find;
 mod flash;
 #[cfg(feature = "probe")]
 mod memory;
+#[cfg(feature = "probe")]
+mod seen;
 #[cfg(not(feature = "probe"))]
 mod without;
 
 #[cfg(not(feature = "probe"))]
 pub(crate) use without::{flash, is_there, open, seen};
 #[cfg(feature = "probe")]
-pub(crate) use {
-    behind::open,
-    find::{is_there, seen},
-    flash::flash,
-};
+pub(crate) use {behind::open, find::is_there, flash::flash, seen::seen};
 
 /// A probe on USB, as far as it is seen without the chip behind it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,4 +31,6 @@ pub(crate) struct SeenProbe {
     /// The chip behind it by its [identity](crate::source::BoardName::chip_id), or why that
     /// cannot be read.
     pub(crate) chip: Result<u16, String>,
+    /// What the module in the chip says that it runs, if one answers.
+    pub(crate) module: Option<String>,
 }

@@ -13,7 +13,7 @@ pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String
     let refused = |problems: scene::Problems| Error::Input(problems.to_string());
     // What is wrong is told by its key and value.
     let (wanted, _) = Scene::from_str_with(file, text, values).map_err(refused)?;
-    plan::check(&wanted).map_err(|fault| Error::Input(format!("{file}: {fault}")))?;
+    config::check(&wanted).map_err(|fault| Error::Input(format!("{file}: {fault}")))?;
     let wrong = |fault: String| Error::Work(format!("{file}: {fault}; nothing was saved"));
     let mut document: DocumentMut = text
         .parse()

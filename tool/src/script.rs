@@ -87,9 +87,9 @@ impl Script {
             return Ok(());
         }
         let file = source.scene().ok_or_else(|| {
-            Error::Input("set: nothing says which scene the module's program is of".to_owned())
+            Error::Input("set: nothing says which scene the module runs".to_owned())
         })?;
-        let tuner = Tuner::open(file, source.is_simulated())?;
+        let tuner = Tuner::open(file, source)?;
         for key in keys {
             live_key(key, tuner.scene()).map_err(Error::Input)?;
         }

@@ -9,7 +9,8 @@ mod person;
 mod port;
 mod port_line;
 mod program;
-mod room;
+#[cfg(test)]
+mod scripted;
 mod simulated;
 mod texture;
 
@@ -18,15 +19,17 @@ pub(crate) use choice::{SourceChoice, seconds};
 pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build};
+#[cfg(test)]
+pub(crate) use scripted::Scripted;
 #[cfg(unix)]
 pub(crate) use texture::texture;
 
-use std::path::Path;
-
+use firmware::Links;
 use host_sim::Error;
 use host_sim::origin::Origin;
-use tactile::ModelBuf;
 use wire::{Packet, TaggedCommand};
+
+use crate::deployment::Deployment;
 
 /// What has come from a module.
 #[derive(Debug, Default)]
@@ -89,14 +92,25 @@ pub(crate) trait Source {
     /// Where it is: its board.
     fn origin(&self) -> Origin;
 
-    /// Whether its scene and its board take the model in `path`, as far as that is known
-    /// without asking.
-    fn takes(&self, _path: &Path, _model: &ModelBuf) -> Result<(), Error> {
+    /// Whether it could be talked with as here by a scene with these links; what would help.
+    fn would_hear(&self, _: Links) -> Result<(), Error> {
         Ok(())
     }
 
-    /// Writes a model where the module looks for one, its first words last
-    /// ([`wire::load_order`]), and has it start anew; comes back once it has. Its motors are off
-    /// already.
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error>;
+    /// It has these links from now on.
+    fn speaks(&mut self, _: Links) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Writes a scene and its model where the module looks for them, and has it start by them;
+    /// comes back once it has. Its motors are off already.
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error>;
+}
+
+/// Whether a probe can talk with a module of these links.
+pub(crate) fn by_probe(links: Links) -> Result<(), Error> {
+    let fault = "telemetry.rtt: found false; the module could not be asked any more by what is \
+                 asked here: take that line out";
+    let heard = links.has_rtt.then_some(());
+    heard.ok_or_else(|| Error::Input(fault.to_owned()))
 }

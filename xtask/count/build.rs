@@ -1,19 +1,19 @@
-//! Memory map of the emulated machine, and what the kernels need: constants of
-//! every number format, models to classify with, a filter for the peers.
-//!
-//! A number format is measured when it has a line in [`constants`].
+//! Memory map of the emulated machine, and what the kernels need: configurations in
+//! every number format, models to classify with.
 
 use std::error::Error;
 use std::path::PathBuf;
 use std::{env, fs};
 
-use databake::{Bake, CrateEnv, TokenStream, quote};
+use firmware::design_parameters::{Plausible, retry, sensor_limits};
+use firmware::{ClassifierConfig, Config, Driver, MotionConfig, ServoConfig};
 use tactile::train::{Options, Trainer, joint};
+use tactile::{Deciding, RuleSettings, Threshold};
 use whisking::motor::GuardSettings;
-use whisking::{GateSettings, Integrator, Real, Settings, filter, muscle, oscillator, pd};
+use whisking::{Fix, GateSettings, Integrator, Real, Settings, filter, pd};
 
 /// Ticks a second: BIOTACT's.
-const TICK_HZ: f64 = 2000.0;
+const TICK_HZ: u32 = 2000;
 
 /// A machine of the emulator: the target it stands for, its name, its memory.
 const MACHINES: [(&str, &str, &str); 2] = [
@@ -35,7 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     if env::var("CARGO_CFG_TARGET_OS")? == "none" {
         link(&env::var("TARGET")?)?;
     }
-    fs::write(output("constants.rs")?, constants()?)?;
+    configurations::<f32>("f32")?;
+    configurations::<f64>("f64")?;
+    configurations::<Fix>("fix")?;
     for classes in [4, 9] {
         // No block ends within a count, or every sample ends one.
         for (name, block) in [("open", 10_000), ("block", 1)] {
@@ -67,59 +69,49 @@ fn link(target: &str) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The constants of every number format.
-fn constants() -> Result<String, Box<dyn Error>> {
-    Ok([
-        format::<f32>("f32")?,
-        format::<f64>("f64")?,
-        format::<whisking::Fix>("Fix")?,
-        sections(),
-    ]
-    .concat())
-}
-
+/// The pattern generator of every module, with this integrator.
 fn settings(integrator: Integrator) -> Settings {
     let gate = |gain| GateSettings { gain, tau_s: 0.125 };
     Settings {
-        tick_hz: TICK_HZ,
+        tick_hz: TICK_HZ.into(),
         frequency_hz: 2.0,
         integrator,
         coupling: true,
-        noise: 0.005,
+        noise: 0.0,
         rcp: Some(gate(0.7)),
         cia: Some(gate(0.5)),
     }
 }
 
-/// The source of constants, of each its name, its type and its value.
-macro_rules! constants {
-    ($($name:ident: $of_type:ty = $value:expr;)*) => {
-        [$(line(
-            stringify!($name),
-            stringify!($of_type),
-            &$value.bake(&CrateEnv::default()),
-        )),*]
-        .concat()
+/// The configurations in a number format: `NAME-FORMAT`.
+fn configurations<R: Real>(format: &str) -> Result<(), Box<dyn Error>> {
+    let exact = settings(Integrator::Exact);
+    let noisy = Settings {
+        noise: 0.005,
+        ..exact
     };
+    for (name, settings, sides, whiskers) in [
+        ("1x1", exact, 1, 1),
+        ("2x1", exact, 2, 1),
+        ("2x12", exact, 2, 12),
+        ("2x1-euler", settings(Integrator::Euler), 2, 1),
+        ("2x1-noise", noisy, 2, 1),
+    ] {
+        let bytes = postcard::to_allocvec(&configuration::<R>(&settings, sides, whiskers)?)?;
+        fs::write(output(&format!("{name}-{format}"))?, bytes)?;
+    }
+    Ok(())
 }
 
-fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
-    let euler = settings(Integrator::Euler);
-    let exact = settings(Integrator::Exact);
-    let [papers, whisking] = [euler.build::<R>()?, exact.build::<R>()?];
-    let none = "settings without a part";
-    let (oscillator::Config::Euler(papers_oscillators), muscle::Config::Euler(papers_muscle)) =
-        (papers.oscillators, papers.muscle)
-    else {
-        return Err("not the papers' integrator".into());
-    };
-    let (oscillator::Config::Exact(oscillators), muscle::Config::Exact(muscle)) =
-        (whisking.oscillators, whisking.muscle)
-    else {
-        return Err("not the exact integrator".into());
-    };
-    let left = [0.6, -0.8];
-    let psi = [left, [0.0, -1.0]];
+/// A module with frames, contact filter, RCP, CIA, oscillators, muscles, position control
+/// and a classifier of its first whisker.
+fn configuration<R: Real>(
+    settings: &Settings,
+    sides: usize,
+    whiskers: usize,
+) -> Result<Config<R>, Box<dyn Error>> {
+    let psi = [[0.6, -0.8], [0.0, -1.0]];
+    let gains = vec![1.0; whiskers];
     let pd = pd::Settings {
         kp: 0.05,
         kd: 0.001,
@@ -130,69 +122,35 @@ fn format<R: Real>(name: &str) -> Result<String, Box<dyn Error>> {
         // BIOTACT's motor: 512 counts a turn, a gear of 11.
         degrees_per_count: 360.0 / (512.0 * 11.0),
     };
-    // What moves here is a counter, which no setpoint leads.
-    let guards = GuardSettings::NONE;
-    let constants = constants! {
-        H50: &'static filter::Config<Self> = filter::Config::<R>::new(filter::CORNER_HZ, TICK_HZ)?;
-        RCP: &'static gate::Rcp<Self> = whisking.rcp.ok_or(none)?;
-        CIA: &'static gate::Cia<Self> = whisking.cia.ok_or(none)?;
-        NOISE: &'static noise::Config<Self> = whisking.noise.ok_or(none)?;
-        EULER_OSCILLATORS: &'static oscillator::Euler<Self> = papers_oscillators;
-        EULER_MUSCLE: &'static muscle::Euler<Self> = papers_muscle;
-        EULER_START: Start<Self, 2, 1> = euler.start::<R, 2, 1>(psi, [[1.0]; 2])?;
-        OSCILLATORS: &'static oscillator::Exact<Self> = oscillators;
-        MUSCLE: &'static muscle::Exact<Self> = muscle;
-        START_1: Start<Self, 1, 1> = exact.start::<R, 1, 1>([left], [[1.0]])?;
-        START_2: Start<Self, 2, 1> = exact.start::<R, 2, 1>(psi, [[1.0]; 2])?;
-        START_24: Start<Self, 2, 12> = exact.start::<R, 2, 12>(psi, [[1.0; 12]; 2])?;
-        PD: &'static pd::Config<Self> = pd.build::<R>(TICK_HZ)?;
-        GUARDS: &'static GuardConfig<Self> = guards.build::<R>(TICK_HZ);
-    };
-    Ok(format!(
-        "impl Format for {name} {{\n    const NAME: &'static str = {:?};\n{constants}{}{}}}\n",
-        name.to_lowercase(),
-        generator("WHISKING", "Exact", whisking),
-        generator("EULER_WHISKING", "Euler", papers),
-    ))
-}
-
-/// `const NAME: TYPE = VALUE;`; of a reference the value is that of its target.
-fn line(name: &str, of_type: &str, value: &TokenStream) -> String {
-    let by_reference = if of_type.starts_with('&') { "&" } else { "" };
-    format!("    const {name}: {of_type} = {by_reference}{value};\n")
-}
-
-/// A pattern generator without noise.
-fn generator<R: Real>(name: &str, integrator: &str, config: whisking::Config<R>) -> String {
-    let quiet = whisking::Config {
-        noise: None,
-        ..config
-    };
-    let of_type = format!(
-        "&'static Generator<Self, oscillator::{integrator}<Self>, muscle::{integrator}<Self>>"
-    );
-    let source = quiet.source(&quote!(Self), &CrateEnv::default());
-    line(name, &of_type, &source.value)
-}
-
-/// H50 as two second-order sections b0, b1, b2, a1, a2 (denominator
-/// 1 + a1/z + a2/z²), for the peers: the bilinear transform, pre-warped.
-fn sections() -> String {
-    let g = (std::f64::consts::PI * filter::CORNER_HZ / TICK_HZ).tan();
-    let first = g / (1.0 + g);
-    let n = 1.0 / (1.0 + g + g * g);
-    let second = g * g * n;
-    let sections = [
-        [first, first, 0.0, (g - 1.0) / (g + 1.0), 0.0],
-        [
-            second,
-            2.0 * second,
-            second,
-            2.0 * (g * g - 1.0) * n,
-            (1.0 - g + g * g) * n,
-        ],
-    ];
-    format!("/// H50.\npub const SECTIONS: [[f64; 5]; 2] = {sections:?};\n")
+    let mut config = Config::still();
+    config.head.tick_hz = TICK_HZ;
+    config.head.sides = sides as u8;
+    config.head.whiskers_per_side = whiskers as u8;
+    // The samples are not a whisker's course; what is compared is the same.
+    config.sensor.limits = sensor_limits(TICK_HZ, Plausible::ANY);
+    config.contact = Some(filter::Config::new(filter::CORNER_HZ, TICK_HZ.into())?);
+    config.motion = Some(MotionConfig {
+        whisking: settings.build()?,
+        start: settings.start(&psi[..sides], &vec![&gains[..]; sides])?,
+        seed: 1,
+        servo: ServoConfig {
+            pd: pd.build(TICK_HZ.into())?,
+            retry: retry(TICK_HZ),
+            // What moves here is a counter, which no setpoint leads.
+            guards: GuardSettings::NONE.build(TICK_HZ.into()),
+            approach: R::ONE,
+            homing: None,
+        },
+        driver: Driver::HBridge,
+        stops_all: false,
+        arms_at_start: true,
+    });
+    config.classifier = Some(ClassifierConfig {
+        rule: Some(RuleSettings::Sequential(Threshold::new(0.99)?)),
+        deciding: Deciding::First,
+        contact_min: None,
+    });
+    Ok(config)
 }
 
 /// A model of sensor codes of one or two channels whose classes overlap.

@@ -1,102 +1,99 @@
-//! Keeps the arrows of the workspace pointing one way.
-//!
-//! **Between crates** ([`rooms`]) every dependency, those of build scripts and of
-//! tests included, points from a row of [`rooms::ROWS`] to a row below it.
-//!
-//! **Between the files of a crate** no chain of arrows may lead back to where it
-//! began. A file has an arrow to another if it names an item that the other defines:
-//! by a path in a `use`, a signature, a body, a macro's arguments; an associated
-//! item stands where its `impl` stands. `mod` is no arrow, nor is a re-export
-//! (`pub use`, also `pub(crate) use`), through which a name is looked up to the file
-//! that defines it. Code under `cfg(test)` and the files of `tests/` have none.
-//! Of what a macro writes, the items named after `pub` in its call are known. A method
-//! called without a path is not seen, nor is what a build script writes.
-//!
-//! **Names of public types** occur in one library only, so that a search finds one
-//! thing (those of the programs above all others apart); [`SHARED`] names are understood within their module.
+//! Keeps the dependencies between the crates of the workspace pointing one way: those of build
+//! scripts and of tests included, each points from a row of [`ROWS`] to a row below it.
 
-mod circles;
-mod names;
-mod paths;
-mod rooms;
-#[cfg(test)]
-mod tests;
-mod tree;
+use serde::Deserialize;
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use crate::run::{Fault, cargo, output};
 
-use crate::run::{Fault, top};
-use circles::{Arrows, circles};
-use tree::Tree;
-
-/// Type names that a module of any crate may have.
-const SHARED: [&str; 8] = [
-    "Command", "Config", "Error", "Fault", "Kind", "Options", "Settings", "State",
+/// The packages of the workspace: each may depend only on rows below its own.
+/// `physics` depends on none and serves what simulates.
+const ROWS: [&[&str]; 9] = [
+    &[
+        "acceptance",
+        "count",
+        "fuzz",
+        "page",
+        "whisker-python",
+        "xtask",
+    ],
+    &["studies"],
+    &["classifiers"],
+    &["whisker"],
+    &["emulator"],
+    &["host-sim"],
+    &["config"],
+    &["firmware", "scene"],
+    &[
+        "mlx90333", "physics", "rtt", "tactile", "tmag5170", "whisking", "wire",
+    ],
 ];
 
-/// Checks the workspace, or of it the packages `only`.
+/// What cargo says of a workspace.
+#[derive(Deserialize)]
+struct Metadata {
+    packages: Vec<Package>,
+}
+
+#[derive(Deserialize)]
+struct Package {
+    name: String,
+    /// What it depends on, for whatever purpose.
+    dependencies: Vec<Dependency>,
+}
+
+#[derive(Deserialize)]
+struct Dependency {
+    name: String,
+}
+
+/// Checks the workspace.
 ///
 /// # Errors
-/// If an arrow points up, arrows form a circle, or a type name is public twice;
-/// all are printed first.
-pub(crate) fn all(only: &[String]) -> Result<(), Fault> {
-    let packages = rooms::packages()?;
-    let mut found = rooms::against_the_order(&packages);
-    let mut types = BTreeMap::<String, BTreeSet<String>>::new();
-    for package in &packages {
-        let mut arrows = Arrows::new();
-        for target in &package.targets {
-            let tree = Tree::read(&target.src_path, &|path| std::fs::read_to_string(path).ok())?;
-            paths::arrows(&tree, &mut arrows);
-            let is_library = target.kind.iter().any(|kind| kind == "lib");
-            if is_library && !rooms::ROWS[0].contains(&package.name.as_str()) {
-                for name in tree.public_types() {
-                    types.entry(name).or_default().insert(package.name.clone());
-                }
+/// Every dependency that does not point down, and every package without a row.
+pub(crate) fn all() -> Result<(), Fault> {
+    let ask = ["metadata", "--no-deps", "--format-version=1", "--offline"];
+    let said = output(&mut cargo(&ask))?;
+    let said: Metadata = serde_json::from_str(&said).map_err(|error| error.to_string())?;
+    let faults = against_the_order(&said.packages);
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.join("\n"))
+    }
+}
+
+fn against_the_order(packages: &[Package]) -> Vec<String> {
+    let row = |name: &str| ROWS.iter().position(|row| row.contains(&name));
+    let mut faults = Vec::new();
+    for Package { name, dependencies } in packages {
+        let Some(here) = row(name) else {
+            faults.push(format!("{name} has no row in xtask/src/arrows.rs"));
+            continue;
+        };
+        for Dependency { name: used } in dependencies {
+            if row(used).is_some_and(|there| there <= here) {
+                faults.push(format!("{name} -> {used} does not point down"));
             }
         }
-        if !only.is_empty() && !only.contains(&package.name) {
-            continue;
-        }
-        for circle in circles(&arrows) {
-            found.push(format!(
-                "{}: a circle of {} files\n{}",
-                package.name,
-                circle.len(),
-                described(&circle, &arrows)
-            ));
-        }
     }
-    for (name, crates) in types {
-        let is_wanted = only.is_empty() || crates.iter().any(|name| only.contains(name));
-        if is_wanted && crates.len() > 1 && !SHARED.contains(&name.as_str()) {
-            let crates = crates.into_iter().collect::<Vec<_>>().join(", ");
-            found.push(format!("the type name {name} is public in {crates}"));
-        }
-    }
-    for fault in &found {
-        println!("{fault}");
-    }
-    match found.len() {
-        0 => Ok(()),
-        n => Err(format!("{n} faults in the arrows of the workspace")),
-    }
+    faults
 }
 
-/// The arrows within a circle, each with the names that draw it.
-fn described(circle: &BTreeSet<PathBuf>, arrows: &Arrows) -> String {
-    let within = arrows
-        .iter()
-        .filter(|((from, to), _)| circle.contains(from) && circle.contains(to));
-    let lines = within.map(|((from, to), names)| {
-        let names = names.iter().map(String::as_str).collect::<Vec<_>>();
-        format!("  {} -> {}: {}", short(from), short(to), names.join(", "))
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
+#[cfg(test)]
+mod tests {
+    use super::{Dependency, Package, against_the_order};
 
-fn short(file: &Path) -> String {
-    let file = file.strip_prefix(top()).unwrap_or(file);
-    file.display().to_string()
+    #[test]
+    fn a_dependency_may_point_down_only() {
+        let uses = |name: &str, used: &str| {
+            let (name, used) = (name.to_owned(), used.to_owned());
+            let dependencies = vec![Dependency { name: used }];
+            against_the_order(&[Package { name, dependencies }]).len()
+        };
+        assert_eq!(uses("host-sim", "firmware"), 0);
+        assert_eq!(uses("host-sim", "serde"), 0);
+        assert_eq!(uses("firmware", "host-sim"), 1);
+        assert_eq!(uses("firmware", "scene"), 1);
+        assert_eq!(uses("unheard-of", "serde"), 1);
+    }
 }

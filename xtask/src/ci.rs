@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use crate::emulate::{Probe, Task};
-use crate::firmware::Board;
+use crate::emulate::{Emulated, Probe, Task};
+use crate::firmware::{Board, EVERY_PART};
 use crate::run::{Fault, cargo, run, take_built_programs, target, workspace_program};
 use crate::steps::Steps;
 use crate::{
@@ -30,8 +30,7 @@ pub(crate) const ALL: [&str; 8] = [
 ];
 
 /// Their features, and those of what is in no program for this PC.
-const LINTED: &str =
-    "host-sim/cli,fuzz/shards,fuzz/engine,mlx90333/defmt,tmag5170/defmt,whisking/bake";
+const LINTED: &str = "host-sim/cli,fuzz/shards,fuzz/engine,mlx90333/defmt,tmag5170/defmt";
 
 /// Of the properties' cases.
 const SEED: &str = "1";
@@ -43,7 +42,7 @@ const SEED: &str = "1";
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.run("format", || run(&mut cargo(&["fmt", "--all", "--check"])))?;
-    steps.run("arrows", || arrows::all(&[]))?;
+    steps.run("arrows", arrows::all)?;
     steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
     // All tests, and the main job, whose output and files are what the generated documents
@@ -83,7 +82,7 @@ fn lints() -> Result<(), Fault> {
         "--no-default-features",
     ];
     run(cargo(&all).args(["--features", LINTED]).args(DENY))?;
-    let board = Board::ALL[0].build_arguments();
+    let board = Board::ALL[0].build_arguments(EVERY_PART);
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
 
@@ -119,15 +118,14 @@ fn experiments() -> Result<(), Fault> {
         .arg(target().join("experiments")))
 }
 
-/// The board's own program on the emulated chip: PC and board agree, in single precision
-/// and in fixed point, with one side and with two; contact on one side excites the other
-/// in time; no tick is missed, and ticks that are too long and a sensor that is lost, on
-/// either side, are noticed, no start that nobody asked for drives a motor, and a
-/// supply that dips switches it off; a PC is told and asks, at its price.
+/// A board's own program on the emulated chip: PC and board agree, in single precision
+/// and in fixed point, with one side and with two, the scene linked and deployed; contact on one
+/// side excites the other in time; no tick is missed, and ticks that are too long and a sensor
+/// that is lost, on either side, are noticed, no start that nobody asked for drives a motor, and
+/// a supply that dips switches it off; a PC is told and asks, at its price.
 /// The boards that carry one side run its scene as the PC does, and notice a sensor that is
-/// lost; the rest is for the night, models that a board refuses among it: one that it takes is
-/// deployed by the walk through the book. All but the first comparison are made without a probe.
-/// Half of it runs beside the other half.
+/// lost; the last takes scenes and models that are right and refuses others. The rest is for the
+/// night. Half of it runs beside the other half.
 fn board() -> Result<(), Fault> {
     std::thread::scope(|scope| {
         let beside = scope.spawn(other_boards);
@@ -137,14 +135,7 @@ fn board() -> Result<(), Fault> {
     })
 }
 
-fn do_all(board: Board, scene: &Path, tasks: &[Task]) -> Result<(), Fault> {
-    let mut done = tasks
-        .iter()
-        .map(|task| emulate::emulate(board, scene, task));
-    done.try_for_each(|done| done)
-}
-
-/// What the first board does with one side.
+/// What the first board does with one side, by a program made for it.
 fn first_board() -> Result<(), Fault> {
     let one_side = [
         Task::Compare(Probe::Attached),
@@ -153,30 +144,31 @@ fn first_board() -> Result<(), Fault> {
         Task::Starting,
         Task::Supply,
         Task::Telemetry,
-        Task::Serial,
         Task::Damage,
         Task::SensorLoss,
     ];
-    do_all(Board::ALL[0], Path::new(emulate::FULL), &one_side)
+    let first = Emulated::linked(Board::ALL[0]);
+    emulate::emulate(&first, Path::new(emulate::FULL), &one_side)
 }
 
-/// What it does with two, and in other ways; and the others.
+/// What it does with two, and in other ways; and the others: a program a board, to which scenes
+/// are deployed, but in fixed point on the first.
 fn other_boards() -> Result<(), Fault> {
-    let [board, small @ ..] = Board::ALL;
-    // The scene in which records cost most.
-    do_all(board, Path::new(emulate::WORLD), &[Task::Telemetry])?;
-    do_all(
-        board,
-        Path::new(emulate::CIA),
-        &[Task::Compare(Probe::Absent), Task::Latency],
-    )?;
-    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss, Task::Telemetry];
-    do_all(board, &emulate::noisiest()?, &both_sides)?;
+    let [board, small, smallest] = Board::ALL;
     emulate::compare_in_fixed_point(board)?;
-    emulate::compare_with_slow_sensors(board)?;
-    emulate::compare_with_zeros(board)?;
+    let board = Emulated::deployed(board)?;
+    // The scene in which records cost most.
+    emulate::emulate(&board, Path::new(emulate::WORLD), &[Task::Telemetry])?;
+    let coupled = [Task::Compare(Probe::Absent), Task::Latency];
+    emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
+    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss, Task::Telemetry];
+    emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
+    emulate::emulate(&board, Path::new(emulate::FULL), &[Task::Serial])?;
+    emulate::compare_with_slow_sensors(&board)?;
+    emulate::compare_with_zeros(&board)?;
     let in_short = [Task::Compare(Probe::Pulled), Task::SensorLoss];
-    small
-        .into_iter()
-        .try_for_each(|board| do_all(board, Path::new(emulate::FULL), &in_short))
+    let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
+    emulate::emulate(&small, Path::new(emulate::FULL), &in_short)?;
+    emulate::emulate(&smallest, Path::new(emulate::FULL), &in_short)?;
+    emulate::emulate(&smallest, Path::new(emulate::BENCH), &[Task::Deploying])
 }

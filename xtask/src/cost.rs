@@ -31,7 +31,7 @@ const PAGE: &str = "docs/measured/cost.md";
 const MINUTES: f64 = 0.25;
 
 /// Measures everything and writes the table (to `csv`, where one is named) and the
-/// page; or counts anew and checks that no kernel and no stage has become dearer.
+/// page; or counts again and checks that no kernel and no stage has become dearer.
 ///
 /// # Errors
 /// If something cannot be built or run, or, checking, differs.
@@ -41,7 +41,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     }
     let stages = stages()?;
     let mut found = Vec::new();
-    for group in stages.chunk_by(|one, next| one.from == next.from) {
+    for group in stages.chunk_by(Stage::goes_with) {
         found.extend(measured(group)?);
     }
     let shown = columns(&found, |figure| page::note(&stages, figure));
@@ -62,7 +62,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 /// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
-    let mut scenes = stages.chunk_by(|one, next| one.from == next.from);
+    let mut scenes = stages.chunk_by(Stage::goes_with);
     let first = scenes.find(|group| group[0].is_on_board());
     let found = measured(first.ok_or("no stage is measured on the board")?)?;
     print!("{}", columns(&found, |figure| page::note(&stages, figure)));

@@ -97,14 +97,23 @@ fn count(processors: &[Processor], programs: &[&str]) -> Result<Vec<Figure>, Fau
     Ok(figures)
 }
 
-/// Builds counting programs; gives where they are.
+/// Builds counting programs; gives where they are. Those of more whiskers than a board has
+/// are built with room for them, the others without, as a board's.
 fn build(processor: &Processor, programs: &[&str]) -> Result<PathBuf, Fault> {
     let build = ["build", "--locked", "--profile", "firmware", "-p", "count"];
-    let bins = programs.iter().flat_map(|name| ["--bin", name]);
-    run(cargo(&build)
-        .args(bins)
-        .args(["--target", processor.target])
-        .env("RUSTFLAGS", "-D warnings"))?;
+    for (is_array, features) in [(false, &[][..]), (true, &["--features", "array"])] {
+        let bins = programs
+            .iter()
+            .filter(|name| name.ends_with("_2x12") == is_array);
+        let bins: Vec<&str> = bins.flat_map(|name| ["--bin", name]).collect();
+        if !bins.is_empty() {
+            run(cargo(&build)
+                .args(bins)
+                .args(features)
+                .args(["--target", processor.target])
+                .env("RUSTFLAGS", "-D warnings"))?;
+        }
+    }
     Ok(target().join(processor.target).join("firmware"))
 }
 

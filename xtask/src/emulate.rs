@@ -1,4 +1,4 @@
-//! A scene on the emulated board: builds the board's program and runs it there.
+//! A scene on an emulated board: builds the board's program and runs it there.
 
 pub(crate) mod variants;
 
@@ -45,19 +45,64 @@ pub(crate) enum Task {
     SensorLoss,
     /// Measures how long contact on one side takes to excite the other.
     Latency,
-    /// Deploys models to it, right ones and wrong.
+    /// Deploys scenes and models to it, right ones and wrong.
     Deploying,
 }
 
-/// Builds the program of `scene` and does `task` with it.
+/// A board, and how it gets its scenes.
+#[derive(Debug)]
+pub(crate) struct Emulated {
+    board: Board,
+    /// The program that takes any scene, to which they are deployed; `None`: each is linked into
+    /// a program of the parts that it needs.
+    any_scene: Option<PathBuf>,
+}
+
+impl Emulated {
+    /// A board whose scenes are linked.
+    pub(crate) const fn linked(board: Board) -> Self {
+        Self {
+            board,
+            any_scene: None,
+        }
+    }
+
+    /// Builds the program to which any scene is deployed.
+    ///
+    /// # Errors
+    /// If it cannot be built.
+    pub(crate) fn deployed(board: Board) -> Result<Self, Fault> {
+        let any_scene = firmware::kept(|| firmware::build_any_scene(board))?;
+        Ok(Self {
+            board,
+            any_scene: Some(any_scene),
+        })
+    }
+
+    /// The program for a scene.
+    fn program(&self, scene: &Path) -> Result<PathBuf, Fault> {
+        match &self.any_scene {
+            Some(program) => Ok(program.clone()),
+            None => firmware::build_kept(self.board, scene),
+        }
+    }
+}
+
+/// Does `tasks` with `scene`, one after the other.
 ///
 /// # Errors
-/// If it cannot be built, or the emulated board says that something is wrong.
-pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fault> {
-    if let Task::Serial = task {
-        return serial(board, scene);
-    }
-    let program = firmware::build_kept(board, scene)?;
+/// If its program cannot be built, or the emulated board says that something is wrong.
+pub(crate) fn emulate(on: &Emulated, scene: &Path, tasks: &[Task]) -> Result<(), Fault> {
+    let program = on.program(scene)?;
+    let mut done = tasks.iter().map(|task| match task {
+        Task::Serial => serial(on, scene, &program),
+        _ => one(on, scene, (&program, task)),
+    });
+    done.try_for_each(|done| done)
+}
+
+/// Does a task with a scene and its program.
+fn one(on: &Emulated, scene: &Path, (program, task): (&Path, &Task)) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     let task_name = match task {
         Task::Run(_) => "run",
@@ -81,9 +126,7 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
         Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
         Task::Telemetry => {
             let without = variants::without_telemetry(scene, &target().join("telemetry"))?;
-            command
-                .arg("--without")
-                .arg(firmware::build_kept(board, &without)?)
+            command.arg("--without").arg(on.program(&without)?)
         }
         Task::Deploying => {
             let (world, model) = (top().join(WORLD), top().join(MODEL));
@@ -105,8 +148,9 @@ pub(crate) fn emulate(board: Board, scene: &Path, task: &Task) -> Result<(), Fau
 /// ST-LINK's default, that carries neither.
 const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];
 
-/// Talks with a board over its serial line at two of [`SERIAL_BAUDS`].
-fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
+/// Talks with a board over its serial line at two of [`SERIAL_BAUDS`]; `without` is the program
+/// of the scene itself.
+fn serial(on: &Emulated, scene: &Path, without: &Path) -> Result<(), Fault> {
     let folder = target().join("serial");
     let whiskers = variants::whiskers(scene)?;
     let [one, two, slow] = SERIAL_BAUDS;
@@ -119,15 +163,9 @@ fn serial(board: Board, scene: &Path) -> Result<(), Fault> {
     });
     let fast = fast?;
     command.arg(absolute(&fast)?);
-    for (option, scene) in [
-        ("--program", fast),
-        ("--slow", slow?),
-        ("--without", scene.into()),
-    ] {
-        let program = firmware::build_kept(board, &scene)?;
-        command.arg(option).arg(program);
-    }
-    run(&mut command)
+    command.arg("--program").arg(on.program(&fast)?);
+    command.arg("--slow").arg(on.program(&slow?)?);
+    run(command.arg("--without").arg(without))
 }
 
 /// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
@@ -158,24 +196,27 @@ pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<Stri
 
 /// Compares every scene in `scenes` that the board takes with host-sim; one with several
 /// whiskers a side by the first of each. [`IN_FIXED_POINT`] are compared in fixed point
-/// too, where a board has a choice.
+/// too, where a board has a choice and scenes are linked.
 ///
 /// # Errors
 /// The first scene that differs, or that cannot be built.
-pub(crate) fn compare_all(board: Board) -> Result<(), Fault> {
+pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
+    let board = on.board;
     for scene in listing(&top().join("scenes"), "toml")? {
         let taken = variants::single(&scene, &target().join("single"))?.unwrap_or(scene);
-        if let Err(reason) = firmware::try_build(board, &taken)? {
-            println!("not on the {}: {reason}", board.name);
+        if let Err(reason) = firmware::linked(board, &taken)? {
+            println!("not on the {}: {}: {reason}", board.name, taken.display());
             continue;
         }
-        emulate(board, &taken, &Task::Compare(Probe::Attached))?;
+        emulate(on, &taken, COMPARE)?;
     }
-    if board.has_fpu {
+    if board.has_fpu && on.any_scene.is_none() {
         compare_in_fixed_point(board)?;
     }
-    compare_with_slow_sensors(board)
+    compare_with_slow_sensors(on)
 }
+
+const COMPARE: &[Task] = &[Task::Compare(Probe::Attached)];
 
 /// Everything that one side can run at once; [`noisiest`] gives it to both.
 pub(crate) const FULL: &str = "scenes/full.toml";
@@ -189,14 +230,14 @@ pub(crate) const CIA: &str = "scenes/cia.toml";
 /// Of the scenes, those that are compared in fixed point too.
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
 
-/// Compares [`IN_FIXED_POINT`] with host-sim in fixed point.
+/// Compares [`IN_FIXED_POINT`] with host-sim in fixed point, which takes programs of their own.
 ///
 /// # Errors
 /// If one differs or cannot be built.
 pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
     for scene in IN_FIXED_POINT {
         let fixed = variants::in_fixed_point(&top().join(scene), &target().join("fixed"))?;
-        emulate(board, &fixed, &Task::Compare(Probe::Attached))?;
+        emulate(&Emulated::linked(board), &fixed, COMPARE)?;
     }
     Ok(())
 }
@@ -206,18 +247,18 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
 ///
 /// # Errors
 /// If it differs or cannot be built.
-pub(crate) fn compare_with_slow_sensors(board: Board) -> Result<(), Fault> {
+pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     let slow = variants::with_slow_sensors(&top().join(FULL), &target().join("slow"))?;
-    emulate(board, &slow, &Task::Compare(Probe::Attached))
+    emulate(on, &slow, COMPARE)
 }
 
 /// Compares [`CIA`] with host-sim where the sensors find their zeros.
 ///
 /// # Errors
 /// If it differs or cannot be built.
-pub(crate) fn compare_with_zeros(board: Board) -> Result<(), Fault> {
+pub(crate) fn compare_with_zeros(on: &Emulated) -> Result<(), Fault> {
     let zeros = variants::with_zeros(&top().join(CIA), &target().join("zeros"))?;
-    emulate(board, &zeros, &Task::Compare(Probe::Attached))
+    emulate(on, &zeros, COMPARE)
 }
 
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.

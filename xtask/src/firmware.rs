@@ -5,7 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
+use config::Image;
+use firmware::boards::{self, BoardFacts};
 use object::{Object, ObjectSection};
+use scene::Scene;
+use tactile::ModelBuf;
 
 use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 
@@ -21,6 +25,8 @@ pub(crate) struct Board {
     pub(crate) has_fpu: bool,
     /// Whether it carries a whisker a side, and not the left alone.
     pub(crate) has_both_sides: bool,
+    /// What its program and a PC know of it.
+    pub(crate) facts: &'static BoardFacts,
 }
 
 impl Board {
@@ -32,6 +38,7 @@ impl Board {
             target: "thumbv7em-none-eabihf",
             has_fpu: true,
             has_both_sides: true,
+            facts: &boards::NUCLEO_F446RE,
         },
         Self {
             name: "nucleo-f103rb",
@@ -39,6 +46,7 @@ impl Board {
             target: "thumbv7m-none-eabi",
             has_fpu: false,
             has_both_sides: false,
+            facts: &boards::NUCLEO_F103RB,
         },
         Self {
             name: "nucleo-g071rb",
@@ -46,6 +54,7 @@ impl Board {
             target: "thumbv6m-none-eabi",
             has_fpu: false,
             has_both_sides: false,
+            facts: &boards::NUCLEO_G071RB,
         },
     ];
 
@@ -56,31 +65,53 @@ impl Board {
         board.ok_or_else(|| format!("no such board; there is: {}", names()))
     }
 
-    /// What cargo needs to build its program.
-    pub(crate) fn build_arguments(self) -> [&'static str; 11] {
-        [
+    /// What cargo needs to build its program with `parts`, features of the crate `firmware`.
+    pub(crate) fn build_arguments(self, parts: &[&str]) -> Vec<String> {
+        let features = [&[self.name], parts].concat().join(",");
+        let arguments = [
             "--locked",
             "--profile",
             "firmware",
             "-p",
             "firmware",
+            "--no-default-features",
             "--features",
-            self.name,
+            &features,
             "--bin",
             self.program,
             "--target",
             self.target,
-        ]
+        ];
+        arguments.map(str::to_owned).to_vec()
     }
 }
 
-/// Builds the firmware of `scene` with warnings as errors; gives the ELF file.
+/// The parts of a program that takes any scene: the default features of the crate `firmware`.
+pub(crate) const EVERY_PART: &[&str] = &["default"];
+
+/// Builds the firmware of `scene` with warnings as errors, the scene linked and of the parts that
+/// it needs; gives the ELF file.
 ///
 /// # Errors
-/// If the scene does not exist or the build fails.
+/// If the scene does not exist, the board does not take it, or the build fails.
 pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
+    built(board, scene, &[])
+}
+
+/// Builds the program that takes any scene, and brings none with it.
+///
+/// # Errors
+/// If the build fails.
+pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
+    run(&mut compiler(board, EVERY_PART))?;
+    Ok(elf(board))
+}
+
+fn built(board: Board, scene: &Path, more: &[&str]) -> Result<PathBuf, Fault> {
     let scene = find(scene)?;
-    run(&mut compiler(board, &scene))?;
+    let linked = linked(board, &scene)?;
+    let linked = linked.map_err(|reason| format!("{}: {reason}", scene.display()))?;
+    run(linked.compiler(board).args(more))?;
     Ok(elf(board))
 }
 
@@ -90,47 +121,111 @@ pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
 /// # Errors
 /// As [`build`], and if it cannot be kept.
 pub(crate) fn build_kept(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
+    kept(|| build(board, scene))
+}
+
+/// Builds a program and keeps it apart.
+///
+/// # Errors
+/// That of `build`, and if it cannot be kept.
+pub(crate) fn kept(build: impl FnOnce() -> Result<PathBuf, Fault>) -> Result<PathBuf, Fault> {
     static BUILT: Mutex<u32> = Mutex::new(0);
     // A build that has panicked has left nothing that another needs.
     let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
-    let program = read_bytes(&build(board, scene)?)?;
+    let program = read_bytes(&build()?)?;
     *built += 1;
     let kept = target().join(format!("kept/{}.elf", *built));
     write(&kept, program)?;
     Ok(kept)
 }
 
-/// The same, with checks of overflow, which panic.
+/// As [`build`], with checks of overflow, which panic.
 ///
 /// # Errors
 /// As [`build`].
 pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     let checks = ["--config", "profile.firmware.overflow-checks=true"];
-    run(compiler(board, &find(scene)?).args(checks))?;
-    Ok(elf(board))
+    built(board, scene, &checks)
 }
 
-/// As [`build`], quietly, and told apart: the ELF file, or why the board does not
-/// take the scene.
+/// As [`build`], or why the board does not take the scene.
 ///
 /// # Errors
-/// If the scene does not exist, or the build fails for another reason.
+/// If the scene does not exist or is wrong, or the build fails.
 pub(crate) fn try_build(board: Board, scene: &Path) -> Result<Result<PathBuf, String>, Fault> {
     let scene = find(scene)?;
-    let mut command = compiler(board, &scene);
-    let done = command.output().map_err(|error| error.to_string())?;
-    if done.status.success() {
-        return Ok(Ok(elf(board)));
+    match linked(board, &scene)? {
+        Ok(linked) => {
+            run(&mut linked.compiler(board))?;
+            Ok(Ok(elf(board)))
+        }
+        Err(reason) => Ok(Err(format!("{}: {reason}", scene.display()))),
     }
-    let said = String::from_utf8_lossy(&done.stderr);
-    // What the build script says, and cargo puts its package before.
-    let reason = said
-        .lines()
-        .find_map(|line| line.strip_prefix("error: firmware@")?.split_once(": "));
-    match reason {
-        Some((_, reason)) => Ok(Err(reason.to_owned())),
-        None => Err(said.into_owned()),
+}
+
+/// Flashes a program onto a NUCLEO-F446RE and shows its log.
+///
+/// # Errors
+/// If there is no probe-rs, or no probe.
+pub(crate) fn flash(elf: &Path) -> Result<(), Fault> {
+    let mut probe = Command::new("probe-rs");
+    run(probe.args(["run", "--chip", "STM32F446RETx"]).arg(elf))
+}
+
+/// What is linked into a program for a scene.
+pub(crate) struct Linked {
+    /// The configuration, and the features that it needs.
+    pub(crate) image: Image,
+    config: PathBuf,
+    model: Option<PathBuf>,
+}
+
+impl Linked {
+    /// The compiler of its program, of the parts that it needs.
+    fn compiler(&self, board: Board) -> Command {
+        let mut command = compiler(board, &self.image.features);
+        self.name_files(&mut command);
+        command
     }
+
+    /// Has a compiler link it.
+    pub(crate) fn name_files(&self, command: &mut Command) {
+        command.env("WHISKER_CONFIG", &self.config);
+        if let Some(model) = &self.model {
+            command.env("WHISKER_MODEL", model);
+        }
+    }
+}
+
+/// Makes what is linked for the scene at `path`; or why the board does not take it.
+///
+/// # Errors
+/// If the scene or its model is wrong, or cannot be read.
+pub(crate) fn linked(board: Board, path: &Path) -> Result<Result<Linked, String>, Fault> {
+    let scene = Scene::load(path).map_err(|error| error.to_string())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let model = scene
+        .model_path(folder)
+        .map(|path| top().join(path))
+        .map(|path| -> Result<_, Fault> {
+            let bytes = read_bytes(&path)?;
+            let model = ModelBuf::from_bytes(&bytes);
+            let model = model.map_err(|error| format!("{}: {error}", path.display()))?;
+            Ok((path, model))
+        })
+        .transpose()?;
+    let of_model = model.as_ref().map(|(_, model)| model);
+    let image = match config::image(&scene, of_model, board.facts, "") {
+        Ok(image) => image,
+        Err(misfit) => return Ok(Err(misfit.to_string())),
+    };
+    let config = target().join(format!("images/{}-{}.config", scene.name, board.name));
+    write(&config, &image.bytes)?;
+    Ok(Ok(Linked {
+        image,
+        config,
+        model: model.map(|(path, _)| path),
+    }))
 }
 
 /// A scene, seen from here or from the top of the workspace.
@@ -142,11 +237,12 @@ fn find(scene: &Path) -> Result<PathBuf, Fault> {
         .ok_or_else(|| format!("{}: no such scene", scene.display()))
 }
 
-fn compiler(board: Board, scene: &Path) -> Command {
+fn compiler(board: Board, parts: &[&str]) -> Command {
     let mut command = cargo(&["build"]);
     command
-        .args(board.build_arguments())
-        .env("WHISKER_SCENE", scene)
+        .args(board.build_arguments(parts))
+        .env_remove("WHISKER_CONFIG")
+        .env_remove("WHISKER_MODEL")
         .env("RUSTFLAGS", "-D warnings");
     command
 }
@@ -167,7 +263,7 @@ pub(crate) fn elf_in(board: Board, built: &Path) -> PathBuf {
 /// Bytes that a program takes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Size {
-    /// Code, constants, and the first values of variables.
+    /// Code, constants, and the first values of variables; scene and model apart.
     pub(crate) flash: u64,
     /// Variables; the stack apart.
     pub(crate) ram: u64,
@@ -178,18 +274,14 @@ impl Size {
     const FLASH: [&str; 5] = [".vector_table", ".text", ".rodata", ".data", ".gnu.sgstubs"];
     /// Sections that stand in RAM.
     const RAM: [&str; 3] = [".data", ".bss", ".uninit"];
+    /// A scene that is linked, and its model.
+    const SCENE: [&str; 3] = [".scene", ".model", ".scene_b"];
 
     /// Of an ELF file.
     ///
     /// # Errors
     /// If it cannot be read or has no code.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
-        let sum = |file: &object::File<'_>, names: &[&str]| -> u64 {
-            file.sections()
-                .filter(|section| section.name().is_ok_and(|name| names.contains(&name)))
-                .map(|section| section.size())
-                .sum()
-        };
         with_elf(elf, |file| {
             match (sum(file, &Self::FLASH), sum(file, &Self::RAM)) {
                 (0, _) => Err("there is no code"),
@@ -197,6 +289,22 @@ impl Size {
             }
         })
     }
+
+    /// Bytes of the scene and the model that an ELF file brings with it.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub(crate) fn of_scene(elf: &Path) -> Result<u64, Fault> {
+        with_elf(elf, |file| Ok::<_, Fault>(sum(file, &Self::SCENE)))
+    }
+}
+
+/// Bytes of the sections with these names.
+fn sum(file: &object::File<'_>, names: &[&str]) -> u64 {
+    file.sections()
+        .filter(|section| section.name().is_ok_and(|name| names.contains(&name)))
+        .map(|section| section.size())
+        .sum()
 }
 
 /// What `ask` says of an ELF file.

@@ -12,7 +12,8 @@ use crate::run::{Fault, cargo, listing, read, run, target, top, write};
 use page::Found;
 
 /// What is fed, and the folders, from the top, of its first inputs.
-const TARGETS: [(&str, &[&str]); 6] = [
+const TARGETS: [(&str, &[&str]); 7] = [
+    ("config", &["fuzz/corpus/config"]),
     ("frame", &["fuzz/corpus/frame"]),
     ("model", &["fuzz/corpus/model", "scenes/models"]),
     ("recording", &["fuzz/corpus/recording"]),

@@ -48,12 +48,8 @@ enum Command {
     /// The long runs in full: every scene on every board, every count, experiments,
     /// mutations (takes hours)
     Nightly(Only),
-    /// Fails on a dependency against the order of the crates, on a circle of files
-    /// within a crate, and on a type name that is public in two
-    Arrows {
-        /// Only these packages
-        packages: Vec<String>,
-    },
+    /// Fails on a dependency against the order of the crates
+    Arrows,
     /// Builds the page for a browser into target/page/whisker.html
     Page {
         /// Also uses it in headless Chromium as a person would
@@ -67,7 +63,20 @@ enum Command {
     /// docs/page.png
     Desk,
     /// Builds the firmware of a scene and prints its flash and RAM bytes
-    Firmware(Build),
+    Firmware {
+        #[command(flatten)]
+        build: Build,
+        /// Instead: the program that takes any scene, and brings none with it
+        #[arg(long, conflicts_with = "scene")]
+        any_scene: bool,
+    },
+    /// Builds the firmware of a scene, flashes it onto a NUCLEO-F446RE and shows its log (needs
+    /// probe-rs)
+    Nucleo {
+        /// The scene
+        #[arg(long, default_value = "scenes/textures.toml")]
+        scene: PathBuf,
+    },
     /// Builds the firmware of a scene and runs it on an emulated board: writes
     /// DIR/trace.csv, DIR/log.txt, and DIR/decisions.csv where the scene classifies
     Emulate(Emulate),
@@ -190,6 +199,9 @@ struct Emulate {
     /// The board to build for
     #[arg(long, default_value = "nucleo-f446re", value_parser = firmware::Board::named)]
     board: firmware::Board,
+    /// Deploy the scene to the program that takes any, in place of one with the scene linked
+    #[arg(long)]
+    any_scene: bool,
     #[command(flatten)]
     what: EmulateWhat,
     /// Who fetches the log meanwhile
@@ -241,7 +253,7 @@ struct EmulateWhat {
     /// Flip bits in the settings and in the model, and see the motors off and the log say so
     #[arg(long)]
     damage: bool,
-    /// Deploy models to a scene that names none, right ones and wrong, and see these refused
+    /// Deploy scenes and models to one that names none, right ones and wrong, and see these refused
     #[arg(long)]
     deploying: bool,
     /// Have a PC ask for records and carry out commands, and see what that costs
@@ -269,9 +281,14 @@ impl Emulate {
             None if what.serial => emulate::Task::Serial,
             None => emulate::Task::Deadlines(self.minutes),
         };
+        let on = if self.any_scene {
+            emulate::Emulated::deployed(self.board)?
+        } else {
+            emulate::Emulated::linked(self.board)
+        };
         match self.scene {
-            Some(scene) => emulate::emulate(self.board, &scene, &task),
-            None => emulate::compare_all(self.board),
+            Some(scene) => emulate::emulate(&on, &scene, &[task]),
+            None => emulate::compare_all(&on),
         }
     }
 }
@@ -280,13 +297,21 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci(Only { steps }) => ci::all(steps),
         Command::Nightly(Only { steps }) => nightly::all(steps),
-        Command::Arrows { packages } => arrows::all(&packages),
+        Command::Arrows => arrows::all(),
         Command::Page { test: false } => page::build(),
         Command::Page { test: true } => page::build().and_then(|()| page::test(None)),
         Command::Python => python::test(),
         Command::Desk => desk::measure(),
-        Command::Firmware(build) => firmware::build(build.board, &build.scene)
-            .and_then(|elf| size::print(build.board, &build.scene, &elf)),
+        Command::Firmware {
+            build: Build { board, .. },
+            any_scene: true,
+        } => firmware::build_any_scene(board)
+            .and_then(|elf| size::print(board, size::ANY_SCENE, &elf)),
+        Command::Firmware { build, .. } => firmware::build(build.board, &build.scene)
+            .and_then(|elf| size::print(build.board, &build.scene.display().to_string(), &elf)),
+        Command::Nucleo { scene } => {
+            firmware::build(firmware::Board::ALL[0], &scene).and_then(|elf| firmware::flash(&elf))
+        }
         Command::Emulate(emulate) => emulate.run(),
         Command::Faults(choice) => faults::all(&choice),
         Command::Endurance(choice) => endurance::all(&choice),

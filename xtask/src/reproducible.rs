@@ -69,11 +69,13 @@ fn copy(folder: &Path) -> Result<PathBuf, Fault> {
 fn build(board: Board, scene: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let built = folder.join("target");
     let remap = format!("-D warnings --remap-path-prefix={}=.", folder.display());
-    run(cargo(&["build", "--quiet"])
-        .args(board.build_arguments())
+    let linked = firmware::linked(board, &folder.join(scene))??;
+    let mut compiler = cargo(&["build", "--quiet"]);
+    linked.name_files(&mut compiler);
+    run(compiler
+        .args(board.build_arguments(&linked.image.features))
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", &built)
-        .env("WHISKER_SCENE", scene)
         .env("RUSTFLAGS", remap))?;
     Ok(firmware::elf_in(board, &built))
 }

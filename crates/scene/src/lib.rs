@@ -61,9 +61,11 @@ pub use places::Places;
 pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
-    Arm, ClassifierSection, Deciding, Driver, Exchanged, FacingChoice, HeadSection, MotorSection,
-    Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation, Rest, Rule,
-    Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
-    TelemetrySection, Texture, WhiskingSection,
+    Arm, ClassifierSection, Exchanged, FacingChoice, HeadSection, MotorSection, Numbers, Obstacles,
+    OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorMode,
+    SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection,
+    Texture, WhiskingSection,
 };
+pub use tactile::Deciding;
+pub use whisking::motor::Driver;
 pub use whisking::{GateSettings, Integrator};

@@ -18,8 +18,8 @@ pub fn reference() -> String {
         "# Scene files\n\n\
          <!-- Generated from crates/scene/src/sections by `cargo xtask docs`; do not edit by hand. -->\n\n\
          One TOML file says what a module is and what happens to it. The simulator runs it on a \
-         PC, and the firmware is built from the same file. What a scene does not name is left \
-         out: not computed in the simulation, not linked into the firmware.\n\n\
+         PC, and a board runs what `whisker deploy` or its program brings of the same file. What a \
+         scene does not name is not computed, and not linked into a program made for it.\n\n\
          An unknown key, a missing one and a value out of range are errors. All errors of a file \
          are listed, one a line: file, line, key, what was found, what is allowed. Whole numbers \
          may stand for real ones; NaN and infinity are refused.\n\n\

@@ -3,9 +3,9 @@
 //! A rule that turns on a value that was itself refused is left alone: that
 //! value's own message comes first.
 
-use crate::sections::{
-    Deciding, PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, Texture,
-};
+use tactile::Deciding;
+
+use crate::sections::{PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, Texture};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -187,6 +187,11 @@ fn several_can_decide(values: &Values, text: &mut Text<'_>) {
         return;
     };
     let offset = values.offset("classifier", "whiskers").unwrap_or(0);
+    let deciding = if deciding == Deciding::Each {
+        "each"
+    } else {
+        "together"
+    };
     let found = format!("found \"{deciding}\"");
     let path = "classifier.whiskers".to_owned();
     text.report(offset, path, found, allowed.to_owned());

@@ -16,9 +16,9 @@ mod telemetry;
 mod whisking;
 
 pub(crate) use classifier::RuleName;
-pub use classifier::{ClassifierSection, Deciding, Rule};
+pub use classifier::{ClassifierSection, Rule};
 pub use head::{HeadSection, Sides};
-pub use motor::{Arm, Driver, MotorSection, OnFault, Rest};
+pub use motor::{Arm, MotorSection, OnFault, Rest};
 pub use plant::{
     Exchanged, FacingChoice, Obstacles, OwnSurfaces, PlantKind, PlantSection, Presentation,
     ShaftChoice, Texture,

@@ -1,5 +1,7 @@
-//! A rule chosen at run time, for programs on a PC. A board names its rule as
-//! a type, and links no other.
+//! A rule chosen at run time. A program built without the feature of a rule has no code
+//! for it, and refuses its settings.
+
+use serde::{Deserialize, Serialize};
 
 use crate::decision::Decision;
 use crate::error::SetupError;
@@ -21,8 +23,8 @@ pub enum AnyRule {
 }
 
 /// The settings of either.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AnyRuleSettings {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum RuleSettings {
     /// Decides where a posterior exceeds this.
     Sequential(Threshold),
     /// Decides after every so many samples.
@@ -38,17 +40,44 @@ pub enum AnyEvidence {
     Window(Totals),
 }
 
+impl AnyEvidence {
+    /// That of the sequential rule.
+    pub(crate) const fn sequential(&self) -> Option<&SequentialEvidence> {
+        match self {
+            Self::Sequential(evidence) => Some(evidence),
+            Self::Window(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub(crate) const fn sequential_mut(&mut self) -> Option<&mut SequentialEvidence> {
+        match self {
+            Self::Sequential(evidence) => Some(evidence),
+            Self::Window(_) => None,
+        }
+    }
+}
+
+/// Whether the program has the code of the sequential rule.
+const SEQUENTIAL: bool = cfg!(feature = "sequential");
+/// Of the window rule.
+const WINDOW: bool = cfg!(feature = "window");
+
 impl DecisionRule for AnyRule {
-    type Settings = AnyRuleSettings;
+    type Settings = RuleSettings;
     type Evidence = AnyEvidence;
 
-    fn new<W: Words>(model: &Model<W>, settings: AnyRuleSettings) -> Result<Self, SetupError> {
-        Ok(match settings {
-            AnyRuleSettings::Sequential(threshold) => {
-                Self::Sequential(SequentialRule::new(model, threshold)?)
+    fn new<W: Words>(model: &Model<W>, settings: RuleSettings) -> Result<Self, SetupError> {
+        match settings {
+            RuleSettings::Sequential(threshold) if SEQUENTIAL => {
+                SequentialRule::new(model, threshold).map(Self::Sequential)
             }
-            AnyRuleSettings::Window(samples) => Self::Window(WindowRule::new(model, samples)?),
-        })
+            RuleSettings::Window(samples) if WINDOW => {
+                WindowRule::new(model, samples).map(Self::Window)
+            }
+            RuleSettings::Sequential(_) => Err(SetupError::NotBuilt("sequential rule")),
+            RuleSettings::Window(_) => Err(SetupError::NotBuilt("window rule")),
+        }
     }
 
     fn interval(&self) -> u32 {
@@ -60,17 +89,19 @@ impl DecisionRule for AnyRule {
 
     fn start(&self) -> AnyEvidence {
         match self {
-            Self::Sequential(rule) => AnyEvidence::Sequential(rule.start()),
-            Self::Window(rule) => AnyEvidence::Window(rule.start()),
+            Self::Sequential(rule) if SEQUENTIAL => AnyEvidence::Sequential(rule.start()),
+            Self::Window(rule) if WINDOW => AnyEvidence::Window(rule.start()),
+            // There is no rule that is not built.
+            _ => AnyEvidence::Window(Totals::default()),
         }
     }
 
     fn end_of_block(&self, sums: &mut [u32], evidence: &mut AnyEvidence) -> Option<Decision> {
         match (self, evidence) {
-            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) => {
+            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {
                 rule.end_of_block(sums, evidence)
             }
-            (Self::Window(rule), AnyEvidence::Window(evidence)) => {
+            (Self::Window(rule), AnyEvidence::Window(evidence)) if WINDOW => {
                 rule.end_of_block(sums, evidence)
             }
             // Evidence is the rule's own.
@@ -79,17 +110,19 @@ impl DecisionRule for AnyRule {
     }
 
     fn limit(&self, evidence: &mut AnyEvidence, limit: u32) {
-        if let (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) = (self, evidence) {
+        if let (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) = (self, evidence)
+            && SEQUENTIAL
+        {
             rule.limit(evidence, limit);
         }
     }
 
     fn deficits(&self, evidence: &AnyEvidence, deficits: &mut [u32]) {
         match (self, evidence) {
-            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) => {
+            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {
                 rule.deficits(evidence, deficits);
             }
-            (Self::Window(rule), AnyEvidence::Window(evidence)) => {
+            (Self::Window(rule), AnyEvidence::Window(evidence)) if WINDOW => {
                 rule.deficits(evidence, deficits);
             }
             _ => {}

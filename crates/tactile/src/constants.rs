@@ -3,7 +3,7 @@
 use crate::error::SetupError;
 use crate::model::Model;
 use crate::rule::DecisionRule;
-use crate::words::Words;
+use crate::words::{JOINT, Words};
 
 /// A model and a rule for it. Nothing changes after they were joined, so a program can hold
 /// the memory they take against a sum.
@@ -18,8 +18,12 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
     ///
     /// # Errors
     ///
-    /// The rule's settings do not fit the model.
+    /// The rule's settings do not fit the model, or the program was built without what the
+    /// model or the rule needs.
     pub(crate) fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
+        if model.is_joint() && !JOINT {
+            return Err(SetupError::NotBuilt("joint models"));
+        }
         let rule = R::new(&model, settings)?;
         Ok(Self { model, rule })
     }

@@ -3,7 +3,7 @@
 //! All checks happen before the first sample; the streaming step can only
 //! refuse a sample of another number of channels.
 
-use crate::format::VERSION;
+use crate::format::{MAX_STREAMS, VERSION};
 
 /// Why a model file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -120,4 +120,15 @@ pub enum SetupError {
         /// The model's block, samples.
         block: u32,
     },
+    /// Windows of several whiskers cannot be added up.
+    #[error(
+        "several whiskers cannot decide together by windows: a window counts the samples of one"
+    )]
+    WindowTogether,
+    /// There are no whiskers to hear, or more than the program hears.
+    #[error("{0} whiskers to hear; 1 to {MAX_STREAMS} are allowed")]
+    Whiskers(usize),
+    /// A part that the program was built without.
+    #[error("the program was built without this: {0}")]
+    NotBuilt(&'static str),
 }

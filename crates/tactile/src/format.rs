@@ -27,6 +27,14 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use crate::binner::Binner;
 
+/// Most whiskers that are heard: two on a board, 24 in a simulation and on a board with the
+/// feature `array`.
+pub const MAX_STREAMS: usize = if cfg!(target_os = "none") && !cfg!(feature = "array") {
+    2
+} else {
+    24
+};
+
 /// First bytes of a model file.
 pub(crate) const MAGIC: [u8; 4] = *b"WLIK";
 /// Version of the format.

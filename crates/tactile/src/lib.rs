@@ -29,15 +29,13 @@
 //! | [`Sequential`] | after the block in which a posterior exceeds a threshold | LEP12 eq. 3–8 |
 //! | [`Window`] | by the largest evidence over each run of N samples | LEP10 |
 //!
-//! A classifier is a [`NaiveBayes`]: a [`Model`], a rule (any [`DecisionRule`])
-//! and the evidence so far, in fixed arrays of some 400 bytes on a board. How many
-//! channels and classes there are it reads from the model, which lies in flash
-//! on a board and in memory of its own on a PC. A board names its rule as a
-//! type; [`AnyRule`] is chosen at run time. After training everything is an
-//! integer; there is no logarithm at run time.
-//!
-//! Where several whiskers are heard, [`Each`] has evidence for each under one model, and
-//! [`Together`] decides by its sum.
+//! A module has a [`StreamClassifier`]: a [`Model`], a rule chosen at run time and the evidence
+//! of each whisker that is heard, in fixed arrays of some 800 bytes a whisker. Each decides
+//! by its own evidence, or all by its sum ([`Deciding`]). How many channels and classes
+//! there are it reads from the model, which lies in flash on a board and in memory of its
+//! own on a PC. A [`NaiveBayes`] is the same for one whisker with its rule (any
+//! [`DecisionRule`]) as a type. After training everything is an integer; there is no
+//! logarithm at run time.
 //!
 //! The classifiers that the papers compare these with are in
 //! `studies/classifiers`.
@@ -53,6 +51,10 @@
 //!
 //! # Features
 //!
+//! - `sequential`, `window`, `several`, `joint` (all by default): the two rules, more
+//!   whiskers than the first, and models with roughness, floors and touches. A [`StreamClassifier`]
+//!   refuses what the program was built without, and links no code for it.
+//! - `array`: on a board too, as many whiskers as in a simulation ([`MAX_STREAMS`]).
 //! - `std`: `train` (models from recordings, f64), `score` (how good
 //!   a classifier is) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]
@@ -65,6 +67,7 @@ compile_error!("models are little-endian and read in place: big-endian targets a
 
 mod any_rule;
 mod binner;
+mod classifier;
 mod constants;
 mod decision;
 mod error;
@@ -82,7 +85,6 @@ mod rule;
 #[cfg(feature = "std")]
 pub mod score;
 mod sequential;
-mod several;
 mod stream;
 mod sums;
 mod totals;
@@ -94,8 +96,9 @@ mod train_error;
 mod window;
 mod words;
 
-pub use any_rule::{AnyEvidence, AnyRule, AnyRuleSettings};
+pub use any_rule::{AnyEvidence, AnyRule, RuleSettings};
 pub use binner::Binner;
+pub use classifier::{Deciding, StreamClassifier};
 pub use constants::Constants;
 pub use decision::{Decision, Posterior};
 pub use error::{ModelError, QuantiserError, SetupError};
@@ -103,7 +106,7 @@ pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
     MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS,
-    MAX_TABLES, ROUGH_CHANNELS, VERSION, checksum,
+    MAX_STREAMS, MAX_TABLES, ROUGH_CHANNELS, VERSION, checksum,
 };
 pub use layout::TouchRule;
 pub use model::{Aligned, Floors, Model};
@@ -114,9 +117,8 @@ pub use quantiser::Quantiser;
 pub use roughness::Roughness;
 pub use rule::DecisionRule;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
-pub use several::{ByOwn, BySum, DecidesBy, Each, Several, Together};
-pub use stream::{Streams, WrongChannels};
+pub use stream::WrongChannels;
 pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};
-pub use words::{Single, Words};
+pub use words::{JOINT, Words};

@@ -13,7 +13,7 @@ use crate::format::{
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::quantiser::Quantiser;
-use crate::words::{Single, Words};
+use crate::words::{JOINT, Words};
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
@@ -135,18 +135,13 @@ impl<W: Words> Model<W> {
     /// What a touch means, if anything.
     #[inline]
     pub const fn touch_rule(&self) -> Option<TouchRule> {
-        if W::JOINT { self.layout.touch } else { None }
+        if JOINT { self.layout.touch } else { None }
     }
 
-    /// The same model where it has no roughness, floors or touches, for a program that has
-    /// no code for them.
-    pub fn into_single(self) -> Option<Model<Single<W>>> {
-        let Self { words, layout } = self;
-        let is_joint = layout.has_roughness() || layout.has_floors() || layout.touch.is_some();
-        (!is_joint).then_some(Model {
-            words: Single(words),
-            layout,
-        })
+    /// Whether it has roughness, floors or touches, which the papers' models have not.
+    pub const fn is_joint(&self) -> bool {
+        let layout = &self.layout;
+        layout.has_roughness() || layout.has_floors() || layout.touch.is_some()
     }
 
     /// The scale of a channel's codes, and its range in training.
@@ -208,13 +203,13 @@ impl<W: Words> Model<W> {
     /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
-        W::JOINT && self.layout.has_roughness()
+        JOINT && self.layout.has_roughness()
     }
 
     /// Whether classes have floors.
     #[inline]
     pub(crate) const fn has_floors(&self) -> bool {
-        W::JOINT && self.layout.has_floors()
+        JOINT && self.layout.has_floors()
     }
 
     #[inline]

@@ -6,7 +6,7 @@ use crate::error::SetupError;
 use crate::format::MAX_CLASSES;
 use crate::model::Model;
 use crate::rule::DecisionRule;
-use crate::stream::{StreamState, Streams, WrongChannels};
+use crate::stream::{StreamState, WrongChannels};
 use crate::words::Words;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
@@ -76,9 +76,9 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     }
 
     /// Samples are missing before the next: the differences of which roughness is made
-    /// begin anew.
+    /// begin again.
     pub const fn interrupt(&mut self) {
-        self.stream.interrupt::<W>();
+        self.stream.interrupt();
     }
 
     /// The end of a whisk or of a recording: rules that wait for it decide here
@@ -107,46 +107,6 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     }
 }
 
-impl<R: DecisionRule, W: Words> Streams for NaiveBayes<R, W> {
-    type Words = W;
-    type Rule = R;
-
-    fn constants(&self) -> &Constants<R, W> {
-        &self.constants
-    }
-
-    #[inline]
-    fn push_to(&mut self, _: usize, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
-        self.push(codes)
-    }
-
-    #[inline]
-    fn pass_to(&mut self, _: usize, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.pass(codes)
-    }
-
-    #[inline]
-    fn touch_of(&self, _: usize) -> u16 {
-        self.stream.touch
-    }
-
-    fn begin_touch(&mut self, _: usize, number: u16) {
-        self.touch(number);
-    }
-
-    fn interrupt_stream(&mut self, _: usize) {
-        self.interrupt();
-    }
-
-    fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
-        self.constants.set_rule(settings)
-    }
-
-    fn restart(&mut self) {
-        self.reset();
-    }
-}
-
 /// Posterior of each class by this evidence.
 pub(crate) fn posteriors<R: DecisionRule, W: Words>(
     model: &Model<W>,
@@ -164,8 +124,8 @@ pub(crate) fn posteriors<R: DecisionRule, W: Words>(
     posteriors
 }
 
-/// Posterior probability of each class of a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Posterior probability of each class of a model; by default of no class.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Posteriors {
     q32: [u32; MAX_CLASSES],
     classes: usize,

@@ -8,6 +8,8 @@
 //! too. So the end of a block adds up exponentials only where every rival is
 //! far behind, and then mostly decides.
 
+use serde::{Deserialize, Serialize};
+
 use crate::decision::{Decision, Posterior};
 use crate::error::SetupError;
 use crate::evidence::{EvidenceScale, MAX_DEFICIT, MAX_ODDS, leader};
@@ -22,8 +24,9 @@ use crate::words::Words;
 const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
 
 /// A threshold on the posterior probability, prepared for the comparison.
-/// Computable at compile time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Computable at compile time. It is stored as its [words](Self::words).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "[u32; 2]", into = "[u32; 2]")]
 pub struct Threshold {
     /// (1 − θ)/θ · 2^(26 + gain), rounded up; at most 2²⁵ where gain > 0.
     bound: u32,
@@ -85,6 +88,20 @@ impl Threshold {
     }
 }
 
+impl From<Threshold> for [u32; 2] {
+    fn from(threshold: Threshold) -> Self {
+        threshold.words()
+    }
+}
+
+impl TryFrom<[u32; 2]> for Threshold {
+    type Error = SetupError;
+
+    fn try_from(words: [u32; 2]) -> Result<Self, SetupError> {
+        Self::from_words(words).ok_or(SetupError::Threshold)
+    }
+}
+
 /// A sequential classifier, made from a model and a threshold.
 pub type Sequential<W = &'static [u32]> = NaiveBayes<SequentialRule, W>;
 
@@ -140,6 +157,8 @@ impl SequentialRule {
     }
 
     /// Takes in the sums of a full block and leaves zeros.
+    // Once a block: apart from what is generic.
+    #[inline(never)]
     pub(crate) fn gather(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) {
         let _ = self.gather_near(sums, evidence);
     }
@@ -166,6 +185,7 @@ impl SequentialRule {
     }
 
     /// Decides by evidence in which no rival is too near.
+    #[inline(never)]
     pub(crate) fn decide_by(
         &self,
         classes: usize,

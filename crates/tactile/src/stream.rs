@@ -4,13 +4,11 @@
 
 use core::fmt;
 
-use crate::constants::Constants;
 use crate::decision::Decision;
-use crate::error::SetupError;
 use crate::model::Model;
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
-use crate::words::Words;
+use crate::words::{JOINT, Words};
 
 /// A sample with another number of channels than the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +30,7 @@ impl core::error::Error for WrongChannels {}
 
 /// Sums of the open block, and evidence of the blocks before.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StreamState<E> {
+pub(crate) struct StreamState<E> {
     pub(crate) sums: Sums,
     pub(crate) evidence: E,
     /// The number of the touch.
@@ -102,8 +100,8 @@ impl<E> StreamState<E> {
     }
 
     /// Samples are missing before the next.
-    pub(crate) const fn interrupt<W: Words>(&mut self) {
-        if W::JOINT {
+    pub(crate) const fn interrupt(&mut self) {
+        if JOINT {
             self.sums.roughness.interrupt();
         }
     }
@@ -145,57 +143,4 @@ impl<E> StreamState<E> {
     pub(crate) fn excess(&self, class: usize) -> [i32; 2] {
         self.sums.excess.get(class).copied().unwrap_or_default()
     }
-}
-
-/// Samples of one whisker or of several, as many *streams*, under one model and rule.
-pub trait Streams {
-    /// Where the model lies.
-    type Words: Words;
-    /// By which they decide.
-    type Rule: DecisionRule;
-
-    /// What no sample changes.
-    fn constants(&self) -> &Constants<Self::Rule, Self::Words>;
-
-    /// The model.
-    fn model(&self) -> &Model<Self::Words> {
-        &self.constants().model
-    }
-
-    /// Takes a sample of a stream that counts, as [`crate::NaiveBayes::push`]; a stream that is
-    /// not there takes none.
-    ///
-    /// # Errors
-    ///
-    /// As [`crate::NaiveBayes::push`].
-    fn push_to(&mut self, stream: usize, codes: &[i32]) -> Result<Option<Decision>, WrongChannels>;
-
-    /// Takes a sample of a stream that does not count, as [`crate::NaiveBayes::pass`].
-    ///
-    /// # Errors
-    ///
-    /// As [`crate::NaiveBayes::push`].
-    fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels>;
-
-    /// The number of the touch of a stream, or of its last one.
-    fn touch_of(&self, stream: usize) -> u16;
-
-    /// A touch of a stream begins, as [`crate::NaiveBayes::touch`].
-    fn begin_touch(&mut self, stream: usize, number: u16);
-
-    /// Samples of a stream are missing, as [`crate::NaiveBayes::interrupt`].
-    fn interrupt_stream(&mut self, stream: usize);
-
-    /// Other settings of the rule take effect; evidence stays.
-    ///
-    /// # Errors
-    ///
-    /// They do not fit the model; nothing has changed.
-    fn set_rule(
-        &mut self,
-        settings: <Self::Rule as DecisionRule>::Settings,
-    ) -> Result<(), SetupError>;
-
-    /// Forgets all evidence.
-    fn restart(&mut self);
 }

@@ -68,7 +68,7 @@ mod quick;
 #[cfg(test)]
 mod tests;
 
-use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES, bounded};
+use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES, bounded, follow};
 use quick::Quick;
 
 /// The largest code of 14 bits.
@@ -202,6 +202,8 @@ impl TouchDetector {
     }
 
     /// Takes the sensor's codes of 14 bits.
+    // Apart: a board's program, whose own code is compiled for size, has it compiled for speed.
+    #[inline(never)]
     pub fn step(&mut self, codes: [u16; 2]) -> Touching {
         let codes = codes.map(|code| code.min(CODE_MOST));
         let sample = codes.map(i32::from);
@@ -354,12 +356,13 @@ impl TouchDetector {
                 *rest = rest.wrapping_add(ahead >> rest_rate);
             }
         }
+        let rates = QUICK_RATES.at(self.in_contact, is_start);
         for (of, sign) in self.quick.iter_mut().zip(now.quick) {
             of.block = of.block.max(sign);
-            QUICK_RATES.follow(&mut of.level, sign, self.in_contact, is_start);
+            follow(&mut of.level, sign, rates);
         }
-        let is_bent = self.in_contact && self.is_sure;
-        DEFLECTION_RATES.follow(&mut self.deflection, now.deflection, is_bent, is_start);
+        let rates = DEFLECTION_RATES.at(self.in_contact && self.is_sure, is_start);
+        follow(&mut self.deflection, now.deflection, rates);
         self.of_block = self.of_block.wrapping_add(1);
         if self.of_block >= BLOCK {
             self.of_block = 0;

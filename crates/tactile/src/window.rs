@@ -47,6 +47,8 @@ impl DecisionRule for WindowRule {
         Totals::default()
     }
 
+    // Once a block: apart from the samples, and as small as this crate is built.
+    #[inline(never)]
     fn end_of_block(&self, sums: &mut [u32], totals: &mut Totals) -> Option<Decision> {
         totals.add(sums, self.block);
         sums.fill(0);

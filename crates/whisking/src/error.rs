@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::RangeInclusive;
 
-use crate::ranges;
+use crate::{MAX_SIDES, MAX_WHISKERS, ranges};
 
 /// A setting that can be refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub enum Parameter {
     Gain,
     /// A start state ψ.
     Start,
+    /// The number of sides or of whiskers.
+    Size,
     /// Gain or time constant of RCP.
     Rcp,
     /// Gain or time constant of CIA.
@@ -70,6 +72,10 @@ impl fmt::Display for Error {
             Parameter::Noise => ("noise", format_args!("{}", Allowed(&ranges::NOISE))),
             Parameter::Gain => ("nominal gain", format_args!("{}", Allowed(&ranges::GAIN))),
             Parameter::Start => ("start state", format_args!("{}", Allowed(&ranges::PSI))),
+            Parameter::Size => (
+                "number of sides or whiskers",
+                format_args!("1 to {MAX_SIDES} sides, {MAX_WHISKERS} whiskers in all"),
+            ),
             Parameter::Rcp => ("RCP", gate),
             Parameter::Cia => ("CIA", gate),
             Parameter::Corner => (

@@ -15,6 +15,8 @@
 //! settles within 2^-28/(g² a) of a constant input: 6.5e-7 at 2 kHz, 6.1e-5 at
 //! 20 kHz, half a sensor's step.
 
+use serde::{Deserialize, Serialize};
+
 use core::f64::consts::PI;
 
 use crate::{Error, Parameter, Real};
@@ -23,8 +25,8 @@ use crate::{Error, Parameter, Real};
 pub const CORNER_HZ: f64 = 50.0;
 
 /// Coefficients of one third-order Butterworth low-pass filter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::filter))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Config<R: Real> {
     /// g/(1 + g) of the first-order section.
     pub first: R::Coefficient,
@@ -64,7 +66,7 @@ impl<R: Real> Config<R> {
 
     /// Filters one sample. The gain at zero frequency is 1; for inputs within ±1.6
     /// the output stays within ±2: a third-order Butterworth filter overshoots by at most
-    /// 1.2 for the worst bounded input. Beyond that the filter begins anew at rest.
+    /// 1.2 for the worst bounded input. Beyond that the filter begins again at rest.
     #[inline]
     pub fn process(&self, state: &mut State<R>, x: R) -> R {
         let half = (x - state.first).times(self.first);

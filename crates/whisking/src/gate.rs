@@ -1,6 +1,8 @@
 //! Modulation by contact: RCP suppresses a side, CIA excites every whisker
 //! (BIOTACT eqs. 9 to 14, as mended).
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Integrator, Real};
 
 /// How far contact has raised z of a side above 0, or g of a whisker above its
@@ -16,8 +18,8 @@ pub struct Gate<R: Real> {
 }
 
 /// One tick of an exponential decay.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Decay<R: Real> {
     /// The fraction that a tick removes: 1 − exp(−T/τ), or T/τ, at most 1, in the
     /// papers' integrator.
@@ -33,8 +35,8 @@ pub struct Decay<R: Real> {
 const SLOW: f64 = 1.0 / 256.0;
 
 /// Rapid cessation of protraction (eq. 10): z = ⟨max(z − decay · z, σ_z π)⟩ on \[0, 1\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Rcp<R: Real> {
     /// Decay of z with τ_z.
     pub decay: Decay<R>,
@@ -44,8 +46,8 @@ pub struct Rcp<R: Real> {
 
 /// Contact-induced asymmetry (eqs. 12 and 13): g returns to its nominal value
 /// and is lifted to g_nominal + σ_g ζ, on \[0, 2\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::gate))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Cia<R: Real> {
     /// Return of g with τ_g.
     pub decay: Decay<R>,

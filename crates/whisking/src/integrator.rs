@@ -1,7 +1,9 @@
 //! The two integrators by name.
 
+use serde::{Deserialize, Serialize};
+
 /// How oscillators, muscles and gates are stepped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Integrator {
     /// The papers' forward Euler, step for step.
     Euler,

@@ -22,26 +22,30 @@
 //! # Where to look
 //!
 //! [`Settings`] (physical units, f64) are checked outside the tick, and give a
-//! [`Config`] and a [`Start`] in a number format `R`. The tick is
-//! [`PatternGenerator::step`] on a small [`State`]; it cannot fail. The parts of a
-//! `Config` are types: a board names those of its scene, and its program
-//! contains no others. With the feature `bake` a build script writes the type and
-//! the value of a configuration as Rust source (`Config::source`).
+//! [`Config`] and a [`Start`] in a number format `R`. The tick is [`Config::step`] on a
+//! small [`State`]; it cannot fail. A `Config` and a `Start` are plain data, with serde:
+//! a PC writes them, a board reads them and checks each constant ([`Bounded`]).
+//!
+//! # Features
+//!
+//! `rcp`, `cia`, `noise`, `euler` and `exact`, all on by default, say what a program can
+//! compute. A `Config` has the same layout in every program; a part whose feature is
+//! off is taken as absent, and an integrator whose feature is off moves nothing.
+//! With `array` a microcontroller has room for as many whiskers as a PC.
 #![cfg_attr(not(test), no_std)]
 
-#[cfg(feature = "bake")]
-mod bake;
+mod bounded;
 mod elementary;
 mod error;
 pub mod filter;
 pub mod gate;
 mod integrator;
 mod linalg;
+mod list;
 mod math;
 pub mod motor;
 pub mod muscle;
 pub mod noise;
-mod optional;
 pub mod oscillator;
 pub mod pd;
 pub mod ranges;
@@ -51,20 +55,25 @@ mod start;
 mod state;
 mod step;
 mod voted;
-mod words;
 
-#[cfg(feature = "bake")]
-pub use bake::Source;
+pub use bounded::{Bound, Bounded};
 pub use elementary::Elementary;
 pub use error::{Error, Parameter};
 pub use integrator::Integrator;
-pub use optional::{Absent, Optional, Present};
-pub use real::{Constant, Factor, Factors, FineFactor, Fix, FormatCode, Real};
+pub use real::{Constant, Factor, FactorRow, Factors, FineFactor, Fix, FormatCode, Real};
 pub use settings::{GateSettings, Settings};
-pub use state::{Start, State, Whisker};
-pub use step::{Config, PatternGenerator};
+pub use state::{Side, SideStart, Start, State, WhiskerStart, WhiskerState};
+pub use step::{Config, Number};
 pub use voted::Voted;
-pub use words::{AsWords, Bound, WordRow};
+
+/// Most sides of a module: left and right.
+pub const MAX_SIDES: usize = 2;
+/// Most whiskers of a module: 2 on a board, 24 in a simulation.
+pub const MAX_WHISKERS: usize = if cfg!(target_os = "none") && !cfg!(feature = "array") {
+    2
+} else {
+    24
+};
 
 /// Degrees of the motor per unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).
 pub const DEGREES_PER_UNIT: f64 = 100.0;

@@ -39,6 +39,8 @@ mod stall;
 
 use core::fmt;
 
+use serde::{Deserialize, Serialize};
+
 pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
 pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S};
@@ -48,6 +50,15 @@ pub use homing::{Homed, Homing, HomingConfig, HomingSettings};
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
 pub use six_step::{SixStep, SixStepConfig, SixStepState};
 pub use stall::{StallConfig, StallGuard};
+
+/// The stage that turns a duty into winding currents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Driver {
+    /// One H-bridge: a brushed motor.
+    HBridge,
+    /// Three half-bridges commutated in six steps: a brushless motor.
+    SixStep,
+}
 
 /// What the control loop needs of a motor.
 ///

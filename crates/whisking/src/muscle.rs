@@ -19,6 +19,8 @@ pub use config::Config;
 pub use euler::Euler;
 pub use exact::{Exact, Lag};
 
+use serde::{Deserialize, Serialize};
+
 use crate::Real;
 
 /// Peak of the muscle gain (eq. 8).
@@ -28,20 +30,8 @@ const STIFFNESS: f64 = 10.0;
 /// ν/√(k m).
 const DAMPING: f64 = 4.0;
 
-/// Steps a muscle.
-pub trait MuscleIntegrator<R: Real> {
-    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9; `before` and
-    /// `after` are the drive W at the two ends of the tick.
-    ///
-    /// The force is between 0 and 1, and both integrators are bounded for bounded
-    /// forces: with the drives of an oscillator from the start on, |θ| stays below
-    /// 2.5 and the rest of the state below 5, at any f_W T and for any gains.
-    fn step(&self, state: &mut State<R>, gain: R, before: R, after: R);
-}
-
 /// f at the last tick and its backward differences; [`Euler`] does not use them.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct History<R> {
     /// f, ∇f, ∇²f, ∇³f.
     pub force: [R; 4],

@@ -5,13 +5,16 @@
 //! interpolated linearly. Each takes one random word, a count of leading zeros
 //! and a multiplication, in integers: the numbers are the same on every machine.
 
+use heapless::Vec;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro128PlusPlus;
+use serde::{Deserialize, Serialize};
 
 use crate::filter::{self, CORNER_HZ};
+use crate::list::listed;
 use crate::math::constant::exp;
 use crate::oscillator::Psi;
-use crate::{Error, Real};
+use crate::{Error, MAX_SIDES, Real};
 
 /// The tick rate at which σ_η is defined (BIOTACT: T = 500 µs), Hz. White noise
 /// of one variance per tick has a spectral density that falls with the tick rate;
@@ -78,8 +81,8 @@ fn normal_q24(word: u32) -> i32 {
 }
 
 /// Amplitude and filter of the noise.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::noise))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Config<R: Real> {
     /// 4 T σ_η √(tick rate/2 kHz): the filter's input is a quarter of η, because
     /// fixed point cannot hold 4.9.
@@ -90,9 +93,9 @@ pub struct Config<R: Real> {
 
 /// The random generator, and a filter for each state of the oscillators.
 #[derive(Debug, Clone)]
-pub struct State<R, const S: usize> {
+pub struct State<R> {
     pub(crate) random: Xoshiro128PlusPlus,
-    pub(crate) filters: [[filter::State<R>; 2]; S],
+    pub(crate) filters: Vec<[filter::State<R>; 2], MAX_SIDES>,
 }
 
 impl<R: Real> Config<R> {
@@ -108,17 +111,21 @@ impl<R: Real> Config<R> {
         })
     }
 
-    /// T P_i of this tick for each state of the oscillators.
+    /// T P_i of this tick for each state of the oscillators, by sides; zero for a side that
+    /// there is not.
     #[inline]
-    pub fn step<const S: usize>(&self, state: &mut State<R, S>) -> [Psi<R>; S] {
+    pub fn step(&self, state: &mut State<R>) -> [Psi<R>; MAX_SIDES] {
         let State { random, filters } = state;
-        let mut out = [[R::ZERO; 2]; S];
+        let mut out = [[R::ZERO; 2]; MAX_SIDES];
         let mut drawn = 0;
-        for (o, f) in out.iter_mut().flatten().zip(filters.iter_mut().flatten()) {
-            let word = random.next_u32();
-            drawn |= word;
-            let white = R::from_q24(normal_q24(word) >> 2);
-            *o = self.filter.process(f, white).times_fine(self.amplitude);
+        for (out, filters) in out.iter_mut().zip(filters) {
+            for (out, filter) in out.iter_mut().zip(filters) {
+                let word = random.next_u32();
+                drawn |= word;
+                let white = R::from_q24(normal_q24(word) >> 2);
+                let coloured = self.filter.process(filter, white);
+                *out = coloured.times_fine(self.amplitude);
+            }
         }
         if drawn == 0 {
             // Its only state that it never leaves; otherwise once in 2^64 draws of two words.
@@ -128,12 +135,16 @@ impl<R: Real> Config<R> {
     }
 }
 
-impl<R: Real, const S: usize> State<R, S> {
-    /// The same seed gives the same noise.
-    pub fn new(seed: u64) -> Self {
+impl<R: Real> State<R> {
+    /// For so many sides, 0 to 2; a larger number is taken as 2. The same seed gives the same
+    /// noise.
+    pub fn new(sides: usize, seed: u64) -> Self {
+        // A constant where no noise is computed, so that its seeding is not linked.
+        let seed = if cfg!(feature = "noise") { seed } else { 0 };
+        let both = [[filter::State::default(); 2]; MAX_SIDES];
         Self {
             random: Xoshiro128PlusPlus::seed_from_u64(seed),
-            filters: [[filter::State::default(); 2]; S],
+            filters: listed(both.into_iter().take(sides)),
         }
     }
 }
@@ -179,9 +190,9 @@ mod tests {
 
     /// All zeros is the only state that the generator never leaves.
     #[test]
-    fn a_generator_that_stands_still_begins_anew() {
+    fn a_generator_that_stands_still_begins_again() {
         let config = Config::<f32>::new(0.05, 2_000.0).unwrap();
-        let mut state = State::<f32, 1>::new(1);
+        let mut state = State::<f32>::new(1, 1);
         state.random = serde_json::from_str(r#"{"s":[0,0,0,0]}"#).unwrap();
         config.step(&mut state);
         let words: Vec<u32> = (0..1_000).map(|_| state.random.next_u32()).collect();
@@ -211,7 +222,7 @@ mod tests {
         // Variance of the random walk it causes in one second, σ² T_ref: (σ_η)² / 2000 Hz.
         for tick_hz in [500.0, 2_000.0, 8_000.0] {
             let config = Config::<f64>::new(0.005, tick_hz).unwrap();
-            let mut state = State::<f64, 1>::new(11);
+            let mut state = State::<f64>::new(1, 11);
             let mut squares = 0.0;
             let seconds = 2_000;
             for _ in 0..seconds {

@@ -20,7 +20,9 @@ pub(crate) use euler::field;
 pub(crate) use exact::keep;
 pub use exact::{Exact, Turn};
 
-use crate::Real;
+use heapless::Vec;
+
+use crate::{MAX_SIDES, Real};
 
 /// ψ of one side: drive state and recovery state.
 pub type Psi<R> = [R; 2];
@@ -32,37 +34,54 @@ pub const PSI_LIMIT: f64 = 1.5;
 const TAU_PERIODS: f64 = 2.0;
 
 /// The oscillators of all sides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<R: Real, const S: usize> {
-    /// ψ in the form that the integrator keeps.
-    pub(crate) kept: [Psi<R>; S],
+#[derive(Debug, Clone, PartialEq)]
+pub struct State<R: Real> {
+    /// ψ in the form that the integrator keeps, of each side.
+    pub(crate) kept: Vec<Psi<R>, MAX_SIDES>,
     /// Rounding errors of its sums.
-    pub(crate) carry: [[R::Carry; 2]; S],
+    pub(crate) carry: [[R::Carry; 2]; MAX_SIDES],
 }
 
-impl<R: Real, const S: usize> State<R, S> {
-    /// From [`Start::oscillators`](crate::Start::oscillators): ψ itself for
+/// The oscillators of a module of `S` sides: an integrator is written once for both numbers of
+/// sides, and compiled for each, so that a lone side costs no more than it must.
+struct Sides<'a, R: Real, const S: usize> {
+    kept: &'a mut [Psi<R>; S],
+    carry: &'a mut [[R::Carry; 2]; S],
+}
+
+impl<R: Real> State<R> {
+    /// From [`SideStart::oscillator`](crate::SideStart::oscillator) of each side: ψ itself for
     /// [`Euler`], the modes half a tick earlier for [`Exact`].
-    pub fn new(kept: [Psi<R>; S]) -> Self {
+    pub fn new(kept: Vec<Psi<R>, MAX_SIDES>) -> Self {
         Self {
             kept,
-            carry: [[R::Carry::default(); 2]; S],
+            carry: [[R::Carry::default(); 2]; MAX_SIDES],
         }
+    }
+
+    /// The sides, if there are `S`.
+    #[inline]
+    fn sides<const S: usize>(&mut self) -> Option<Sides<'_, R, S>> {
+        Some(Sides {
+            kept: self.kept.as_mut_slice().try_into().ok()?,
+            carry: self.carry.first_chunk_mut()?,
+        })
     }
 }
 
-/// Steps the oscillators.
-pub trait OscillatorIntegrator<R: Real> {
-    /// One tick. `noise` is T P_i (eq. 5); each state is limited to ±1.5
-    /// afterwards. From a state that no tick leads to, NaN included, all sides begin
-    /// anew together.
-    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>);
+impl<R: Real, const S: usize> Sides<'_, R, S> {
+    /// Goes on from `kept`, without rounding errors.
+    #[inline]
+    fn restart(&mut self, kept: [Psi<R>; S]) {
+        *self.kept = kept;
+        *self.carry = [[R::Carry::default(); 2]; S];
+    }
+}
 
-    /// ψ_1 of every side, which drives its muscles; within ±1.5 to rounding.
-    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S];
-
-    /// ψ of every side.
-    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S];
+/// The noise of the first `S` sides.
+#[inline]
+fn of_sides<R: Real, const S: usize>(noise: Option<&[Psi<R>]>) -> Option<&[Psi<R>; S]> {
+    noise?.first_chunk()
 }
 
 /// [`PSI_LIMIT`] in the number format of the tick.
@@ -71,9 +90,9 @@ fn psi_limit<R: Real>() -> R {
     R::ONE + R::ONE.halved()
 }
 
-/// Where all sides begin anew together, on the circle.
+/// Where all sides begin again together, on the circle.
 #[inline]
-fn anew<R: Real, const S: usize>() -> [Psi<R>; S] {
+fn again<R: Real, const S: usize>() -> [Psi<R>; S] {
     [[R::ONE, R::ZERO]; S]
 }
 

@@ -7,6 +7,8 @@
 //! duty and its limits are integers in every number format, as a timer's register
 //! takes them.
 
+use serde::{Deserialize, Serialize};
+
 use crate::motor::Duty;
 use crate::ranges::pd as ranges;
 use crate::{DEGREES_PER_UNIT, Error, Parameter, Real, protraction};
@@ -39,8 +41,8 @@ pub struct Settings {
 }
 
 /// The same per tick and per unit of protraction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::pd))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Config<R: Real> {
     /// k_p, duty per unit of error.
     pub kp: R::Coefficient,
@@ -64,6 +66,8 @@ pub struct Config<R: Real> {
 /// is that of a motor that is off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State<R> {
+    /// Protraction x.
+    pub measured: R,
     /// Following error ⟨s⟩ − x.
     pub error: R,
     /// Proportional term k_p (⟨s⟩ − x), a duty before its limits.
@@ -149,6 +153,7 @@ impl<R: Real> Config<R> {
         } else {
             R::ZERO
         };
+        state.measured = measured;
         state.error = setpoint - measured;
         state.p = state.error.times(self.kp);
         state.d = -state.velocity.times(self.kd);

@@ -4,30 +4,23 @@
 
 mod fix;
 mod float;
+mod row;
 
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
-use crate::{AsWords, Elementary, WordRow};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::{Bounded, Elementary};
 
 pub use fix::{Factor, Factors, FineFactor, Fix};
+pub use row::FactorRow;
 
-/// A constant of the tick as a configuration holds it. With the feature `bake`
-/// it can also be written as Rust source.
-#[cfg(not(feature = "bake"))]
-pub trait Constant: Copy + Debug + PartialEq + 'static {}
-#[cfg(not(feature = "bake"))]
-impl<T: Copy + Debug + PartialEq + 'static> Constant for T {}
-
-/// A constant of the tick as a configuration holds it, which can be written as
-/// Rust source.
-#[cfg(feature = "bake")]
-pub trait Constant:
-    Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize
-{
-}
-#[cfg(feature = "bake")]
-impl<T: Copy + Debug + PartialEq + 'static + databake::Bake + databake::BakeSize> Constant for T {}
+/// A constant of the tick as a configuration holds it, which goes over a wire and into
+/// memory as plain data.
+pub trait Constant: Copy + Debug + PartialEq + Serialize + DeserializeOwned + 'static {}
+impl<T: Copy + Debug + PartialEq + Serialize + DeserializeOwned + 'static> Constant for T {}
 
 /// Which number format it is, with the number by which a PC knows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,7 +40,7 @@ pub enum FormatCode {
 /// of its own.
 pub trait Real:
     Constant
-    + AsWords
+    + Bounded
     + Elementary
     + Default
     + PartialOrd
@@ -57,13 +50,13 @@ pub trait Real:
     + Neg<Output = Self>
 {
     /// A factor; relative error up to 3.1e-5 in fixed point.
-    type Coefficient: Constant + AsWords;
+    type Coefficient: Constant + Bounded;
 
     /// A factor below one whose error would accumulate over many ticks.
-    type Fine: Constant + AsWords;
+    type Fine: Constant + Bounded;
 
     /// `K` factors below one that are used together and share a scale.
-    type Row<const K: usize>: Constant + WordRow;
+    type Row<const K: usize>: Constant + Bounded;
 
     /// Rounding error that a long sum carries along.
     type Carry: Copy + Debug + Default + PartialEq + 'static;

@@ -6,9 +6,15 @@
 //! steps, is continued backwards; with that past the first ticks are as accurate
 //! as the later ones. It is computed once, in f64, outside the tick.
 
+use crate::list::listed;
 use crate::muscle::{self, History, PEAK_GAIN, acceleration, pace};
 use crate::oscillator::{self, PSI_LIMIT, Psi, field};
-use crate::{Error, Integrator, Parameter, Real, Settings, Start, ranges};
+use crate::state::{SideStart, Start, WhiskerStart};
+use crate::{Error, Integrator, Parameter, Real, Settings, ranges};
+
+const WRONG_SIZE: Error = Error {
+    parameter: Parameter::Size,
+};
 
 /// Substeps per tick of the fourth-order Runge-Kutta method.
 const SUBSTEPS: usize = 32;
@@ -71,40 +77,61 @@ fn force<const S: usize>(joint: &Joint<S>, side: usize) -> f64 {
 }
 
 impl Settings {
-    /// The start from `psi` with whiskers of nominal gain `gain`, at rest.
+    /// The start from `psi` of each side, left first, with whiskers of nominal gain `gains` of
+    /// each side, at rest.
     ///
     /// # Errors
+    /// [`Parameter::Size`] unless there are one or two sides, as many in `gains` as in `psi`,
+    /// and at most [`MAX_WHISKERS`] whiskers;
     /// [`Parameter::Start`] for a ψ outside [`ranges::PSI`], [`Parameter::Gain`]
     /// for a gain outside [`ranges::GAIN`], or what [`Settings::build`] refuses.
-    pub fn start<R: Real, const S: usize, const N: usize>(
+    pub fn start<R: Real>(&self, psi: &[Psi<f64>], gains: &[&[f64]]) -> Result<Start<R>, Error> {
+        match *psi {
+            [left] => self.start_of([left], gains),
+            [left, right] => self.start_of([left, right], gains),
+            _ => Err(WRONG_SIZE),
+        }
+    }
+
+    fn start_of<R: Real, const S: usize>(
         &self,
         psi: [Psi<f64>; S],
-        gain: [[f64; N]; S],
-    ) -> Result<Start<R, S, N>, Error> {
+        gains: &[&[f64]],
+    ) -> Result<Start<R>, Error> {
+        if gains.len() != S {
+            return Err(WRONG_SIZE);
+        }
         for x in psi.iter().flatten() {
             Error::check(Parameter::Start, *x, &ranges::PSI)?;
         }
-        for g in gain.iter().flatten() {
+        for g in gains.iter().copied().flatten() {
             Error::check(Parameter::Gain, *g, &ranges::GAIN)?;
         }
         self.check()?;
-        let mut history = [[History::default(); N]; S];
-        if self.integrator == Integrator::Exact {
-            for (side, (gains, histories)) in gain.iter().zip(&mut history).enumerate() {
-                for (g, h) in gains.iter().zip(histories) {
-                    *h = self.past(psi, side, *g);
-                }
-            }
-        }
         let kept = match self.integrator {
             Integrator::Euler => psi,
             Integrator::Exact => oscillator::keep(&psi, self.cycles(), self.coupling),
         };
+        let mut whiskers = heapless::Vec::new();
+        for (side, gains) in gains.iter().enumerate() {
+            for gain in *gains {
+                let whisker = WhiskerStart {
+                    side: side as u8,
+                    gain: R::from_f64(*gain),
+                    history: match self.integrator {
+                        Integrator::Euler => History::default(),
+                        Integrator::Exact => self.past(psi, side, *gain),
+                    },
+                };
+                whiskers.push(whisker).map_err(|_| WRONG_SIZE)?;
+            }
+        }
         Ok(Start {
-            oscillators: kept.map(|p| p.map(R::from_f64)),
-            drive: psi.map(|p| R::from_f64(muscle::drive(p[0]))),
-            gain: gain.map(|row| row.map(R::from_f64)),
-            history,
+            sides: listed(kept.iter().zip(psi).map(|(kept, psi)| SideStart {
+                oscillator: kept.map(R::from_f64),
+                drive: R::from_f64(muscle::drive(psi[0])),
+            })),
+            whiskers,
         })
     }
 
@@ -159,10 +186,10 @@ impl Settings {
 #[cfg(test)]
 mod tests {
     use super::{Equations, Joint};
-    use crate::{Fix, Integrator, PatternGenerator, Real, Settings, State};
+    use crate::{Fix, Integrator, Number, Settings, State};
 
     /// Largest error of θ' in degrees over ten whisks against 64 Runge-Kutta steps per tick.
-    fn error<R: Real>(frequency_hz: f64, tick_hz: f64, gain: f64, psi: [[f64; 2]; 2]) -> f64 {
+    fn error<R: Number>(frequency_hz: f64, tick_hz: f64, gain: f64, psi: [[f64; 2]; 2]) -> f64 {
         let settings = Settings {
             tick_hz,
             frequency_hz,
@@ -173,7 +200,7 @@ mod tests {
             cia: None,
         };
         let config = settings.build::<R>().unwrap();
-        let start = settings.start::<R, 2, 1>(psi, [[gain]; 2]).unwrap();
+        let start = settings.start::<R>(&psi, &[&[gain][..]; 2]).unwrap();
         let mut state = State::new(&start, 1);
         let side = |side| Equations {
             cycles: settings.cycles(),
@@ -188,14 +215,14 @@ mod tests {
         }; 2];
         let mut worst = 0.0_f64;
         for _ in 0..(10.0 * tick_hz / frequency_hz) as usize {
-            config.step(&mut state, [R::ZERO; 2]);
+            config.step(&mut state, &[]);
             for (joint, equations) in truth.iter_mut().zip(&equations) {
                 for _ in 0..16 {
                     *joint = equations.step(joint, 1.0 / 16.0);
                 }
             }
-            for (side, truth) in state.theta().iter().zip(&truth) {
-                worst = worst.max(100.0 * (side[0].to_f64() - truth.whisker[0]).abs());
+            for (theta, truth) in state.theta().zip(&truth) {
+                worst = worst.max(100.0 * (theta.to_f64() - truth.whisker[0]).abs());
             }
         }
         worst

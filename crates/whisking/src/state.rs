@@ -3,28 +3,62 @@
 #[cfg(test)]
 mod tests;
 
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
 use crate::gate::Gate;
-use crate::muscle::{self, History};
-use crate::oscillator::{self, Psi};
-use crate::{Real, Voted, noise};
+use crate::list::listed;
+use crate::muscle::History;
+use crate::oscillator::Psi;
+use crate::{MAX_SIDES, MAX_WHISKERS, Real, Voted};
+use crate::{muscle, noise, oscillator};
 
 /// Constants of the start of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct Start<R: Real> {
+    /// The sides, left first.
+    pub sides: Vec<SideStart<R>, MAX_SIDES>,
+    /// The whiskers, the left side's first.
+    pub whiskers: Vec<WhiskerStart<R>, MAX_WHISKERS>,
+}
+
+/// The start of one side.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct SideStart<R: Real> {
+    /// ψ in the form that the integrator keeps.
+    pub oscillator: Psi<R>,
+    /// Drive W.
+    pub drive: R,
+}
+
+/// The start of one whisker.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct WhiskerStart<R: Real> {
+    /// Its side, 0 or 1.
+    pub side: u8,
+    /// Nominal gain, g_nominal, 0 to 2.
+    pub gain: R,
+    /// Forces before the start.
+    pub history: History<R>,
+}
+
+/// One side: its modulation by RCP.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
-pub struct Start<R, const S: usize, const N: usize> {
-    /// ψ of each side in the form that the integrator keeps.
-    pub oscillators: [Psi<R>; S],
-    /// Drive W of each side.
-    pub drive: [R; S],
-    /// Nominal gain of each whisker, g_nominal, 0 to 2.
-    pub gain: [[R; N]; S],
-    /// Forces before the start, of each whisker.
-    pub history: [[History<R>; N]; S],
+pub struct Side<R: Real> {
+    /// z (eq. 10), 0 to 1.
+    pub z: Gate<R>,
+    /// Drive W at the end of the last tick.
+    pub(crate) drive: R,
 }
 
 /// One whisker: its muscle and its gain g.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Whisker<R: Real> {
+pub struct WhiskerState<R: Real> {
+    /// Its side, 0 or 1. A whisker of a side that the module does not have rests.
+    pub side: u8,
     /// θ and the rest of the integrator's state.
     pub muscle: muscle::State<R>,
     /// How far contact lifts g above its nominal value (eqs. 12 and 13).
@@ -32,20 +66,39 @@ pub struct Whisker<R: Real> {
     pub(crate) nominal: Voted<R>,
 }
 
-/// State of a module of `S` sides (1 or 2) with `N` whiskers each.
+/// State of a module.
 #[derive(Debug, Clone)]
-pub struct State<R: Real, const S: usize, const N: usize> {
+pub struct State<R: Real> {
     /// The oscillator of each side.
-    pub oscillators: oscillator::State<R, S>,
-    /// z of each side (eq. 10), 0 to 1.
-    pub z: [Gate<R>; S],
-    /// The whiskers of each side.
-    pub whiskers: [[Whisker<R>; N]; S],
-    pub(crate) drive: [R; S],
-    pub(crate) noise: noise::State<R, S>,
+    pub oscillators: oscillator::State<R>,
+    /// The sides, left first.
+    pub sides: Vec<Side<R>, MAX_SIDES>,
+    /// The whiskers, the left side's first.
+    pub whiskers: Vec<WhiskerState<R>, MAX_WHISKERS>,
+    pub(crate) noise: noise::State<R>,
 }
 
-impl<R: Real> Whisker<R> {
+impl<R: Real> From<&SideStart<R>> for Side<R> {
+    fn from(start: &SideStart<R>) -> Self {
+        Self {
+            z: Gate::default(),
+            drive: start.drive,
+        }
+    }
+}
+
+impl<R: Real> From<&WhiskerStart<R>> for WhiskerState<R> {
+    fn from(start: &WhiskerStart<R>) -> Self {
+        Self {
+            side: start.side,
+            muscle: muscle::State::new(start.history),
+            lift: Gate::default(),
+            nominal: Voted::new(start.gain),
+        }
+    }
+}
+
+impl<R: Real> WhiskerState<R> {
     /// Nominal value of g, 0 to 2; 1 should all that is kept of it be lost.
     #[inline]
     pub fn nominal(&self) -> R {
@@ -68,28 +121,21 @@ impl<R: Real> Whisker<R> {
     }
 }
 
-impl<R: Real, const S: usize, const N: usize> State<R, S, N> {
+impl<R: Real> State<R> {
     /// A module at its start. `seed` determines the noise.
-    pub fn new(start: &Start<R, S, N>, seed: u64) -> Self {
+    pub fn new(start: &Start<R>, seed: u64) -> Self {
+        let kept: Vec<Psi<R>, MAX_SIDES> = listed(start.sides.iter().map(|side| side.oscillator));
         Self {
-            oscillators: oscillator::State::new(start.oscillators),
-            z: [Gate::default(); S],
-            whiskers: core::array::from_fn(|side| {
-                core::array::from_fn(|w| Whisker {
-                    muscle: muscle::State::new(start.history[side][w]),
-                    lift: Gate::default(),
-                    nominal: Voted::new(start.gain[side][w]),
-                })
-            }),
-            drive: start.drive,
-            noise: noise::State::new(seed),
+            noise: noise::State::new(kept.len(), seed),
+            oscillators: oscillator::State::new(kept),
+            sides: listed(start.sides.iter().map(Side::from)),
+            whiskers: listed(start.whiskers.iter().map(WhiskerState::from)),
         }
     }
 
-    /// Protraction θ of every whisker; θ' = 100 θ + 50 degrees.
-    pub fn theta(&self) -> [[R; N]; S] {
-        self.whiskers
-            .each_ref()
-            .map(|side| side.each_ref().map(|whisker| whisker.muscle.theta))
+    /// Protraction θ of every whisker, the left side's first; θ' = 100 θ + 50 degrees.
+    #[inline]
+    pub fn theta(&self) -> impl Iterator<Item = R> + '_ {
+        self.whiskers.iter().map(|whisker| whisker.muscle.theta)
     }
 }

@@ -1,6 +1,6 @@
 //! A value that nothing ever works out again, kept so that a flipped bit is noticed.
 
-/// A value in three copies. What a tick works out anew heals by itself; what was told once,
+/// A value in three copies. What every tick works out heals by itself; what was set once,
 /// as a gain or the rest of a motor, does not. Two copies that agree are believed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Voted<T> {
@@ -20,7 +20,8 @@ impl<T: Copy + PartialEq> Voted<T> {
     }
 
     /// The value of which there are two copies; `None` if all three differ.
-    #[inline]
+    #[allow(clippy::inline_always, reason = "a call costs more than it does")]
+    #[inline(always)]
     pub fn get(&self) -> Option<T> {
         if self.first == self.second {
             return Some(self.first);
@@ -29,6 +30,7 @@ impl<T: Copy + PartialEq> Voted<T> {
     }
 
     #[cold]
+    #[inline(never)]
     fn by_third(&self) -> Option<T> {
         let agrees = |copy: &T| *copy == self.third;
         [self.first, self.second].into_iter().find(agrees)

@@ -31,12 +31,12 @@ pub use answer::{Answer, CommandStatus};
 pub use flags::Flags;
 pub use framed::{Framed, PACKET_FRAME_BYTES, REQUEST_FRAME_BYTES};
 pub use line::{LINE_BYTES, Line};
-pub use loading::load_order;
+pub use loading::{Load, LoadedWord};
 pub use packet::Packet;
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{
-    Command, REQUEST_BYTES, REQUEST_WORDS, SECOND_WORD, SETTINGS_DIFFER, TaggedCommand,
-    UnknownCommand, WhiskerId, summed, word_sum,
+    CONFIG_CHANGED, Command, REQUEST_BYTES, REQUEST_WORDS, TaggedCommand, UnknownCommand,
+    WhiskerId, summed,
 };
 pub use splitter::{Garbled, Piece, Splitter};
 pub use words::{PACKET_BYTES, PACKET_WORDS};

@@ -79,7 +79,8 @@ impl Line {
     /// Appends a number of so many decimals, at most nine, given in units of the last.
     #[inline(never)]
     pub fn fixed(&mut self, number: u32, decimals: u32) -> &mut Self {
-        let one = (0..decimals.min(9)).fold(1_u32, |one, _| one * 10);
+        // Not 0: that is seen at any level of optimisation.
+        let one = (0..decimals.min(9)).fold(1_u32, |one, _| one * 10).max(1);
         self.digits(number / one, 1);
         if one > 1 {
             self.put(b'.');

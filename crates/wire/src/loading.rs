@@ -1,33 +1,87 @@
-//! The order in which a model is written into flash.
+//! In which order a scene and its model are written into flash.
 
-/// Words at the beginning of a model that are written last, the first of all in the end: until
-/// then its place counts as empty. Two, which is what the flash of an STM32G0 is programmed by.
-const MODEL_LAST_WORDS: u32 = 2;
+/// How many words of each come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Load {
+    /// Words of the configuration, with its header.
+    pub config: u16,
+    /// Words of the model; 0: the scene needs none.
+    pub model: u16,
+}
 
-/// Where the `number`-th word that is written belongs in a model of so many `words`, more than
-/// `number`.
-pub const fn load_order(number: u32, words: u32) -> u32 {
-    let last = if words < MODEL_LAST_WORDS {
-        words
-    } else {
-        MODEL_LAST_WORDS
-    };
-    if number < words - last {
-        last + number
-    } else {
-        words.saturating_sub(number.saturating_add(1))
+/// Which word comes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadedWord {
+    /// This one of the model.
+    Model(u16),
+    /// This one of the configuration.
+    Config(u16),
+}
+
+impl Load {
+    /// How many words come in all.
+    pub const fn words(self) -> u32 {
+        self.config as u32 + self.model as u32
+    }
+
+    /// The value by which a request carries it.
+    pub(crate) const fn value(self) -> u32 {
+        self.config as u32 | (self.model as u32) << 16
+    }
+
+    /// That of a value.
+    pub(crate) const fn from_value(value: u32) -> Self {
+        Self {
+            config: value as u16,
+            model: (value >> 16) as u16,
+        }
+    }
+
+    /// The word that comes as the `number`-th, from 0: the model, then the configuration from its
+    /// third word on, then its second, its first last. Whatever lies there is no configuration
+    /// before that is written, so that a deployment which is cut off leaves the scene before.
+    pub const fn word(self, number: u32) -> Option<LoadedWord> {
+        let (model, config) = (self.model as u32, self.config as u32);
+        if number < model {
+            return Some(LoadedWord::Model(number as u16));
+        }
+        let n = number - model;
+        let last = if config < LAST_WORDS {
+            config
+        } else {
+            LAST_WORDS
+        };
+        if n >= config {
+            None
+        } else if n < config - last {
+            Some(LoadedWord::Config((last + n) as u16))
+        } else {
+            Some(LoadedWord::Config((config - 1 - n) as u16))
+        }
     }
 }
 
+/// Words at the beginning of a configuration that are written last, the first of all in the
+/// end. Two, which is what the flash of an STM32G0 is programmed by.
+const LAST_WORDS: u32 = 2;
+
 #[cfg(test)]
 mod tests {
-    use super::load_order;
+    use super::{Load, LoadedWord};
 
     #[test]
-    fn the_first_words_come_last_and_backwards() {
-        let order = |words| (0..words).map(move |number| load_order(number, words));
-        assert!(order(6).eq([2, 3, 4, 5, 1, 0]));
-        assert!(order(2).eq([1, 0]));
-        assert!(order(1).eq([0]));
+    fn every_word_comes_once_and_the_first_of_the_configuration_last() {
+        for (config, model) in [(1, 0), (5, 0), (4, 3), (300, 2_000)] {
+            let load = Load { config, model };
+            assert_eq!(Load::from_value(load.value()), load);
+            let words: Vec<LoadedWord> = (0..).map_while(|n| load.word(n)).collect();
+            assert_eq!(words.len() as u32, load.words());
+            assert_eq!(words.last(), Some(&LoadedWord::Config(0)));
+            let models = (0..model).map(LoadedWord::Model);
+            let configs = (0..config).map(LoadedWord::Config);
+            for word in models.chain(configs) {
+                assert_eq!(words.iter().filter(|one| **one == word).count(), 1);
+            }
+        }
     }
 }

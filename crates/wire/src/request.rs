@@ -1,5 +1,6 @@
 //! A request: a command with a tag and a sum.
 
+use crate::loading::Load;
 use crate::words::{halves, word, words};
 
 /// Words of a request.
@@ -67,46 +68,40 @@ pub enum Command {
     /// Says which model it decides by: the CRC-32 at the end of the model's file and the number
     /// of its classes; or 0 and the negative number of why there is none.
     Model,
-    /// Says a constant of the settings, by its number: its two words. Number 0 says the number
-    /// format, with [`SETTINGS_DIFFER`] in it, and a sum of all constants.
-    Constant(u8),
-    /// Puts a word of a constant aside, until all that belong together are there: the
-    /// constant's number, plus [`SECOND_WORD`] for its second word.
+    /// Says two words of the configuration that it runs by, from this one on, little-endian;
+    /// zeros follow the last.
+    Config(u32),
+    /// Says the CRC-32 of the configuration that it runs by and its length in bytes, with
+    /// [`CONFIG_CHANGED`] where it is not the one of the start; or 0 and the negative number of
+    /// why there is none.
+    Scene,
+    /// Puts the next word of a configuration aside, with the lowest byte of its number.
     Stage(u8, u32),
-    /// Has all words that were put aside take effect between two ticks, if this is their
-    /// [sum](word_sum), in the order of their numbers.
+    /// Has the configuration that was put aside take effect between two ticks, if it has so many
+    /// bytes; answered by 0, or by what is wrong with it: a kind and a number.
     Apply(u32),
     /// Forgets what was put aside.
     Forget,
-    /// Ends the module's work and erases the flash of the model, of which so many words are to
-    /// come; by the serial port, and with all motors off. From then on until it starts anew
-    /// there are [`Command::Word`] and [`Command::Restart`] alone.
-    Load(u32),
-    /// The next word of the model, with the lowest byte of its number; they come in
-    /// [`load_order`](crate::load_order).
+    /// Ends the module's work and erases flash for a scene and its model, of which so many words
+    /// are to come; with all motors off. From then on until it starts again there are
+    /// [`Command::Word`] and [`Command::Restart`] alone.
+    Load(Load),
+    /// The next word, with the lowest byte of its number; they come in the order of
+    /// [`Load::word`].
     Word(u8, u32),
-    /// Starts anew, with what was loaded.
+    /// Starts again, with what was loaded.
     Restart,
     /// Says the zero of the whisker's sensor, where it is found by itself: codes from mid-scale,
     /// x and y. Records tell readings without it.
     Zero(WhiskerId),
+    /// Says what a configuration for it is made for: the number of its board, 256 times that of
+    /// its number format added, and the version of the layout that it reads.
+    Board,
 }
 
-/// What the number of a constant's second word has more than that of its first.
-pub const SECOND_WORD: u8 = 1 << 7;
-
-/// In the first value of constant 0, beside the number format in its lowest byte: constants
-/// differ from those that the program was built with.
-pub const SETTINGS_DIFFER: u32 = 1 << 8;
-
-/// The sum of numbered words: FNV-1a by words, which any change of one word changes, and a word
-/// more or less.
-pub fn word_sum(words: impl Iterator<Item = (u8, u32)>) -> u32 {
-    words.fold(0x811C_9DC5, |sum, (number, word)| {
-        let add = |sum: u32, word: u32| (sum ^ word).wrapping_mul(0x0100_0193);
-        add(add(sum, number.into()), word)
-    })
-}
+/// In the second value of the answer to [`Command::Scene`]: the configuration is not the one of
+/// the start.
+pub const CONFIG_CHANGED: i32 = 1 << 24;
 
 /// A command with its tag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,7 +141,7 @@ impl Command {
             Self::Release(_) => 11,
             Self::Version => 12,
             Self::Model => 13,
-            Self::Constant(_) => 14,
+            Self::Config(_) => 14,
             Self::Stage(..) => 15,
             Self::Load(_) => 16,
             Self::Word(..) => 17,
@@ -154,6 +149,8 @@ impl Command {
             Self::Forget => 19,
             Self::Restart => 20,
             Self::Zero(_) => 21,
+            Self::Scene => 22,
+            Self::Board => 23,
         }
     }
 
@@ -173,7 +170,8 @@ impl Command {
             Self::Release(_) => "release",
             Self::Version => "version",
             Self::Model => "model",
-            Self::Constant(_) => "constant",
+            Self::Config(_) => "config",
+            Self::Scene => "scene",
             Self::Stage(..) => "stage",
             Self::Apply(_) => "apply",
             Self::Forget => "forget",
@@ -181,6 +179,7 @@ impl Command {
             Self::Word(..) => "word",
             Self::Restart => "restart",
             Self::Zero(_) => "zero",
+            Self::Board => "board",
         }
     }
 
@@ -195,12 +194,14 @@ impl Command {
             | Self::Version
             | Self::Model
             | Self::Forget
+            | Self::Scene
+            | Self::Board
             | Self::Restart => (ALL, 0),
-            Self::Constant(number) => (WhiskerId::from_byte(number), 0),
             Self::Stage(number, word) | Self::Word(number, word) => {
                 (WhiskerId::from_byte(number), word.cast_signed())
             }
-            Self::Apply(value) | Self::Load(value) => (ALL, value.cast_signed()),
+            Self::Apply(value) | Self::Config(value) => (ALL, value.cast_signed()),
+            Self::Load(load) => (ALL, load.value().cast_signed()),
             Self::Name(from) => (ALL, from as i32),
             Self::Stream(on) => (ALL, on as i32),
             Self::Clear(whisker)
@@ -227,14 +228,16 @@ impl Command {
             11 => Self::Release(whisker),
             12 => Self::Version,
             13 => Self::Model,
-            14 => Self::Constant(whisker.byte()),
+            14 => Self::Config(value.cast_unsigned()),
             15 => Self::Stage(whisker.byte(), value.cast_unsigned()),
-            16 => Self::Load(value.cast_unsigned()),
+            16 => Self::Load(Load::from_value(value.cast_unsigned())),
             17 => Self::Word(whisker.byte(), value.cast_unsigned()),
             18 => Self::Apply(value.cast_unsigned()),
             19 => Self::Forget,
             20 => Self::Restart,
             21 => Self::Zero(whisker),
+            22 => Self::Scene,
+            23 => Self::Board,
             _ => return None,
         })
     }
@@ -304,13 +307,11 @@ const fn sum(first: u32, value: u32) -> u32 {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{
-        Command, REQUEST_BYTES, TaggedCommand, UnknownCommand, WhiskerId, summed, word_sum,
-    };
+    use super::{Command, Load, REQUEST_BYTES, TaggedCommand, UnknownCommand, WhiskerId, summed};
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = (0..16_u8, 0..16_u8).prop_map(|(side, number)| WhiskerId { side, number });
-        (0..21_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
+        (0..23_u8, whisker, any::<i32>()).prop_map(|(which, whisker, value)| {
             let name = value as u8;
             let word = value.cast_unsigned();
             match which {
@@ -327,13 +328,15 @@ mod tests {
                 10 => Command::Release(whisker),
                 11 => Command::Version,
                 12 => Command::Model,
-                13 => Command::Constant(name),
+                13 => Command::Config(word),
                 14 => Command::Stage(name, word.rotate_left(8)),
                 15 => Command::Apply(word),
-                16 => Command::Load(word),
+                16 => Command::Load(Load::from_value(word)),
                 17 => Command::Word(name, word.rotate_left(8)),
                 18 => Command::Restart,
                 19 => Command::Zero(whisker),
+                20 => Command::Scene,
+                21 => Command::Board,
                 _ => Command::Forget,
             }
         })
@@ -386,22 +389,6 @@ mod tests {
             command: Command::Arm,
         };
         assert_eq!(request.words()[2], PYTHON);
-    }
-
-    #[test]
-    fn every_word_and_its_number_are_in_the_sum() {
-        let words = [(6, 0x40E0_0000), (134, 1)];
-        let sum = |words: &[(u8, u32)]| word_sum(words.iter().copied());
-        // Worked out in Python: s = (s ^ x) * 0x01000193 & 0xFFFFFFFF for 6, 0x40E00000, 134, 1.
-        assert_eq!(sum(&words), 0x96A5_35B2);
-        for others in [
-            &words[..1],
-            &[],
-            &[words[1], words[0]],
-            &[(7, 0x40E0_0000), (134, 1)],
-        ] {
-            assert_ne!(sum(others), sum(&words), "{others:?}");
-        }
     }
 
     /// See the test.

@@ -14,6 +14,7 @@ use super::outcome::{Findings, RunRow};
 use super::subject::{OnPc, Seen, Subject};
 use super::words::Words;
 use crate::chip::Fault;
+use crate::deployment::flashed;
 use crate::program::Program;
 
 /// A scene, ready to be run again and again.
@@ -45,13 +46,12 @@ impl Prepared {
     /// [`Error`] for a scene or a program that is wrong, and where not even the undisturbed
     /// run can be made.
     pub(super) fn new(scene: &Path, program: Option<&Path>) -> Result<Self, Error> {
-        let loaded = Loaded::new(scene)?;
-        let board = match program {
-            None => None,
+        let (loaded, board) = match program {
+            None => (Loaded::new(scene)?, None),
             Some(path) => {
-                let program = Program::load(path)?;
+                let (loaded, program) = flashed(scene, path)?;
                 let words = Words::new(&program)?;
-                Some((program, words))
+                (loaded, Some((program, words)))
             }
         };
         let has = Has {

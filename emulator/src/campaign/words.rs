@@ -29,7 +29,7 @@ impl Words {
             }
             let first = leaf.address / 4;
             let last = (leaf.address + leaf.size.max(1) - 1) / 4;
-            let name = short(&leaf.path);
+            let name = leaf.path.clone();
             words.extend((first..=last).map(|word| (4 * word, name.clone())));
         }
         let top = program.symbol("_stack_start")?;
@@ -54,32 +54,5 @@ impl Words {
         self.words
             .get(n)
             .map_or((0, ""), |(address, name)| (*address, name))
-    }
-}
-
-/// A variable's name without what cells, lists and RTIC put around it.
-fn short(path: &str) -> String {
-    const AROUND: [&str; 6] = ["__0", "value", "inner", "buffer", "uninit", "__1"];
-    let path = ["shared_resource_", "local_init_", "local_resource_"]
-        .into_iter()
-        .find_map(|prefix| path.strip_prefix("__rtic_internal_")?.strip_prefix(prefix))
-        .unwrap_or(path);
-    let parts = path.split('.').filter(|part| {
-        let name = part.split('[').next().unwrap_or(part);
-        !AROUND.contains(&name)
-    });
-    parts.collect::<Vec<_>>().join(".")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn names_are_those_of_the_program() {
-        let found =
-            short("__rtic_internal_shared_resource_module.__0.value.inner.motion.state.z[0]");
-        assert_eq!(found, "module.motion.state.z[0]");
-        assert_eq!(short("TICKS.__0.v.value"), "TICKS.v");
     }
 }

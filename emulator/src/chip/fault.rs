@@ -42,6 +42,9 @@ pub enum Fault {
     /// Nothing will ever happen again.
     #[error("the core sleeps and nothing will wake it")]
     Asleep,
+    /// The program has not come to its first tick; its log.
+    #[error("it does not start:\n  {0}")]
+    NoStart(String),
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
     Reset(super::reset::ResetCause),

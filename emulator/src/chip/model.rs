@@ -1,6 +1,8 @@
 //! What tells one chip from another: which peripherals there are, of which version,
 //! where, and what the board has wired to them.
 
+use firmware::boards::BoardFacts;
+
 use super::map::Entry;
 use super::rcc::{Bus, Layout};
 use super::timers::Kind;
@@ -29,8 +31,8 @@ pub(crate) struct Model {
     /// Bytes of flash, and of RAM.
     pub(crate) flash: u32,
     pub(crate) ram: u32,
-    /// Counts of a period of the motors' PWM, as the board's program sets it up: 20 kHz.
-    pub(crate) pwm_counts: u16,
+    /// What the board's program and a PC know of it.
+    pub(crate) facts: &'static BoardFacts,
     pub(super) map: &'static [Entry],
     pub(super) power: &'static power::Layout,
     pub(super) lines: &'static lines::Layout,
@@ -61,11 +63,6 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Sides that the board carries.
-    pub(crate) const fn sides(&self) -> usize {
-        self.wiring.sides.len()
-    }
-
     /// The interrupt of the tick in the NVIC.
     pub(crate) const fn tick_irq(&self) -> u16 {
         self.wiring.tick_irq
@@ -74,10 +71,5 @@ impl Model {
     /// The interrupts at the end of a frame, the left side's first.
     pub(crate) fn frame_irqs(&self) -> impl Iterator<Item = u16> {
         self.wiring.sides.iter().map(|side| side.end_of_frame)
-    }
-
-    /// Whether the core computes f32 by itself.
-    pub(crate) fn has_fpu(&self) -> bool {
-        self.core == CoreKind::M4F
     }
 }

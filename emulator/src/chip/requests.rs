@@ -16,6 +16,9 @@ impl Chip {
     pub(super) fn serve_requests(&mut self, memory: &dyn Memory) -> Result<(), Fault> {
         for (n, side) in self.model.wiring.sides.iter().enumerate() {
             while let Some(moved) = self.requested(n, side) {
+                if moved.to_memory {
+                    self.lines[n].put(moved.memory);
+                }
                 self.move_byte(side.dma, moved, memory)?;
             }
         }

@@ -69,8 +69,9 @@ pub(super) struct SensorLines {
     ended: Option<Ps>,
     /// When the byte that the sensor has been told of began.
     told: Option<Ps>,
-    /// What the master has read since /SS fell.
+    /// What the master has read since /SS fell, and where the DMA has put it.
     read: Vec<u8>,
+    put: Vec<u32>,
     /// When /SS rose after a frame that was not good.
     bad: Option<Ps>,
     /// What /SS has done wrong: told with the next byte.
@@ -93,6 +94,7 @@ impl SensorLines {
             ended: None,
             told: None,
             read: Vec::new(),
+            put: Vec::new(),
             bad: None,
             wrong: None,
         }
@@ -110,6 +112,7 @@ impl SensorLines {
             self.fresh = true;
             self.ended = None;
             self.read.clear();
+            self.put.clear();
             let high = self.bad.map(|bad| now.saturating_sub(bad));
             if high.is_some_and(|high| high < ps(SS_HIGH_US * 1_000)) {
                 self.wrong = Some(EARLY);
@@ -165,6 +168,20 @@ impl SensorLines {
             sensor.latch(began);
         }
         Ok(())
+    }
+
+    /// The DMA has put the next byte there.
+    pub(super) fn put(&mut self, place: u32) {
+        self.put.push(place);
+    }
+
+    /// The sensor has said this so far, and nothing else: where it was put.
+    pub(super) fn say_again(&mut self, said: &[u8]) -> Vec<u32> {
+        if said.len() != self.read.len() || said.len() != self.put.len() {
+            return Vec::new();
+        }
+        self.read = said.to_vec();
+        self.put.clone()
     }
 
     /// A byte ended: what the master has read from the sensor, if it is connected.

@@ -112,7 +112,7 @@ impl Rig {
 
     fn try_pass(&mut self, time: Ps) -> Result<Option<ResetCause>, Fault> {
         self.now += time;
-        let sides = self.chip.model.sides();
+        let sides = usize::from(self.chip.model.facts.max_sides);
         let sensors = &mut self.sensors[..sides];
         self.chip.advance(self.now, &self.ram, sensors)
     }

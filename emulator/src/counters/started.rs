@@ -5,6 +5,7 @@ use crate::board::Board;
 use crate::chip::Fault;
 use crate::debug_info::{DebugInfo, Leaf};
 use crate::program::Program;
+use scene::Scene;
 
 /// A word in which a wrap is to be seen.
 struct Seen {
@@ -27,6 +28,26 @@ fn bare(path: &str) -> String {
     parts.collect()
 }
 
+/// Whether a scene has what this path leads to: lists have room for more than there are.
+fn is_used(path: &str, scene: &Scene) -> bool {
+    let whiskers = scene.whiskers();
+    let classifier = scene.classifier.as_ref();
+    let heard = classifier.map_or(0, |classifier| classifier.whiskers.heard(whiskers));
+    let driven = if scene.whisking.is_some() {
+        whiskers
+    } else {
+        0
+    };
+    [("touches[", heard), ("INNER.whiskers[", driven)]
+        .into_iter()
+        .all(|(list, count)| {
+            let index = path
+                .split_once(list)
+                .and_then(|(_, rest)| rest.split(']').next());
+            index.is_none_or(|index| index.parse().is_ok_and(|index: usize| index < count))
+        })
+}
+
 fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
     let mut word = [0; 4];
     let size = word.len().min(leaf.size as usize);
@@ -38,24 +59,25 @@ fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
 }
 
 impl Started {
-    /// Starts every counter that `program` has, before the first tick of `board`.
-    pub(crate) fn new(program: &Program, board: &mut Board, tick_hz: u32) -> Result<Self, Fault> {
+    /// Starts every counter that `program` has for `scene`, before the first tick of `board`.
+    pub(crate) fn new(program: &Program, board: &mut Board, scene: &Scene) -> Result<Self, Fault> {
         let leaves = DebugInfo::new(program)?.leaves()?;
         let named: Vec<(String, Leaf)> = leaves
             .into_iter()
+            .filter(|leaf| is_used(&leaf.path, scene))
             .map(|leaf| (bare(&leaf.path), leaf))
             .collect();
         let all = |end: &'static str| {
             let ends = named.iter().filter(move |(path, _)| path.ends_with(end));
             ends.map(|(_, leaf)| leaf.clone())
         };
-        let has_variable = all("inner.clock.now").next().is_some();
+        let has_variable = all("INNER.clock.now").next().is_some();
         let mut started = Self {
             seen: Vec::new(),
             touches: 0,
         };
         for counter in &COUNTERS {
-            let first = counter.first(tick_hz);
+            let first = counter.first(scene.tick_hz);
             match counter.place {
                 Place::Ram(path) => {
                     for leaf in all(path) {
@@ -143,6 +165,6 @@ mod tests {
     #[test]
     fn paths_are_compared_without_indices() {
         assert_eq!(bare("a.touches[0][1].last"), "a.touches.last");
-        assert_eq!(bare("TICKS.__0.v.value"), "TICKS.__0.v.value");
+        assert_eq!(bare("TICKS.v"), "TICKS.v");
     }
 }

@@ -16,8 +16,34 @@ const RAM: u32 = 0x2000_0000;
 pub(crate) struct Leaf {
     pub(crate) address: u32,
     pub(crate) size: u32,
-    /// Its variable, members and indices.
+    /// Its variable, members and indices, without what cells, lists and RTIC put around them.
     pub(crate) path: String,
+}
+
+/// Parts of names that only wrap another.
+const AROUND: [&str; 9] = [
+    "__0", "value", "inner", "buffer", "uninit", "__1", "val", "Some", "Ok",
+];
+
+/// A variable's name without what is put around it.
+fn short(path: &str) -> String {
+    let path = ["shared_resource_", "local_init_", "local_resource_"]
+        .into_iter()
+        .find_map(|prefix| path.strip_prefix("__rtic_internal_")?.strip_prefix(prefix))
+        .unwrap_or(path);
+    let mut parts = Vec::new();
+    for part in path.split('.') {
+        let (name, index) = part.split_once('[').unwrap_or((part, ""));
+        match parts.last_mut() {
+            // An element of a list is called after the list.
+            Some(last) if AROUND.contains(&name) && !index.is_empty() => {
+                *last = format!("{last}[{index}");
+            }
+            _ if AROUND.contains(&name) => {}
+            _ => parts.push(part.to_owned()),
+        }
+    }
+    parts.join(".")
 }
 
 impl DebugInfo {
@@ -59,7 +85,7 @@ impl Place<'_> {
         into.push(Leaf {
             address: self.address,
             size,
-            path: path.to_owned(),
+            path: short(path),
         });
         Ok(())
     }
@@ -96,5 +122,20 @@ impl Place<'_> {
                 .leaves(&format!("{path}.{name}"), into)?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn names_are_those_of_the_program() {
+        let found =
+            short("INNER.val.value.value.__0.whiskers.buffer.buffer[1].value.servo.Some.__0");
+        assert_eq!(found, "INNER.whiskers[1].servo");
+        let found = short("__rtic_internal_shared_resource_module.__0.value.value.__0.second");
+        assert_eq!(found, "module.second");
+        assert_eq!(short("TICKS.__0.v.value"), "TICKS.v");
     }
 }

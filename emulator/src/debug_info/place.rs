@@ -29,7 +29,10 @@ pub(crate) enum Number {
 }
 
 /// Members that only wrap one other.
-const WRAPPERS: [&str; 3] = ["value", "__0", "inner"];
+const WRAPPERS: [&str; 5] = ["value", "__0", "inner", "val", "buffer"];
+
+/// Variants that hold what is there.
+const PRESENT: [&str; 2] = ["Some", "Ok"];
 
 impl DebugInfo {
     /// The static variable of that name.
@@ -86,6 +89,11 @@ impl Place<'_> {
         for name in WRAPPERS {
             if let Some((offset, of)) = self.info.member(self.of, name)? {
                 return Ok(Some(self.part(offset, of)));
+            }
+        }
+        for name in PRESENT {
+            if let Some((_, _, held)) = self.own_variant(name)? {
+                return Ok(Some(held));
             }
         }
         Ok(None)
@@ -169,17 +177,26 @@ impl Place<'_> {
     /// The variant of that name of an enum: its tag's place and value, and
     /// what it holds.
     pub(crate) fn variant(self, name: &str) -> Result<(u32, u8, Self), Fault> {
+        let missing = || bad(format!("no variant {name}"));
+        match self.own_variant(name)? {
+            Some((tag, Some(value), held)) => Ok((tag, value as u8, held)),
+            Some(_) => Err(missing()),
+            None => match self.unwrapped()? {
+                Some(inner) => inner.variant(name),
+                None => Err(missing()),
+            },
+        }
+    }
+
+    /// The same, of itself; a variant that is every other tag has no value of its own.
+    fn own_variant(self, name: &str) -> Result<Option<(u32, Option<u64>, Self)>, Fault> {
         let info = self.info;
         let unit = self.of.unit;
-        let missing = || bad(format!("no variant {name}"));
         let part = info.children(self.of, |entry| {
             Ok((entry.tag() == DW_TAG_variant_part).then(|| entry.offset()))
         })?;
         let Some(part) = part else {
-            return match self.unwrapped()? {
-                Some(inner) => inner.variant(name),
-                None => Err(missing()),
-            };
+            return Ok(None);
         };
         let part = Type { unit, at: part };
         let tag = info.children(part, |entry| {
@@ -198,10 +215,9 @@ impl Place<'_> {
                 at: entry.offset(),
             };
             let member = info.member(at, name)?;
-            Ok(value.zip(member))
+            Ok(member.map(|member| (value, member)))
         })?;
-        let (value, (offset, of)) = found.ok_or_else(missing)?;
-        let tag = self.address + tag.ok_or_else(missing)? as u32;
-        Ok((tag, value as u8, self.part(offset, of)))
+        let tag = self.address + tag.unwrap_or(0) as u32;
+        Ok(found.map(|(value, (offset, of))| (tag, value, self.part(offset, of))))
     }
 }

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use host_sim::Error;
-use host_sim::loaded::Loaded;
+use scene::Scene;
 use wire::{Command, Framed, TaggedCommand};
 
 use super::talk::wrong;
+use crate::deployment::{flashed, flashed_for};
 use crate::emulate::start;
 use crate::program::Program;
 
@@ -20,9 +21,16 @@ const MORE: f64 = 2.0;
 /// Mean instructions of the tick's handler with the serial port and without it, and with
 /// records that go there and that go to a probe: the first of each pair must be the second.
 pub(super) fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
-    let quiet = [program, without].map(|program| mean(path, program, Reader::Nobody));
+    let (mut loaded, program) = flashed(path, program)?;
+    let scene = &mut loaded.scene;
+    scene.duration_s = MEASURED_S;
+    let mut silent = scene.clone();
+    silent.telemetry.serial_baud = None;
+    let without = &flashed_for(&silent, path, without)?;
+    let (scene, program) = (&loaded.scene, &program);
+    let quiet = [program, without].map(|program| mean(scene, program, Reader::Nobody));
     let streaming = [(program, Reader::Serial), (without, Reader::Probe)];
-    let streaming = streaming.map(|(program, reader)| mean(path, program, reader));
+    let streaming = streaming.map(|(program, reader)| mean(scene, program, reader));
     let mut said = Vec::new();
     for (what, [with, without]) in [("", quiet), (" with records", streaming)] {
         let (with, without) = (with?, without?);
@@ -47,10 +55,8 @@ enum Reader {
     Serial,
 }
 
-fn mean(path: &Path, program: &Path, reader: Reader) -> Result<f64, Error> {
-    let mut loaded = Loaded::new(path)?;
-    loaded.scene.duration_s = MEASURED_S;
-    let mut run = start(&loaded.scene, Vec::new(), &Program::load(program)?)?;
+fn mean(scene: &Scene, program: &Program, reader: Reader) -> Result<f64, Error> {
+    let mut run = start(scene, Vec::new(), program)?;
     let command = Command::Stream(true);
     let request = TaggedCommand { tag: 1, command };
     let board = &mut run.module_mut().board;

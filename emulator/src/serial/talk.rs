@@ -3,8 +3,8 @@
 use host_sim::Error;
 use wire::{Answer, Command, Framed, Packet, TaggedCommand, TickRecord};
 
-use super::ear::{self, Ear, Heard};
 use crate::compare::Pair;
+use crate::ear::{self, Ear, Heard};
 
 /// What is not as it should be.
 pub(super) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {

@@ -5,8 +5,8 @@ use firmware::{Event, Place};
 use host_sim::Error;
 use scene::Scene;
 
-use super::ear::Heard;
 use super::talk::{Talk, wrong};
+use crate::ear::Heard;
 
 /// For how long, s: some touches of every texture.
 const TOLD_S: f64 = 3.0;

@@ -6,7 +6,7 @@
 #[path = "../board/mod.rs"]
 pub mod board;
 #[cfg(target_os = "none")]
-#[allow(dead_code, reason = "the build script asks for some of it")]
+#[allow(dead_code, reason = "an image has no use for some of it")]
 #[path = "../board/nucleo_f103rb.rs"]
 mod here;
 

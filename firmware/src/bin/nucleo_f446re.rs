@@ -6,13 +6,13 @@
 #[path = "../board/mod.rs"]
 pub mod board;
 #[cfg(target_os = "none")]
-#[allow(dead_code, reason = "the build script asks for some of it")]
+#[allow(dead_code, reason = "an image has no use for some of it")]
 #[path = "../board/nucleo_f446re.rs"]
 mod here;
 
-#[cfg(all(target_os = "none", not(right_side)))]
+#[cfg(all(target_os = "none", not(feature = "both-sides")))]
 program!(tick: TIM7, end_of_frame: DMA2_STREAM0);
-#[cfg(all(target_os = "none", right_side))]
+#[cfg(all(target_os = "none", feature = "both-sides"))]
 program!(tick: TIM7, end_of_frame: DMA2_STREAM0, end_of_right_frame: DMA1_STREAM3);
 
 /// On a PC there is nothing to do: this program is for the board.

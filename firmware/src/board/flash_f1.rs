@@ -2,14 +2,14 @@
 //! reads flash meanwhile (PM0075, "Flash memory programming").
 #![allow(clippy::unused_self, reason = "the right to write flash is a value")]
 
+use firmware::boards::Region;
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::{Ar, Sr};
 
 use crate::board::flash_lock;
-use crate::board::model_place::model_place;
 
 /// Bytes that are erased at once, on a medium-density chip.
-const PAGE: usize = 1024;
+const PAGE: u32 = 1024;
 
 /// What went wrong: PGERR and WRPRTERR, cleared by writing ones.
 const ERRORS: u32 = 0x14;
@@ -31,22 +31,21 @@ impl Writer {
         Self(())
     }
 
-    /// Erases the pages of the model, each of which takes up to 40 ms (STM32F103x8/B datasheet,
-    /// flash memory); whether all went well.
-    pub(crate) fn erase_model(&mut self) -> bool {
+    /// Erases whole pages, each of which takes up to 40 ms (STM32F103x8/B datasheet, flash
+    /// memory); whether all went well. Nothing else may read them any more.
+    pub(crate) fn erase(&mut self, region: Region) -> bool {
         flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
-        model_place().chunks(PAGE).all(|page| {
+        (0..region.bytes / PAGE).all(|page| {
             FLASH.cr().write(|w| w.set_per(true));
-            // Pointers have 32 bits on these chips.
-            FLASH.ar().write_value(Ar(page.as_ptr().addr() as u32));
+            FLASH.ar().write_value(Ar(region.start + page * PAGE));
             FLASH.cr().modify(|w| w.set_strt(true));
             is_done()
         })
     }
 
-    /// Writes an erased word, by halves; whether it stands there. Its address must be in the
-    /// pages of the model, which nothing else may read any more.
+    /// Writes an erased word, by halves; whether it stands there. Its address must be in a
+    /// region that was erased, which nothing else may read any more.
     pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
         FLASH.cr().write(|w| w.set_pg(true));
         let [low, high] = [word as u16, (word >> 16) as u16];
@@ -55,7 +54,7 @@ impl Writer {
             .all(|(address, half)| {
                 let to = core::ptr::with_exposed_provenance_mut::<u16>(address);
                 #[allow(unsafe_code, reason = "flash is programmed by stores")]
-                // SAFETY: half a word of the model's place, which the loader sees to; while PG is
+                // SAFETY: half a word of a slot or its model, which the loader sees to; while PG is
                 // set the flash takes the store, and the program has no reference to it that is
                 // used.
                 unsafe {

@@ -2,14 +2,20 @@
 //! reads flash meanwhile (RM0390, chapter 3, embedded flash memory interface).
 #![allow(clippy::unused_self, reason = "the right to write flash is a value")]
 
+use firmware::boards::Region;
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::Sr;
 use stm32_metapac::flash::vals::Psize;
 
 use crate::board::flash_lock;
 
-/// The sector of the model: the last of eight, of 128 KiB (RM0390, flash module organization).
-const SECTOR: u8 = 7;
+/// From the fifth on, which has the number 4 and small ones before it, sectors are as if all were
+/// of 128 KiB (RM0390, flash module organization).
+const SECTOR_BYTES: u32 = 128 * 1024;
+const SECTORS_BEFORE: u32 = 4;
+
+/// Where the flash begins.
+const FLASH_BASE: u32 = 0x0800_0000;
 
 /// 32 bits at a time, for which the supply must be 2.7 V or more, and is 3.3 V (RM0390, "Program
 /// and erase parallelism").
@@ -35,10 +41,11 @@ impl Writer {
         Self(())
     }
 
-    /// Erases the sector of the model, which takes up to 2 s (STM32F446xC/E datasheet, flash
-    /// memory programming); whether all went well. What the data cache holds of it is forgotten,
-    /// and it is off until the next reset.
-    pub(crate) fn erase_model(&mut self) -> bool {
+    /// Erases a sector of 128 KiB, which takes up to 2 s (STM32F446xC/E datasheet, flash
+    /// memory programming); whether all went well. Nothing else may read it any more. What the
+    /// data cache holds of it is forgotten, and it is off until the next reset.
+    pub(crate) fn erase(&mut self, region: Region) -> bool {
+        let sector = SECTORS_BEFORE + region.start.wrapping_sub(FLASH_BASE) / SECTOR_BYTES;
         flash_lock::open();
         FLASH.acr().modify(|w| w.set_dcen(false));
         FLASH.acr().modify(|w| w.set_dcrst(true));
@@ -47,14 +54,14 @@ impl Writer {
         FLASH.cr().write(|w| {
             w.set_psize(AT_A_TIME);
             w.set_ser(true);
-            w.set_snb(SECTOR);
+            w.set_snb(sector as u8);
         });
         FLASH.cr().modify(|w| w.set_strt(true));
         is_done()
     }
 
-    /// Writes an erased word; whether it stands there. Its address must be in the sector of the
-    /// model, which nothing else may read any more.
+    /// Writes an erased word; whether it stands there. Its address must be in a sector that was
+    /// erased, which nothing else may read any more.
     pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
         FLASH.cr().write(|w| {
             w.set_psize(AT_A_TIME);
@@ -62,8 +69,8 @@ impl Writer {
         });
         let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
         #[allow(unsafe_code, reason = "flash is programmed by stores")]
-        // SAFETY: a word of the model's place, which the loader sees to; while PG is set the flash
-        // takes the store, and the program has no reference to it that is used.
+        // SAFETY: a word of a slot or its model, which the loader sees to; while PG is set the
+        // flash takes the store, and the program has no reference to it that is used.
         unsafe {
             to.write_volatile(word);
             is_done() && to.read_volatile() == word

@@ -2,17 +2,17 @@
 //! reads flash meanwhile (RM0444, chapter 3, embedded flash memory).
 #![allow(clippy::unused_self, reason = "the right to write flash is a value")]
 
+use firmware::boards::Region;
 use stm32_metapac::FLASH;
 use stm32_metapac::flash::regs::Sr;
 
 use crate::board::flash_lock;
-use crate::board::model_place::model_place;
 
 /// Bytes that are erased at once.
-const PAGE: usize = 2048;
+const PAGE: u32 = 2048;
 
 /// Where the flash begins.
-const FLASH_BASE: usize = 0x0800_0000;
+const FLASH_BASE: u32 = 0x0800_0000;
 
 /// What went wrong: OPERR, PROGERR, WRPERR, PGAERR, SIZERR, PGSERR, MISERR and FASTERR, cleared
 /// by writing ones.
@@ -37,30 +37,32 @@ impl Writer {
         Self { waiting: None }
     }
 
-    /// Erases the pages of the model, each of which takes up to 40 ms (STM32G071x8/xB datasheet,
-    /// flash memory); whether all went well.
-    pub(crate) fn erase_model(&mut self) -> bool {
+    /// Erases whole pages, each of which takes up to 40 ms (STM32G071x8/xB datasheet, flash
+    /// memory); whether all went well. Nothing else may read them any more.
+    pub(crate) fn erase(&mut self, region: Region) -> bool {
         flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
-        model_place().chunks(PAGE).all(|page| {
-            let number = (page.as_ptr().addr() - FLASH_BASE) / PAGE;
+        let first = region.start.wrapping_sub(FLASH_BASE) / PAGE;
+        (0..region.bytes / PAGE).all(|page| {
             FLASH.cr().write(|w| {
                 w.set_per(true);
-                w.set_pnb(number as u8);
+                w.set_pnb((first + page) as u8);
             });
             FLASH.cr().modify(|w| w.set_strt(true));
             is_done()
         })
     }
 
-    /// Writes an erased word once the other one of its pair has come, which is the next or comes
-    /// never; whether all that is written stands there. Its address must be in the pages of the
-    /// model, which nothing else may read any more.
+    /// Writes an erased word together with the other one of its pair, which comes before or after
+    /// it, nothing in between; whether all that is written stands there. Its address must be in a
+    /// region that was erased, which nothing else may read any more.
     pub(crate) fn write(&mut self, address: usize, word: u32) -> bool {
-        /// What is erased stays so.
-        const ERASED: u32 = u32::MAX;
         let pair = |address: usize| address & !7;
         match self.waiting.take() {
+            None => {
+                self.waiting = Some((address, word));
+                true
+            }
             Some((first, waited)) if pair(first) == pair(address) => {
                 let words = if first < address {
                     [waited, word]
@@ -69,20 +71,8 @@ impl Writer {
                 };
                 write_pair(pair(address), words)
             }
-            Some((first, waited)) => {
-                self.waiting = Some((address, word));
-                // The last of an odd number.
-                let words = if first == pair(first) {
-                    [waited, ERASED]
-                } else {
-                    [ERASED, waited]
-                };
-                write_pair(pair(first), words)
-            }
-            None => {
-                self.waiting = Some((address, word));
-                true
-            }
+            // Nobody sends half of a pair.
+            Some(_) => false,
         }
     }
 }
@@ -91,7 +81,7 @@ fn write_pair(address: usize, words: [u32; 2]) -> bool {
     FLASH.cr().write(|w| w.set_pg(true));
     let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
     #[allow(unsafe_code, reason = "flash is programmed by stores")]
-    // SAFETY: two words of the model's place, which is whole pairs, as the loader sees to;
+    // SAFETY: two words of a slot or its model, which are whole pairs, as the loader sees to;
     // while PG is set the flash takes the stores, and the program has no reference to it that
     // is used.
     unsafe {

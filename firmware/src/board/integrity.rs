@@ -2,40 +2,23 @@
 //! made of it: checked by a sum while the core is idle. A mismatch is a fault of the board,
 //! and a reset makes anew what is in RAM.
 //!
-//! A command may change settings, and the rule of the classifier with them. Then the tick that
-//! carries it out holds both against their sums just before, and gives them new ones just after
-//! ([`Changed`]): nothing else renews a sum.
+//! Other settings may take the place of these, and change the rule of the classifier with them.
+//! Then the tick that takes them over holds both against their sums just before, and gives them
+//! new ones just after ([`Changed`]): nothing else renews a sum.
 //!
-//! Some words of each are looked at in every tick: settings of 150 words once in ten ticks, a
+//! Some words of each are looked at in every tick: settings of 180 words once in twelve ticks, a
 //! model of 12 KiB once in 200.
 
-use core::sync::atomic::{AtomicU32, Ordering};
+use core::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 use firmware::faults::number;
 
-use super::faults;
-use super::scene::{self, Perception, Settings};
+use super::span::Span;
+use super::types::{Inner, Settings};
+use super::{faults, pace, perception};
 
 /// Words of each that are looked at between two sleeps.
 const WORDS: usize = 16;
-
-/// Words that stay where and as they are.
-#[derive(Clone, Copy)]
-pub(crate) struct Span {
-    address: usize,
-    words: usize,
-}
-
-impl Span {
-    /// Those of something which stays where it is and which nobody writes from now on. A part
-    /// of a word at its end is left out; there is none.
-    pub(crate) fn of<T: ?Sized>(constant: &T) -> Self {
-        Self {
-            address: core::ptr::from_ref(constant).addr(),
-            words: size_of_val(constant) / size_of::<u32>(),
-        }
-    }
-}
 
 /// Words that stay as they are, and a walk over them.
 struct Region {
@@ -99,9 +82,11 @@ impl Region {
     }
 }
 
-/// How often the tick has changed what is to stay as it is, and the sums of settings and
-/// classifier since. Idle reads them, the tick, which idle cannot interrupt, writes them.
+/// How often the tick has changed what is to stay as it is; where settings lie since, and the sums
+/// of settings and classifier. Idle reads them, the tick, which idle cannot interrupt, writes
+/// them.
 static CHANGES: AtomicU32 = AtomicU32::new(0);
+static SETTINGS_AT: AtomicUsize = AtomicUsize::new(0);
 static SUMS: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
 
 /// How often settings were changed by command.
@@ -114,8 +99,8 @@ pub(crate) struct Changed([Region; 2]);
 
 impl Changed {
     /// Their sums as they are at the start.
-    pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
-        let [_, classifier, _] = scene::constants(perception);
+    pub(crate) fn new(settings: &Settings, inner: &Inner) -> Self {
+        let [_, classifier, _] = perception::constants(inner);
         Self([
             Region::new(Span::of(settings), number::SETTINGS),
             Region::new(classifier, number::MODEL),
@@ -128,8 +113,11 @@ impl Changed {
         self.0.iter().all(Region::holds)
     }
 
-    /// After it: their sums are renewed.
-    pub(crate) fn after(&mut self) {
+    /// After it: these settings take the place of those before, and sums are renewed.
+    pub(crate) fn after(&mut self, settings: &Settings) {
+        let [of_settings, _] = &mut self.0;
+        of_settings.span = Span::of(settings);
+        SETTINGS_AT.store(of_settings.span.address, Ordering::Relaxed);
         for (region, sum) in self.0.iter_mut().zip(&SUMS) {
             region.renew(region.add(0, 0..region.span.words));
             sum.store(region.sum, Ordering::Relaxed);
@@ -160,21 +148,22 @@ fn word(address: usize) -> u32 {
 
 /// The walk over all, the settings and the classifier first.
 pub(crate) struct Integrity {
-    regions: [Region; 4],
+    regions: [Region; 5],
     /// Of [`CHANGES`], those whose sums it has.
     changes: u32,
 }
 
 impl Integrity {
     /// Their sums as they are now; both stay where they are.
-    pub(crate) fn new(settings: &Settings, perception: &Perception) -> Self {
-        let [model, classifier, factors] = scene::constants(perception);
+    pub(crate) fn new(settings: &Settings, inner: &Inner) -> Self {
+        let [model, classifier, factors] = perception::constants(inner);
         Self {
             regions: [
                 Region::new(Span::of(settings), number::SETTINGS),
                 Region::new(classifier, number::MODEL),
                 Region::new(model, number::MODEL),
                 Region::new(factors, number::MODEL),
+                Region::new(Span::of(pace::constants()), number::SETTINGS),
             ],
             changes: 0,
         }
@@ -185,6 +174,8 @@ impl Integrity {
         let changes = CHANGES.load(Ordering::Acquire);
         if changes != self.changes {
             self.changes = changes;
+            let [of_settings, ..] = &mut self.regions;
+            of_settings.span.address = SETTINGS_AT.load(Ordering::Relaxed);
             for (region, sum) in self.regions.iter_mut().zip(&SUMS) {
                 region.renew(sum.load(Ordering::Relaxed));
             }

@@ -1,106 +1,104 @@
-//! The loader: takes a model by the serial port or from a probe's memory, word by word, and
-//! writes it into its flash.
+//! The loader: takes a scene and its model by the serial port or from a probe's memory, word by
+//! word, and writes them into the flash of the slot that is not in use.
 //!
 //! It has the chip for itself, from [`Command::Load`] to the reset: motors off, interrupts
-//! masked, the old model read no more. When no request comes any more it starts the board anew,
-//! without a model, as the first words are written last; the watchdog is slow then, and fed by
-//! each request.
+//! masked, flash read no more. When no request comes any more it starts the board anew, by the
+//! scene before, as the first words of the new one are written last; the watchdog is slow then,
+//! and fed by each request. Where both slots have one model, the scene before may have lost it.
 
 use cortex_m::peripheral::{NVIC, SCB};
-use wire::{Answer, Command, CommandStatus, TaggedCommand, load_order};
+use firmware::Part;
+use firmware::boards::{self, Slot, SlotHeader};
+use tactile::Model;
+use wire::{Answer, Command, CommandStatus, Load, LoadedWord, TaggedCommand};
 
-use super::scene::{HAS_SERIAL, TICK_HZ};
 use super::serial::Serial;
+use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
 use super::watchdog::Watchdog;
-use super::{CLOCKS, model_place, outputs, tick_timer};
+use super::{outputs, pace, tick_timer};
 use crate::here::TICK_INTERRUPT;
 use crate::here::flash::Writer;
 
-/// Ticks without a request after which nobody asks any more: 2 s, in which no watchdog bites
-/// that is slowed down.
-const SILENCE: u32 = 2 * TICK_HZ;
-
-/// Ticks in which the last answer may be fetched: 0.1 s.
-const LAST_TICKS: u32 = TICK_HZ / 10;
-
-/// What a serial port still sends when its DMA is done: 4 ms, two bytes at 5,000 baud.
-const LAST_BYTES_CYCLES: u32 = CLOCKS.core_hz / 250;
+/// What a serial port still sends when its DMA is done: a part of a second, two bytes at 5,000
+/// baud.
+const LAST_BYTES_PART: u32 = 250;
 
 /// By which requests come, and answers go.
-pub(crate) struct Line<'s> {
-    serial: &'s mut Serial,
-    probe: ProbeLine,
-    is_by_serial: bool,
+pub(crate) enum Line<'s> {
+    /// The serial port.
+    Serial(&'s mut Serial),
+    /// What a probe reads and writes.
+    Probe(ProbeLine),
 }
 
-impl<'s> Line<'s> {
-    /// By the serial port, or by what a probe reads and writes.
-    pub(crate) fn new(serial: &'s mut Serial, is_by_serial: bool) -> Self {
-        Self {
-            serial,
-            probe: ProbeLine::new(),
-            is_by_serial: HAS_SERIAL && is_by_serial,
-        }
-    }
-
+impl Line<'_> {
     /// The next request.
     // Apart, as are words: together they are a function whose jumps the stack's check cannot
     // follow.
     #[inline(never)]
     fn next(&mut self) -> Option<TaggedCommand> {
-        if self.is_by_serial {
-            self.serial.next()
-        } else {
-            self.probe.next()
+        match self {
+            Self::Serial(serial) => serial.next(),
+            Self::Probe(probe) => probe.next(),
         }
     }
 
     /// Sends an answer. Whoever asks waits for it before they ask again: there is room.
     fn reply(&mut self, answer: &Answer) {
-        if self.is_by_serial {
-            self.serial.reply(answer);
-        } else {
-            self.probe.reply(answer);
+        match self {
+            Self::Serial(serial) => serial.reply(answer),
+            Self::Probe(probe) => probe.reply(answer),
         }
     }
 
     /// Goes on sending; whether nothing is left.
     fn has_sent(&mut self) -> bool {
-        if self.is_by_serial {
-            self.serial.has_sent()
-        } else {
-            self.probe.has_sent()
+        match self {
+            Self::Serial(serial) => serial.has_sent(),
+            Self::Probe(probe) => probe.has_sent(),
         }
     }
 }
 
-/// A model of so many words, and how many of them are written.
+/// A scene that comes, and how many of its words are written.
 struct Loading {
     writer: Writer,
-    words: u32,
+    slot: Slot,
+    sequence: u32,
+    load: Load,
     written: u32,
     last: u32,
 }
 
-/// Erases, writes what comes, and starts the chip anew. `answer` is that to the request for it,
-/// which says how many words there are.
-pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
+/// What is to be loaded, by a module that runs by the scene of the slot `in_use`, or by none.
+#[derive(Clone, Copy)]
+pub(crate) struct Order {
+    pub(crate) load: Load,
+    pub(crate) in_use: Option<usize>,
+    /// The answer to the request for it.
+    pub(crate) answer: Answer,
+}
+
+/// Erases, writes what comes, and starts the chip anew.
+pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
     leave_the_tick();
     let mut watchdog = Watchdog::slow();
-    let mut loading = Loading {
-        writer: Writer::new(),
-        words: answer.values[0].cast_unsigned(),
-        written: 0,
-        last: 0,
-    };
-    answer.status = written(loading.writer.erase_model());
+    let Order {
+        load,
+        in_use,
+        mut answer,
+    } = order;
+    let mut loading = Loading::new(load, in_use);
+    answer.status = written(loading.erase(&mut watchdog));
     watchdog.feed();
     line.reply(&answer);
+    // 2 s, in which no watchdog bites that is slowed down, after which nobody asks any more.
+    let silence = pace::tick_hz().saturating_mul(2);
     let mut silent = 0;
-    while silent < SILENCE {
+    while silent < silence {
         line.has_sent();
         sleep();
         silent += 1;
@@ -119,20 +117,20 @@ pub(crate) fn run(mut line: Line<'_>, mut answer: Answer) -> ! {
             tag: request.tag,
             command: request.command.number(),
             status,
-            values: [loading.written.cast_signed(), loading.words.cast_signed()],
+            values: [loading.written, load.words()].map(u32::cast_signed),
         });
         if request.command == Command::Restart {
             break;
         }
     }
-    // Lets the last answer be fetched.
-    for _ in 0..LAST_TICKS {
+    // 0.1 s, in which the last answer may be fetched.
+    for _ in 0..pace::tick_hz() / 10 {
         if line.has_sent() {
             break;
         }
         sleep();
     }
-    cortex_m::asm::delay(LAST_BYTES_CYCLES);
+    cortex_m::asm::delay(pace::clocks().core_hz / LAST_BYTES_PART);
     SCB::sys_reset();
 }
 
@@ -168,11 +166,35 @@ fn sleep() {
 }
 
 impl Loading {
+    fn new(load: Load, in_use: Option<usize>) -> Self {
+        let (slot, sequence) = boards::next(slots::headers(), in_use);
+        Self {
+            writer: Writer::new(),
+            slot: SLOTS[slot % SLOTS.len()],
+            sequence,
+            load,
+            written: 0,
+            last: 0,
+        }
+    }
+
+    /// Erases the slot, and the model's place where one comes that lies apart; whether all went
+    /// well.
+    fn erase(&mut self, watchdog: &mut Watchdog) -> bool {
+        let slot = self.slot;
+        let is_well = self.writer.erase(slot.erased);
+        watchdog.feed();
+        let needs_no_more = slot.has_model() || self.load.model == 0;
+        is_well && (needs_no_more || self.writer.erase(slot.model))
+    }
+
     /// Writes the next word. The last one may be asked for again, by whoever missed the answer.
     #[inline(never)]
     fn word(&mut self, number: u8, word: u32) -> CommandStatus {
-        if number == self.written as u8 && self.written < self.words {
-            if !self.write(load_order(self.written, self.words), word) {
+        if number == self.written as u8
+            && let Some(next) = self.load.word(self.written)
+        {
+            if !self.write(next, word) {
                 return CommandStatus::NotWritten;
             }
             self.written += 1;
@@ -187,11 +209,39 @@ impl Loading {
         }
     }
 
-    /// Writes the `at`-th word of the model's place, which nothing else reads any more; whether
-    /// it stands there.
-    fn write(&mut self, at: u32, word: u32) -> bool {
-        let place = model_place::model_place().as_ptr().addr();
-        let address = place + size_of::<u32>() * at as usize;
-        at < model_place::words() && self.writer.write(address, word)
+    /// Writes a word where it belongs, which nothing else reads any more; whether it stands
+    /// there. The header comes between the model and the configuration.
+    fn write(&mut self, at: LoadedWord, word: u32) -> bool {
+        let (region, at, is_model) = match at {
+            LoadedWord::Model(at) => (self.slot.model, at, true),
+            LoadedWord::Config(at) => (self.slot.config(), at, false),
+        };
+        let is_first = !is_model && self.written == self.load.model.into();
+        if is_first && !self.write_header() {
+            return false;
+        }
+        let at = u32::from(at);
+        at < region.words() && self.writer.write((region.start + 4 * at) as usize, word)
+    }
+
+    /// Writes the header, which names the model that was written; whether it stands there.
+    fn write_header(&mut self) -> bool {
+        let header = SlotHeader {
+            sequence: self.sequence,
+            model: self.model(),
+        };
+        let start = self.slot.head.start as usize;
+        let words = header.words().into_iter().zip((start..).step_by(4));
+        let writer = &mut self.writer;
+        words.into_iter().all(|(word, at)| writer.write(at, word))
+    }
+
+    /// The CRC of the model that was written; 0: none, or nothing that is one.
+    fn model(&self) -> u32 {
+        if !Part::Classifier.is_built() || self.load.model == 0 {
+            return 0;
+        }
+        let model = Model::at_start(slots::model(&self.slot));
+        model.map_or(0, |model| model.crc())
     }
 }

@@ -10,36 +10,44 @@
 )]
 
 use firmware::faults::number;
-use firmware::{ModelState, NotArmed, Place, SensorFault, StartCause, Startup};
+use firmware::{ConfigError, ModelState, NotArmed, Part, Place, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
-use super::CLOCKS;
 use super::counters::TICKS;
+use super::pace;
 use super::reset::ClockError;
-use super::scene::{AWAITS_MODEL, HEARS_SEVERAL, NAME, TICK_HZ};
+use super::scene::Scene;
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {
-    let ticks = TICKS.get();
-    let (whole, part) = (ticks / TICK_HZ, ticks % TICK_HZ);
+    let (ticks, tick_hz) = (TICKS.get(), pace::tick_hz());
+    let (whole, part) = (ticks / tick_hz, ticks % tick_hz);
     // Begins anew with the count of ticks: at 2 kHz after 24.8 days.
     whole
         .wrapping_mul(1_000)
-        .wrapping_add(part * 1_000 / TICK_HZ)
+        .wrapping_add(part * 1_000 / tick_hz)
 });
 
-/// Counts of the clock in a microsecond.
-const US: u32 = CLOCKS.counter_hz / 1_000_000;
-
 /// The first lines after a reset.
-pub(crate) fn start(cause: StartCause, start: &Startup) {
-    defmt::info!(
-        "whisker {=str}: scene {=str}, {=u32} ticks a second",
-        env!("CARGO_PKG_VERSION"),
-        NAME,
-        TICK_HZ
-    );
+#[inline(never)]
+pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
+    let version = env!("CARGO_PKG_VERSION");
+    if found.deployed.is_some() {
+        defmt::info!(
+            "whisker {=str}: scene {=str}, {=u32} ticks a second",
+            version,
+            found.settings.head.name.as_str(),
+            pace::tick_hz()
+        );
+    } else {
+        defmt::warn!(
+            "whisker {=str}: no scene, {=u32} ticks a second: whisker deploy brings one",
+            version,
+            pace::tick_hz()
+        );
+    }
+    scene(found);
     match cause {
         StartCause::Watchdog => fatal(number::WATCHDOG),
         StartCause::Software if start.follows(number::SUPPLY_LOW) => fatal(number::SUPPLY_LOW),
@@ -61,6 +69,84 @@ pub(crate) fn start(cause: StartCause, start: &Startup) {
     }
 }
 
+/// Which scene runs, and why a slot does not count; an empty one has a line only where there is
+/// no scene.
+fn scene(found: &Scene) {
+    if let Some(deployed) = &found.deployed {
+        let name = slot_name(deployed.slot);
+        defmt::info!(
+            "configuration {=u32:08x} of slot {=str}",
+            deployed.crc,
+            name
+        );
+    }
+    for (slot, refused) in found.refused.iter().enumerate() {
+        match refused {
+            None => {}
+            Some(ConfigError::Absent) if found.deployed.is_some() => {}
+            Some(error) => slot_refused(slot_name(slot), *error),
+        }
+    }
+}
+
+/// How a slot is called.
+const fn slot_name(slot: usize) -> &'static str {
+    if slot == 0 { "A" } else { "B" }
+}
+
+/// Why the scene of a slot does not count.
+fn slot_refused(slot: &str, error: ConfigError) {
+    match error {
+        ConfigError::Absent => defmt::warn!(
+            "slot {=str}: there is none: none was deployed, or writing it was interrupted",
+            slot
+        ),
+        ConfigError::Strange => {
+            defmt::warn!("slot {=str}: what lies there is no configuration", slot);
+        }
+        ConfigError::Version(found) => defmt::warn!(
+            "slot {=str}: its layout has version {=u16}, which this program does not read",
+            slot,
+            found
+        ),
+        ConfigError::Board(found) => defmt::warn!(
+            "slot {=str}: it was made for another board ({=u8})",
+            slot,
+            found
+        ),
+        ConfigError::Format(found) => defmt::warn!(
+            "slot {=str}: it has another number format ({=u8}) than this program",
+            slot,
+            found
+        ),
+        ConfigError::TooLong => defmt::warn!("slot {=str}: it is longer than its place", slot),
+        ConfigError::Damaged => {
+            defmt::warn!(
+                "slot {=str}: it is damaged: its checksum does not match",
+                slot
+            );
+        }
+        ConfigError::Unreadable(part) => {
+            defmt::warn!("slot {=str}: {=str}: it cannot be read", slot, part.text());
+        }
+        ConfigError::NotBuilt(part) => defmt::warn!(
+            "slot {=str}: {=str}: this image was built without it",
+            slot,
+            part.text()
+        ),
+        ConfigError::Range(field) => {
+            defmt::warn!("slot {=str}: {=str}: out of range", slot, field.text());
+        }
+        ConfigError::Room(field) => defmt::warn!(
+            "slot {=str}: {=str}: more than this board has",
+            slot,
+            field.text()
+        ),
+        // Of a configuration for a module that runs.
+        ConfigError::Shape(_) | ConfigError::Armed(_) => {}
+    }
+}
+
 /// The start goes on once the supply is high enough.
 pub(crate) fn waits_for_supply() {
     defmt::warn!("waiting for the supply");
@@ -71,13 +157,13 @@ pub(crate) fn brown_out_is_low() {
     defmt::warn!("brown-out level below what the clock needs: set BOR_LEV to level 3");
 }
 
-/// By which deployed model it decides, or why by none.
+/// By which model it decides, or why by none.
 pub(crate) fn model(state: ModelState) {
     match state {
-        ModelState::Runs { crc, classes } if AWAITS_MODEL => {
+        ModelState::Runs { crc, classes } if Part::Classifier.is_built() => {
             defmt::info!("decides by model {=u32:08x}, {=u8} classes", crc, classes);
         }
-        ModelState::Refused(refusal) if AWAITS_MODEL => {
+        ModelState::Refused(refusal) if Part::Classifier.is_built() => {
             limit(number::NO_MODEL);
             defmt::warn!("- {=str}", refusal.text());
         }
@@ -107,41 +193,11 @@ pub(crate) fn requested(command: wire::Command) {
     match command {
         wire::Command::Arm => defmt::info!("to be armed, by command"),
         wire::Command::Stop => defmt::info!("to be stopped, by command"),
-        wire::Command::Stage(number, word) => staged(number, word),
+        wire::Command::Apply(bytes) => {
+            defmt::info!("settings to be changed, by command: {=u32} bytes", bytes);
+        }
         _ => {}
     }
-}
-
-macro_rules! names {
-    ($($number:literal $constant:ident: $name:literal;)*) => {
-        /// What a constant is, or the first of those that it belongs to.
-        fn constant_name(number: u8) -> defmt::Str {
-            let mut name = defmt::intern!("unknown");
-            $(if number >= $number {
-                name = defmt::intern!($name);
-            })*
-            name
-        }
-    };
-}
-firmware::tunable_table!(names);
-
-/// A word of a constant was put aside.
-fn staged(number: u8, word: u32) {
-    let constant = number & !wire::SECOND_WORD;
-    let which = if constant == number {
-        ""
-    } else {
-        ", second word"
-    };
-    let name = constant_name(constant);
-    defmt::info!(
-        "to be set: constant {=u8} ({=istr}){=str}: {=u32:#010x}",
-        constant,
-        name,
-        which,
-        word
-    );
 }
 
 /// Settings were changed by command, or were some time ago.
@@ -202,9 +258,13 @@ pub(crate) struct Health {
 
 impl Health {
     /// The longest tick, tenths of a microsecond.
-    pub(crate) const fn worst_tenths(&self) -> u32 {
+    pub(crate) fn worst_tenths(&self) -> u32 {
+        let us = match pace::clocks().counter_hz / 1_000_000 {
+            0 => 1,
+            counts => counts,
+        };
         // In two steps, lest ten times the worst overflow.
-        self.worst / US * 10 + self.worst % US * 10 / US
+        self.worst / us * 10 + self.worst % us * 10 / us
     }
 }
 
@@ -215,7 +275,7 @@ pub(crate) fn health(now: &Health, before: &Health) {
         "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
         tenths / 10,
         tenths % 10,
-        1_000_000 / TICK_HZ,
+        1_000_000 / pace::tick_hz(),
         now.missed,
         now.dropped
     );
@@ -230,24 +290,32 @@ pub(crate) fn health(now: &Health, before: &Health) {
 /// A line about what a whisker feels; where several are heard it begins with the whisker's
 /// side and number, and reads as the second text.
 macro_rules! felt_line {
-    ($place:ident, $text:literal, $of_several:literal $(, $value:expr)* $(,)?) => {
-        if HEARS_SEVERAL {
-            defmt::info!($of_several, $place.side_name(), $place.whisker $(, $value)*);
+    ($felt:ident, $text:literal, $of_several:literal $(, $value:expr)* $(,)?) => {
+        let Felt { place: $felt, several } = $felt;
+        if Part::Several.is_built() && several {
+            defmt::info!($of_several, $felt.side_name(), $felt.whisker $(, $value)*);
         } else {
             defmt::info!($text $(, $value)*);
         }
     };
 }
 
+/// Who feels it, of several that are heard or of one.
+#[derive(Clone, Copy)]
+pub(crate) struct Felt {
+    pub(crate) place: Place,
+    pub(crate) several: bool,
+}
+
 /// A touch begins.
-pub(crate) fn touch(place: Place, number: u16) {
-    felt_line!(place, "touch {=u16}", "{=str} {=u8}: touch {=u16}", number);
+pub(crate) fn touch(felt: Felt, number: u16) {
+    felt_line!(felt, "touch {=u16}", "{=str} {=u8}: touch {=u16}", number);
 }
 
 /// A touch has ended.
-pub(crate) fn touch_end(place: Place, number: u16) {
+pub(crate) fn touch_end(felt: Felt, number: u16) {
     felt_line!(
-        place,
+        felt,
         "touch {=u16} has ended",
         "{=str} {=u8}: touch {=u16} has ended",
         number
@@ -255,11 +323,11 @@ pub(crate) fn touch_end(place: Place, number: u16) {
 }
 
 /// A decision for the class `name`.
-pub(crate) fn decision(place: Place, name: &str, decided: tactile::Decision) {
+pub(crate) fn decision(felt: Felt, name: &str, decided: tactile::Decision) {
     // Percent with four decimals, rounded down: at most 99.9999.
     let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
     felt_line!(
-        place,
+        felt,
         "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
         "{=str} {=u8}: decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
         name,

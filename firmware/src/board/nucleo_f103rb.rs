@@ -4,17 +4,14 @@
 //! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
 //! measures them.
 
-use crate::board::timing::Clocks;
+use firmware::boards::{self, BoardFacts, Clocks};
 
-/// What messages call it.
-pub(crate) const NAME: &str = "NUCLEO-F103RB";
-/// Whether the core computes f32 by itself.
-pub(crate) const HAS_FPU: bool = false;
-/// Most classes of a model: its two tables of 24 by 24 bins then take 13.5 KiB of the
-/// 96 KiB of flash for the program, or of the 32 KiB for a model apart from it.
-pub(crate) const MAX_CLASSES: usize = 6;
-/// Most sides, of one whisker each.
-pub(crate) const MAX_SIDES: usize = 1;
+/// What a PC knows of it too.
+pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F103RB;
+/// Its clocks, before they are halved for slow sensors.
+pub(crate) const CLOCKS: Clocks = FACTS.clocks;
+/// The number format of the tick.
+pub(crate) type Number = whisking::Fix;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
@@ -29,52 +26,43 @@ const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
 
 const _: () = assert!(CORE_HZ == 72_000_000 && APB1_HZ <= 36_000_000);
 
-/// Timers on APB1 count at twice the clock of their bus, those on APB2 at the
-/// bus clock itself, which is not divided.
-pub(crate) const CLOCKS: Clocks = Clocks {
-    core_hz: CORE_HZ,
-    spi_hz: CORE_HZ / 256,
-    byte_timer_hz: 2 * APB1_HZ,
-    tick_timer_hz: 2 * APB1_HZ,
-    counter_hz: CORE_HZ,
-    pwm_hz: CORE_HZ,
-    serial_hz: APB1_HZ,
-    watchdog_hz: [30_000, 40_000, 60_000],
-}
-.checked();
+// Timers on APB1 count at twice the clock of their bus, those on APB2 at the
+// bus clock itself, which is not divided.
+const _: () = assert!(
+    CLOCKS.core_hz == CORE_HZ
+        && CLOCKS.spi_hz == CORE_HZ / 256
+        && CLOCKS.byte_timer_hz == 2 * APB1_HZ
+        && CLOCKS.tick_timer_hz == 2 * APB1_HZ
+        && CLOCKS.counter_hz == CORE_HZ
+        && CLOCKS.pwm_hz == CORE_HZ
+        && CLOCKS.serial_hz == APB1_HZ
+);
 
 // 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
-const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_600 && CLOCKS.slot_counts(1_000) == 5_649);
+const _: () = assert!(
+    matches!(CLOCKS.slot_counts(2_000), Some(3_600))
+        && matches!(CLOCKS.slot_counts(1_000), Some(5_649))
+);
 
-#[cfg(target_os = "none")]
 #[path = "byte_compare.rs"]
 pub(crate) mod byte_request;
-#[cfg(target_os = "none")]
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
-#[cfg(target_os = "none")]
 #[path = "flash_f1.rs"]
 pub(crate) mod flash;
-#[cfg(target_os = "none")]
 #[path = "gpio_v1.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
 #[path = "power_f1.rs"]
 pub(crate) mod power;
-#[cfg(target_os = "none")]
 #[path = "serial_channels.rs"]
 pub(crate) mod serial_dma;
-#[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
-#[cfg(target_os = "none")]
 #[path = "usart_v1.rs"]
 pub(crate) mod usart;
 
-#[cfg(target_os = "none")]
 pub(crate) use chip::*;
 
-#[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
     use firmware::StartCause;
@@ -144,6 +132,9 @@ mod chip {
         },
     };
 
+    /// What it carries.
+    pub(crate) static SIDES: &[&Side] = &[&LEFT];
+
     /// Reads why the chip started and forgets it, so that the next start tells its own.
     pub(crate) fn reset_cause() -> StartCause {
         let flags = RCC.csr().read();
@@ -211,7 +202,7 @@ mod chip {
     }
 
     /// Clock for what reads the sensor.
-    pub(crate) fn clock_sensors() {
+    pub(crate) fn clock_sensors(_: u8) {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_tim4en(true));
         RCC.apb2enr().modify(|w| w.set_spi1en(true));
@@ -230,7 +221,7 @@ mod chip {
     }
 
     /// Clock for motor and encoder.
-    pub(crate) fn clock_motors() {
+    pub(crate) fn clock_motors(_: u8) {
         RCC.apb1enr().modify(|w| w.set_tim2en(true));
         RCC.apb2enr().modify(|w| w.set_tim1en(true));
     }

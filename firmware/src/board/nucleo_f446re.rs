@@ -4,17 +4,18 @@
 //! motor, of which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls
 //! on PA15, PB3 and PB10. TIM7 makes the ticks, TIM5 measures them.
 
-use crate::board::timing::Clocks;
+use firmware::boards::{self, BoardFacts, Clocks};
 
-/// What messages call it.
-pub(crate) const NAME: &str = "NUCLEO-F446RE";
-/// Whether the core computes f32 by itself.
-pub(crate) const HAS_FPU: bool = true;
-/// Most classes of a model: its two tables of 24 by 24 bins then take 36 KiB of the
-/// 384 KiB of flash for the program, or of the 128 KiB for a model apart from it.
-pub(crate) const MAX_CLASSES: usize = 16;
-/// Most sides, of one whisker each.
-pub(crate) const MAX_SIDES: usize = 2;
+/// What a PC knows of it too.
+pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F446RE;
+/// Its clocks, before they are halved for slow sensors.
+pub(crate) const CLOCKS: Clocks = FACTS.clocks;
+/// The number format of the tick.
+#[cfg(not(feature = "fixed"))]
+pub(crate) type Number = f32;
+/// The number format of the tick.
+#[cfg(feature = "fixed")]
+pub(crate) type Number = whisking::Fix;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
@@ -40,51 +41,42 @@ const _: () = assert!(APB1_HZ <= 45_000_000 && APB2_HZ <= 90_000_000);
 // The two sides' SPIs and byte timers run alike, from buses that do not.
 const _: () = assert!(APB2_HZ / 256 == APB1_HZ / 128 && APB2_HZ == 2 * APB1_HZ);
 
-/// Timers count at twice the clock of their bus.
-pub(crate) const CLOCKS: Clocks = Clocks {
-    core_hz: CORE_HZ,
-    spi_hz: APB2_HZ / 256,
-    byte_timer_hz: 2 * APB1_HZ,
-    tick_timer_hz: 2 * APB1_HZ,
-    counter_hz: 2 * APB1_HZ,
-    pwm_hz: 2 * APB2_HZ,
-    serial_hz: APB1_HZ,
-    watchdog_hz: [17_000, 32_000, 47_000],
-}
-.checked();
+// Timers count at twice the clock of their bus.
+const _: () = assert!(
+    CLOCKS.core_hz == CORE_HZ
+        && CLOCKS.spi_hz == APB2_HZ / 256
+        && CLOCKS.byte_timer_hz == 2 * APB1_HZ
+        && CLOCKS.tick_timer_hz == 2 * APB1_HZ
+        && CLOCKS.counter_hz == 2 * APB1_HZ
+        && CLOCKS.pwm_hz == 2 * APB2_HZ
+        && CLOCKS.serial_hz == APB1_HZ
+);
 
 // 25.6 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 75.6 µs at 1 kHz.
-const _: () = assert!(CLOCKS.slot_counts(2_000) == 4_000 && CLOCKS.slot_counts(1_000) == 6_048);
+const _: () = assert!(
+    matches!(CLOCKS.slot_counts(2_000), Some(4_000))
+        && matches!(CLOCKS.slot_counts(1_000), Some(6_048))
+);
 
-#[cfg(target_os = "none")]
 #[path = "byte_update.rs"]
 pub(crate) mod byte_request;
-#[cfg(target_os = "none")]
 #[path = "dma_streams.rs"]
 pub(crate) mod dma;
-#[cfg(target_os = "none")]
 #[path = "flash_f4.rs"]
 pub(crate) mod flash;
-#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
 #[path = "power_f4.rs"]
 pub(crate) mod power;
-#[cfg(target_os = "none")]
 #[path = "serial_streams.rs"]
 pub(crate) mod serial_dma;
-#[cfg(target_os = "none")]
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
-#[cfg(target_os = "none")]
 #[path = "usart_v1.rs"]
 pub(crate) mod usart;
 
-#[cfg(target_os = "none")]
 pub(crate) use chip::*;
 
-#[cfg(target_os = "none")]
 mod chip {
     use cortex_m::peripheral::SCB;
     use firmware::{Clock, StartCause};
@@ -305,14 +297,26 @@ mod chip {
         settle();
     }
 
-    /// Clock for what reads the sensors of the scene's sides.
-    pub(crate) fn clock_sensors() {
+    /// What it carries, left first.
+    #[cfg(feature = "both-sides")]
+    pub(crate) static SIDES: &[&Side] = &[&LEFT, &RIGHT];
+    /// What this image has of it.
+    #[cfg(not(feature = "both-sides"))]
+    pub(crate) static SIDES: &[&Side] = &[&LEFT];
+
+    /// Whether so many sides are both, which an image may be built without.
+    const fn are_both(sides: u8) -> bool {
+        cfg!(feature = "both-sides") && sides > 1
+    }
+
+    /// Clock for what reads the sensors of the scene's sides, of which there are so many.
+    pub(crate) fn clock_sensors(sides: u8) {
         RCC.ahb1enr().modify(|w| w.set_dma2en(true));
         RCC.apb2enr().modify(|w| {
             w.set_tim8en(true);
             w.set_spi1en(true);
         });
-        if cfg!(right_side) {
+        if are_both(sides) {
             RCC.ahb1enr().modify(|w| w.set_dma1en(true));
             RCC.apb1enr().modify(|w| {
                 w.set_tim6en(true);
@@ -331,7 +335,7 @@ mod chip {
 
     /// A side's SPI as after a reset.
     pub(crate) fn reset_spi(spi: Spi) {
-        if cfg!(right_side) && spi == SPI2 {
+        if cfg!(feature = "both-sides") && spi == SPI2 {
             RCC.apb1rstr().modify(|w| w.set_spi2rst(true));
             RCC.apb1rstr().modify(|w| w.set_spi2rst(false));
         } else {
@@ -340,11 +344,11 @@ mod chip {
         }
     }
 
-    /// Clock for motors and encoders of the scene's sides.
-    pub(crate) fn clock_motors() {
+    /// Clock for motors and encoders of the scene's sides, of which there are so many.
+    pub(crate) fn clock_motors(sides: u8) {
         RCC.apb1enr().modify(|w| {
             w.set_tim2en(true);
-            w.set_tim3en(cfg!(right_side));
+            w.set_tim3en(are_both(sides));
         });
         RCC.apb2enr().modify(|w| w.set_tim1en(true));
         settle();

@@ -4,17 +4,14 @@
 //! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
 //! measures them.
 
-use crate::board::timing::Clocks;
+use firmware::boards::{self, BoardFacts, Clocks};
 
-/// What messages call it.
-pub(crate) const NAME: &str = "NUCLEO-G071RB";
-/// Whether the core computes f32 by itself.
-pub(crate) const HAS_FPU: bool = false;
-/// Most classes of a model: its two tables of 24 by 24 bins then take 13.5 KiB of the
-/// 96 KiB of flash for the program, or of the 32 KiB for a model apart from it.
-pub(crate) const MAX_CLASSES: usize = 6;
-/// Most sides, of one whisker each.
-pub(crate) const MAX_SIDES: usize = 1;
+/// What a PC knows of it too.
+pub(crate) const FACTS: BoardFacts = boards::NUCLEO_G071RB;
+/// Its clocks, before they are halved for slow sensors.
+pub(crate) const CLOCKS: Clocks = FACTS.clocks;
+/// The number format of the tick.
+pub(crate) type Number = whisking::Fix;
 
 /// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
 /// board comes without a clock on the HSE input; so the tick is as exact as this.
@@ -32,51 +29,42 @@ const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
 
 const _: () = assert!(CORE_HZ == 64_000_000);
 
-/// All the same: no bus is divided.
-pub(crate) const CLOCKS: Clocks = Clocks {
-    core_hz: CORE_HZ,
-    spi_hz: CORE_HZ / 256,
-    byte_timer_hz: CORE_HZ,
-    tick_timer_hz: CORE_HZ,
-    counter_hz: CORE_HZ,
-    pwm_hz: CORE_HZ,
-    serial_hz: CORE_HZ,
-    watchdog_hz: [29_500, 32_000, 34_000],
-}
-.checked();
+// All the same: no bus is divided.
+const _: () = assert!(
+    CLOCKS.core_hz == CORE_HZ
+        && CLOCKS.spi_hz == CORE_HZ / 256
+        && CLOCKS.byte_timer_hz == CORE_HZ
+        && CLOCKS.tick_timer_hz == CORE_HZ
+        && CLOCKS.counter_hz == CORE_HZ
+        && CLOCKS.pwm_hz == CORE_HZ
+        && CLOCKS.serial_hz == CORE_HZ
+);
 
 // 32 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 82 µs at 1 kHz.
-const _: () = assert!(CLOCKS.slot_counts(2_000) == 3_200 && CLOCKS.slot_counts(1_000) == 5_248);
+const _: () = assert!(
+    matches!(CLOCKS.slot_counts(2_000), Some(3_200))
+        && matches!(CLOCKS.slot_counts(1_000), Some(5_248))
+);
 
-#[cfg(target_os = "none")]
 #[path = "byte_update.rs"]
 pub(crate) mod byte_request;
-#[cfg(target_os = "none")]
 #[path = "dma_channels.rs"]
 pub(crate) mod dma;
-#[cfg(target_os = "none")]
 #[path = "flash_g0.rs"]
 pub(crate) mod flash;
-#[cfg(target_os = "none")]
 #[path = "gpio_v2.rs"]
 pub(crate) mod gpio;
-#[cfg(target_os = "none")]
 #[path = "power_g0.rs"]
 pub(crate) mod power;
-#[cfg(target_os = "none")]
 #[path = "serial_channels.rs"]
 pub(crate) mod serial_dma;
-#[cfg(target_os = "none")]
 #[path = "spi_v2.rs"]
 pub(crate) mod spi;
-#[cfg(target_os = "none")]
 #[path = "usart_v2.rs"]
 pub(crate) mod usart;
 
-#[cfg(target_os = "none")]
 pub(crate) use chip::*;
 
-#[cfg(target_os = "none")]
 mod chip {
     use firmware::StartCause;
     use stm32_metapac::Interrupt;
@@ -156,6 +144,9 @@ mod chip {
         },
     };
 
+    /// What it carries.
+    pub(crate) static SIDES: &[&Side] = &[&LEFT];
+
     /// Reads why the chip started and forgets it, so that the next start tells its own.
     pub(crate) fn reset_cause() -> StartCause {
         let flags = RCC.csr().read();
@@ -226,7 +217,7 @@ mod chip {
     }
 
     /// Clock for what reads the sensor, and the routes of its DMA requests.
-    pub(crate) fn clock_sensors() {
+    pub(crate) fn clock_sensors(_: u8) {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apbenr1().modify(|w| w.set_tim6en(true));
         RCC.apbenr2().modify(|w| w.set_spi1en(true));
@@ -259,7 +250,7 @@ mod chip {
     /// pins of a USB-C socket with an empty battery are, until the strobe of their controller,
     /// which is never switched on, lets go of them (RM0444, section 8.1.1; embassy-stm32's
     /// `ucpd::init` does the same).
-    pub(crate) fn clock_motors() {
+    pub(crate) fn clock_motors(_: u8) {
         RCC.apbenr1().modify(|w| w.set_tim2en(true));
         RCC.apbenr2().modify(|w| {
             w.set_tim1en(true);

@@ -4,36 +4,57 @@
 //! |---|---|---|
 //! | `tick` | 2 | one [`firmware::Module::tick`]; puts its events into a queue |
 //! | `end_of_frame` | 2 | raises /SS after the left sensor's last byte |
-//! | `end_of_right_frame` | 2 | the same on the right, where the scene has that side |
+//! | `end_of_right_frame` | 2 | the same on the right, where the image has that side |
 //! | `idle` | 0 | writes the log, checks what nothing writes, feeds the watchdog, sleeps |
 //!
 //! All but the last have one priority, as they work on the same registers: none can
-//! interrupt another, and they share the module without a lock. The queue they share
-//! with idle, which holds them off while it takes an event out. They are bound to a
-//! board's interrupts by [`program!`](crate::program).
+//! interrupt another, and they share the module without a lock. Events come to idle, and other
+//! settings from it, by queues with one writer and one reader each, without a lock too. Tasks are
+//! bound to a board's interrupts by [`program!`](crate::program).
 
-use firmware::Event;
+use firmware::boards::TickPeriod;
 use firmware::faults::number;
+use firmware::{ConfigError, Event, Part};
+use heapless::spsc::{Consumer, Producer};
+use static_cell::StaticCell;
 
+use super::about::About;
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
-use super::inner::Inner;
 use super::integrity::Integrity;
-use super::loading::Line;
-use super::scene::{self, Names, Perception, SETTINGS, SIDES, Settings, TICK_HZ};
-use super::sensor::Frames;
+use super::loading::{Line, Order};
+use super::log::Felt;
+use super::perception::Names;
+use super::scene::Scene;
 use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
-use super::telemetry::{self, Telemetry};
+use super::telemetry::{self, Configs, Telemetry};
+use super::types::{Inner, Settings};
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
-use super::{faults, loading, log, outputs, retained, supply};
-use crate::board::CLOCKS;
+use super::{faults, hardware, loading, log, outputs, pace, perception, retained, scene, supply};
 use crate::here::{self, Counter};
+
+/// Events on their way from the tick to idle, and what idle sends to the tick. Fifteen events
+/// fit: idle drains them after every tick, which has four a side at most.
+pub struct Queues {
+    events: heapless::spsc::Queue<Event, 16>,
+    settings: telemetry::Queue,
+}
+
+impl Queues {
+    /// Empty.
+    pub(crate) const fn new() -> Self {
+        Self {
+            events: heapless::spsc::Queue::new(),
+            settings: telemetry::Queue::new(),
+        }
+    }
+}
 
 /// The module and its settings. A type of its own, because RTIC would make
 /// those inside public.
 pub struct Module {
-    inner: Inner,
+    inner: &'static mut Inner,
     telemetry: Telemetry,
     /// In RAM, where they can be changed.
     settings: &'static mut Settings,
@@ -41,121 +62,148 @@ pub struct Module {
     second: u32,
 }
 
-/// Where something lies that is made at the start, and need not be moved to from the stack
-/// once more. A list, as an empty one is of zeros, which take no flash.
-pub struct Slot<T>(heapless::Vec<T, 1>);
-
-impl<T> Slot<T> {
-    const fn new() -> Self {
-        Self(heapless::Vec::new())
-    }
-
-    fn fill(&mut self, with: T) -> Option<&mut T> {
-        // There is room for one.
-        let _ = self.0.push(with);
-        self.0.first_mut()
-    }
-}
-
-/// Where settings and perception lie.
-pub struct Place {
-    settings: Slot<Settings>,
-    perception: Slot<Perception>,
-}
-
-impl Place {
-    /// Empty.
-    pub(crate) const fn new() -> Self {
-        Self {
-            settings: Slot::new(),
-            perception: Slot::new(),
-        }
-    }
-}
-
 /// Events that found the queue full. Only the tick counts them.
 static DROPPED: WrappingCounter = WrappingCounter::new();
 
-/// What idle gets from the start.
-pub(crate) struct ForIdle {
-    integrity: Integrity,
-    names: Names,
+/// Of events, the tick's end of the queue.
+pub type Events = Producer<'static, Event>;
+
+/// What the start has made.
+pub(crate) struct Started {
+    pub(crate) module: Module,
+    pub(crate) tick: TickPeriod,
+    pub(crate) events: Events,
+    pub(crate) idle: &'static mut Idle,
 }
 
+/// Where the state of idle lies.
+static IDLE: StaticCell<Idle> = StaticCell::new();
+
 /// From the reset to a module that is ready for its first tick.
-pub(crate) fn start(core: cortex_m::Peripherals, place: &'static mut Place) -> (Module, ForIdle) {
+pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) -> Started {
     outputs::off();
     here::prepare_for_debuggers();
     let cause = here::reset_cause();
     let start = retained::start(cause);
-    log::start(cause, &start);
-    serial::started(cause, &start);
+    let Some(found) = scene::find() else {
+        faults::die(number::SETTINGS, || {})
+    };
+    pace::set(found.settings.head.tick_hz, found.settings.sensor.is_slow);
+    let about = About::new(found.settings);
+    log::start(cause, &start, &found);
+    serial::started(cause, &start, &about);
     supply::start();
     if let Err(error) = here::start_clocks() {
         faults::die(number::NO_CLOCK, || log::clock(error));
     }
-    if scene::SENSORS_ARE_SLOW {
+    if found.settings.sensor.is_slow {
         here::halve_clocks();
     }
-    here::clock_sensors();
-    let slot_counts = const { CLOCKS.slot_counts(TICK_HZ) };
-    let sources = SIDES.map(|side| [scene::source(Frames::new(&side.sensor, slot_counts))]);
-    let motion = scene::start_motion();
-    let perception = scene::start_perception();
-    let perception = perception.and_then(|made| place.perception.fill(made));
-    let (Some(perception), Some(settings)) = (perception, place.settings.fill(SETTINGS)) else {
+    let (events, of_events) = queues.events.split();
+    let (next, of_next) = queues.settings.split();
+    let reason = no_scene(&found);
+    let Scene {
+        settings,
+        pace,
+        deployed,
+        ..
+    } = found;
+    let Some(inner) = hardware::start(settings, &pace, Counter::start(core)) else {
         faults::die(number::MODEL, || {})
     };
-    scene::adapt(settings, perception);
-    let integrity = Integrity::new(settings, perception);
-    let names = scene::names(perception);
-    let model = scene::model(perception);
+    perception::find(inner, settings, deployed);
+    let gate = perception::gate_of(inner);
+    perception::adapt(settings, gate);
+    let integrity = Integrity::new(settings, inner);
+    let names = Names::of(settings, inner);
+    let model = perception::state(inner);
     log::model(model);
-    let counter = Counter::start(core);
-    let telemetry = Telemetry::new(settings, perception, model);
-    let mut inner = firmware::Module::new(sources, motion, perception, counter);
-    if scene::HAS_MOTOR {
-        match start.may_arm(scene::ARMS_AT_START) {
+    let Some(configs) = Configs::start(deployed.ok_or(reason), gate, next) else {
+        faults::die(number::SETTINGS, || {})
+    };
+    let telemetry = Telemetry::new(settings, inner, model, of_next);
+    let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
+    if let Some(motion) = motion {
+        match start.may_arm(motion.arms_at_start) {
             Ok(()) => inner.arm(true),
             Err(reason) => {
                 log::not_armed(reason);
-                serial::not_armed(reason);
+                serial::not_armed(reason, &about);
             }
         }
     }
 
     // The sensor's start-up, with /SS high since above.
-    cortex_m::asm::delay(CLOCKS.start_up_cycles());
+    cortex_m::asm::delay(pace::clocks().start_up_cycles());
+    let second = settings.head.tick_hz;
     let module = Module {
         inner,
         telemetry,
         settings,
-        second: TICK_HZ,
+        second,
     };
-    (module, ForIdle { integrity, names })
+    let idle = IDLE.try_init(Idle {
+        integrity,
+        names,
+        watchdog: Watchdog::start(),
+        button: UserButton::start(),
+        serial: Serial::start(&about),
+        pins: SignalPins::start(about.links.has_pins),
+        about,
+        events: of_events,
+        configs,
+        in_use: deployed.map(|deployed| deployed.slot),
+        fed: 0,
+        logged: 0,
+        before: log::Health::default(),
+    });
+    let Some(idle) = idle else {
+        faults::die(number::SETTINGS, || {})
+    };
+    Started {
+        module,
+        tick: pace.tick,
+        events,
+        idle,
+    }
 }
 
-/// One tick of the module; `put` puts its events into the queue, or gives them back.
+/// Why there is no scene, where there is none: what is wrong with one that is there before that
+/// another place is empty.
+fn no_scene(found: &Scene) -> ConfigError {
+    let mut all = found.refused.iter().flatten();
+    let wrong = all.find(|error| **error != ConfigError::Absent);
+    wrong.copied().unwrap_or(ConfigError::Absent)
+}
+
+/// One tick of the module.
 #[inline]
-pub(crate) fn tick(module: &mut Module, mut put: impl FnMut(Event) -> Result<(), Event>) {
-    if scene::HAS_MOTOR && REQUEST.take() {
+pub(crate) fn tick(module: &mut Module, events: &mut Events) {
+    if Part::Motion.is_built() && REQUEST.take() {
         module.inner.arm(true);
     }
-    module.inner.tick(module.settings, &mut |event| {
-        if put(event).is_err() {
-            DROPPED.increment();
-        }
-        telemetry::note(&event);
-    });
+    let settings = &*module.settings;
+    module.inner.tick(settings, &mut |event| put(events, event));
+    let tick_hz = settings.head.tick_hz;
     let now = TICKS.increment();
     if telemetry::is_busy() {
         tell(module);
     }
     // Full, or further ahead than a second can be: a flipped bit.
-    if module.second.wrapping_sub(now).wrapping_sub(1) >= TICK_HZ {
-        module.second = now.wrapping_add(TICK_HZ);
+    if module.second.wrapping_sub(now).wrapping_sub(1) >= tick_hz {
+        module.second = now.wrapping_add(tick_hz);
         tell_timing(module);
     }
+}
+
+/// Puts an event into the queue. Events are few and come from many places, so that this stands in
+/// flash once.
+#[inline(never)]
+fn put(events: &mut Events, event: Event) {
+    if events.enqueue(event).is_err() {
+        DROPPED.increment();
+    }
+    telemetry::note(&event);
 }
 
 /// Records of this tick, and what was asked for.
@@ -201,35 +249,36 @@ fn tell_timing(module: &mut Module) {
 /// The frame of a side's sensor has ended.
 #[inline]
 pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
-    if let Some(sensor) = module.inner.sensor_mut(side, 0) {
-        scene::frames(sensor.source_mut()).end_of_frame();
+    // There is one on each side.
+    if let Some(whisker) = module.inner.whiskers_mut().get_mut(side) {
+        whisker.sensor_mut().source_mut().end_of_frame();
     }
 }
 
-/// Writes an event to the log. What the scene cannot do has no line.
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "names of a model that is linked take no memory"
-)]
+/// Writes an event to the log. What the image was built without has no line.
 fn write(event: Event, names: &Names) {
+    let several = names.several;
     match event {
-        Event::Decision(place, decision) if scene::DECIDES => {
-            let class = decision.class();
-            let name = class.and_then(|class| scene::class_name(names, class));
-            log::decision(place, name.unwrap_or("unknown"), decision);
+        Event::Decision(place, decision) if Part::Classifier.is_built() => {
+            let name = decision
+                .class()
+                .map_or("unknown", |class| names.class(class));
+            log::decision(Felt { place, several }, name, decision);
         }
-        Event::Touch { place, number } if scene::DECIDES => {
-            log::touch(place, number);
+        Event::Touch { place, number } if Part::Classifier.is_built() => {
+            log::touch(Felt { place, several }, number);
         }
-        Event::TouchEnd { place, number } if scene::DECIDES => {
-            log::touch_end(place, number);
+        Event::TouchEnd { place, number } if Part::Classifier.is_built() => {
+            log::touch_end(Felt { place, several }, number);
         }
         Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
         Event::SensorBack(place) => log::sensor_back(place),
-        Event::ZeroMoved(place, codes) if scene::FINDS_ZERO => log::zero_moved(place, codes),
-        Event::MotorFault(place, fault) if scene::HAS_MOTOR => log::motor_fault(place, fault),
-        Event::MotorRetry(place) if scene::HAS_MOTOR => log::motor_retry(place),
-        Event::MotorGivenUp(place) if scene::HAS_MOTOR => log::motor_given_up(place),
+        Event::ZeroMoved(place, codes) if Part::Zero.is_built() => log::zero_moved(place, codes),
+        Event::MotorFault(place, fault) if Part::Motion.is_built() => {
+            log::motor_fault(place, fault);
+        }
+        Event::MotorRetry(place) if Part::Motion.is_built() => log::motor_retry(place),
+        Event::MotorGivenUp(place) if Part::Motion.is_built() => log::motor_given_up(place),
         Event::Decision(..)
         | Event::Touch { .. }
         | Event::TouchEnd { .. }
@@ -246,71 +295,101 @@ pub(crate) struct Idle {
     names: Names,
     watchdog: Watchdog,
     button: UserButton,
-    serial: Serial,
-    pins: SignalPins,
+    serial: Option<Serial>,
+    pins: Option<SignalPins>,
+    about: About,
+    events: Consumer<'static, Event>,
+    configs: Configs,
+    /// The slot of the scene that runs.
+    in_use: Option<usize>,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
     logged: u32,
     before: log::Health,
-    tuned: telemetry::Tuned,
 }
 
 impl Idle {
-    /// Starts the watchdog.
-    pub(crate) fn new(ForIdle { integrity, names }: ForIdle) -> Self {
-        Self {
-            integrity,
-            names,
-            watchdog: Watchdog::start(),
-            button: UserButton::start(),
-            serial: Serial::start(),
-            pins: SignalPins::start(),
-            fed: 0,
-            logged: 0,
-            before: log::Health::default(),
-            tuned: telemetry::Tuned::new(),
-        }
-    }
-
-    /// What is to be done between two sleeps; `take` takes an event out of the queue.
-    pub(crate) fn run(&mut self, take: impl FnMut() -> Option<Event>) {
+    /// What is to be done between two sleeps.
+    pub(crate) fn run(&mut self) {
         let now = TICKS.get();
         if now == self.fed {
             return;
         }
         self.fed = now;
         // A tick queues its events before it counts itself.
-        for event in core::iter::from_fn(take) {
-            self.pins.note(&event, now);
-            write(event, &self.names);
-            self.serial.tell(&event, &self.names);
+        while let Some(event) = self.events.dequeue() {
+            self.tell(event, now);
         }
-        self.pins.show(now);
-        telemetry::hear();
-        if let Some((answer, is_by_serial)) = telemetry::to_load() {
-            loading::run(Line::new(&mut self.serial, is_by_serial), answer);
+        if let Some(pins) = &mut self.pins {
+            pins.show(now);
         }
-        self.tuned.tell(now);
+        if self.about.links.has_rtt {
+            telemetry::hear(&mut self.configs);
+        }
+        self.load();
+        self.configs.tell(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
-        if scene::HAS_MOTOR && self.button.is_pressed() {
+        if Part::Motion.is_built() && self.about.has_motors && self.button.is_pressed() {
             REQUEST.make();
             log::armed();
-            self.serial.armed();
+            if let Some(serial) = &mut self.serial {
+                serial.armed();
+            }
         }
-        if now.wrapping_sub(self.logged) >= TICK_HZ {
+        if now.wrapping_sub(self.logged) >= pace::tick_hz() {
             self.logged = now;
-            let health = log::Health {
-                worst: WORST.get(),
-                missed: MISSED.get(),
-                dropped: DROPPED.get(),
-            };
-            log::health(&health, &self.before);
-            self.serial.health(&health, &self.before);
-            self.before = health;
+            self.health();
         }
-        self.serial.serve(now);
+        if let Some(serial) = &mut self.serial {
+            serial.serve(now, &self.about, &mut self.configs);
+        }
+    }
+
+    /// Tells of an event, of the tick that is the `now`-th.
+    fn tell(&mut self, event: Event, now: u32) {
+        if let Some(pins) = &mut self.pins {
+            pins.note(&event, now);
+        }
+        write(event, &self.names);
+        if let Some(serial) = &mut self.serial {
+            serial.tell(&event, &self.names);
+        }
+    }
+
+    /// Has the loader take over, if somebody has asked for it.
+    fn load(&mut self) {
+        if !Part::Deploy.is_built() {
+            return;
+        }
+        let Some((load, answer, is_by_serial)) = telemetry::to_load() else {
+            return;
+        };
+        let line = match &mut self.serial {
+            Some(serial) if is_by_serial => Line::Serial(serial),
+            _ => Line::Probe(telemetry::ProbeLine::new()),
+        };
+        let order = Order {
+            load,
+            in_use: self.in_use,
+            answer,
+        };
+        loading::run(line, order);
+    }
+
+    /// Once a second: how ticks have fared.
+    fn health(&mut self) {
+        let health = log::Health {
+            worst: WORST.get(),
+            missed: MISSED.get(),
+            dropped: DROPPED.get(),
+        };
+        log::health(&health, &self.before);
+        if let Some(serial) = &mut self.serial {
+            serial.health(&health, &self.before);
+        }
+        self.before = health;
     }
 }
 
@@ -325,46 +404,45 @@ macro_rules! program {
             reason = "RTIC's own, seen because of this macro"
         )]
         mod app {
-            use firmware::Queue;
-
-            use $crate::board::program::{self, Idle, Module, Place};
-            use $crate::board::scene::TICK_HZ;
+            use $crate::board::program::{self, Events, Idle, Module, Queues, Started};
             use $crate::board::tick_timer::TickTimer;
-            use $crate::board::CLOCKS;
 
             #[shared]
             struct Shared {
                 // Its tasks cannot interrupt each other.
                 #[lock_free]
                 module: Module,
-                // Sixteen events: idle drains them after every tick, which has four a side
-                // at most.
-                queue: &'static mut Queue<16>,
             }
 
             #[local]
             struct Local {
                 tick_timer: TickTimer,
-                idle: Idle,
+                events: Events,
+                idle: &'static mut Idle,
             }
 
-            #[init(local = [queue: Queue<16> = Queue::new(), place: Place = Place::new()])]
+            #[init(local = [queues: Queues = Queues::new()])]
             fn init(cx: init::Context) -> (Shared, Local) {
-                let (module, for_idle) = program::start(cx.core, cx.local.place);
+                let started = program::start(cx.core, cx.local.queues);
+                let Started {
+                    module,
+                    tick,
+                    events,
+                    idle,
+                } = started;
+                let tick_timer = TickTimer::start(tick);
                 let local = Local {
-                    tick_timer: TickTimer::start(const { CLOCKS.tick(TICK_HZ) }),
-                    idle: Idle::new(for_idle),
+                    tick_timer,
+                    events,
+                    idle,
                 };
-                let queue = cx.local.queue;
-                (Shared { module, queue }, local)
+                (Shared { module }, local)
             }
 
-            #[task(binds = $tick, priority = 2, shared = [module, queue], local = [tick_timer])]
-            fn tick(mut cx: tick::Context) {
+            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, events])]
+            fn tick(cx: tick::Context) {
                 cx.local.tick_timer.acknowledge();
-                program::tick(cx.shared.module, |event| {
-                    cx.shared.queue.lock(|queue| queue.put(event))
-                });
+                program::tick(cx.shared.module, cx.local.events);
             }
 
             #[task(binds = $left, priority = 2, shared = [module])]
@@ -377,10 +455,10 @@ macro_rules! program {
                 program::end_of_frame(cx.shared.module, 1);
             })?
 
-            #[idle(shared = [queue], local = [idle])]
-            fn idle(mut cx: idle::Context) -> ! {
+            #[idle(local = [idle])]
+            fn idle(cx: idle::Context) -> ! {
                 loop {
-                    cx.local.idle.run(|| cx.shared.queue.lock(|queue| queue.take()));
+                    cx.local.idle.run();
                     cortex_m::asm::wfi();
                 }
             }

@@ -12,10 +12,8 @@ use stm32_metapac::common::{RW, Reg};
 use stm32_metapac::timer::regs::Ccr1ch;
 use stm32_metapac::timer::vals::{Ossi, Ossr};
 
-use super::CLOCKS;
 use super::wiring::Output;
 
-const COUNTS: u16 = CLOCKS.pwm_counts();
 /// PWM mode 1: high while the count is below the compare value. As a number,
 /// because its type has another name in each version of the timer.
 const PWM_MODE_1: u8 = 6;
@@ -23,11 +21,16 @@ const PWM_MODE_1: u8 = 6;
 const OUTPUTS: usize = 3;
 
 /// The duty of an output.
-pub(crate) struct Channel(Reg<Ccr1ch, RW>);
+pub(crate) struct Channel {
+    compare: Reg<Ccr1ch, RW>,
+    /// Of a period.
+    counts: u16,
+}
 
-/// Starts the timer with all duties zero. The pins are the caller's.
-pub(crate) fn start() {
-    TIM1.arr().write(|w| w.set_arr(COUNTS - 1));
+/// Starts the timer with all duties zero, and so many counts a period. The pins are the
+/// caller's.
+pub(crate) fn start(counts: u16) {
+    TIM1.arr().write(|w| w.set_arr(counts.saturating_sub(1)));
     for pair in 0..OUTPUTS.div_ceil(2) {
         TIM1.ccmr_output(pair).write(|w| {
             for channel in 0..2.min(OUTPUTS - 2 * pair) {
@@ -56,13 +59,14 @@ pub(crate) fn start() {
 }
 
 impl Channel {
-    /// That of an output, once the timer was started.
-    pub(crate) fn of(output: Output) -> Self {
-        Self(match output {
+    /// That of an output, once the timer was started with so many counts a period.
+    pub(crate) fn of(output: Output, counts: u16) -> Self {
+        let compare = match output {
             Output::One => TIM1.ccr(0),
             Output::Two => TIM1.ccr(1),
             Output::Three => TIM1.ccr(2),
-        })
+        };
+        Self { compare, counts }
     }
 }
 
@@ -73,12 +77,12 @@ impl ErrorType for Channel {
 impl SetDutyCycle for Channel {
     #[inline]
     fn max_duty_cycle(&self) -> u16 {
-        COUNTS
+        self.counts
     }
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.0.write(|w| w.set_ccr(duty));
+        self.compare.write(|w| w.set_ccr(duty));
         Ok(())
     }
 }

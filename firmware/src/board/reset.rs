@@ -1,5 +1,7 @@
 //! What may keep a chip from starting.
 
+use firmware::boards::CLOCK_WAIT_LOOPS;
+
 /// A clock that did not come.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ClockError {
@@ -9,12 +11,12 @@ pub(crate) enum ClockError {
     NoPll,
 }
 
-/// Waits until `ready`, within [`CLOCK_WAIT_LOOPS`](super::timing::CLOCK_WAIT_LOOPS).
+/// Waits until `ready`, within [`CLOCK_WAIT_LOOPS`].
 ///
 /// # Errors
 /// `error` if it did not come.
 pub(crate) fn wait(error: ClockError, ready: impl Fn() -> bool) -> Result<(), ClockError> {
-    let came = (0..super::timing::CLOCK_WAIT_LOOPS).any(|_| ready());
+    let came = (0..CLOCK_WAIT_LOOPS).any(|_| ready());
     if came { Ok(()) } else { Err(error) }
 }
 

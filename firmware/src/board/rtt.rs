@@ -8,14 +8,14 @@
 //! | ring | what |
 //! |---|---|
 //! | up 0 | the log, by defmt |
-//! | up 1 | packets of the crate `wire`, where the scene has telemetry |
+//! | up 1 | packets of the crate `wire`, where the program has telemetry |
 //! | down 0 | requests of the crate `wire`, there too |
 
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 use firmware::PacketSlot;
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 use wire::REQUEST_BYTES;
 
 /// The log's ring: what idle writes within the 100 ms after which a probe comes by.
@@ -23,16 +23,16 @@ pub(crate) static LOG_BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 102
 
 /// Packets for which there is memory; one fewer fit. At 2 kHz and one whisker 63 ms pass
 /// until they are full, six times as long as a probe stays away.
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 pub(crate) const PACKETS_COUNT: usize = 128;
 
 /// The ring of packets.
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 pub(crate) static PACKETS: [PacketSlot; PACKETS_COUNT] =
     [const { PacketSlot::new() }; PACKETS_COUNT];
 
 /// The ring of requests: some, as only one is carried out a tick.
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 pub(crate) static REQUESTS: [AtomicU8; 8 * REQUEST_BYTES] =
     [const { AtomicU8::new(0) }; 8 * REQUEST_BYTES];
 
@@ -124,13 +124,13 @@ impl Ring {
     }
 }
 
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 const UPS: usize = 2;
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 const DOWNS: usize = 1;
-#[cfg(not(telemetry))]
+#[cfg(not(feature = "rtt"))]
 const UPS: usize = 1;
-#[cfg(not(telemetry))]
+#[cfg(not(feature = "rtt"))]
 const DOWNS: usize = 0;
 
 /// The control block.
@@ -155,11 +155,11 @@ static BLOCK: Block = Block {
     downs_count: DOWNS as u32,
     ups: [
         Ring::new(&LOG_NAME, &LOG_BYTES),
-        #[cfg(telemetry)]
+        #[cfg(feature = "rtt")]
         Ring::new(b"whisker\0", &PACKETS),
     ],
     downs: [
-        #[cfg(telemetry)]
+        #[cfg(feature = "rtt")]
         Ring::new(b"whisker\0", &REQUESTS),
     ],
 };
@@ -168,9 +168,9 @@ static BLOCK: Block = Block {
 pub(crate) static LOG: &Ring = &BLOCK.ups[0];
 
 /// That of packets.
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 pub(crate) static UP: &Ring = &BLOCK.ups[1];
 
 /// That of requests.
-#[cfg(telemetry)]
+#[cfg(feature = "rtt")]
 pub(crate) static DOWN: &Ring = &BLOCK.downs[0];

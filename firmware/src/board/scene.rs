@@ -1,33 +1,135 @@
-//! The scene that the firmware was built for: its types and settings, written
-//! by the build script from the scene file.
-//!
-//! - `NAME`, `TICK_HZ`.
-//! - `SIDES`: what its whiskers hang on, left first.
-//! - `Source`, `source`, `frames`: where words come from; `FINDS_ZERO`: whether their zero is
-//!   found anew by itself.
-//! - `Number`: the number format of the tick.
-//! - `Settings` and `SETTINGS`: what the tick reads. What the scene leaves out
-//!   is left out by type.
-//! - `Motion`, `start_motion`, `HAS_MOTOR`, `ARMS_AT_START`: how it moves.
-//! - `Perception`, `start_perception`, `DECIDES`: what it decides, if anything; `model`: by
-//!   which model; `adapt`: what of the settings follows from that; `constants`: what it holds
-//!   that no sample changes, the model's bytes first; `AWAITS_MODEL`: whether that lies apart
-//!   from the program.
-//! - `Names`, `names`, `class_name`: the names of the classes.
-//! - `HAS_SERIAL`, `SERIAL_BAUD`, `HAS_PINS`: what it tells without a probe.
-//! - `HEARS_SEVERAL`: whether by more than one whisker.
-#![allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "what a scene leaves out takes no memory"
-)]
-#![allow(
-    clippy::unnecessary_wraps,
-    reason = "a scene without a classifier starts nothing that can fail"
-)]
-#![allow(
-    clippy::excessive_precision,
-    clippy::unreadable_literal,
-    reason = "numbers are written as computed"
-)]
+//! Which scene the board runs: that of the newest valid slot, or none.
 
-include!(concat!(env!("OUT_DIR"), "/scene.rs"));
+use firmware::boards::{Misfit, Needs, TickPeriod, newest_first};
+use firmware::{ConfigError, Field, Header, Links, Part, decode_into};
+use static_cell::StaticCell;
+
+use super::slots::{self, SLOTS};
+use super::types::Settings;
+use crate::here::{FACTS, SIDES};
+
+/// The baud of a serial port without a scene.
+const BAUD_WITHOUT_SCENE: u32 = 115_200;
+
+/// How timers make the ticks of a scene.
+#[derive(Clone, Copy)]
+pub(crate) struct Pace {
+    /// The tick timer.
+    pub(crate) tick: TickPeriod,
+    /// Counts of the byte timers from the start of a byte to that of the next.
+    pub(crate) slot_counts: u16,
+}
+
+/// That of a board without a scene.
+const PACE_WITHOUT_SCENE: Pace = {
+    let still = Settings::still();
+    let pace = Pace::of(still.head.tick_hz, still.sensor.is_slow);
+    // A constant drops nothing.
+    core::mem::forget(still);
+    match pace {
+        Some(pace) => pace,
+        None => panic!("every board has the rate of a module without a scene"),
+    }
+};
+
+impl Pace {
+    const fn of(tick_hz: u32, is_slow: bool) -> Option<Self> {
+        let clocks = FACTS.clocks_of(is_slow);
+        match (clocks.tick(tick_hz), clocks.slot_counts(tick_hz)) {
+            (Some(tick), Some(slot_counts)) => Some(Self { tick, slot_counts }),
+            _ => None,
+        }
+    }
+}
+
+/// Where a scene lies.
+#[derive(Clone, Copy)]
+pub(crate) struct Deployed {
+    /// Its slot.
+    pub(crate) slot: usize,
+    /// The CRC of the model that it was deployed with; 0: none.
+    pub(crate) model: u32,
+    /// Its configuration.
+    pub(crate) bytes: &'static [u8],
+    /// The CRC of that.
+    pub(crate) crc: u32,
+}
+
+/// What a start has found.
+pub(crate) struct Scene {
+    pub(crate) settings: &'static mut Settings,
+    pub(crate) pace: Pace,
+    /// Where it lies; `None`: there is none, and nothing moves.
+    pub(crate) deployed: Option<Deployed>,
+    /// Why a slot before it does not count.
+    pub(crate) refused: [Option<ConfigError>; 2],
+}
+
+/// Where settings lie, in RAM, where they can be changed.
+static SETTINGS: StaticCell<Settings> = StaticCell::new();
+
+/// Finds the scene. It can be done once.
+#[inline(never)]
+pub(crate) fn find() -> Option<Scene> {
+    let settings = SETTINGS.try_init_with(Settings::still)?;
+    let mut scene = Scene {
+        settings,
+        pace: PACE_WITHOUT_SCENE,
+        deployed: None,
+        refused: [None; 2],
+    };
+    for slot in newest_first(slots::headers()) {
+        let refused = match read(slot, scene.settings) {
+            Ok((pace, deployed)) => {
+                scene.pace = pace;
+                scene.deployed = Some(deployed);
+                return Some(scene);
+            }
+            Err(error) => error,
+        };
+        if let Some(place) = scene.refused.get_mut(slot) {
+            *place = Some(refused);
+        }
+    }
+    still(scene.settings);
+    Some(scene)
+}
+
+/// Makes settings those of a board without a scene, whatever reading has left of them.
+#[cold]
+#[inline(never)]
+fn still(settings: &mut Settings) {
+    *settings = Settings::still();
+    settings.links = Links {
+        has_rtt: Part::Rtt.is_built(),
+        serial_baud: Part::Serial.is_built().then_some(BAUD_WITHOUT_SCENE),
+        has_pins: false,
+    };
+}
+
+/// Reads the scene of a slot into `settings`.
+fn read(slot: usize, settings: &mut Settings) -> Result<(Pace, Deployed), ConfigError> {
+    let place = SLOTS.get(slot).ok_or(ConfigError::Absent)?;
+    let header = slots::header(place).ok_or_else(|| slots::no_header(place))?;
+    let bytes = slots::config(place);
+    decode_into(settings, bytes, FACTS.code)?;
+    let pace = fits(settings)?;
+    let crc = Header::of(bytes)?.crc;
+    let deployed = Deployed {
+        slot,
+        model: header.model,
+        bytes,
+        crc,
+    };
+    Ok((pace, deployed))
+}
+
+/// Whether this board, as the image was built, can do it, and by which timers.
+fn fits(settings: &Settings) -> Result<Pace, ConfigError> {
+    FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;
+    if usize::from(settings.head.sides) > SIDES.len() {
+        return Err(ConfigError::Room(Field::Sides));
+    }
+    let pace = Pace::of(settings.head.tick_hz, settings.sensor.is_slow);
+    pace.ok_or(ConfigError::Range(Field::TickHz))
+}

@@ -21,10 +21,8 @@ use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, MASTER_BYTE};
 use stm32_metapac::spi::vals::{Cpha, Mstr};
 
-use super::CLOCKS;
 use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
-use super::scene::SENSORS_ARE_SLOW;
 use super::wiring::SensorPort;
 use crate::here::{byte_request, dma::Transfers, reset_spi, spi};
 
@@ -36,20 +34,30 @@ pub(crate) struct Frames {
     port: &'static SensorPort,
     transfers: Transfers,
     running: bool,
+    /// Cycles of the core from the last byte to /SS high; 0: none.
+    lag: u32,
+}
+
+/// How a frame is paced.
+#[derive(Clone, Copy)]
+pub(crate) struct FramePace {
+    /// Counts of the byte timer from the start of a byte to that of the next.
+    pub(crate) slot: u16,
+    /// Cycles of the core from the last byte to /SS high; 0: none.
+    pub(crate) lag: u32,
 }
 
 impl Frames {
     /// Sets everything up, once the sensors' clocks run; the first frame starts with the
     /// first [`start`](FrameSource::start). The sensor must have had its start-up time by then.
-    pub(crate) fn new(port: &'static SensorPort, slot_counts: u16) -> Self {
+    pub(crate) fn new(port: &'static SensorPort, pace: FramePace) -> Self {
+        let FramePace { slot, lag } = pace;
         let pins = &port.pins;
         Pin::new_high(pins.select);
         let timer = port.byte_timer;
         timer.psc().write_value(port.byte_timer_divider - 1);
-        timer
-            .arr()
-            .write(|w| w.set_arr(slot_counts.saturating_sub(1)));
-        byte_request::set_up(slot_counts);
+        timer.arr().write(|w| w.set_arr(slot.saturating_sub(1)));
+        byte_request::set_up(slot);
         // The divider takes effect with an update.
         timer.egr().write(|w| w.set_ug(true));
         // Pointers have 32 bits on these chips.
@@ -73,6 +81,7 @@ impl Frames {
             port,
             transfers,
             running: false,
+            lag,
         }
     }
 
@@ -93,8 +102,8 @@ impl Frames {
             // The interrupt came late, after `start` had begun another frame.
             return;
         }
-        if SENSORS_ARE_SLOW {
-            cortex_m::asm::delay(const { CLOCKS.lag_cycles() });
+        if self.lag > 0 {
+            cortex_m::asm::delay(self.lag);
         }
         self.stop();
         // The flags stay for `take`; only the interrupt has been served.
@@ -146,13 +155,10 @@ impl FrameSource for Frames {
         // In case the interrupt, and with it `end_of_frame`, is late.
         self.stop();
         compiler_fence(Ordering::Acquire);
-        let words = self
-            .port
-            .received
-            .0
-            .each_ref()
-            .map(|word| word.load(Ordering::Relaxed));
-        let [low, high] = words.map(u64::from);
+        // One by one: a program for size makes loops of what is done to an array.
+        let [low, high] = &self.port.received.0;
+        let low = u64::from(low.load(Ordering::Relaxed));
+        let high = u64::from(high.load(Ordering::Relaxed));
         Ok(Some((high << 32 | low).to_le_bytes()))
     }
 

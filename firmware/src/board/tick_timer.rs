@@ -1,8 +1,8 @@
 //! The timer that makes the ticks.
 
+use firmware::boards::TickPeriod;
 use stm32_metapac::timer::vals::Urs;
 
-use super::timing::TickPeriod;
 use crate::here::TICK_TIMER;
 
 /// The timer that interrupts once a tick.
@@ -11,8 +11,12 @@ pub(crate) struct TickTimer(());
 impl TickTimer {
     /// The first tick comes one period from now.
     pub(crate) fn start(period: TickPeriod) -> Self {
-        TICK_TIMER.psc().write_value(period.prescaler - 1);
-        TICK_TIMER.arr().write(|w| w.set_arr(period.period - 1));
+        // Both are 1 or more.
+        TICK_TIMER
+            .psc()
+            .write_value(period.prescaler.wrapping_sub(1));
+        let last = period.period.wrapping_sub(1);
+        TICK_TIMER.arr().write(|w| w.set_arr(last));
         // The prescaler takes effect with an update; that one is no tick.
         TICK_TIMER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
         TICK_TIMER.egr().write(|w| w.set_ug(true));

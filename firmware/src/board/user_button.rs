@@ -9,11 +9,9 @@ use embedded_hal::digital::InputPin;
 use firmware::{Button, ButtonLimits, design_parameters};
 
 use super::gpio::Pin;
+use super::pace;
 use super::pin_config::PinConfig;
-use super::scene::TICK_HZ;
 use super::wiring::USER_BUTTON;
-
-const LIMITS: ButtonLimits = design_parameters::button(TICK_HZ);
 
 /// From idle to the tick: motors are to be armed.
 pub(crate) static REQUEST: Request = Request(AtomicBool::new(false));
@@ -43,6 +41,7 @@ impl Request {
 pub(crate) struct UserButton {
     pin: Pin,
     button: Button,
+    limits: ButtonLimits,
 }
 
 impl UserButton {
@@ -51,12 +50,13 @@ impl UserButton {
         Self {
             pin: Pin::new(USER_BUTTON, PinConfig::INPUT.pulled_up()),
             button: Button::new(),
+            limits: design_parameters::button(pace::tick_hz()),
         }
     }
 
     /// Looks at it, once a tick; whether a press has ended.
     pub(crate) fn is_pressed(&mut self) -> bool {
         let Ok(is_down) = self.pin.is_low();
-        self.button.sample(LIMITS, is_down)
+        self.button.sample(self.limits, is_down)
     }
 }

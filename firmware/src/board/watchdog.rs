@@ -4,7 +4,7 @@
 use stm32_metapac::IWDG;
 use stm32_metapac::iwdg::vals::{Key, Pr};
 
-use super::CLOCKS;
+use crate::here::CLOCKS;
 
 /// Its counts while flash is erased and written, of 256 periods of its oscillator.
 const SLOW_COUNTS: u16 = (4 * CLOCKS.watchdog_hz[2] / 256) as u16;

@@ -29,7 +29,7 @@ pub(crate) struct SensorPort {
     pub(crate) divider: Br,
     /// Requests each byte of a frame.
     pub(crate) byte_timer: TimBasic,
-    /// From its clock to that of [`CLOCKS`](super::CLOCKS).
+    /// From its clock to that of [`CLOCKS`](crate::here::CLOCKS).
     pub(crate) byte_timer_divider: u16,
     /// Moves the bytes.
     pub(crate) dma: Route,

@@ -1,11 +1,25 @@
 //! From the readings of whiskers to touches, samples and decisions.
 
-use tactile::{Decision, TouchDetector, Touching};
-use whisking::{Optional, Real};
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+use tactile::{Deciding, Decision, RuleSettings, TouchDetector, Touching};
+use whisking::{MAX_WHISKERS, Real};
 
-use super::Perception;
 use crate::sensing::Reading;
 use crate::{Event, Place};
+
+/// Constants of a classifier.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct ClassifierConfig<R: Real> {
+    /// By which rule it decides; none: touches are found, and nothing is decided. Where its
+    /// settings change, [`Perception::retune`] has to follow.
+    pub rule: Option<RuleSettings>,
+    /// Which whiskers decide, and by what.
+    pub deciding: Deciding,
+    /// Contact π of a whisker from which its samples count; none: all do.
+    pub contact_min: Option<R>,
+}
 
 /// A sample of one whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +35,7 @@ pub struct Sample {
 /// A classifier of the two channels of each of some whiskers, counted from 0, left side
 /// first, and its state.
 pub trait SampleClassifier {
-    /// Whether it is told of a whisker.
+    /// Whether it takes the samples of a whisker.
     #[inline]
     fn hears(&self, _whisker: usize) -> bool {
         true
@@ -31,90 +45,133 @@ pub trait SampleClassifier {
     /// fall.
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision>;
 
-    /// Whether it is to be told touches; otherwise all is of the air to it.
+    /// Whether touches mean anything to it; otherwise all is of the air.
     fn knows_touches(&self) -> bool;
 
     /// There is no sample of a whisker: its next does not follow the last.
     fn interrupt(&mut self, whisker: usize);
 
-    /// Starts anew.
+    /// Starts again.
     fn reset(&mut self);
+
+    /// Other settings of its rule take effect; evidence stays. What does not fit changes
+    /// nothing.
+    fn set_rule(&mut self, settings: &RuleSettings);
 }
 
-/// A classifier whose rule has settings `D`.
-pub trait TakesRule<D> {
-    /// Another setting of its rule takes effect; evidence stays.
-    fn set_rule(&mut self, settings: &D);
-}
-
-/// Constants of [`Classifying`].
+/// A whisker in one tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClassifyingConfig<T, D> {
-    /// Samples count only while the contact of their whisker is at least this;
-    /// absent: always.
-    pub contact_min: T,
-    /// Settings of the decision rule, with which the classifier is made; where they change,
-    /// it is to be [told](Perception::retune).
-    pub rule: D,
+pub struct Sensed<R> {
+    /// Where it is.
+    pub place: Place,
+    /// What its sensor reads.
+    pub reading: Reading,
+    /// Its contact π.
+    pub contact: R,
+    /// The contact from which its sample counts; none: it does.
+    pub least: Option<R>,
 }
 
-/// Classifies what the first `B` whiskers of each of the first `A` sides touch, each with
-/// its own contact and touch: the first whisker of the module alone, or all.
+/// What a module makes of its readings: touches, samples and decisions, of each whisker by
+/// its own contact.
 ///
 /// Samples are the sensor's raw 14-bit codes, not the filtered contact signal:
 /// texture is in the vibration above 50 Hz. While a whisker has a fault, and while its
 /// reading is not [current](Reading::current), it touches nothing and there are no samples.
-#[derive(Debug)]
-pub struct Classifying<L, const A: usize = 1, const B: usize = 1> {
-    classifier: L,
-    touches: [[TouchDetector; B]; A],
+#[derive(Debug, Clone)]
+pub struct Perception<C> {
+    classifier: C,
+    touches: Vec<TouchDetector, MAX_WHISKERS>,
 }
 
-impl<L, const A: usize, const B: usize> Classifying<L, A, B> {
-    /// With this classifier.
-    pub const fn new(classifier: L) -> Self {
+impl<C: SampleClassifier> Perception<C> {
+    /// Of a module of so many whiskers, with this classifier.
+    pub fn new(classifier: C, whiskers: usize) -> Self {
+        let mut touches = Vec::new();
+        for _ in 0..whiskers.min(MAX_WHISKERS) {
+            // There is room for them.
+            let _ = touches.push(TouchDetector::new());
+        }
         Self {
             classifier,
-            touches: [const { [const { TouchDetector::new() }; B] }; A],
+            touches,
         }
     }
 
-    /// As before the first tick.
-    #[must_use]
-    pub fn restarted(mut self) -> Self
-    where
-        L: SampleClassifier,
-    {
-        self.classifier.reset();
-        Self::new(self.classifier)
-    }
-
     /// The classifier.
-    pub const fn classifier(&self) -> &L {
+    pub const fn classifier(&self) -> &C {
         &self.classifier
     }
 
     /// The classifier.
-    pub const fn classifier_mut(&mut self) -> &mut L {
+    pub const fn classifier_mut(&mut self) -> &mut C {
         &mut self.classifier
     }
 
-    /// What each whisker touches.
-    pub fn touching(&self) -> [[Touching; B]; A] {
-        let side = |side: &[TouchDetector; B]| side.each_ref().map(TouchDetector::touching);
-        self.touches.each_ref().map(side)
+    /// As before the first tick.
+    #[must_use]
+    pub fn restarted(mut self) -> Self {
+        self.classifier.reset();
+        for touches in &mut self.touches {
+            *touches = TouchDetector::new();
+        }
+        self
+    }
+
+    /// The settings of the rule have changed between two ticks.
+    pub fn retune(&mut self, rule: Option<&RuleSettings>) {
+        if let Some(rule) = rule {
+            self.classifier.set_rule(rule);
+        }
+    }
+
+    /// What a whisker touches, counted from 0, left side first; nothing where there is none.
+    pub fn touching(&self, whisker: usize) -> Touching {
+        let touches = self.touches.get(whisker);
+        touches.map_or_else(Touching::default, TouchDetector::touching)
+    }
+
+    /// One tick of whisker `n`, counted from 0, left side first. `events` gets touches and
+    /// decisions.
+    #[inline]
+    pub fn step<R: Real>(&mut self, n: usize, heard: Sensed<R>, events: &mut impl FnMut(Event)) {
+        let Sensed {
+            place,
+            reading,
+            contact,
+            least,
+        } = heard;
+        let Some(touches) = self.touches.get_mut(n) else {
+            return;
+        };
+        if !self.classifier.hears(n) {
+            return;
+        }
+        let listener = Listener {
+            classifier: &mut self.classifier,
+            touches,
+            whisker: n,
+            place,
+        };
+        if reading.valid && reading.current {
+            let codes = [reading.x.code14(), reading.y.code14()];
+            let counts = least.is_none_or(|least| contact >= least);
+            listener.step(codes, counts, events);
+        } else {
+            listener.interrupt(events);
+        }
     }
 }
 
-/// A whisker that is heard, in one tick.
-struct Heard<'a, L> {
-    classifier: &'a mut L,
+/// What listens to one whisker in one tick.
+struct Listener<'a, C> {
+    classifier: &'a mut C,
     touches: &'a mut TouchDetector,
     whisker: usize,
     place: Place,
 }
 
-impl<L: SampleClassifier> Heard<'_, L> {
+impl<C: SampleClassifier> Listener<'_, C> {
     /// A tick with these codes.
     #[inline]
     fn step(self, codes: [u16; 2], counts: bool, events: &mut impl FnMut(Event)) {
@@ -153,51 +210,5 @@ impl<L: SampleClassifier> Heard<'_, L> {
         }
         self.touches.interrupt();
         self.classifier.interrupt(self.whisker);
-    }
-}
-
-impl<R, T, D, L, const A: usize, const B: usize, const S: usize, const N: usize>
-    Perception<R, ClassifyingConfig<T, D>, S, N> for Classifying<L, A, B>
-where
-    R: Real,
-    T: Optional<R>,
-    L: SampleClassifier + TakesRule<D>,
-{
-    #[inline]
-    fn step(
-        &mut self,
-        config: &ClassifyingConfig<T, D>,
-        contact: &[[R; N]; S],
-        readings: &[[Reading; N]; S],
-        events: &mut impl FnMut(Event),
-    ) {
-        let least = config.contact_min.part();
-        let sides = self.touches.iter_mut().zip(readings).zip(contact);
-        for (side, ((touches, readings), contact)) in sides.enumerate() {
-            let whiskers = touches.iter_mut().zip(readings).zip(contact);
-            for (w, ((touches, reading), contact)) in whiskers.enumerate() {
-                let whisker = side * B + w;
-                if !self.classifier.hears(whisker) {
-                    continue;
-                }
-                let heard = Heard {
-                    classifier: &mut self.classifier,
-                    touches,
-                    whisker,
-                    place: Place::new(side as u8, w as u8),
-                };
-                if reading.valid && reading.current {
-                    let codes = [reading.x.code14(), reading.y.code14()];
-                    let counts = least.is_none_or(|least| contact >= least);
-                    heard.step(codes, counts, events);
-                } else {
-                    heard.interrupt(events);
-                }
-            }
-        }
-    }
-
-    fn retune(&mut self, config: &ClassifyingConfig<T, D>) {
-        self.classifier.set_rule(&config.rule);
     }
 }

@@ -1,17 +1,11 @@
-//! A classifier of the sensors' codes.
+//! A classifier of the sensors' codes. Its model may lie apart from the program, where it was
+//! deployed to: it is checked at the start, and refused if anything is wrong with it.
 
-use tactile::{Constants, Decision, DecisionRule, Model, Streams, Words};
+use tactile::{
+    AnyRule, Constants, Deciding, Decision, JOINT, Model, RuleSettings, StreamClassifier, Words,
+};
 
-use super::{Sample, SampleClassifier, TakesRule};
-
-/// Naive Bayes on the codes of sensors; `B` says of how many whiskers, and how they
-/// decide ([`tactile::NaiveBayes`], [`tactile::Each`], [`tactile::Together`]).
-#[derive(Debug, Clone)]
-pub struct CodeClassifier<B> {
-    bayes: B,
-    /// The model's codes a code of the sensor: powers of two.
-    factors: [i32; 2],
-}
+use super::{ModelState, Refusal, Sample, SampleClassifier};
 
 /// The model was not trained on the integer codes of a sensor's two channels,
 /// so that it cannot classify them.
@@ -37,67 +31,220 @@ pub fn shifts<W: Words>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
     }
 }
 
-impl<B: Streams> CodeClassifier<B> {
+/// What a deployed model has to fit besides the rule of its scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelLimits {
+    /// Most classes that the board takes.
+    pub classes: usize,
+    /// The scene's contact π from which samples count, if it has one.
+    pub contact_min: Option<f32>,
+}
+
+/// A classifier of sensors' codes with its model, or why there is none: then touches are
+/// found and nothing is decided.
+#[derive(Debug, Clone)]
+pub struct CodeClassifier<W = &'static [u32]> {
+    found: Result<Codes<W>, Refusal>,
+    /// How many whiskers are heard.
+    heard: usize,
+}
+
+/// A classifier and what makes its codes.
+#[derive(Debug, Clone)]
+struct Codes<W> {
+    classifier: StreamClassifier<W>,
+    /// The model's codes a code of the sensor: powers of two.
+    factors: [i32; 2],
+}
+
+impl<W: Words> Codes<W> {
+    fn new(classifier: StreamClassifier<W>) -> Result<Self, NotCodes> {
+        // At most 17 bits.
+        let factors = shifts(classifier.model())?.map(|shift| 1 << shift);
+        Ok(Self {
+            classifier,
+            factors,
+        })
+    }
+}
+
+/// A word of flash that is erased.
+const ERASED: u32 = u32::MAX;
+
+impl<'p> CodeClassifier<&'p [u32]> {
+    /// With the model at the beginning of `place`, which starts on a four-byte boundary, if
+    /// it is undamaged and within `limits`, for the rule and the whiskers of a scene whose
+    /// module has so many.
+    pub fn at_start(
+        place: &'p [u8],
+        limits: ModelLimits,
+        config: (RuleSettings, Deciding),
+        whiskers: usize,
+    ) -> Self {
+        let (_, deciding) = config;
+        let mut classifier = Self::refused(Refusal::Absent, deciding.heard(whiskers));
+        classifier.find(place, limits, config, whiskers);
+        classifier
+    }
+
+    /// Becomes what [`at_start`](Self::at_start) makes, where it lies: for a board, whose stack
+    /// has no room for it.
+    pub fn find(
+        &mut self,
+        place: &'p [u8],
+        limits: ModelLimits,
+        config: (RuleSettings, Deciding),
+        whiskers: usize,
+    ) {
+        let (rule, deciding) = config;
+        self.heard = deciding.heard(whiskers);
+        let found = find(place, limits).and_then(|model| {
+            let classifier = StreamClassifier::unstarted(model, rule, deciding, whiskers);
+            Ok((classifier.map_err(Refusal::of_setup)?, factors(&model)?))
+        });
+        self.found = found.map(|(classifier, factors)| Codes {
+            classifier,
+            factors,
+        });
+        if let Ok(codes) = &mut self.found {
+            codes.classifier.restart();
+        }
+    }
+
+    /// Gives the model up, for this reason.
+    pub fn refuse(&mut self, why: Refusal) {
+        self.found = Err(why);
+    }
+}
+
+/// The factors of a model's codes.
+fn factors<W: Words>(model: &Model<W>) -> Result<[i32; 2], Refusal> {
+    // At most 17 bits.
+    let shifts = shifts(model).map_err(|NotCodes| Refusal::Channels)?;
+    Ok(shifts.map(|shift| 1 << shift))
+}
+
+/// The model at the beginning of `place`.
+fn find(place: &[u8], limits: ModelLimits) -> Result<Model<&[u32]>, Refusal> {
+    let first = place.first_chunk().ok_or(Refusal::Absent)?;
+    if u32::from_le_bytes(*first) == ERASED {
+        return Err(Refusal::Absent);
+    }
+    let model = Model::at_start(place).map_err(Refusal::of_model)?;
+    if model.classes() > limits.classes {
+        return Err(Refusal::Classes);
+    }
+    let gate = model.touch_rule().map(|touch| touch.gate);
+    if let (Some(least), Some(gate)) = (limits.contact_min, gate)
+        && least != gate
+    {
+        return Err(Refusal::Contact);
+    }
+    Ok(model)
+}
+
+impl<W: Words> CodeClassifier<W> {
     /// With this classifier.
     ///
     /// # Errors
     /// [`NotCodes`] if its model was not trained on a sensor's codes.
-    pub fn new(bayes: B) -> Result<Self, NotCodes> {
-        // At most 17 bits.
-        let factors = shifts(bayes.model())?.map(|shift| 1 << shift);
-        Ok(Self { bayes, factors })
+    pub fn new(classifier: StreamClassifier<W>) -> Result<Self, NotCodes> {
+        let heard = classifier.streams();
+        let found = Ok(Codes::new(classifier)?);
+        Ok(Self { found, heard })
     }
 
-    /// The classifier: its model, and posteriors.
-    pub const fn bayes(&self) -> &B {
-        &self.bayes
+    /// Without a model, for this reason, in a module of which so many whiskers are heard.
+    pub const fn refused(why: Refusal, heard: usize) -> Self {
+        Self {
+            found: Err(why),
+            heard,
+        }
     }
 
-    /// What no sample changes: its model and rule, and the factors of its codes.
-    pub fn constants(&self) -> (&Constants<B::Rule, B::Words>, &[i32; 2]) {
-        (self.bayes.constants(), &self.factors)
+    /// The classifier, if its model was not refused.
+    pub fn classifier(&self) -> Option<&StreamClassifier<W>> {
+        let codes = self.found.as_ref().ok()?;
+        Some(&codes.classifier)
+    }
+
+    /// Its model, likewise.
+    pub fn model(&self) -> Option<&Model<W>> {
+        self.classifier().map(StreamClassifier::model)
+    }
+
+    /// The contact π from which its model was trained, if that knows touches.
+    pub fn gate(&self) -> Option<f32> {
+        self.model()?.touch_rule().map(|touch| touch.gate)
+    }
+
+    /// Which model it is.
+    pub fn state(&self) -> ModelState {
+        match &self.found {
+            Ok(codes) => ModelState::of(codes.classifier.model()),
+            Err(refusal) => ModelState::Refused(*refusal),
+        }
+    }
+
+    /// What no sample changes, likewise: its model and rule, and the factors of its codes.
+    pub fn constants(&self) -> Option<(&Constants<AnyRule, W>, &[i32; 2])> {
+        let codes = self.found.as_ref().ok()?;
+        Some((codes.classifier.constants(), &codes.factors))
     }
 }
 
-impl<B: Streams, D: Copy> TakesRule<D> for CodeClassifier<B>
-where
-    B::Rule: DecisionRule<Settings = D>,
-{
-    fn set_rule(&mut self, settings: &D) {
-        // What does not fit the model changes nothing.
-        let _ = self.bayes.set_rule(*settings);
+impl<W: Words> SampleClassifier for CodeClassifier<W> {
+    #[inline]
+    fn hears(&self, whisker: usize) -> bool {
+        whisker < self.heard
     }
-}
 
-impl<B: Streams> SampleClassifier for CodeClassifier<B> {
     #[inline]
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
+        let knows_touches = self.knows_touches();
+        let Codes {
+            classifier,
+            factors,
+        } = self.found.as_mut().ok()?;
         let [x, y] = sample.codes;
-        if sample.touch != 0 && sample.touch != self.bayes.touch_of(whisker) {
-            self.bayes.begin_touch(whisker, sample.touch);
+        if sample.touch != 0 && sample.touch != classifier.touch_of(whisker) {
+            classifier.begin_touch(whisker, sample.touch);
         }
         let codes = [
-            i32::from(x).wrapping_mul(self.factors[0]),
-            i32::from(y).wrapping_mul(self.factors[1]),
+            i32::from(x).wrapping_mul(factors[0]),
+            i32::from(y).wrapping_mul(factors[1]),
         ];
-        // Two channels, as `new` has made sure.
-        if sample.counts && (sample.touch != 0 || !self.knows_touches()) {
-            return self.bayes.push_to(whisker, &codes).ok().flatten();
+        // Two channels, as was made sure at the start.
+        if sample.counts && (sample.touch != 0 || !knows_touches) {
+            return classifier.push_to(whisker, &codes).ok().flatten();
         }
-        let _ = self.bayes.pass_to(whisker, &codes);
+        let _ = classifier.pass_to(whisker, &codes);
         None
     }
 
     #[inline]
     fn knows_touches(&self) -> bool {
-        self.bayes.model().touch_rule().is_some()
+        // Without a model touches are found all the same.
+        self.model()
+            .map_or(JOINT, |model| model.touch_rule().is_some())
     }
 
     fn interrupt(&mut self, whisker: usize) {
-        self.bayes.interrupt_stream(whisker);
+        if let Ok(codes) = &mut self.found {
+            codes.classifier.interrupt_stream(whisker);
+        }
     }
 
     fn reset(&mut self) {
-        self.bayes.restart();
+        if let Ok(codes) = &mut self.found {
+            codes.classifier.restart();
+        }
+    }
+
+    fn set_rule(&mut self, settings: &RuleSettings) {
+        if let Ok(codes) = &mut self.found {
+            // What does not fit the model changes nothing.
+            let _ = codes.classifier.set_rule(*settings);
+        }
     }
 }

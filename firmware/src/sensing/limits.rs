@@ -1,10 +1,12 @@
-//! What is borne of a sensor.
+//! What is tolerated of a sensor.
+
+use serde::{Deserialize, Serialize};
 
 use crate::zero::ZeroLimits;
 
-/// What is borne of a sensor, and how long a recovery takes; in ticks but for `jump`.
+/// What is tolerated of a sensor, and how long a recovery takes; in ticks but for `jump`.
 /// `u16::MAX` is no limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SensorLimits {
     /// Ticks without a good frame for which the last reading is held.
     pub hold: u16,
@@ -21,8 +23,22 @@ pub struct SensorLimits {
     /// Where ticks without a good frame are too many: each counts [`BAD_WEIGHT`], each with
     /// one takes 1 away.
     pub burst: u16,
-    /// When its zero is found anew, where it is.
-    pub zero: ZeroLimits,
+    /// When its zero is found; `None`: it is mid-scale.
+    pub zero: Option<ZeroLimits>,
+}
+
+impl SensorLimits {
+    /// Anything is tolerated for as long as it lasts; one good frame ends a fault.
+    pub const ANY: Self = Self {
+        hold: u16::MAX,
+        recover: 1,
+        resync: 0,
+        stale: u16::MAX,
+        frozen: u16::MAX,
+        jump: u16::MAX,
+        burst: u16::MAX,
+        zero: None,
+    };
 }
 
 /// What a tick without a good frame counts: more than one in `BAD_WEIGHT + 1` of them are

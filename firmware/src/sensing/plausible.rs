@@ -33,7 +33,7 @@ impl Course {
     pub(super) fn follow(
         &mut self,
         words: [Word; 2],
-        limits: SensorLimits,
+        limits: &SensorLimits,
     ) -> Result<(), SensorFault> {
         let most = limits.jump.saturating_mul(self.missed.saturating_add(1));
         let ([x, y], [last_x, last_y]) = (words, self.words);

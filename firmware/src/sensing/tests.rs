@@ -1,6 +1,5 @@
 use super::{Reading, Sensor, SensorLimits};
 use crate::io::{BusError, FrameSource};
-use crate::zero::ZeroLimits;
 use crate::{BAD_WEIGHT, Event, Place, SensorFault};
 use mlx90333::{Decoder, FRAME_LEN, Faults, FrameError, SumRule, Word, encode};
 
@@ -14,7 +13,7 @@ const LIMITS: SensorLimits = SensorLimits {
     frozen: 9,
     jump: 0x2000,
     burst: 40,
-    zero: ZeroLimits::NONE,
+    zero: None,
 };
 
 type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;
@@ -51,16 +50,17 @@ fn good<const N: usize>(words: [u16; N]) -> [Taken; N] {
 type Course = (Vec<Reading>, Vec<(usize, Event)>, Vec<usize>);
 
 fn course(limits: SensorLimits, script: &[Taken], ticks: usize) -> Course {
-    let mut sensor = Sensor::new(Script {
+    let script = Script {
         frames: script.iter().copied(),
         tick: 0,
         started: Vec::new(),
-    });
+    };
+    let mut sensor = Sensor::new(script, false);
     let mut events = Vec::new();
     let readings = (0..ticks)
         .map(|tick| {
             sensor.source.tick = tick;
-            sensor.read(Decoder::new(), limits, PLACE, &mut |e| {
+            sensor.read(Decoder::new(), &limits, PLACE, &mut |e| {
                 events.push((tick, e));
             })
         })
@@ -81,7 +81,7 @@ fn a_short_gap_is_bridged_and_a_long_one_is_a_fault() {
     assert_eq!(readings[3].x.raw(), 0x9000, "held");
     assert!(!readings[3].fresh && readings[4].fresh);
     let lost = Event::SensorLost(PLACE, SensorFault::Frame(FrameError::NoSensor));
-    assert_eq!(events, [(8, lost)], "told once");
+    assert_eq!(events, [(8, lost)], "reported once");
     assert_eq!(readings[8].x, Word::MID, "a faulty sensor feels nothing");
     assert!(!readings[9].valid);
 }

@@ -1,4 +1,4 @@
-//! State that cannot rot: what a servo was told once, and what it remembers of faults.
+//! State that cannot rot: what a servo was set to once, and what it remembers of faults.
 
 use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
 use whisking::pd;
@@ -50,7 +50,7 @@ fn config() -> ServoConfig<f32> {
         },
         guards: GuardSettings::NONE.build(2000.0),
         approach: 10.0,
-        homing: whisking::Absent,
+        homing: None,
     }
 }
 

@@ -1,14 +1,13 @@
 //! Commands between ticks: the nominal gain and the setpoint of a whisker.
 
 use firmware::{
-    Active, ActiveConfig, AngleInput, Command, Config, Module, NoActiveWhisker, Passive, Place,
-    Servo, ServoConfig, ServoState, design_parameters,
+    AngleInput, Command, Config, Driver, HeadConfig, Module, MotionConfig, NoActiveWhisker, Place,
+    Servo, ServoConfig, ServoState, Whisker, WhiskerParts, design_parameters,
 };
-use mlx90333::Decoder;
 use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
-use whisking::{Absent, Fix, GateSettings, Integrator, Real, Settings, State, filter, pd};
+use whisking::{Fix, GateSettings, Integrator, Number, Settings, filter, pd};
 
-use crate::hardware::{AT_ONCE, Bent, NoClock, feeling};
+use crate::hardware::{Bent, NoClock, Toy, feeling, passive};
 
 /// A motor that keeps what it is driven with.
 #[derive(Default)]
@@ -62,48 +61,67 @@ const PD: pd::Settings = pd::Settings {
     degrees_per_count: 0.1,
 };
 
-pub(crate) type Settable<R> = Config<ActiveConfig<R>, (), Option<filter::Config<R>>>;
-pub(crate) type Whiskers<R> = Module<R, Bent, Active<R, Kept, Still, 1, 2>, (), NoClock, 1, 2>;
+pub(crate) type Whiskers<R> = Module<R, Toy<Bent>>;
 
-pub(crate) fn module<R: Real>() -> (Whiskers<R>, Settable<R>) {
+pub(crate) fn module<R: Number>() -> (Whiskers<R>, Config<R>) {
+    let h50 = filter::Config::new(filter::CORNER_HZ, 2000.0).unwrap();
+    let feeling = feeling(Some(h50));
     let config = Config {
-        decoder: Decoder::new(),
-        sensor_limits: AT_ONCE,
-        contact: Some(filter::Config::new(filter::CORNER_HZ, 2000.0).unwrap()),
-        motion: ActiveConfig {
+        head: HeadConfig {
+            name: "a scene of bench".try_into().unwrap(),
+            sides: 1,
+            ..feeling.head.clone()
+        },
+        motion: Some(MotionConfig {
             whisking: SETTINGS.build().unwrap(),
+            start: SETTINGS.start(&[[1.0, 0.0]], &[&[1.0; 2]]).unwrap(),
+            seed: 1,
             servo: ServoConfig {
                 pd: PD.build(2000.0).unwrap(),
                 retry: design_parameters::retry(2000),
                 guards: GuardSettings::NONE.build(2000.0),
                 approach: R::ONE,
-                homing: Absent,
+                homing: None,
             },
-            stop_all: Absent,
-        },
-        perception: (),
-        period: 0,
+            driver: Driver::HBridge,
+            stops_all: false,
+            arms_at_start: true,
+        }),
+        ..feeling
     };
-    let start = SETTINGS.start([[1.0, 0.0]], [[1.0; 2]]).unwrap();
-    let servo = || Servo::new(Kept::default(), Still);
-    let active = Active::new(State::new(&start, 1), [[servo(), servo()]]);
-    let mut module = Module::new([[Bent(0xC000), Bent(0xC000)]], active, (), NoClock);
+    let whisker = || WhiskerParts {
+        source: Bent(0xC000),
+        motor: Some((Kept::default(), Still)),
+    };
+    let mut module = Module::new(&config, [whisker(), whisker()], None, (NoClock, 0));
     module.arm(true);
     (module, config)
 }
 
 const SECOND: Place = Place::new(0, 1);
 
+/// The servo of the second whisker.
+pub(crate) fn servo<R: Number>(module: &Whiskers<R>) -> &Servo<R, Kept, Still> {
+    module.whiskers().get(1).and_then(Whisker::servo).unwrap()
+}
+
+/// The nominal gain of a whisker.
+pub(crate) fn nominal<R: Number>(module: &Whiskers<R>, n: usize) -> R {
+    module.motion().unwrap().state().whiskers[n].nominal()
+}
+
 /// Duties of both motors after a tick.
-pub(crate) fn tick<R: Real>(module: &mut Whiskers<R>, config: &Settable<R>) -> [f64; 2] {
+pub(crate) fn tick<R: Number>(module: &mut Whiskers<R>, config: &Config<R>) -> [f64; 2] {
     module.tick(config, &mut |event| panic!("{event:?}"));
-    let [servos] = module.motion_mut().servos_mut();
-    servos.each_mut().map(|servo| servo.parts_mut().0.duty)
+    let [first, second] = module.whiskers_mut() else {
+        panic!("two whiskers");
+    };
+    [first, second].map(|whisker| whisker.servo_mut().unwrap().parts_mut().0.duty)
 }
 
 #[test]
 fn a_setpoint_takes_the_place_of_the_pattern_generators_within_its_limits() {
-    fn check<R: Real>() {
+    fn check<R: Number>() {
         let (mut module, config) = module::<R>();
         let (mut other, _) = self::module::<R>();
         // θ' is 100 θ + 50 degrees, and the whisker stands at 50 degrees.
@@ -118,7 +136,7 @@ fn a_setpoint_takes_the_place_of_the_pattern_generators_within_its_limits() {
         }
         module.command(SECOND, Command::Setpoint(None)).unwrap();
         assert_eq!(tick(&mut module, &config), tick(&mut other, &config));
-        let state = module.motion().servos()[0][1].state();
+        let state = servo(&module).state();
         assert!(matches!(state, ServoState::Running { .. }), "{state:?}");
     }
     check::<f32>();
@@ -128,25 +146,25 @@ fn a_setpoint_takes_the_place_of_the_pattern_generators_within_its_limits() {
 
 #[test]
 fn gains_stay_within_0_and_2_whatever_is_commanded() {
-    fn check<R: Real>(wild: &[R]) {
+    fn check<R: Number>(wild: &[R]) {
         let (mut module, config) = module::<R>();
         // Contact lifts g as far as it goes.
         for _ in 0..200 {
             tick(&mut module, &config);
         }
-        let gain = |module: &Whiskers<R>| module.motion().state().whiskers[0][1].gain();
+        let gain = |module: &Whiskers<R>| module.motion().unwrap().state().whiskers[1].gain();
         assert!(gain(&module) > 1.2, "{}", gain(&module));
         let commanded = [0.5, 2.0, 0.0, 3.0, -1.0].map(R::from_f64);
         for gain_wanted in commanded.iter().chain(wild) {
             module.command(SECOND, Command::Gain(*gain_wanted)).unwrap();
-            let nominal = module.motion().state().whiskers[0][1].nominal();
+            let nominal = nominal(&module, 1);
             let expected = gain_wanted.clamp(R::ZERO, R::TWO);
             assert_eq!(nominal, expected);
             for _ in 0..20 {
                 assert!((0.0..=2.0).contains(&gain(&module)), "{}", gain(&module));
                 tick(&mut module, &config);
             }
-            assert_eq!(module.motion().state().whiskers[0][0].nominal(), R::ONE);
+            assert_eq!(self::nominal(&module, 0), R::ONE);
         }
     }
     check::<f32>(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
@@ -163,8 +181,9 @@ fn whiskers_that_are_not_there_or_passive_are_refused() {
             assert_eq!(module.command(place, command), Err(NoActiveWhisker));
         }
     }
-    let mut passive = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
+    let config = feeling::<f32>(None);
+    let mut passive = passive(&config, [Bent(0xC000)]);
     let refused = passive.command(Place::new(0, 0), Command::Gain(1.0));
     assert_eq!(refused, Err(NoActiveWhisker));
-    passive.tick(&feeling(Absent), &mut |event| panic!("{event:?}"));
+    passive.tick(&config, &mut |event| panic!("{event:?}"));
 }

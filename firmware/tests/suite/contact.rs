@@ -1,21 +1,20 @@
 //! Contact of a side (BIOTACT eq. 9): the largest |H50(x)| of its whiskers,
 //! whichever of them is bent and whichever way.
 
-use firmware::{BusError, FrameSource, Module, Passive};
+use firmware::{BusError, FrameSource};
 use mlx90333::{FRAME_LEN, Word};
 use proptest::prelude::*;
-use whisking::{Present, filter};
+use whisking::filter;
 
-use crate::hardware::{Bent, NoClock, feeling};
+use crate::hardware::{Bent, feeling, passive};
 
 const REST: u16 = 0x8000;
 
 /// Contact of both sides after one tick of whiskers at these words.
 fn contact(words: [[u16; 2]; 2]) -> [f64; 2] {
     let h50 = filter::Config::<f64>::new(50.0, 2000.0).unwrap();
-    let config = feeling(Present(h50));
-    let sources = words.map(|side| side.map(Bent));
-    let mut module = Module::new(sources, Passive, (), NoClock);
+    let config = feeling(Some(h50));
+    let mut module = passive(&config, words.into_iter().flatten().map(Bent));
     module.tick(&config, &mut |event| panic!("{event:?}"));
     module.contact()
 }
@@ -77,7 +76,7 @@ impl FrameSource for Sent {
 }
 
 /// The contact of a whisker alone that sends `words`, by [`feeling`]'s limits: one bad
-/// frame is bridged, a good one ends a fault; the filter then begins anew.
+/// frame is bridged, a good one ends a fault; the filter is then reset.
 fn contacts(h50: &filter::Config<f64>, words: &[Option<u16>]) -> Vec<f64> {
     let (mut state, mut held, mut bad) = (filter::State::default(), 0.0, 0);
     let contact = |word: &Option<u16>| {
@@ -99,7 +98,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn whiskers_with_a_fault_have_no_part_in_contact_and_begin_anew(
+    fn whiskers_with_a_fault_have_no_part_in_contact_and_are_reset(
         words in prop::collection::vec(
             prop::collection::vec(prop::option::weighted(0.6, any::<u16>()), 60),
             4,
@@ -107,11 +106,11 @@ proptest! {
     ) {
         let h50 = filter::Config::<f64>::new(50.0, 2000.0).unwrap();
         let sent = |n: usize| Sent(words[n].clone().into_iter());
-        let sources = [[sent(0), sent(1)], [sent(2), sent(3)]];
-        let mut module = Module::new(sources, Passive, (), NoClock);
+        let config = feeling(Some(h50));
+        let mut module = passive(&config, (0..4).map(sent));
         let alone: Vec<Vec<f64>> = words.iter().map(|words| contacts(&h50, words)).collect();
         for tick in 0..60 {
-            module.tick(&feeling(Present(h50)), &mut |_| {});
+            module.tick(&config, &mut |_| {});
             for (found, alone) in module.contact().into_iter().zip(alone.chunks(2)) {
                 let expected = alone[0][tick].max(alone[1][tick]);
                 prop_assert!((found - expected).abs() < 1e-12, "{tick}: {found} {expected}");

@@ -5,12 +5,14 @@ use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
-    Active, ActiveConfig, AngleInput, Clock, Config, Event, Module, Place, Polled, Retry,
-    SensorFault, SensorLimits, Servo, ServoConfig, ZeroLimits,
+    AngleInput, Clock, Config, Driver, Event, Hardware, Module, MotionConfig, Place, Polled, Retry,
+    SensingConfig, SensorFault, SensorLimits, ServoConfig, WhiskerParts,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{GuardSettings, HBridge};
-use whisking::{Absent, GateSettings, Integrator, Present, Settings, filter, pd};
+use whisking::{GateSettings, Integrator, Settings, filter, pd};
+
+use crate::hardware::NoClassifier;
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
@@ -90,7 +92,7 @@ const SETTINGS: Settings = Settings {
 };
 
 /// Ten counts a degree, 0.05 of duty a degree, at most 0.5, at most 0.2 a tick.
-fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
+fn config() -> Config<f32> {
     let pd = pd::Settings {
         kp: 0.05,
         kd: 0.0,
@@ -101,20 +103,19 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
         degrees_per_count: 0.1,
     };
     Config {
-        decoder: Decoder::new(),
-        sensor_limits: SensorLimits {
-            hold: 1,
-            recover: 2,
-            resync: 0,
-            stale: u16::MAX,
-            frozen: u16::MAX,
-            jump: u16::MAX,
-            burst: u16::MAX,
-            zero: ZeroLimits::NONE,
+        sensor: SensingConfig {
+            is_slow: false,
+            limits: SensorLimits {
+                hold: 1,
+                recover: 2,
+                ..SensorLimits::ANY
+            },
         },
-        contact: Present(filter::Config::new(50.0, 2000.0).unwrap()),
-        motion: ActiveConfig {
+        contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
+        motion: Some(MotionConfig {
             whisking: SETTINGS.build().unwrap(),
+            start: SETTINGS.start(&[[1.0, 0.0]], &[&[0.0]]).unwrap(),
+            seed: 1,
             servo: ServoConfig {
                 pd: pd.build(2000.0).unwrap(),
                 retry: Retry {
@@ -123,13 +124,25 @@ fn config() -> Config<ActiveConfig<f32>, (), Present<filter::Config<f32>>> {
                 },
                 guards: GuardSettings::NONE.build(2000.0),
                 approach: 1.0,
-                homing: Absent,
+                homing: None,
             },
-            stop_all: Absent,
-        },
-        perception: (),
-        period: 500,
+            driver: Driver::HBridge,
+            stops_all: false,
+            arms_at_start: true,
+        }),
+        ..Config::still()
     }
+}
+
+/// Mocks of the wires.
+struct Wires;
+
+impl Hardware for Wires {
+    type Source = Polled<Spi<u8>>;
+    type Motor = HBridge<Pwm, Pin>;
+    type Angle = Encoder;
+    type Classifier = NoClassifier;
+    type Clock = Microseconds;
 }
 
 /// The ticks as the wires must see them. The gain is 0, so that the setpoint is
@@ -177,12 +190,15 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     let (mut spi, mut pwm, mut pin) = (Spi::new(&spi), Pwm::new(&pulses), Pin::new(&sets));
 
     let config = config();
-    let start = SETTINGS.start::<f32, 1, 1>([[1.0, 0.0]], [[0.0]]).unwrap();
-    let bridge = HBridge::new(pwm.clone(), pin.clone());
-    let servo = Servo::new(bridge, Encoder(counts.into_iter()));
-    let active = Active::new(whisking::State::new(&start, 1), [[servo]]);
-    let sensor = Polled::new(Mlx90333::new(spi.clone(), Decoder::new()));
-    let mut module = Module::new([[sensor]], active, (), Microseconds(40));
+    let whisker = WhiskerParts {
+        source: Polled::new(Mlx90333::new(spi.clone(), Decoder::new())),
+        motor: Some((
+            HBridge::new(pwm.clone(), pin.clone()),
+            Encoder(counts.into_iter()),
+        )),
+    };
+    let clock = (Microseconds(40), 500);
+    let mut module = Module::<f32, Wires>::new(&config, [whisker], None, clock);
     module.arm(true);
 
     let mut events = Vec::new();
@@ -192,7 +208,8 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
             // First value of H50's impulse response, by scipy.signal.butter(3, 50, fs=2000).
             let contact = 4.165_461_390_757_6e-4 * 4096.0 / 8191.0;
             assert!((f64::from(module.contact()[0]) - contact).abs() < 1e-9);
-            assert!((f64::from(module.motion().state().z[0].value) - 0.7 * contact).abs() < 1e-9);
+            let z = module.motion().unwrap().state().sides[0].z.value;
+            assert!((f64::from(z) - 0.7 * contact).abs() < 1e-9);
         }
     }
 

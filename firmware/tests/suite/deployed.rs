@@ -1,7 +1,7 @@
 //! Models that lie apart from the program: which are taken, and why others are not.
 
-use firmware::{Deployed, ModelLimits, ModelState, Refusal};
-use tactile::{Aligned, CRC_BYTES, NaiveBayes, Threshold, Window, checksum};
+use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal};
+use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, checksum};
 
 /// The main job's: two channels of codes, four classes, a gate of 0.05.
 const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
@@ -24,12 +24,12 @@ impl Place {
     }
 
     fn state(&self, limits: ModelLimits) -> ModelState {
-        let threshold = Threshold::new(0.99).unwrap();
-        let bytes = &self.0.0;
-        Deployed::new(bytes, limits, |model| {
-            NaiveBayes::<tactile::SequentialRule, _>::new(model, threshold)
-        })
-        .state()
+        let sequential = RuleSettings::Sequential(Threshold::new(0.99).unwrap());
+        self.classifier(limits, sequential).state()
+    }
+
+    fn classifier(&self, limits: ModelLimits, rule: RuleSettings) -> CodeClassifier<&[u32]> {
+        CodeClassifier::at_start(&self.0.0, limits, (rule, Deciding::First), 1)
     }
 
     fn changed(mut self, at: usize, to: u8) -> Self {
@@ -64,7 +64,7 @@ fn the_model_at_the_beginning_is_taken() {
         place.state(with(Some(0.1))),
         ModelState::Refused(Refusal::Contact)
     );
-    let deployed = Deployed::new(&place.0.0, LIMITS, |model| Window::new(model, 40));
+    let deployed = place.classifier(LIMITS, RuleSettings::Window(40));
     assert_eq!(deployed.gate(), Some(0.05));
 }
 
@@ -90,7 +90,7 @@ fn whatever_is_wrong_has_its_reason() {
     };
     refused(right, few, Refusal::Classes);
     let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=10).collect::<Vec<u8>>());
+    assert_eq!(codes, (1..=12).collect::<Vec<u8>>());
     for why in Refusal::ALL {
         assert_eq!(Refusal::from_code(why.code()), Some(*why));
     }
@@ -101,23 +101,9 @@ fn whatever_is_wrong_has_its_reason() {
 fn a_window_must_be_whole_blocks() {
     let place = Place::with(MODEL);
     let state = |window| {
-        let join = |model| Window::new(model, window);
-        Deployed::new(&place.0.0, LIMITS, join).state()
+        let rule = RuleSettings::Window(window);
+        place.classifier(LIMITS, rule).state()
     };
     assert!(matches!(state(40), ModelState::Runs { .. }));
     assert_eq!(state(41), ModelState::Refused(Refusal::Window));
-}
-
-/// Wherever writing ends before its last word, the place is empty.
-#[test]
-fn an_interrupted_write_leaves_nothing() {
-    let words = (MODEL.len() / 4) as u32;
-    let order = (0..words).map(|number| wire::load_order(number, words) as usize);
-    let mut place = Place::with(&[]);
-    for word in order {
-        assert_eq!(place.state(LIMITS), ModelState::Refused(Refusal::Absent));
-        let bytes = 4 * word..4 * word + 4;
-        place.0.0[bytes.clone()].copy_from_slice(&MODEL[bytes]);
-    }
-    assert!(matches!(place.state(LIMITS), ModelState::Runs { .. }));
 }

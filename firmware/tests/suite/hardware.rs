@@ -1,30 +1,79 @@
 //! Hardware that is always the same.
 
-use firmware::{BusError, Clock, Config, FrameSource, SensorLimits, ZeroLimits};
-use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use firmware::{
+    BusError, Clock, Config, FrameSource, Hardware, HeadConfig, Module, Sample, SampleClassifier,
+    SensingConfig, SensorLimits, WhiskerParts, WordSource,
+};
+use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
+use tactile::{Decision, RuleSettings};
+use whisking::{Real, filter};
+
+use crate::command::{Kept, Still};
 
 /// A bad frame is bridged, and a good one ends the fault.
 pub(crate) const AT_ONCE: SensorLimits = SensorLimits {
     hold: 1,
-    recover: 1,
-    resync: 0,
-    stale: u16::MAX,
-    frozen: u16::MAX,
-    jump: u16::MAX,
-    burst: u16::MAX,
-    zero: ZeroLimits::NONE,
+    ..SensorLimits::ANY
 };
 
-/// A module that does nothing but feel.
-pub(crate) const fn feeling<C>(contact: C) -> Config<(), (), C> {
+/// A module of two sides with two whiskers each that does nothing but feel.
+pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> {
+    let still = Config::still();
     Config {
-        decoder: Decoder::new(),
-        sensor_limits: AT_ONCE,
+        head: HeadConfig {
+            sides: 2,
+            whiskers_per_side: 2,
+            ..still.head.clone()
+        },
+        sensor: SensingConfig {
+            is_slow: false,
+            limits: AT_ONCE,
+        },
         contact,
-        motion: (),
-        perception: (),
-        period: 0,
+        ..still
     }
+}
+
+/// A passive module whose sensors are these, left side first.
+pub(crate) fn passive<R: Real, S: WordSource>(
+    config: &Config<R>,
+    sources: impl IntoIterator<Item = S>,
+) -> Module<R, Toy<S>> {
+    let parts = sources.into_iter().map(|source| WhiskerParts {
+        source,
+        motor: None,
+    });
+    Module::new(config, parts, None, (NoClock, 0))
+}
+
+/// Motors that keep what they are driven with, and these sensors.
+pub(crate) struct Toy<S>(S);
+
+impl<S: WordSource> Hardware for Toy<S> {
+    type Source = S;
+    type Motor = Kept;
+    type Angle = Still;
+    type Classifier = NoClassifier;
+    type Clock = NoClock;
+}
+
+/// Decides nothing.
+pub(crate) struct NoClassifier;
+
+impl SampleClassifier for NoClassifier {
+    fn push(&mut self, _: usize, _: Sample) -> Option<Decision> {
+        None
+    }
+
+    fn knows_touches(&self) -> bool {
+        false
+    }
+
+    fn interrupt(&mut self, _: usize) {}
+
+    fn reset(&mut self) {}
+
+    fn set_rule(&mut self, _: &RuleSettings) {}
 }
 
 /// A sensor that always sends the same word.

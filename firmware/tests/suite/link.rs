@@ -1,19 +1,15 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
-use firmware::{
-    About, Link, ModelState, Module, Notes, PacketSink, PacketSlot, Passive, Refusal, may_load,
-};
+use firmware::{About, Config, Link, ModelState, Notes, PacketSink, PacketSlot, Refusal, may_load};
 use wire::{
-    Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, UnknownCommand,
+    Answer, Command, CommandStatus, Flags, Load, Packet, TaggedCommand, TickRecord, UnknownCommand,
     WhiskerId,
 };
 
-use crate::command::{Settable, Whiskers, module, tick};
-use crate::hardware::{Bent, NoClock, feeling};
+use crate::command::{Whiskers, module, nominal, servo, tick};
+use crate::hardware::{Bent, feeling, passive};
 
-const ABOUT: About<'static> = About {
-    name: "a scene of bench",
-    tick_hz: 2000,
+const ABOUT: About = About {
     model: ModelState::Refused(Refusal::Damaged),
 };
 
@@ -56,7 +52,7 @@ impl PacketSink for Reader {
 fn ask(
     link: &mut Link,
     module: &mut Whiskers<f32>,
-    config: &Settable<f32>,
+    config: &Config<f32>,
     command: Command,
 ) -> Answer {
     let request = TaggedCommand { tag: 9, command };
@@ -107,15 +103,12 @@ fn what_is_out_of_range_or_not_there_is_refused_and_changes_nothing() {
     ] {
         let answer = ask(&mut link, &mut module, &config, command);
         assert_eq!(answer.status, status, "{command:?}");
-        let servo = &module.motion().servos()[0][1];
-        assert!(
-            (servo.setpoint().unwrap() - 0.3).abs() < 1e-6,
-            "{command:?}"
-        );
+        let setpoint = servo(&module).setpoint().unwrap();
+        assert!((setpoint - 0.3).abs() < 1e-6, "{command:?}");
     }
-    assert_eq!(module.motion().state().whiskers[0][1].nominal(), 0.5);
+    assert_eq!(nominal(&module, 1), 0.5);
     ask(&mut link, &mut module, &config, Command::Release(SECOND));
-    assert_eq!(module.motion().servos()[0][1].setpoint(), None);
+    assert_eq!(servo(&module).setpoint(), None);
 }
 
 #[test]
@@ -136,7 +129,7 @@ fn it_says_what_it_is() {
 }
 
 #[test]
-fn a_motor_that_is_told_to_stop_is_off_in_the_next_tick_and_armed_only_when_told() {
+fn a_motor_is_off_in_the_tick_after_stop_and_armed_only_by_command() {
     let (mut module, config) = module::<f32>();
     let mut link = Link::new();
     let setpoint = Command::Setpoint(SECOND, q24(0.3));
@@ -148,19 +141,19 @@ fn a_motor_that_is_told_to_stop_is_off_in_the_next_tick_and_armed_only_when_told
         tick(module, &config)[1]
     };
     assert!((driven(&mut module) - 0.3).abs() < 2e-4);
-    let mut told = |module: &mut Whiskers<f32>, command| {
+    let mut done = |module: &mut Whiskers<f32>, command| {
         let answer = ask(&mut link, module, &config, command);
         assert_eq!(answer.status, CommandStatus::Done);
     };
-    told(&mut module, Command::Stop);
+    done(&mut module, Command::Stop);
     assert_eq!(tick(&mut module, &config)[1], 0.0);
     assert_eq!(driven(&mut module), 0.0);
-    told(&mut module, Command::Arm);
+    done(&mut module, Command::Arm);
     assert!((driven(&mut module) - 0.3).abs() < 2e-4);
 }
 
 #[test]
-fn records_tell_what_the_tick_has_done() {
+fn records_report_what_the_tick_has_done() {
     let (mut module, config) = module::<f32>();
     let (mut link, notes) = (Link::new(), Notes::new());
     let setpoint = Command::Setpoint(SECOND, q24(0.3));
@@ -181,7 +174,7 @@ fn records_tell_what_the_tick_has_done() {
     assert!((wire::degrees(second.measured) - 50.0).abs() < 0.02);
     assert!((f64::from(second.duty) / 32_767.0 - 0.3).abs() < 2e-4);
     let felt = wire::unit(second.contact);
-    assert!((felt - module.felt()[0][1]).abs() < 2e-4, "{felt}");
+    assert!((felt - module.whiskers()[1].felt()).abs() < 2e-4, "{felt}");
     let running = Flags::FRESH | Flags::VALID | Flags::ARMED | Flags::RUNNING;
     assert_eq!(second.flags, running);
 
@@ -200,7 +193,7 @@ fn records_without_room_are_lost_whole_and_counted() {
     let (mut link, notes) = (Link::new(), Notes::new());
     let mut full = Reader::new(0);
     link.send(&module, &config, 1, &notes, &mut full);
-    assert!(!link.streams(), "nobody has asked");
+    assert!(!link.streams(), "none were asked for");
     ask(&mut link, &mut module, &config, Command::Stream(true));
     for tick in 2..5 {
         link.send(&module, &config, tick, &notes, &mut full);
@@ -250,8 +243,8 @@ fn an_answer_waits_for_room_and_an_unknown_command_gets_one() {
 
 #[test]
 fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
-    let config = feeling(whisking::Absent);
-    let mut module = Module::<f32, _, _, _, _, 1, 1>::new([[Bent(0xC000)]], Passive, (), NoClock);
+    let config = feeling::<f32>(None);
+    let mut module = passive(&config, [Bent(0xC000)]);
     let mut link = Link::new();
     let left = WhiskerId::default();
     for command in [
@@ -281,7 +274,7 @@ fn it_says_by_which_model_it_decides() {
             tag: 1,
             command: Command::Model,
         };
-        let about = About { model, ..ABOUT };
+        let about = About { model };
         link.carry_out(&mut module, &config, request, about, 0);
         let mut reader = Reader::new(1);
         link.answer(&mut reader);
@@ -299,31 +292,31 @@ fn it_says_by_which_model_it_decides() {
 }
 
 #[test]
-fn a_model_is_loaded_with_motors_off_and_where_there_is_room() {
-    let (mut module, config) = module::<f32>();
-    let armed = may_load(&module, &config, 1, 8);
+fn a_scene_is_loaded_with_motors_off_and_where_there_is_room() {
+    let load = |config, model| Load { config, model };
+    let room = load(100, 8);
+    let armed = may_load(load(9, 1), room, true);
     assert_eq!(armed, Err(CommandStatus::Armed));
-    module.arm(false);
-    tick(&mut module, &config);
-    for (words, status) in [
-        (0, Err(CommandStatus::OutOfRange)),
-        (1, Ok(())),
-        (8, Ok(())),
-        (9, Err(CommandStatus::OutOfRange)),
-        (u32::MAX, Err(CommandStatus::OutOfRange)),
+    for (asked, status) in [
+        (load(0, 1), Err(CommandStatus::OutOfRange)),
+        (load(4, 1), Err(CommandStatus::OutOfRange)),
+        (load(5, 0), Ok(())),
+        (load(100, 8), Ok(())),
+        (load(101, 8), Err(CommandStatus::OutOfRange)),
+        (load(100, 9), Err(CommandStatus::OutOfRange)),
+        (load(u16::MAX, u16::MAX), Err(CommandStatus::OutOfRange)),
     ] {
-        assert_eq!(may_load(&module, &config, words, 8), status, "{words}");
+        assert_eq!(may_load(asked, room, false), status, "{asked:?}");
     }
     // What a link alone is asked for, without a board's loader.
+    let (mut module, config) = module::<f32>();
     let mut link = Link::new();
-    for command in [Command::Load(1), Command::Word(0, 0), Command::Restart] {
-        let request = TaggedCommand { tag: 1, command };
-        link.carry_out(&mut module, &config, request, ABOUT, 0);
-        let mut reader = Reader::new(1);
-        link.answer(&mut reader);
-        let [Packet::Answer(answer)] = reader.packets[..] else {
-            panic!("{command:?}");
-        };
+    for command in [
+        Command::Load(load(9, 1)),
+        Command::Word(0, 0),
+        Command::Restart,
+    ] {
+        let answer = ask(&mut link, &mut module, &config, command);
         assert_eq!(answer.status, CommandStatus::NotHere, "{command:?}");
     }
 }

@@ -1,22 +1,21 @@
 //! The link of a simulated module to whoever runs it, which has room for every packet.
 
 use firmware::{
-    About, Clock, Config, Event, Link, ModelState, Module, Motion, MotorControl, Notes, PacketSink,
-    PacketSlot, Perception, Tunable, Tuning, WordSource,
+    About, BoardCode, Config, ConfigBytes, Event, Link, ModelState, Module, Notes, PacketSink,
+    PacketSlot, Prepared, Tuning, answer, applied, encode, take_over,
 };
-use scene::Scene;
-use whisking::{Optional, Real, filter};
-use wire::{Packet, TaggedCommand};
+use whisking::Real;
+use wire::{Command, CommandStatus, Packet, TaggedCommand};
+
+use super::mock::Mock;
 
 /// A module's end of the link.
 pub(super) struct Line {
     link: Link,
     notes: Notes,
-    tuning: Tuning,
+    tuning: Tuning<ConfigBytes>,
     ticks: u32,
     sent: Sent,
-    name: String,
-    tick_hz: u32,
     model: ModelState,
 }
 
@@ -34,25 +33,25 @@ impl PacketSink for Sent {
 }
 
 impl Line {
-    /// Before the first tick of `scene`, whose module decides by this model.
-    pub(super) fn new(scene: &Scene, model: ModelState) -> Self {
+    /// Before the first tick of a module, which decides by this model.
+    pub(super) fn new<R: Real>(config: &Config<R>, model: ModelState) -> Self {
+        // A simulation has room for any scene; without the bytes only `get` says less.
+        let bytes = encode(config, BoardCode::Simulation).unwrap_or_default();
         Self {
             link: Link::new(),
             notes: Notes::new(),
-            tuning: Tuning::new(),
+            tuning: Tuning::new(BoardCode::Simulation, bytes),
             ticks: 0,
             sent: Sent::default(),
-            name: scene.name.clone(),
-            tick_hz: scene.tick_hz,
             model,
         }
     }
 
-    /// Begins anew.
+    /// Begins again.
     pub(super) fn restart(&mut self) {
         self.link = Link::new();
         self.notes = Notes::new();
-        self.tuning = Tuning::new();
+        self.tuning.restart();
         self.ticks = 0;
         self.sent.0.clear();
     }
@@ -63,17 +62,7 @@ impl Line {
     }
 
     /// A tick has ended.
-    pub(super) fn tick_ends<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
-        &mut self,
-        module: &Module<R, F, M, P, C, S, N>,
-        config: &Config<MC, PC, H>,
-    ) where
-        R: Real,
-        F: WordSource,
-        M: Motion<R, MC, S, N>,
-        C: Clock,
-        H: Optional<filter::Config<R>>,
-    {
+    pub(super) fn tick_ends<R: Real>(&mut self, module: &Module<R, Mock>, config: &Config<R>) {
         self.ticks = self.ticks.wrapping_add(1);
         let (notes, sent) = (&self.notes, &mut self.sent);
         self.link.send(module, config, self.ticks, notes, sent);
@@ -81,31 +70,44 @@ impl Line {
     }
 
     /// Carries out a request.
-    pub(super) fn carry_out<R, F, M, P, C, MC, PC, H, const S: usize, const N: usize>(
+    pub(super) fn carry_out<R: Real>(
         &mut self,
-        module: &mut Module<R, F, M, P, C, S, N>,
-        config: &mut Config<MC, PC, H>,
+        module: &mut Module<R, Mock>,
+        config: &mut Config<R>,
         request: TaggedCommand,
-    ) where
-        R: Real,
-        F: WordSource,
-        M: Motion<R, MC, S, N> + MotorControl<R>,
-        P: Perception<R, PC, S, N>,
-        C: Clock,
-        Config<MC, PC, H>: Tunable<R>,
-    {
-        let tuned = self.tuning.carry_out(module, config, request, self.ticks);
-        if let Some(answer) = tuned {
-            self.link.reply(answer);
-            return;
-        }
-        let about = About {
-            name: &self.name,
-            tick_hz: self.tick_hz,
-            model: self.model,
+    ) {
+        let done = match self.tuning.read::<R>(request.command) {
+            None => self.change(module, config, request.command),
+            done => done,
         };
-        let link = &mut self.link;
-        link.carry_out(module, config, request, about, self.ticks);
+        let Some(done) = done else {
+            let about = About { model: self.model };
+            let link = &mut self.link;
+            link.carry_out(module, config, request, about, self.ticks);
+            return;
+        };
+        self.link.reply(answer(request, self.ticks, done));
+    }
+
+    /// Has the module go on by another configuration, if the request is about one.
+    fn change<R: Real>(
+        &mut self,
+        module: &mut Module<R, Mock>,
+        config: &mut Config<R>,
+        command: Command,
+    ) -> Option<(CommandStatus, [i32; 2])> {
+        let mut next = Config::still();
+        match self.tuning.prepare(command, &mut next)? {
+            Prepared::Done(status, values) => Some((status, values)),
+            Prepared::Next => {
+                let taken = take_over(module, config, &next);
+                if let (Ok(()), Command::Apply(length)) = (taken, command) {
+                    *config = next;
+                    self.tuning.has_taken(length);
+                }
+                Some(applied(taken))
+            }
+        }
     }
 
     /// What was sent since the last call.

@@ -1,6 +1,6 @@
 //! The sensor of a simulated whisker, as the scene has it.
 
-use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource, Zero};
+use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource};
 use mlx90333::{Decoder, Mlx90333, Word};
 use physics::{Magnet, SensorSettings};
 use scene::{SensorModel, SensorSection};
@@ -14,15 +14,12 @@ use crate::bus::tmag5170::TmagSlave;
 /// Field of the magnet along the axis of a TMAG5170, mT: docs/mount.md.
 const AXIAL_MT: f64 = 60.0;
 
-/// A sensor on its mock bus, and its zero where that is found by itself.
-pub(super) struct AnySensor {
-    kind: Kind,
-    zero: Option<Zero>,
-}
+/// A sensor on its mock bus.
+pub(super) struct AnySensor(Kind);
 
 /// Either of them.
 enum Kind {
-    /// It is told what it measures.
+    /// It measures what it is set to.
     Mlx90333(Polled<Slave>),
     /// It measures the field of a magnet.
     Tmag5170(Box<Tilted>),
@@ -47,15 +44,12 @@ impl AnySensor {
             }
             SensorModel::Tmag5170 => Kind::Tmag5170(Box::new(Tilted::new(seed)?)),
         };
-        Some(Self {
-            kind,
-            zero: section.zero_after_s.map(|_| Zero::default()),
-        })
+        Some(Self(kind))
     }
 
     /// The first kind, on its bus.
     pub(super) fn slave_mut(&mut self) -> Option<&mut Slave> {
-        match &mut self.kind {
+        match &mut self.0 {
             Kind::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
             Kind::Tmag5170(_) => None,
         }
@@ -63,7 +57,7 @@ impl AnySensor {
 
     /// The second kind, on its bus.
     pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
-        match &mut self.kind {
+        match &mut self.0 {
             Kind::Mlx90333(_) => None,
             Kind::Tmag5170(tilted) => Some(tilted.source.sensor_mut().spi_mut()),
         }
@@ -71,7 +65,7 @@ impl AnySensor {
 
     /// Deflections along x and y from now on, in units of the range.
     pub(super) fn bend(&mut self, deflection: [f64; 2]) {
-        match &mut self.kind {
+        match &mut self.0 {
             Kind::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
             Kind::Tmag5170(tilted) => tilted.bend(deflection),
         }
@@ -115,20 +109,16 @@ impl Tilted {
 
 impl WordSource for AnySensor {
     fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
-        match &mut self.kind {
+        match &mut self.0 {
             Kind::Mlx90333(polled) => polled.words(decoder),
             Kind::Tmag5170(tilted) => tilted.source.words(decoder),
         }
     }
 
     fn begin(&mut self) {
-        match &mut self.kind {
+        match &mut self.0 {
             Kind::Mlx90333(polled) => polled.begin(),
             Kind::Tmag5170(tilted) => tilted.source.begin(),
         }
-    }
-
-    fn zero(&mut self) -> Option<&mut Zero> {
-        self.zero.as_mut()
     }
 }

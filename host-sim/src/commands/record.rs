@@ -31,7 +31,7 @@ pub fn record(
     check_or_stdout(out)?;
     let SceneChoice { file: path, set } = scene;
     let (mut scene, _) = Scene::load_with(path, set)?;
-    plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
+    config::check(&scene).map_err(|refused| Error::file(path, refused))?;
     scene.seed = seed.unwrap_or(scene.seed);
     let output = Output::create_or_stdout(out)?;
     let listened = scene.classifier.as_ref().map(|c| c.whiskers);

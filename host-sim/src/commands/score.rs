@@ -48,8 +48,8 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let Arguments { scene, seeds, .. } = arguments;
     let SceneChoice { file: path, set } = scene;
     let (mut scene, _) = Scene::load_with(path, set)?;
-    plan::check(&scene).map_err(|refused| Error::file(path, refused))?;
-    if let Some(caution) = plan::cautions(&scene) {
+    config::check(&scene).map_err(|refused| Error::file(path, refused))?;
+    if let Some(caution) = config::cautions(&scene) {
         report::warn(Error::file(path, caution));
     }
     let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);

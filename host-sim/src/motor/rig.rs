@@ -3,7 +3,7 @@
 
 use firmware::AngleInput;
 use whisking::motor::{HBridge, MotorDriver};
-use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, filter, pd};
+use whisking::{GateSettings, Integrator, Settings, State, filter, pd};
 
 use super::{MotorSettings, SimEncoder, SimMotor, SimPin, SimPwm};
 
@@ -34,7 +34,7 @@ pub(crate) fn whisking(tick_hz: f64, rcp_gain: Option<f64>) -> Settings {
 /// One whisker's loop.
 pub(crate) struct Rig {
     whisking: whisking::Config<f64>,
-    state: State<f64, 1, 1>,
+    state: State<f64>,
     h50: filter::Config<f64>,
     smoothed: filter::State<f64>,
     pd: pd::Config<f64>,
@@ -48,7 +48,7 @@ pub(crate) struct Rig {
 
 impl Rig {
     pub(crate) fn new(settings: &Settings, pd: &pd::Settings, gain: f64) -> Self {
-        let start = settings.start([[1.0, 0.0]], [[gain]]).unwrap();
+        let start = settings.start(&[[1.0, 0.0]], &[&[gain]]).unwrap();
         let (motor, pins) = SimMotor::brushed(MotorSettings::DEFAULT).unwrap();
         Self {
             whisking: settings.build().unwrap(),
@@ -68,8 +68,8 @@ impl Rig {
     /// One tick with deflection `x`; the setpoint θ′ in degrees.
     pub(crate) fn tick(&mut self, x: f64) -> f64 {
         let contact = self.h50.process(&mut self.smoothed, x).abs();
-        self.whisking.step(&mut self.state, [contact]);
-        let [[setpoint]] = self.state.theta();
+        self.whisking.step(&mut self.state, &[contact]);
+        let setpoint = self.state.theta().next().unwrap_or_default();
         let counts = self.encoder.counts();
         let moved = counts - std::mem::replace(&mut self.counts, counts);
         let duty = self.pd.step(&mut self.servo, setpoint, counts, moved);

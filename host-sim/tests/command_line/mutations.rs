@@ -100,7 +100,7 @@ fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
     let Ok(scene) = Scene::from_str("s.toml", text) else {
         return Ok(());
     };
-    if plan::check(&scene).is_err() {
+    if config::check(&scene).is_err() {
         return Ok(());
     }
     let model = model(2, 20, true);

@@ -3,8 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use whisking::muscle::MuscleIntegrator;
-use whisking::oscillator::OscillatorIntegrator;
 use whisking::{Config, Integrator, Real, muscle, oscillator};
 
 use super::schemes::{Format, Pace, in_format};
@@ -32,7 +30,7 @@ fn config<R: Real>(integrator: Integrator, cycles: f64) -> Result<Config<R>, Err
 /// Smallest and largest radius and largest |ψ₁| on the settled limit cycle.
 fn cycle<R: Real>(integrator: Integrator, cycles: f64) -> Result<[f64; 3], Error> {
     let oscillators = config::<R>(integrator, cycles)?.oscillators;
-    let mut state = oscillator::State::new([[R::ONE, R::ZERO]; 2]);
+    let mut state = oscillator::State::new([[R::ONE, R::ZERO]; 2].into());
     for _ in 0..(SETTLE / cycles) as usize {
         oscillators.step(&mut state, None);
     }

@@ -2,8 +2,7 @@
 //! back to normal afterwards. The same is a test with more levels
 //! (`tests/tests/suite/stability`); here stand its figures.
 
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, filter};
+use whisking::{Fix, GateSettings, Integrator, Number, Settings, State, filter};
 
 use super::schemes::{PAPERS, Pace};
 use crate::page::{Page, short};
@@ -44,17 +43,17 @@ const INPUTS: [Input; 5] = [
 ];
 
 /// A module of two whiskers whose contact signals we make.
-struct Driven<R: Real> {
+struct Driven<R: Number> {
     config: whisking::Config<R>,
-    state: State<R, 2, 1>,
+    state: State<R>,
     h50: filter::Config<R>,
     filters: [filter::State<R>; 2],
     ticks: usize,
 }
 
-impl<R: Real> Driven<R> {
+impl<R: Number> Driven<R> {
     fn new(settings: &Settings, psi: [[f64; 2]; 2], gain: f64) -> Result<Self, Error> {
-        let start = settings.start(psi, [[gain]; 2]).map_err(refused)?;
+        let start = settings.start(&psi, &[&[gain][..]; 2]).map_err(refused)?;
         Ok(Self {
             config: settings.build().map_err(refused)?,
             state: State::new(&start, 1),
@@ -79,7 +78,7 @@ impl<R: Real> Driven<R> {
                 *contact = R::from_f64(value);
             }
         }
-        self.config.step(&mut self.state, contact);
+        self.config.step(&mut self.state, &contact);
     }
 }
 
@@ -97,7 +96,7 @@ struct Extremes {
 }
 
 impl Extremes {
-    fn look<R: Real>(&mut self, driven: &Driven<R>) {
+    fn look<R: Number>(&mut self, driven: &Driven<R>) {
         let state = &driven.state;
         let mut note = |largest: fn(&mut Self) -> &mut f64, value: f64, least: f64| {
             if !value.is_finite() || value < least {
@@ -115,10 +114,10 @@ impl Extremes {
         {
             note(|e| &mut e.psi, x.to_f64(), -1.5);
         }
-        for z in &state.z {
-            note(|e| &mut e.z, z.value.to_f64(), 0.0);
+        for side in &state.sides {
+            note(|e| &mut e.z, side.z.value.to_f64(), 0.0);
         }
-        for whisker in state.whiskers.iter().flatten() {
+        for whisker in &state.whiskers {
             note(|e| &mut e.g, whisker.gain(), 0.0);
             note(|e| &mut e.theta, whisker.muscle.theta.to_f64(), -2.5);
             for kept in whisker.muscle.kept() {
@@ -129,7 +128,7 @@ impl Extremes {
 }
 
 /// Every combination of the levels above, for one format.
-fn extremes<R: Real>() -> Result<Extremes, Error> {
+fn extremes<R: Number>() -> Result<Extremes, Error> {
     let mut found = Extremes::default();
     for settings in combinations() {
         for psi in STARTS {
@@ -172,7 +171,7 @@ fn combinations() -> Vec<Settings> {
 /// Whisks from the end of the abuse (two whisks long) until θ' is, and stays
 /// for a whisk, within half a degree of a module that was left alone: the
 /// longest over inputs, gains and starts. 2 Hz, 0.5 ms, τ = T_W/4, g = 1.
-fn recovery<R: Real>(integrator: Integrator) -> Result<f64, Error> {
+fn recovery<R: Number>(integrator: Integrator) -> Result<f64, Error> {
     const WHISK: usize = 1_000;
     let mut worst = 0;
     for gain in [0.7, 100.0] {
@@ -196,9 +195,7 @@ fn recovery<R: Real>(integrator: Integrator) -> Result<f64, Error> {
                     let apart = driven
                         .state
                         .theta()
-                        .iter()
-                        .flatten()
-                        .zip(alone.state.theta().iter().flatten())
+                        .zip(alone.state.theta())
                         .map(|(a, b)| (a.to_f64() - b.to_f64()).abs())
                         .fold(0.0, f64::max);
                     if whisking::DEGREES_PER_UNIT * apart > 0.5 {
@@ -216,7 +213,7 @@ fn recovery<R: Real>(integrator: Integrator) -> Result<f64, Error> {
 /// # Errors
 /// [`Error::Work`] if the product refuses a setting.
 pub(super) fn section(page: &mut Page) -> Result<(), Error> {
-    fn row<R: Real>(name: &str) -> Result<Vec<String>, Error> {
+    fn row<R: Number>(name: &str) -> Result<Vec<String>, Error> {
         let found = extremes::<R>()?;
         Ok(vec![
             name.to_owned(),

@@ -2,7 +2,7 @@
 //! jumps.
 
 use whisking::gate::Gate;
-use whisking::{GateSettings, Integrator, PatternGenerator, Real, Settings, State};
+use whisking::{GateSettings, Integrator, Number, Settings, State};
 
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, in_format, name};
@@ -92,7 +92,7 @@ impl Contact {
     }
 
     /// Largest error of θ' in degrees.
-    fn error<R: Real>(
+    fn error<R: Number>(
         self,
         integrator: Integrator,
         tick_hz: f64,
@@ -101,16 +101,16 @@ impl Contact {
         let (pace, settings) = modulated(integrator, tick_hz);
         let config = settings.build::<R>().map_err(refused)?;
         let start = settings
-            .start(CASE.psi, [[CASE.gain]; 2])
+            .start(&CASE.psi, &[&[CASE.gain][..]; 2])
             .map_err(refused)?;
-        let mut state = State::<R, 2, 1>::new(&start, 1);
+        let mut state = State::new(&start, 1);
         let stride = pace.stride()?;
         let mut worst = 0.0_f64;
         for n in 0..WHISKS * GRID / stride {
             let whisks = (n * stride) as f64 / GRID as f64;
-            config.step(&mut state, [R::from_f64(self.signal(whisks)); 2]);
+            config.step(&mut state, &[R::from_f64(self.signal(whisks)); 2]);
             let expected = truth.theta((n + 1) * stride).unwrap_or([f64::NAN; 2]);
-            for ([found], expected) in state.theta().iter().zip(expected) {
+            for (found, expected) in state.theta().zip(expected) {
                 worst = worst.max(100.0 * (found.to_f64() - expected).abs());
             }
         }
@@ -121,7 +121,7 @@ impl Contact {
 /// Relative error of z after four time constants of free decay from one at
 /// 2 kHz.
 fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
-    fn of<R: Real>(integrator: Integrator) -> Result<f64, Error> {
+    fn of<R: Number>(integrator: Integrator) -> Result<f64, Error> {
         let (pace, settings) = modulated(integrator, 2_000.0);
         let rcp = settings.build::<R>().map_err(refused)?.rcp;
         let rcp = rcp.ok_or_else(|| Error::Work("RCP is missing".to_owned()))?;

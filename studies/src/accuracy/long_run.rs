@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use whisking::Real;
+use whisking::Number;
 
 use super::schemes::{Format, PAPERS, Pace, in_format};
 use crate::chart::{Mark, Panel, Series, draw, linear};
@@ -105,7 +105,7 @@ impl Table {
 }
 
 /// The whole run at 2 Hz, then one stretch of it at the odd frequency.
-fn both<R: Real>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>, Error> {
+fn both<R: Number>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>, Error> {
     let mut rows = whisk::run::<R>(format, PAPERS, length, done)?;
     let stretch = Length {
         stretches: 1,

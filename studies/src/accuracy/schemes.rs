@@ -1,7 +1,7 @@
 //! What is compared: the product's integrators in every number format, and two
 //! schemes from outside for scale.
 
-use whisking::{Integrator, PatternGenerator, Real, Settings};
+use whisking::{Integrator, Number, Settings};
 
 use super::reference::{Case, GRID, PEAK_GAIN, State, Truth, WHISKS};
 use super::split::Split;
@@ -142,18 +142,18 @@ impl Pace {
     }
 }
 
-fn product<R: Real>(
+fn product<R: Number>(
     settings: &Settings,
     case: &Case,
     truth: &Truth,
     pace: Pace,
 ) -> Result<f64, Error> {
     let config = settings.build::<R>().map_err(refused)?;
-    let start = settings.start(case.psi, [[case.gain]; 2]);
-    let mut state = whisking::State::<R, 2, 1>::new(&start.map_err(refused)?, 1);
+    let start = settings.start(&case.psi, &[&[case.gain][..]; 2]);
+    let mut state = whisking::State::<R>::new(&start.map_err(refused)?, 1);
     worst(truth, pace, || {
-        config.step(&mut state, [R::ZERO; 2]);
-        state.theta().map(|[theta]| theta.to_f64())
+        config.step(&mut state, &[]);
+        [0, 1].map(|side| state.whiskers[side].muscle.theta.to_f64())
     })
 }
 

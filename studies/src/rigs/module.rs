@@ -4,15 +4,17 @@
 
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
-    Active, ActiveConfig, BusError, Config, Event, FrameSource, Module, Servo, ServoConfig,
+    BusError, Config, Driver, Event, FrameSource, Hardware, HeadConfig, Module, MotionConfig,
+    SensingConfig, ServoConfig, WhiskerParts,
 };
 use host_sim::Error;
 use host_sim::bench::NoClock;
+use host_sim::classifier::Tap;
 use host_sim::drive::{self, AnyAngle, AnyMotor};
 use host_sim::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
-use mlx90333::{Decoder, FRAME_LEN, Faults, SumRule, Word, encode};
+use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
 use whisking::motor::GuardSettings;
-use whisking::{Absent, State, degrees, filter, pd};
+use whisking::{degrees, filter, pd};
 
 use super::read::keys;
 use crate::refused::refused;
@@ -80,13 +82,21 @@ enum Actuator {
     Ideal(IdealMotor),
 }
 
-/// How the head moves: a pattern generator and six servos.
-type Whisking = Active<f64, AnyMotor, AnyAngle, SIDES, EACH>;
+/// What the head is made of; it decides nothing.
+struct Parts;
+
+impl Hardware for Parts {
+    type Source = Frames;
+    type Motor = AnyMotor;
+    type Angle = AnyAngle;
+    type Classifier = Tap;
+    type Clock = NoClock;
+}
 
 /// A module of six whiskers with its motors, left side first, at θ' = 50 degrees.
 pub(super) struct HeadModule {
-    module: Module<f64, Frames, Whisking, (), NoClock, SIDES, EACH>,
-    config: Config<ActiveConfig<f64, whisking::Config<f64>>, (), Option<filter::Config<f64>>>,
+    module: Module<f64, Parts>,
+    config: Config<f64>,
     actuators: Vec<Actuator>,
 }
 
@@ -110,31 +120,43 @@ impl HeadModule {
             max_deg: control.max_deg,
             degrees_per_count: motor.degrees_per_count(),
         };
+        let guards = GuardSettings::NONE.build(tick_hz);
+        let still = Config::still();
         let config = Config {
-            decoder: Decoder::new(),
-            sensor_limits: sensor_limits(ticks_per_s, Plausible::ANY),
+            head: HeadConfig {
+                tick_hz: ticks_per_s,
+                sides: SIDES as u8,
+                whiskers_per_side: EACH as u8,
+                ..still.head
+            },
+            sensor: SensingConfig {
+                limits: sensor_limits(ticks_per_s, Plausible::ANY),
+                ..still.sensor
+            },
             contact: Some(filter::Config::new(filter::CORNER_HZ, tick_hz).map_err(refused)?),
-            motion: ActiveConfig {
+            motion: Some(MotionConfig {
                 whisking: settings.build().map_err(refused)?,
+                // Retracted, so that no whisker begins inside the surface.
+                start: settings
+                    .start(&[[-1.0, 0.0]; SIDES], &[&[gain; EACH][..]; SIDES])
+                    .map_err(refused)?,
+                seed,
                 servo: ServoConfig {
                     pd: pd.build(tick_hz).map_err(refused)?,
                     retry: retry(ticks_per_s),
-                    guards: GuardSettings::NONE.build(tick_hz),
+                    guards,
                     approach: 1.0,
-                    homing: Absent,
+                    homing: None,
                 },
-                stop_all: Absent,
-            },
-            perception: (),
-            period: 0,
+                driver: Driver::HBridge,
+                stops_all: false,
+                arms_at_start: true,
+            }),
+            ..still
         };
-        // Retracted, so that no whisker begins inside the surface.
-        let start = settings
-            .start([[-1.0, 0.0]; SIDES], [[gain; EACH]; SIDES])
-            .map_err(refused)?;
 
         let mut actuators = Vec::with_capacity(SIDES * EACH);
-        let mut all_pins = Vec::with_capacity(SIDES * EACH);
+        let mut parts = Vec::with_capacity(SIDES * EACH);
         for _ in 0..SIDES * EACH {
             let (actuator, pins) = if control.follows {
                 let (motor, pins) = SimMotor::brushed(motor).map_err(refused)?;
@@ -144,19 +166,12 @@ impl HeadModule {
                 (Actuator::Ideal(ideal.clone()), Pins::Ideal(ideal))
             };
             actuators.push(actuator);
-            all_pins.push(pins);
+            parts.push(WhiskerParts {
+                source: Frames::REST,
+                motor: Some(drive::on(pins, guards.stall)),
+            });
         }
-        let mut servos = all_pins.into_iter().map(|pins| {
-            let (motor, angle) = drive::on(pins, config.motion.servo.guards.stall);
-            Servo::new(motor, angle)
-        });
-        let mut side = || <[_; EACH]>::try_from(servos.by_ref().take(EACH).collect::<Vec<_>>());
-        let (Ok(left), Ok(right)) = (side(), side()) else {
-            return Err(refused("not a motor for every whisker"));
-        };
-        let sources = [0; SIDES].map(|_| [Frames::REST; EACH]);
-        let motion = Active::new(State::new(&start, seed), [left, right]);
-        let mut module = Module::new(sources, motion, (), NoClock);
+        let mut module = Module::new(&config, parts, None, (NoClock, 0));
         module.arm(true);
         Ok(Self {
             module,
@@ -167,8 +182,8 @@ impl HeadModule {
 
     /// What the sensor of whisker `n` has measured, as codes.
     pub(super) fn feel(&mut self, n: usize, codes: [i16; 2]) {
-        if let Some(sensor) = self.module.sensor_mut(n / EACH, n % EACH) {
-            sensor.source_mut().set(codes);
+        if let Some(whisker) = self.module.whiskers_mut().get_mut(n) {
+            whisker.sensor_mut().source_mut().set(codes);
         }
     }
 
@@ -190,7 +205,6 @@ impl HeadModule {
     /// Lets a tick pass for the motor of whisker `n` against a torque on the
     /// whisker, N·m, positive towards protraction; the angle θ' after it, degrees.
     pub(super) fn turn(&mut self, n: usize, load_nm: f64, dt_s: f64) -> f64 {
-        let theta = self.module.motion().state().theta();
         match self.actuators.get_mut(n) {
             Some(Actuator::Motor(motor)) => {
                 motor.set_load_nm(load_nm);
@@ -198,7 +212,9 @@ impl HeadModule {
                 motor.angle_deg()
             }
             Some(Actuator::Ideal(motor)) => {
-                let angle = degrees(theta[n / EACH][n % EACH]);
+                let motion = self.module.motion();
+                let theta = motion.and_then(|motion| motion.state().theta().nth(n));
+                let angle = theta.map_or(f64::NAN, degrees);
                 motor.set_deg(angle);
                 angle
             }

@@ -6,9 +6,7 @@ use crate::common;
 use acceptance::claims::{Claim, Figure, Quantity, RUN_S, TABLE};
 use acceptance::reference::{Row, Settings};
 use whisking::gate::Gate;
-use whisking::{
-    GateSettings, Integrator, PatternGenerator, Start, State, degrees, filter, gate, muscle,
-};
+use whisking::{GateSettings, Integrator, State, degrees, filter, gate, muscle};
 
 fn measure(claim: &Claim, settings: &Settings, rows: &[Row]) -> f64 {
     claim
@@ -113,9 +111,9 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
         spring: tick_s / mass.sqrt(),
         damping: tick_s * 4.0 / mass.sqrt(),
     });
-    let gain = [[settings.gains[0][0]], [settings.gains[1][0]]];
-    let start: Start<f64, 2, 1> = product.start(settings.start, gain).unwrap();
-    let mut state = State::new(&start, 1);
+    let gain = [settings.gains[0][0], settings.gains[1][0]];
+    let start = product.start(&settings.start, &gain.each_ref().map(std::slice::from_ref));
+    let mut state = State::new(&start.unwrap(), 1);
     let h50 = filter::Config::<f64>::new(50.0, settings.tick_hz).unwrap();
     let mut filters = [filter::State::default(); 2];
     let mut theta_deg = [50.0; 2];
@@ -132,18 +130,18 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
             }
             let zeta = contact[0].max(contact[1]);
             // In place of CIA, which the product does not have here.
-            let sides = state.whiskers.iter_mut().zip(&mut lifts).zip(&gain);
-            for ((side, lift), [nominal]) in sides {
+            let whiskers = state.whiskers.iter_mut().zip(&mut lifts).zip(&gain);
+            for ((whisker, lift), nominal) in whiskers {
                 excite(cia, lift, zeta);
-                side[0].set_nominal(nominal + lift.mean);
+                whisker.set_nominal(nominal + lift.mean);
             }
-            config.step(&mut state, contact);
-            theta_deg = state.theta().map(|side| degrees(side[0]));
+            config.step(&mut state, &contact);
+            theta_deg = [0, 1].map(|side| degrees(state.whiskers[side].muscle.theta));
             Row {
                 t_s: n as f64 * tick_s,
                 theta_deg,
-                z: state.z.map(|z| z.value),
-                g: state.whiskers.map(|side| side[0].gain()),
+                z: [0, 1].map(|side| state.sides[side].z.value),
+                g: [0, 1].map(|side| state.whiskers[side].gain()),
                 contact,
             }
         })

@@ -3,7 +3,7 @@
 
 use firmware::{
     Event, Place, Reading, Sensor, SensorFault, SensorHealth, SensorLimits, TiltFault, TiltScale,
-    TiltSource, ZeroLimits,
+    TiltSource,
 };
 use host_sim::bus::tmag5170::{LineFault, TmagSlave};
 use mlx90333::{Decoder, Word};
@@ -25,7 +25,7 @@ const LIMITS: SensorLimits = SensorLimits {
     frozen: 2000,
     jump: u16::MAX,
     burst: 1000,
-    zero: ZeroLimits::NONE,
+    zero: None,
 };
 
 const PLACE: Place = Place::new(0, 0);
@@ -59,7 +59,7 @@ impl Whisker {
         let scale = TiltScale::new(&config(), FULL_SCALE).unwrap();
         let sensor = Tmag5170::new(TmagSlave::new(Version::A1));
         let mut whisker = Self {
-            sensor: Sensor::new(TiltSource::new(sensor, config(), scale)),
+            sensor: Sensor::new(TiltSource::new(sensor, config(), scale), false),
             magnet: Magnet::of_field(axial_mt).unwrap(),
             events: Vec::new(),
         };
@@ -77,7 +77,7 @@ impl Whisker {
         self.slave().set_field(field);
         let events = &mut self.events;
         let mut note = |event| events.push(event);
-        self.sensor.read(Decoder::new(), LIMITS, PLACE, &mut note)
+        self.sensor.read(Decoder::new(), &LIMITS, PLACE, &mut note)
     }
 
     fn is_trusted(&self) -> bool {
@@ -219,7 +219,7 @@ fn a_magnet_that_is_gone_or_upside_down_is_a_fault() {
             let mut note = |event| events.push(event);
             whisker
                 .sensor
-                .read(Decoder::new(), LIMITS, PLACE, &mut note);
+                .read(Decoder::new(), &LIMITS, PLACE, &mut note);
             fault = whisker.events.pop();
         }
         let expected = SensorFault::Tilt(TiltFault::NoMagnet);

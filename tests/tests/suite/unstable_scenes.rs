@@ -1,6 +1,6 @@
 //! Scenes that forward Euler cannot carry are refused by the simulator before
 //! it writes anything: exit status 2, the file, the key, what was found and
-//! what is allowed. (Where the limits stand is for the crate `plan` to test.)
+//! what is allowed. (Where the limits stand is for the crate `config` to test.)
 
 use crate::common;
 use std::path::Path;

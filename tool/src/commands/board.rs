@@ -23,8 +23,8 @@ pub(crate) struct Arguments {
     /// The scene, whose telemetry has a serial_baud
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
-    /// The program's file, which must be of the same scene; without it it is built (minutes,
-    /// the first time)
+    /// The program's file, which has the scene with it; without it it is built (minutes, the
+    /// first time)
     #[arg(long, value_name = "ELF", conflicts_with = "board")]
     program: Option<PathBuf>,
     /// The board whose program is built
@@ -33,8 +33,8 @@ pub(crate) struct Arguments {
     /// The scene in whose world the board is: what it meets, for how long, and the seed
     #[arg(long, value_name = "SCENE")]
     world: Option<PathBuf>,
-    /// The file that keeps the board's flash for a model, as a board does; made where there is
-    /// none
+    /// The file that keeps what is deployed to the board, scenes and models, as a board does; made
+    /// where there is none
     #[arg(long, value_name = "FILE")]
     flash: Option<PathBuf>,
     /// A name for the terminal, whose own is another each time: a symbolic link, which replaces
@@ -145,10 +145,12 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
         Some(program) => program.clone(),
         None => build(arguments.board, path)?,
     };
-    let flash = Flash::open(arguments.flash.as_deref())?;
+    let mut flash = Flash::open(arguments.flash.as_deref())?;
     let mut session = Session::flashed(scene, &program, flash.contents())?;
-    let mut flash = flash.of_size(session.model_room())?;
-    // Whoever deploys a model has the board start anew.
+    if flash.contents().is_empty() {
+        flash.store(&session.flash()?)?;
+    }
+    // Whoever deploys a scene has the board start again.
     session.bear_resets(true);
     let mut terminal = Terminal::open()?;
     if let Some(link) = &arguments.link {

@@ -120,7 +120,11 @@ fn all(
         }
     }
     let range = travel(whisker, motor, results)?;
+    // Limits that protect change only with motors that are off.
+    rest(whisker.module())?;
     limit(whisker, tuner, [motor.duty_limit, motor.unmoved_duty])?;
+    whisker.go_on()?;
+    whisker.arm()?;
     whisk(whisker, results)?;
     let samples = gains(whisker, motor, range, results)?;
     rest(whisker.module())?;

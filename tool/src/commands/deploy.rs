@@ -1,64 +1,138 @@
-//! `whisker deploy`: a model to a module, without a rebuild.
+//! `whisker deploy`: a scene, a model, or both to a module, whose program stays.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use host_sim::loaded::Loaded;
 use host_sim::recording::CHANNELS;
 use host_sim::{Error, files, misfit, origin, report};
 use jiff::Timestamp;
+use tactile::ModelBuf;
 
 use crate::capture::FIRST_TOUCH;
+use crate::configuration::{Program, Running, RunsBy};
 use crate::conversation::Conversation;
 use crate::decides::Decides;
+use crate::deployment::{Deployment, model_of};
 use crate::resting::rest;
 use crate::source::{SourceChoice, seconds};
 
-/// Which model, and to which module.
+/// What, and to which module.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
+#[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["scene", "model"])))]
 pub(crate) struct Arguments {
     #[command(flatten)]
     source: SourceChoice,
-    /// The model, as host-sim train writes it
+    /// The scene; without it the module keeps its own
     #[arg(long, value_name = "FILE")]
-    model: PathBuf,
+    scene: Option<PathBuf>,
+    /// The model, as host-sim train writes it; without it that which the scene names, if any
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
     /// A recording from this bench: says where it is out of the model's range, or has labels
     /// that the model does not know
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "model")]
     data: Option<PathBuf>,
     /// For how long to print the log afterwards
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
 }
 
-/// Deploys it, once it fits, and says what the module then decides by.
+/// A scene's file, the scene with the model, and the model.
+type Chosen = (PathBuf, Loaded, Option<ModelBuf>);
+
+impl Arguments {
+    /// What is known of the scene before the module is asked; none: nothing.
+    fn chosen(&self, model: Option<&(PathBuf, ModelBuf)>) -> Result<Option<Chosen>, Error> {
+        let Some(file) = self.scene.as_deref().or(self.source.scene()) else {
+            return Ok(None);
+        };
+        let mut loaded = Loaded::new(file)?;
+        if let Some((path, model)) = model {
+            if loaded.scene.classifier.is_none() || self.source.is_simulated() {
+                loaded.takes_model()?;
+            }
+            loaded = loaded.with_deployed(path, Some(model.clone()));
+        }
+        loaded = self.source.of_module(loaded)?;
+        loaded.classifier()?;
+        let model = match model {
+            Some((_, model)) => Some(model.clone()),
+            None => model_of(file, &loaded.scene)?,
+        };
+        Ok(Some((file.to_owned(), loaded, model)))
+    }
+
+    /// What a module gets, which fits it.
+    fn deployment(
+        &self,
+        module: &mut Conversation,
+        chosen: Option<Chosen>,
+        model: Option<&(PathBuf, ModelBuf)>,
+    ) -> Result<Deployment, Error> {
+        let runs_by = RunsBy::ask(module)?;
+        let is_its_own = |scene: &str| match &runs_by {
+            RunsBy::Scene { name, .. } => name == scene,
+            RunsBy::Nothing(_) => true,
+        };
+        let what = match (chosen, model) {
+            (Some((file, loaded, model)), _)
+                if self.scene.is_some() || is_its_own(&loaded.scene.name) =>
+            {
+                Deployment::of(&file, loaded, model, Program::ask(module)?)
+            }
+            (_, Some((_, model))) => Deployment::again(&Running::ask(module)?, model.clone()),
+            (_, None) => Err(Error::Input("--scene or --model is missing".to_owned())),
+        }?;
+        module.source().would_hear(what.config.links)?;
+        Ok(what)
+    }
+}
+
+/// Deploys it, once it fits, and says what the module then runs and decides by.
 pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
-    let (path, model) = files::load_model(&arguments.model)?;
+    let model = arguments.model.as_deref().map(files::load_model);
+    let model = model.transpose()?;
+    let chosen = arguments.chosen(model.as_ref())?;
     let mut begun = None;
-    if let Some(data) = &arguments.data {
+    if let (Some(data), Some((_, model))) = (&arguments.data, &model) {
         begun = first_touch(data)?;
         let streams = files::read_recording(data, CHANNELS)?;
-        for line in misfit::misfits(data, CHANNELS, &model, &streams) {
+        for line in misfit::misfits(data, CHANNELS, model, &streams) {
             report::warn(line);
         }
     }
     let mut module = Conversation::new(arguments.source.open(0)?);
-    module.source().takes(&path, &model)?;
-    report::say(format_args!(
-        "{}: model {:08x}, {} bytes, {} classes: {}",
-        path.display(),
-        model.crc(),
-        model.as_bytes().len(),
-        model.classes(),
-        model.names().collect::<Vec<_>>().join(", ")
-    ));
-    let before = Decides::ask(&mut module)?;
+    let what = arguments.deployment(&mut module, chosen, model.as_ref())?;
+    if let Some((path, model)) = &model {
+        report::say(format_args!(
+            "{}: model {:08x}, {} bytes, {} classes: {}",
+            path.display(),
+            model.crc(),
+            model.as_bytes().len(),
+            model.classes(),
+            model.names().collect::<Vec<_>>().join(", ")
+        ));
+    }
+    let before = RunsBy::ask(&mut module)?;
     report::say(format_args!("before, the module {before}"));
+    if let Ok(before) = Decides::ask(&mut module) {
+        report::say(format_args!("before, the module {before}"));
+    }
     rest(&mut module)?;
-    module.source().deploy(&model)?;
-    let after = Decides::ask(&mut module)?;
+    what.try_out(&mut module)?;
+    module.source().deploy(&what)?;
+    let after = RunsBy::ask(&mut module)?;
     report::say(format_args!("now it {after}"));
-    after.is(&model)?;
+    after.is(&what.config)?;
+    if what.config.decides {
+        let after = Decides::ask(&mut module)?;
+        report::say(format_args!("now it {after}"));
+        if let Some(model) = &what.model {
+            after.is(model)?;
+        }
+    }
     if let Some((of, begun)) = begun {
         let took = Timestamp::now().duration_since(begun).as_secs();
         report::say(format_args!(

@@ -7,16 +7,17 @@ use clap::Args;
 use host_sim::{Error, report};
 use scene::key_facts;
 
+use crate::configuration::RunsBy;
 use crate::conversation::Conversation;
 use crate::source::SourceChoice;
 use crate::tuning::{LIVE, Tuner, live_key};
 
-/// Which module, and which scene its program is of.
+/// Which module, and which scene it runs.
 #[derive(Debug, Args)]
 pub(crate) struct Which {
     #[command(flatten)]
     pub(super) source: SourceChoice,
-    /// The scene file of the module's program; without it that of the module's option
+    /// The file of the module's scene; without it that of the module's option
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
 }
@@ -29,14 +30,14 @@ impl Which {
     pub(super) fn scene_file(&self) -> Result<&Path, Error> {
         let file = self.scene.as_deref().or(self.source.scene());
         file.ok_or_else(|| {
-            let fault = "which scene is the module's program of? allowed: --scene FILE";
+            let fault = "which scene does the module run? allowed: --scene FILE";
             Error::Input(fault.to_owned())
         })
     }
 
     /// Who sets its keys.
     pub(super) fn tuner(&self) -> Result<Tuner, Error> {
-        Tuner::open(self.scene_file()?, self.source.is_simulated())
+        Tuner::open(self.scene_file()?, &self.source)
     }
 }
 
@@ -70,13 +71,16 @@ pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
     let keys: Vec<&str> = arguments.keys.iter().map(String::as_str).collect();
     for key in &keys {
         if !values.iter().any(|(known, ..)| known == key) {
-            let fault = format!("{key}: its part is not in the module's program");
+            let fault = format!("{key}: its part is not in the module's scene");
             return Err(Error::Input(fault));
         }
     }
+    if keys.is_empty() {
+        report::say(format_args!("the module {}", RunsBy::ask(&mut module)?));
+    }
     report::say(table(&values, &keys));
-    if let Some(unexplained) = has.unexplained() {
-        report::say(unexplained);
+    if let Some(other) = &has.other {
+        report::say(other);
     }
     Ok(())
 }

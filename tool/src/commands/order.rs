@@ -4,6 +4,7 @@ use clap::{Args, ValueEnum};
 use host_sim::{Error, report};
 use wire::{Command, WhiskerId};
 
+use crate::configuration::RunsBy;
 use crate::conversation::Conversation;
 use crate::decides::Decides;
 use crate::source::SourceChoice;
@@ -93,6 +94,7 @@ pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
          missed\n{lost} records found no room",
         about.scene, about.tick_hz, status.sequence
     ));
+    report::say(RunsBy::ask(&mut module)?);
     let origin = module.origin()?;
     report::say(format_args!(
         "firmware {}",

@@ -57,7 +57,7 @@ pub(crate) fn save(arguments: &Arguments) -> Result<(), Error> {
     }
     output::write_whole(file, edited.as_bytes())?;
     report::say(format_args!(
-        "{name}: saved; the next program of it has it from the start"
+        "{name}: saved; whisker deploy --scene {name} has the module start with it"
     ));
     Ok(())
 }
@@ -86,14 +86,14 @@ fn values(arguments: &Arguments) -> Result<Vec<Override>, Error> {
     }
     let mut module = Conversation::new(arguments.which.source.open(0)?);
     let has = tuner.look(&mut module)?;
-    if let Some(unexplained) = has.unexplained() {
-        report::warn(unexplained);
+    if let Some(other) = &has.other {
+        report::warn(other);
     }
     let is_asked = |key: &str| arguments.all || arguments.keys.iter().any(|asked| asked == key);
-    let differing = has.differing.iter().filter(|found| is_asked(found.key));
-    let found = differing.map(|found| {
-        let value = format!("{:?}", found.value);
-        Override::new(format!("{}={value}", found.key), found.key, &value)
+    let differing = has.differing.iter().filter(|(key, _)| is_asked(key));
+    let found = differing.map(|(key, value)| {
+        let value = format!("{value:?}");
+        Override::new(format!("{key}={value}"), key, &value)
     });
     Ok(found.chain(given.into_iter().flatten()).collect())
 }

@@ -174,6 +174,8 @@ fn probes(facts: &Facts, board: BoardName) -> impl Iterator<Item = Finding> {
         found.push(finding(format!("debug probe {name} {serial}"), true, ""));
         if probe.may_open {
             found.push(chip(probe, board));
+            let module = probe.module.as_ref();
+            found.extend(module.map(|runs| finding(format!("module {runs}"), true, "")));
         }
     }
     found.into_iter()

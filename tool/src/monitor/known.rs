@@ -49,7 +49,7 @@ impl Known {
         };
         let gate = classifier.touch_rule().map(|touch| touch.gate);
         let contact_min = match &loaded {
-            Some(loaded) => plan::contact_min(&loaded.scene, gate)
+            Some(loaded) => config::contact_min(&loaded.scene, gate)
                 .map_err(|fault| Error::Input(fault.to_string()))?,
             None => gate.map(f64::from),
         };

@@ -6,7 +6,7 @@
 //! side only, and decisions come apart. Numbers are `f32`, as on a board with an FPU.
 
 use firmware::design_parameters::{Plausible, sensor_limits};
-use firmware::{Classifying, ClassifyingConfig, Event, Perception, Reading, SensorLimits};
+use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
 use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::decisions;
@@ -15,12 +15,10 @@ use whisking::{Real, filter};
 use wire::{Flags, TickRecord};
 
 use super::known::Known;
-use crate::tally::{Before, side};
+use crate::tally::{Before, SIDES, side};
 
 /// Ticks at a module's start by which a record is asked for, where one listens from the start.
 const UNHEARD: u32 = 100;
-
-type Config = ClassifyingConfig<Option<f32>, ()>;
 
 /// A decision that fell here.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,8 +82,9 @@ impl Ear {
 
 /// Classifies what the first whisker of each side feels.
 pub(crate) struct Listener {
-    perception: Option<Classifying<Classifier, 2>>,
-    config: Config,
+    perception: Option<Perception<Classifier>>,
+    /// The contact from which a sample counts.
+    least: Option<f32>,
     h50: filter::Config<f32>,
     limits: SensorLimits,
     ears: [Ear; 2],
@@ -106,11 +105,8 @@ impl Listener {
             jump_per_s: f64::INFINITY,
         };
         Ok(Self {
-            perception: Some(Classifying::new(known.classifier)),
-            config: ClassifyingConfig {
-                contact_min: known.contact_min.map(|least| least as f32),
-                rule: (),
-            },
+            perception: Some(Perception::new(known.classifier, SIDES.len())),
+            least: known.contact_min.map(|least| least as f32),
             h50,
             limits: sensor_limits(tick_hz, plausible),
             ears: [Ear::default(); 2],
@@ -140,7 +136,7 @@ impl Listener {
     /// the module, it starts anew. Returns what was decided in its tick.
     pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<Decided> {
         if before != Before::Nothing {
-            self.perception = self.perception.take().map(Classifying::restarted);
+            self.perception = self.perception.take().map(Perception::restarted);
             self.pending = [None; 2];
             self.ears = [Ear::default(); 2];
         }
@@ -190,16 +186,21 @@ impl Listener {
         let Some(perception) = &mut self.perception else {
             return;
         };
-        let heard: [(f32, Reading); S] =
-            std::array::from_fn(|n| self.ears[n].hear(records[n], &self.h50, self.limits));
-        let contact = heard.map(|(contact, _)| [contact]);
-        let readings = heard.map(|(_, reading)| [reading]);
         let mut fell = Vec::new();
-        perception.step(&self.config, &contact, &readings, &mut |event| {
-            if let Event::Decision(place, decision) = event {
-                fell.push((place, decision));
-            }
-        });
+        for (n, (ear, record)) in self.ears.iter_mut().zip(records).enumerate() {
+            let (contact, reading) = ear.hear(record, &self.h50, self.limits);
+            let heard = Sensed {
+                place: Place::new(n as u8, 0),
+                reading,
+                contact,
+                least: self.least,
+            };
+            perception.step(n, heard, &mut |event| {
+                if let Event::Decision(place, decision) = event {
+                    fell.push((place, decision));
+                }
+            });
+        }
         let classes = perception.classifier().classes();
         let heard = fell.into_iter().map(|(place, decision)| Decided {
             side: usize::from(place.side),

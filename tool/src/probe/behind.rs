@@ -4,16 +4,17 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use firmware::Links;
 use host_sim::Error;
 use host_sim::origin::Origin;
 use rtt::{LogDecoder, Ram, Ring, Rtt};
-use tactile::ModelBuf;
 use wire::{Packet, TaggedCommand};
 
 use super::find;
 use super::memory::MemoryPort;
+use crate::deployment::Deployment;
 use crate::loading::load;
-use crate::source::{BoardName, Heard, Laying, Source};
+use crate::source::{BoardName, Heard, Laying, Source, by_probe};
 
 /// Between two looks where nothing has come: a sixth of the time in which the ring of packets
 /// fills.
@@ -42,7 +43,7 @@ pub(super) struct Behind {
     memory: MemoryPort,
     board: BoardName,
     rtt: Rtt,
-    /// Of packets and requests; none where its scene has no telemetry.
+    /// Of packets and requests; none where its program has no telemetry.
     rings: Option<[Ring; 2]>,
     decoder: Option<LogDecoder>,
     laying: Laying,
@@ -156,8 +157,12 @@ impl Source for Behind {
         None
     }
 
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
-        load(self, model)
+    fn would_hear(&self, links: Links) -> Result<(), Error> {
+        by_probe(links)
+    }
+
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
+        load(self, what)
     }
 
     fn origin(&self) -> Origin {

@@ -5,40 +5,14 @@ use probe_rs::probe::Probe;
 use probe_rs::probe::list::{Accessibility, Lister, ProbeListItem};
 
 use super::SeenProbe;
-use super::memory::MemoryPort;
-use crate::source::BoardName;
 
-/// All probes on USB, and the chips behind those that may be opened.
-///
-/// # Errors
-/// None with probe-rs.
-#[allow(
-    clippy::unnecessary_wraps,
-    reason = "without probe-rs nothing can be seen"
-)]
-pub(crate) fn seen(board: BoardName) -> Result<Vec<SeenProbe>, String> {
-    let mut all = Vec::new();
-    for item in Lister::new().list_all_with_access() {
-        let mut probe = seen_as(&item);
-        if probe.may_open {
-            let chip = item.info.open().map_err(|error| error.to_string());
-            let chip = chip.and_then(|open| {
-                let mut memory = MemoryPort::of(open).map_err(|error| error.to_string())?;
-                memory.chip_id(board).map_err(|error| error.to_string())
-            });
-            probe.chip = chip;
-        }
-        all.push(probe);
-    }
-    Ok(all)
-}
-
-fn seen_as(item: &ProbeListItem) -> SeenProbe {
+pub(super) fn seen_as(item: &ProbeListItem) -> SeenProbe {
     SeenProbe {
         name: item.info.identifier.clone(),
         serial: item.info.serial_number.clone().unwrap_or_default(),
         may_open: item.accessibility == Accessibility::Accessible,
         chip: Err("not looked at".to_owned()),
+        module: None,
     }
 }
 
@@ -103,6 +77,7 @@ mod tests {
             serial: serial.to_owned(),
             may_open,
             chip: Err(String::new()),
+            module: None,
         }
     }
 

@@ -1,6 +1,28 @@
 //! What a debug probe must know of each board's chip.
 
+use firmware::boards::{BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
+
 use super::program::BoardName;
+
+impl BoardName {
+    /// Its name, as options have it.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::NucleoF446re => "nucleo-f446re",
+            Self::NucleoF103rb => "nucleo-f103rb",
+            Self::NucleoG071rb => "nucleo-g071rb",
+        }
+    }
+
+    /// What is known of it.
+    pub(crate) const fn facts(self) -> &'static BoardFacts {
+        match self {
+            Self::NucleoF446re => &NUCLEO_F446RE,
+            Self::NucleoF103rb => &NUCLEO_F103RB,
+            Self::NucleoG071rb => &NUCLEO_G071RB,
+        }
+    }
+}
 
 #[cfg_attr(
     not(feature = "probe"),
@@ -10,15 +32,6 @@ impl BoardName {
     /// Every board.
     #[cfg(test)]
     pub(crate) const ALL: [Self; 3] = [Self::NucleoF446re, Self::NucleoF103rb, Self::NucleoG071rb];
-
-    /// Its name, as options have it.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::NucleoF446re => "nucleo-f446re",
-            Self::NucleoF103rb => "nucleo-f103rb",
-            Self::NucleoG071rb => "nucleo-g071rb",
-        }
-    }
 
     /// What probe-rs calls its chip.
     pub(crate) const fn chip(self) -> &'static str {

@@ -36,7 +36,7 @@ pub(crate) struct SourceChoice {
         conflicts_with = "seed"
     )]
     probe: Option<String>,
-    /// The program's file. Of --emulated it must be of the same scene; without it it is built
+    /// The program's file. Of --emulated it has the scene with it; without it it is built
     /// (minutes, the first time). Of --probe it is what the board runs; without it the log
     /// cannot be read
     #[arg(long, value_name = "ELF", conflicts_with = "sim")]
@@ -53,8 +53,8 @@ pub(crate) struct SourceChoice {
     /// without it the module's own
     #[arg(long, value_name = "SCENE", conflicts_with = "probe")]
     world: Option<PathBuf>,
-    /// The file that keeps the module's flash for a model from one command to the next, as a
-    /// board does; made where there is none
+    /// The file that keeps the flash which is deployed to from one command to the next, as a
+    /// board does: scene and model of --emulated, the model of --sim; made where there is none
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
     flash: Option<PathBuf>,
     /// A board on this serial port, of a scene whose telemetry has a serial_baud
@@ -100,13 +100,8 @@ impl SourceChoice {
                 "which module? allowed: --sim SCENE, --emulated SCENE, --probe, --port PATH";
             return Err(Error::Input(fault.to_owned()));
         };
-        let mut loaded = Loaded::new(path)?;
-        if let Some(world) = &self.world {
-            loaded = loaded.in_world(world)?;
-        }
+        let loaded = self.placed(Loaded::new(path)?, later)?;
         let flash = Flash::open(self.flash.as_deref())?;
-        let seed = self.seed.unwrap_or(loaded.scene.seed);
-        loaded.scene.seed = seed.wrapping_add(later) & i64::MAX.cast_unsigned();
         if loaded.scene.head.whiskers_per_side > 1 {
             let fault = "a record tells a whisker's side and not its number; found more than \
                          one, allowed: head.whiskers_per_side = 1";
@@ -116,8 +111,8 @@ impl SourceChoice {
             return Ok(Box::new(Simulated::open(loaded, flash)?));
         }
         if !loaded.scene.telemetry.rtt {
-            let fault = "telemetry.rtt is false: the program of this scene tells nothing but \
-                         its log; take that line out";
+            let fault = "telemetry.rtt is false: a module of this scene tells nothing but its \
+                         log; take that line out";
             return Err(Error::file(path, fault));
         }
         let program = match &self.program {
@@ -130,6 +125,28 @@ impl SourceChoice {
 }
 
 impl SourceChoice {
+    /// A module's scene in the world that is chosen, `later` seeds after its own.
+    fn placed(&self, mut loaded: Loaded, later: u64) -> Result<Loaded, Error> {
+        if let Some(world) = &self.world {
+            loaded = loaded.in_world(world)?;
+        }
+        let seed = self.seed.unwrap_or(loaded.scene.seed);
+        loaded.scene.seed = seed.wrapping_add(later) & i64::MAX.cast_unsigned();
+        Ok(loaded)
+    }
+
+    /// A scene as the module runs it: a simulated one knows its world and its seed.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a world that does not fit it.
+    pub(crate) fn of_module(&self, loaded: Loaded) -> Result<Loaded, Error> {
+        if self.sim.is_some() {
+            self.placed(loaded, 0)
+        } else {
+            Ok(loaded)
+        }
+    }
+
     /// The simulation of a scene in its own world.
     pub(crate) fn simulation(scene: &Path) -> Result<Box<dyn Source>, Error> {
         let flash = Flash::open(None)?;

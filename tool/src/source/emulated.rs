@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use emulator::session::Session;
+use firmware::Links;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
-use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
-use super::room::{ModelRoom, fits};
 use super::texture::texture;
-use super::{Heard, Source};
+use super::{Heard, Source, by_probe};
+use crate::deployment::Deployment;
 use crate::loading::load;
 
 /// A board, talked with through the memory that a probe reads and writes.
@@ -24,11 +24,15 @@ pub(super) struct Emulated {
 
 impl Emulated {
     pub(super) fn open(loaded: Loaded, program: &Path, flash: Flash) -> Result<Self, Error> {
-        let session = Session::flashed(&loaded.scene, program, flash.contents())?;
+        let mut flash = flash;
+        let mut session = Session::flashed(&loaded.scene, program, flash.contents())?;
+        if flash.contents().is_empty() {
+            flash.store(&session.flash()?)?;
+        }
         Ok(Self {
-            flash: flash.of_size(session.model_room())?,
-            session,
             loaded,
+            session,
+            flash,
         })
     }
 }
@@ -46,8 +50,7 @@ impl Source for Emulated {
         if self.session.request(request)? {
             return Ok(());
         }
-        let fault = "the board takes no requests; is its program of another scene, or one with \
-                     telemetry.rtt = false?";
+        let fault = "the board takes no requests; has its scene telemetry.rtt = false?";
         Err(Error::Work(fault.to_owned()))
     }
 
@@ -77,19 +80,13 @@ impl Source for Emulated {
         Origin::default().with("board", format_args!("{board} (emulated)"))
     }
 
-    fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error> {
-        let board = self.session.board();
-        let room = ModelRoom {
-            bytes: self.session.model_room(),
-            classes: self.session.model_classes(),
-        };
-        room.takes(board, path, model)?;
-        fits(&self.loaded, path, model)
+    fn would_hear(&self, links: Links) -> Result<(), Error> {
+        by_probe(links)
     }
 
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
         self.session.bear_resets(true);
-        let loaded = load(self, model);
+        let loaded = load(self, what);
         self.session.bear_resets(false);
         self.flash.store(&self.session.flash()?)?;
         loaded

@@ -1,5 +1,6 @@
-//! The flash that a module has for a model, kept in a file: a simulated module and an emulated
-//! chip end with the program, a board on the bench does not.
+//! The flash that scenes and models are deployed to, kept in a file: a simulated module, of which
+//! it keeps the model alone, and an emulated chip end with the program, a board on the bench does
+//! not.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ impl Flash {
 
     /// The same for a board with so many bytes of it: erased, and written to the file, if that
     /// was not there.
-    pub(crate) fn of_size(mut self, bytes: usize) -> Result<Self, Error> {
+    pub(super) fn of_size(mut self, bytes: usize) -> Result<Self, Error> {
         if self.contents.is_empty() {
             self.store(&vec![ERASED; bytes])?;
         }
@@ -40,8 +41,8 @@ impl Flash {
             Some(path) if self.contents.len() != bytes => {
                 let found = self.contents.len();
                 let fault = format!(
-                    "found {found} bytes, allowed: {bytes}, which the board has for a model; is it \
-                     of another board?"
+                    "found {found} bytes, allowed: {bytes}, which this module has; is it of \
+                     another one?"
                 );
                 Err(Error::file(path, fault))
             }
@@ -51,6 +52,11 @@ impl Flash {
 
     pub(crate) fn contents(&self) -> &[u8] {
         &self.contents
+    }
+
+    /// Whether a file keeps it.
+    pub(super) const fn is_kept(&self) -> bool {
+        self.path.is_some()
     }
 
     /// What messages call it.

@@ -4,15 +4,16 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use firmware::Links;
 use host_sim::Error;
 use host_sim::origin::Origin;
 use serial2::SerialPort;
-use tactile::ModelBuf;
 use wire::{Framed, LINE_BYTES, Packet, Piece, Splitter, TaggedCommand};
 
 use super::laying::Laying;
 use super::port_line::{Said, logged};
 use super::{Heard, Source};
+use crate::deployment::Deployment;
 use crate::loading::load;
 
 /// For how long a read waits for something.
@@ -191,8 +192,25 @@ impl Source for Port {
         None
     }
 
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
-        load(self, model)
+    fn would_hear(&self, links: Links) -> Result<(), Error> {
+        let fault = "telemetry.serial_baud: found none; allowed for a scene that is deployed by \
+                     the serial port: a baud, or else the board could not be asked any more";
+        let heard = links.serial_baud.map(drop);
+        heard.ok_or_else(|| Error::Input(fault.to_owned()))
+    }
+
+    fn speaks(&mut self, links: Links) -> Result<(), Error> {
+        let wrong = |error: std::io::Error| Error::Work(format!("{}: {error}", self.name));
+        let Some(baud) = links.serial_baud else {
+            return Ok(());
+        };
+        let mut settings = self.line.get_configuration().map_err(wrong)?;
+        settings.set_baud_rate(baud).map_err(wrong)?;
+        self.line.set_configuration(&settings).map_err(wrong)
+    }
+
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
+        load(self, what)
     }
 
     fn origin(&self) -> Origin {

@@ -1,10 +1,17 @@
 //! Building the program of a board.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::ValueEnum;
+use firmware::Header;
+use host_sim::loaded::Loaded;
+use host_sim::output::write_whole;
 use host_sim::{Error, report};
+use tactile::ModelBuf;
+
+use crate::deployment::model_of;
 
 /// A board whose program can be built, emulated and flashed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -17,7 +24,7 @@ pub(crate) enum BoardName {
     NucleoG071rb,
 }
 
-/// How cargo is told to build it.
+/// How cargo builds it.
 struct Recipe {
     feature: &'static str,
     program: &'static str,
@@ -37,7 +44,11 @@ const fn recipe(board: BoardName) -> Recipe {
     }
 }
 
-/// Builds the program of `scene`; returns its file.
+/// Bytes of flash in which a program has room for all its parts, and so takes any scene. A smaller
+/// one has those that its scene needs.
+const ROOM_FOR_ALL: u32 = 128 * 1024;
+
+/// Builds the program of a board, which brings `scene` with it; returns its file.
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     let Recipe {
         feature,
@@ -46,19 +57,39 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     } = recipe(board);
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let top = here.parent().unwrap_or(here);
-    let wrong = |error: std::io::Error| Error::file(scene, error);
-    let scene_file = std::path::absolute(scene).map_err(wrong)?;
+    let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top.join("target"), Into::into);
+    let built: PathBuf = std::path::absolute(built)
+        .map_err(|error| Error::Work(format!("the folder that is built in: {error}")))?;
+    let loaded = Loaded::new(scene)?;
+    let model = model_of(scene, &loaded.scene)?;
+    let image = config::image(&loaded.scene, model.as_ref(), board.facts(), "");
+    let image = image.map_err(|misfit| Error::file(scene, misfit))?;
     report::warn(format_args!(
         "building the {feature}'s program of {}",
         scene.display()
     ));
+    let has_room = board.facts().flash.program.bytes >= ROOM_FOR_ALL;
+    let mut features = vec![feature];
+    if has_room {
+        features.push("default");
+    }
+    let is_needed = |part: &&str| !has_room || *part == "fixed";
+    features.extend(image.features.into_iter().filter(is_needed));
+    let files = Files::new(&built, board, &image.bytes, model.as_ref())?;
+    // Programs of all scenes are built in the same place.
+    let _lock = files.lock()?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .args(["build", "--quiet", "--locked", "--profile", "firmware"])
-        .args(["-p", "firmware", "--features", feature, "--bin", program])
-        .args(["--target", target])
-        .env("WHISKER_SCENE", scene_file)
-        // As all programs of boards are built: others would be compiled anew.
+        .args(["-p", "firmware", "--no-default-features"])
+        .args(["--features", &features.join(",")])
+        .args(["--bin", program, "--target", target])
+        .env("WHISKER_CONFIG", files.path("config"))
+        .env(
+            "WHISKER_MODEL",
+            model.map_or_else(PathBuf::new, |_| files.path("model")),
+        )
+        // As all programs of boards are built: others would be compiled again.
         .env("RUSTFLAGS", "-D warnings")
         .current_dir(top);
     let status = cargo.status().map_err(|error| {
@@ -72,6 +103,54 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
              {target}"
         )));
     }
-    let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top.join("target"), Into::into);
-    Ok(built.join(target).join("firmware").join(program))
+    let (elf, kept) = (
+        built.join(target).join("firmware").join(program),
+        files.path("elf"),
+    );
+    let copied = std::fs::copy(&elf, &kept).map_err(|error| Error::write(&kept, error));
+    copied.map(|_| kept)
+}
+
+/// What a program brings with it, and the program, in the folder that is built in.
+struct Files {
+    folder: PathBuf,
+    /// Another one for each scene and model.
+    name: String,
+}
+
+impl Files {
+    /// Writes what it brings.
+    fn new(
+        built: &Path,
+        board: BoardName,
+        config: &[u8],
+        model: Option<&ModelBuf>,
+    ) -> Result<Self, Error> {
+        let sum = Header::of(config).map_or(0, |header| header.crc);
+        let of_model = model.map_or(0, ModelBuf::crc);
+        let files = Self {
+            folder: built.join("scenes"),
+            name: format!("{}-{sum:08x}-{of_model:08x}", board.name()),
+        };
+        let folder = &files.folder;
+        std::fs::create_dir_all(folder).map_err(|error| Error::write(folder, error))?;
+        write_whole(&files.path("config"), config)?;
+        if let Some(model) = model {
+            write_whole(&files.path("model"), model.as_bytes())?;
+        }
+        Ok(files)
+    }
+
+    fn path(&self, kind: &str) -> PathBuf {
+        self.folder.join(format!("{}.{kind}", self.name))
+    }
+
+    /// Waits until no other build is under way.
+    fn lock(&self) -> Result<File, Error> {
+        let path = self.folder.join("lock");
+        let wrong = |error| Error::write(&path, error);
+        let file = File::create(&path).map_err(wrong)?;
+        file.lock().map_err(wrong)?;
+        Ok(file)
+    }
 }

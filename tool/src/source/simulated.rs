@@ -1,7 +1,6 @@
 //! A module that is simulated: `host-sim`'s.
 
-use std::path::Path;
-
+use firmware::boards::NUCLEO_F446RE;
 use firmware::faults::{self, number};
 use firmware::{Event, Place, Refusal};
 use host_sim::Error;
@@ -13,9 +12,9 @@ use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
-use super::room::{ModelRoom, fits};
 use super::texture::texture;
 use super::{Heard, Source};
+use crate::deployment::Deployment;
 
 /// A scene's module on this PC.
 pub(super) struct Simulated {
@@ -26,18 +25,15 @@ pub(super) struct Simulated {
     first: Vec<String>,
 }
 
-/// As the NUCLEO-F446RE has it.
-const ROOM: ModelRoom = ModelRoom {
-    bytes: 128 * 1024,
-    classes: 16,
-};
+/// Bytes for a model, as the NUCLEO-F446RE has them.
+const ROOM: usize = NUCLEO_F446RE.flash.slots[0].model.bytes as usize;
 
 impl Simulated {
     pub(super) fn open(mut loaded: Loaded, flash: Flash) -> Result<Self, Error> {
-        let flash = flash.of_size(ROOM.bytes)?;
+        let flash = flash.of_size(ROOM)?;
         let mut first = Vec::new();
         if loaded.scene.awaits_model() {
-            let found = deployed(flash.contents(), &loaded.scene, ROOM.classes)?;
+            let found = deployed(flash.contents(), &loaded.scene, NUCLEO_F446RE.max_classes)?;
             first = told(&found);
             loaded = loaded.with_deployed(flash.name(), found.ok());
         }
@@ -156,18 +152,27 @@ impl Source for Simulated {
         Origin::default().with("board", "simulated")
     }
 
-    fn takes(&self, path: &Path, model: &ModelBuf) -> Result<(), Error> {
-        ROOM.takes("simulated board", path, model)?;
-        fits(&self.loaded, path, model)
-    }
-
-    fn deploy(&mut self, model: &ModelBuf) -> Result<(), Error> {
-        self.flash.program(model.as_bytes())?;
-        let name = self.flash.name().to_owned();
-        let loaded = self.loaded.clone();
-        self.loaded = loaded.with_deployed(&name, Some(model.clone()));
-        self.first = told(&Ok(model.clone()));
-        self.run = Run::new(&self.loaded.scene, self.loaded.classifier()?)?;
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
+        let Some(loaded) = &what.loaded else {
+            let fault = "a simulated module is made from its scene: --scene FILE says which";
+            return Err(Error::Input(fault.to_owned()));
+        };
+        if self.flash.is_kept() && loaded.scene.name != self.loaded.scene.name {
+            let fault = "--flash keeps the model of a simulated module, and not its scene, which \
+                         is that of --sim SCENE";
+            return Err(Error::Input(fault.to_owned()));
+        }
+        let run = Run::new(&loaded.scene, loaded.classifier()?)?;
+        let model = what.model.as_ref();
+        self.flash
+            .program(model.map_or(&[], |model| model.as_bytes()))?;
+        self.first = match model {
+            _ if loaded.scene.classifier.is_none() => Vec::new(),
+            Some(model) => told(&Ok(model.clone())),
+            None => told(&Err(Refusal::Absent)),
+        };
+        self.loaded = loaded.clone();
+        self.run = run;
         Ok(())
     }
 }

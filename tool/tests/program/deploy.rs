@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::common::{Place, scenes, textures};
+use crate::common::{BENCH, Place, scenes, textures};
 
 /// The bench in the world of the main job, and how its flash is kept.
 fn bench() -> String {
@@ -34,13 +34,17 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
 
     let ran = place.done(&format!("deploy {bench} --model {}", model.display()));
     let told: Vec<&str> = ran.stdout.lines().collect();
-    assert_eq!(told.len(), 3, "{told:?}");
+    assert_eq!(told.len(), 5, "{told:?}");
     assert!(told[0].ends_with("4 classes: smooth, p600, p240, carpet"));
-    assert!(told[1].starts_with("before, the module decides by no model: none was deployed"));
+    assert!(told[1].starts_with("before, the module runs scene bench ("));
+    assert!(told[2].starts_with("before, the module decides by no model: none was deployed"));
+    assert!(told[3].starts_with("now it runs scene bench ("));
+    // Samples count from the model's contact then.
+    assert_ne!(told[1].split_once("runs"), told[3].split_once("runs"));
     let crc = std::fs::read(&model).unwrap();
     let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
     assert_eq!(
-        told[2],
+        told[4],
         format!("now it decides by model {crc:08x}, 4 classes")
     );
 
@@ -62,7 +66,7 @@ fn flash_that_was_not_written_whole_is_refused_at_the_start() {
     let (bench, model) = (bench(), model());
     place.done(&format!("deploy {bench} --model {}", model.display()));
     let whole = std::fs::read(place.path("board.flash")).unwrap();
-    assert_eq!(whole.len(), 128 * 1024);
+    assert_eq!(whole.len(), 124 * 1024);
     let refused = |at: usize, byte: u8, why: &str| {
         let mut flash = whole.clone();
         flash[at] = byte;
@@ -80,7 +84,7 @@ fn flash_that_was_not_written_whole_is_refused_at_the_start() {
     assert!(log.contains("writing it was interrupted"), "{log}");
     place.write("board.flash", "short");
     let said = place.refused(&format!("log {bench}"));
-    assert!(said.contains("found 5 bytes, allowed: 131072"), "{said}");
+    assert!(said.contains("found 5 bytes, allowed: 126976"), "{said}");
 }
 
 #[test]
@@ -175,4 +179,72 @@ fn a_world_must_fit_the_module() {
         bench.display()
     ));
     assert!(said.contains("--world SCENE"), "{said}");
+}
+
+#[test]
+fn a_scene_that_is_deployed_is_what_the_module_runs() {
+    let place = Place::new();
+    let other = BENCH
+        .replace("\"bench\"", "\"other\"")
+        .replace("gain = 0.7", "gain = 0.9");
+    place.write("other.toml", &other);
+    let ran = place.done("deploy --scene other.toml --sim bench.toml --seconds 0.1");
+    let told: Vec<&str> = ran.stdout.lines().collect();
+    let [before, now] = told[..] else {
+        panic!("{told:?}");
+    };
+    assert!(before.starts_with("before, the module runs scene bench ("));
+    assert!(now.starts_with("now it runs scene other ("));
+    let get = place.done("get --sim other.toml").stdout;
+    assert_eq!(
+        get.lines().next(),
+        Some(&*now.replace("now it", "the module"))
+    );
+
+    let said = place
+        .run("deploy --scene other.toml --sim bench.toml --flash f")
+        .stderr;
+    assert!(said.contains("--flash keeps the model"), "{said}");
+    place.write("wrong.toml", &other.replace("gain = 0.9", "gain = 900"));
+    let said = place.refused("deploy --scene wrong.toml --sim bench.toml");
+    assert!(said.contains("rcp.gain: found 900"), "{said}");
+    let said = place.refused("deploy --sim bench.toml");
+    assert!(said.contains("--scene <FILE>"), "{said}");
+}
+
+#[test]
+fn a_scene_that_the_board_does_not_take_changes_nothing_in_it() {
+    let place = Place::new();
+    let board = "--emulated bench.toml --flash board.flash";
+    let other = BENCH.replace("\"bench\"", "\"other\"");
+    place.write("other.toml", &other);
+    let ran = place.done(&format!("deploy --scene other.toml {board}"));
+    let now = ran.stdout.lines().last().unwrap();
+    assert!(now.starts_with("now it runs scene other ("), "{now}");
+    let kept = std::fs::read(place.path("board.flash")).unwrap();
+
+    let two = BENCH
+        .replace("sides = \"left\"", "sides = \"both\"")
+        .replace("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]")
+        .replace("obstacle_deg = [100.0]", "obstacle_deg = [100.0, 100.0]");
+    place.write(
+        "two.toml",
+        &format!("{two}[motor]\ndriver = \"six-step\"\n"),
+    );
+    let said = place.refused(&format!("deploy --scene two.toml {board}"));
+    let fault = "two.toml: motor.driver: found \"six-step\" on two sides; allowed on the \
+                 NUCLEO-F446RE: \"h-bridge\" on two sides";
+    assert!(said.contains(fault), "{said}");
+    let mute = format!("{other}[telemetry]\nrtt = false\n");
+    place.write("mute.toml", &mute);
+    let said = place.refused(&format!("deploy --scene mute.toml {board}"));
+    assert!(said.contains("telemetry.rtt: found false"), "{said}");
+    assert_eq!(std::fs::read(place.path("board.flash")).unwrap(), kept);
+    let get = place
+        .done(&format!("get --scene other.toml {board}"))
+        .stdout;
+    assert_eq!(
+        get.lines().next(),
+        Some(&*now.replace("now it", "the module"))
+    );
 }

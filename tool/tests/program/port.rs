@@ -5,6 +5,11 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
+use firmware::boards::NUCLEO_F446RE;
+use serial2::SerialPort;
+use wire::{Command as Request, CommandStatus, Framed, LINE_BYTES, Load, Packet, Piece};
+use wire::{Splitter, TaggedCommand};
+
 use crate::common::{BENCH, Place, scenes, textures};
 
 /// A board that is served; it ends when dropped.
@@ -116,10 +121,107 @@ fn a_board_on_a_port_is_taught_without_a_probe() {
         assert!(ran.stdout.contains(&said), "{said}{}", ran.stdout);
     }
     let kept = std::fs::read(place.path("kept.flash")).unwrap();
-    assert!(kept.starts_with(&std::fs::read(&model).unwrap()));
+    let model_bytes = std::fs::read(&model).unwrap();
+    let [first, second] = NUCLEO_F446RE.flash.slots;
+    let of_models = [first, second].map(|slot| {
+        let at = (slot.model.start - first.head.start) as usize;
+        &kept[at..at + model_bytes.len()]
+    });
+    // In the slot by which the board did not run.
+    assert_eq!(of_models.map(|of| of == model_bytes), [false, true]);
     // It may be another then.
     let again = place.done(&deploy);
     assert!(again.stdout.contains("before, the module decides by model"));
+}
+
+#[test]
+fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let port = &served.port;
+    let scene = place.text("serial.toml");
+    let other = scene.replace("\"bench\"", "\"other\"");
+    place.write("other.toml", &other.replace("gain = 0.7", "gain = 0.9"));
+    let silent = other.replace("serial_baud = 921600", "rtt = true");
+    place.write("silent.toml", &silent);
+    let said = place.refused(&format!("deploy {port} --scene silent.toml"));
+    assert!(said.contains("telemetry.serial_baud: found none"), "{said}");
+
+    let ran = place.done(&format!("deploy {port} --scene other.toml"));
+    let told: Vec<&str> = ran.stdout.lines().collect();
+    let [before, now] = told[..] else {
+        panic!("{told:?}");
+    };
+    assert!(before.starts_with("before, the module runs scene bench ("));
+    assert!(now.starts_with("now it runs scene other ("), "{now}");
+
+    // What is set there stays until the next reset; it is read back.
+    place.done(&format!(
+        "set {port} --scene other.toml rcp.gain=1.5 whisking.frequency_hz=3"
+    ));
+    let get = place.done(&format!("get {port} --scene other.toml")).stdout;
+    assert!(get.contains(", with keys that were set"), "{get}");
+    assert_eq!(get.matches("differs").count(), 2, "{get}");
+    place.done(&format!("save {port} --scene other.toml --all"));
+    let saved = place.text("other.toml");
+    assert!(
+        saved.contains("gain = 1.5") && saved.contains("frequency_hz = 3"),
+        "{saved}"
+    );
+    let get = place.done(&format!("get {port} --scene other.toml")).stdout;
+    assert!(!get.contains("differs"), "{get}");
+}
+
+#[test]
+fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let status = || place.done(&format!("status {}", served.port)).stdout;
+    let runs = |status: &str| {
+        let line = status
+            .lines()
+            .find(|line| line.starts_with("runs scene bench ("));
+        line.unwrap().to_owned()
+    };
+    let before = status();
+    let line = SerialPort::open(place.path("port"), 921_600).unwrap();
+    let mut splitter = Splitter::<LINE_BYTES>::new();
+    let mut ask = |tag, command| {
+        let request = TaggedCommand { tag, command };
+        line.write_all(Framed::request(&request).bytes()).unwrap();
+        loop {
+            let mut bytes = [0; 1024];
+            let count = line.read(&mut bytes).unwrap();
+            for byte in &bytes[..count] {
+                if let Some(Piece::Frame(frame)) = splitter.push(*byte)
+                    && let Ok(Packet::Answer(answer)) = frame.try_into().map(Packet::from_bytes)
+                    && answer.tag == tag
+                {
+                    return answer.status;
+                }
+            }
+        }
+    };
+    // Whoever deploys has switched the motors off.
+    assert_eq!(ask(1, Request::Stop), CommandStatus::Done);
+    let load = Load {
+        config: 80,
+        model: 0,
+    };
+    assert_eq!(ask(2, Request::Load(load)), CommandStatus::Done);
+    for number in 0..20 {
+        let word = Request::Word(number, 0x1234_5678);
+        assert_eq!(ask(3 + u16::from(number), word), CommandStatus::Done);
+    }
+    drop(line);
+    let after = status();
+    assert_eq!(runs(&after), runs(&before));
+    let ticks = |status: &str| -> u32 {
+        let line = status.lines().nth(2).unwrap();
+        line.split(' ').next().unwrap().parse().unwrap()
+    };
+    // It has started again.
+    assert!(ticks(&after) < 20_000, "{after}");
 }
 
 #[test]

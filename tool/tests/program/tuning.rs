@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{BENCH, Place};
+use crate::common::{BENCH, Place, scenes};
 
 /// The rows of a table from a time on.
 fn rows_from(table: &str, from_s: f64) -> Vec<&str> {
@@ -75,15 +75,35 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
         ("motor.min_deg=170", "allowed: below max_deg, which is 160"),
         (
             "motor.driver=six-step",
-            "it says what is in the program; it needs a rebuild",
+            "the module is built from it at its start; it needs a restart",
         ),
         (
             "cia.gain=1",
-            "cia.gain: its part is not in the program; it needs a rebuild",
+            "cia.gain: its part is not in the module's scene: add it to bench.toml, then whisker deploy",
         ),
         (
             "whisking.noise=0",
-            "would come or go with this value; it needs a rebuild",
+            "whisking.noise: noise: cannot change while the module runs; deploy the scene: whisker deploy",
+        ),
+        (
+            "tick_hz=1000",
+            "tick_hz: the module is built from it at its start; it needs a restart: whisker deploy",
+        ),
+        (
+            "head.sides=both",
+            "it needs a restart: whisker deploy --scene",
+        ),
+        (
+            "head.whiskers_per_side=2",
+            "it needs a restart: whisker deploy --scene",
+        ),
+        (
+            "sensor.mode=slow",
+            "it needs a restart: whisker deploy --scene",
+        ),
+        (
+            "telemetry.serial_baud=9600",
+            "it needs a restart: whisker deploy --scene",
         ),
         ("whisking.gain=1", "only the start uses it"),
         ("plant.stiffness=1", "it is of the simulated world"),
@@ -95,7 +115,7 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
     }
     let said = place.refused("get motor.homing_duty --sim bench.toml");
     assert!(
-        said.contains("its part is not in the module's program"),
+        said.contains("its part is not in the module's scene"),
         "{said}"
     );
     place.write("s.txt", "0.1 set motor.gear 3\n");
@@ -108,6 +128,60 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
     let ran = place.run("log --sim bench.toml --script s.txt --seconds 0.3");
     assert_eq!(ran.status, Some(1));
     assert!(ran.stdout.contains("found 11; allowed"), "{}", ran.stdout);
+}
+
+#[test]
+fn a_module_of_another_version_of_the_scene_is_left_alone() {
+    let place = Place::new();
+    place.write("newer.toml", &BENCH.replace("gain = 0.7", "gain = 0.8"));
+    let ran = place.done("get --sim bench.toml --scene newer.toml");
+    let renews = "the module's scene bench is of another version than newer.toml, it differs in \
+                  motion.whisking.rcp.gain; whisker deploy --scene newer.toml renews it";
+    assert!(ran.stdout.contains(renews), "{}", ran.stdout);
+    let ran = place.run("set motor.kp=0.06 --sim bench.toml --scene newer.toml");
+    assert_eq!(ran.status, Some(1));
+    assert!(ran.stderr.contains(renews), "{}", ran.stderr);
+    place.write("other.toml", &BENCH.replace("\"bench\"", "\"other\""));
+    let ran = place.run("get --sim bench.toml --scene other.toml");
+    let runs = "the module runs the scene bench, other.toml is of other";
+    assert!(ran.stderr.contains(runs), "{}", ran.stderr);
+    // World and seed are no other version.
+    let ran = place.done("set motor.kp=0.06 --sim bench.toml --world bench.toml --seed 7");
+    assert!(ran.stdout.contains("differs"), "{}", ran.stdout);
+}
+
+#[test]
+fn keys_that_protect_are_set_while_the_motors_are_off() {
+    let place = Place::new();
+    let limits = "motor.following_limit_deg=31.5 motor.top_speed_deg_s=12000";
+    let ran = place.run(&format!("set {limits} --sim bench.toml"));
+    assert_eq!(ran.status, Some(1));
+    let why = "changes only while no motor is armed; whisker stop switches them off";
+    assert!(ran.stderr.contains(why), "{}", ran.stderr);
+    let scene = format!("{BENCH}[motor]\narm = \"on-command\"\n");
+    place.write("off.toml", &scene);
+    let ran = place.done(&format!("set {limits} --sim off.toml"));
+    assert_eq!(ran.stdout.matches("differs").count(), 2, "{}", ran.stdout);
+}
+
+#[test]
+fn more_keys_than_there_is_room_for_are_refused() {
+    let place = Place::new();
+    let keys = [
+        "kp=0.0123456789",
+        "kd=0.0000123456789",
+        "slew_per_s=12345.6789012",
+        "travel_margin_deg=12.3456789012",
+        "following_limit_deg=23.4567890123",
+        "continuous_duty=0.345678901234",
+        "approach_deg_s=123.456789012",
+    ];
+    let set = keys.map(|key| format!("motor.{key}")).join(" ");
+    let said = place.refused(&format!("set {set} --sim bench.toml"));
+    assert!(
+        said.contains("bytes, allowed: 192; whisker save --all"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -152,4 +226,26 @@ fn the_page_has_the_table_of_all_keys() {
         page.contains(list.trim_end()),
         "docs/tuning.md needs:\n{list}"
     );
+}
+
+#[test]
+fn an_image_that_was_built_without_it_is_read_all_the_same() {
+    let place = Place::new();
+    let scene = scenes("passive.toml");
+    let board = format!("--emulated {} --board nucleo-g071rb", scene.display());
+    let any_scene = "cargo xtask firmware --any-scene builds one that has it";
+    for (command, without) in [
+        ("set sensor.frozen_s=1", "settings by command"),
+        (
+            &*format!("deploy --scene {}", scene.display()),
+            "deployment by command",
+        ),
+    ] {
+        let ran = place.run(&format!("{command} {board}"));
+        assert_eq!(ran.status, Some(1), "{}", ran.stdout);
+        let says = format!("the module's image was built without {without}; {any_scene}");
+        assert!(ran.stderr.contains(&says), "{}", ran.stderr);
+    }
+    let get = place.done(&format!("get {board}")).stdout;
+    assert!(get.starts_with("the module runs scene passive ("), "{get}");
 }

@@ -1,67 +1,94 @@
-//! Number formats and the constants that their kernels need, made by the build
-//! script. A kernel takes them by [`in_memory`], as the tick of a board reads
-//! them from its settings.
+//! Number formats, and the configurations that the build script has made in each.
 
-use whisking::motor::GuardConfig;
-use whisking::{Absent, Present, Real, Start, filter, gate, muscle, noise, oscillator, pd};
+use firmware::{Config, MotionConfig};
+use whisking::{Fix, MAX_SIDES, Number, Real, filter, oscillator};
 
-/// Made by the build script.
-#[allow(clippy::unreadable_literal, reason = "numbers as they print")]
-mod constants {
-    use super::{Format, Generator, GuardConfig};
-    use whisking::{Fix, Start, filter, gate, muscle, noise, oscillator, pd};
-
-    include!(concat!(env!("OUT_DIR"), "/constants.rs"));
-}
-
-pub use constants::SECTIONS;
-
-/// A number format to be measured; both integrators at 2 kHz, 2 whisks a
-/// second, both sides coupled, RCP and CIA.
-pub trait Format: Real {
+/// A number format to be measured, with the bytes of modules: 2 kHz, 2 whisks a second, sides
+/// coupled, contact filter, RCP and CIA, a classifier of the first whisker.
+pub trait Format: Number {
     /// Its name in the table.
     const NAME: &'static str;
-    /// The contact filter.
-    const H50: &'static filter::Config<Self>;
-    /// Suppression.
-    const RCP: &'static gate::Rcp<Self>;
-    /// Excitation.
-    const CIA: &'static gate::Cia<Self>;
-    /// Noise of the oscillators.
-    const NOISE: &'static noise::Config<Self>;
-    /// The papers' oscillators.
-    const EULER_OSCILLATORS: &'static oscillator::Euler<Self>;
-    /// The papers' muscle.
-    const EULER_MUSCLE: &'static muscle::Euler<Self>;
-    /// Where both sides of the papers' start.
-    const EULER_START: Start<Self, 2, 1>;
-    /// The structure-preserving oscillators.
-    const OSCILLATORS: &'static oscillator::Exact<Self>;
-    /// The fourth-order muscle.
-    const MUSCLE: &'static muscle::Exact<Self>;
     /// One side with a whisker.
-    const START_1: Start<Self, 1, 1>;
+    const LONE: &'static [u8];
     /// Two sides with a whisker each.
-    const START_2: Start<Self, 2, 1>;
+    const PAIR: &'static [u8];
     /// Two sides with twelve whiskers each.
-    const START_24: Start<Self, 2, 12>;
-    /// Position control.
-    const PD: &'static pd::Config<Self>;
-    /// What is a fault of a motor's motion.
-    const GUARDS: &'static GuardConfig<Self>;
-
-    /// A whole pattern generator with the structure-preserving integrators.
-    const WHISKING: &'static Generator<Self, oscillator::Exact<Self>, muscle::Exact<Self>>;
-    /// The same with the papers' integrators.
-    const EULER_WHISKING: &'static Generator<Self, oscillator::Euler<Self>, muscle::Euler<Self>>;
+    const HEAD: &'static [u8];
+    /// As [`Self::PAIR`], with the papers' integrators.
+    const EULER: &'static [u8];
+    /// As [`Self::PAIR`], with noise, which few scenes have.
+    const NOISY: &'static [u8];
 }
 
-/// A pattern generator with RCP and CIA, without noise, which few scenes have.
-pub type Generator<R, Oscillators, Muscle> =
-    whisking::Config<R, Oscillators, Muscle, Present<gate::Rcp<R>>, Present<gate::Cia<R>>, Absent>;
+macro_rules! bytes {
+    ($module:literal, $format:literal) => {
+        include_bytes!(concat!(env!("OUT_DIR"), "/", $module, "-", $format))
+    };
+}
 
-/// A constant that the compiler must read from memory.
-#[inline]
-pub fn in_memory<T>(constant: &T) -> &T {
-    core::hint::black_box(constant)
+macro_rules! formats {
+    ($($number:ty: $name:literal,)*) => {$(
+        impl Format for $number {
+            const NAME: &'static str = $name;
+            const LONE: &'static [u8] = bytes!("1x1", $name);
+            const PAIR: &'static [u8] = bytes!("2x1", $name);
+            const HEAD: &'static [u8] = bytes!("2x12", $name);
+            const EULER: &'static [u8] = bytes!("2x1-euler", $name);
+            const NOISY: &'static [u8] = bytes!("2x1-noise", $name);
+        }
+    )*};
+}
+
+formats! {
+    f32: "f32",
+    f64: "f64",
+    Fix: "fix",
+}
+
+/// The configuration of these bytes.
+///
+/// # Panics
+/// If there is no room for so many whiskers.
+pub fn config<R: Format>(bytes: &[u8]) -> Config<R> {
+    postcard::from_bytes(bytes).expect("room for all whiskers")
+}
+
+/// What the kernels take of a configuration.
+#[derive(Debug)]
+pub struct Parts<R: Real> {
+    /// The contact filter.
+    pub h50: filter::Config<R>,
+    /// All that moves.
+    pub motion: MotionConfig<R>,
+}
+
+/// The parts of the configuration of these bytes.
+///
+/// # Panics
+/// As [`config`].
+pub fn parts<R: Format>(bytes: &[u8]) -> Parts<R> {
+    let Config {
+        contact, motion, ..
+    } = config(bytes);
+    let both = contact.zip(motion);
+    let (h50, motion) = both.expect("an active module that feels");
+    Parts { h50, motion }
+}
+
+/// Oscillators with their drives.
+pub type Oscillators<'p, R> = (
+    &'p oscillator::Config<R>,
+    oscillator::State<R>,
+    [R; MAX_SIDES],
+);
+
+/// The oscillators of a configuration, at their start.
+pub fn oscillators<R: Real>(parts: &Parts<R>) -> Oscillators<'_, R> {
+    let start = parts.motion.start.sides.iter();
+    let state = oscillator::State::new(start.map(|side| side.oscillator).collect());
+    (
+        &parts.motion.whisking.oscillators,
+        state,
+        [R::ZERO; MAX_SIDES],
+    )
 }

@@ -17,7 +17,10 @@
 //!
 //! [`machine`] counts, `check.rs` proves that it does, [`program!`] enters the
 //! kernels of a program of `src/bin`. A number format is measured when it has a
-//! line in the build script and one in [`each_format`].
+//! line in the build script, one in [`mod@format`] and one in [`each_format`].
+//! Configurations lie in memory, as on a board, and are bytes before that, so that the
+//! compiler knows nothing of them. Programs of more than two whiskers (`*_2x12`) are
+//! built with the feature `array`.
 //!
 //! Kernels that have a function in common stand in programs apart: the firmware
 //! calls each part once and so the compiler takes it in whole, with its
@@ -44,13 +47,19 @@ pub mod start;
 
 /// Makes a program that counts kernels, each with its name, its body, the inputs and
 /// the state it starts from: `program!(R, ("name", ...), ...)` in every number format
-/// `R`, `program!(("format": "name", ...), ...)` where there is no choice of one.
+/// `R`, `program!(R, parts = parts(R::LONE), ...)` where they start from parts of a
+/// configuration, `program!(("format": "name", ...), ...)` where there is no choice of a
+/// format.
 #[macro_export]
 macro_rules! program {
-    ($(#[$only:meta])* $number:ident, $(($($kernel:tt)*)),* $(,)?) => {
+    (
+        $(#[$only:meta])* $number:ident, $($parts:ident = $made:expr,)?
+        $(($($kernel:tt)*)),* $(,)?
+    ) => {
         $crate::program!(@ $(#[$only])* {
             #[inline(never)]
             fn each<$number: $crate::format::Format>() {
+                $(let $parts = $made;)?
                 $($crate::kernel!([$number] $number::NAME, $($kernel)*);)*
             }
             $crate::each_format!(each);

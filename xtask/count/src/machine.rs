@@ -116,7 +116,7 @@ pub fn begin() {
     }
 }
 
-/// Lets the timer begin anew.
+/// Starts the timer again.
 fn rewind() {
     // SAFETY: as in `begin`. A write of any value sets the counter to zero, from
     // where it goes on at its top.
@@ -130,7 +130,7 @@ fn rewind() {
 
 /// Whether the timer has come round since this was last asked.
 fn wrapped() -> bool {
-    // SAFETY: as in `begin`; reading clears the flag, which nobody else uses.
+    // SAFETY: as in `begin`; reading clears the flag, which nothing else uses.
     unsafe { SYST_CSR.read_volatile() & CSR_WRAPPED != 0 }
 }
 

@@ -5,22 +5,18 @@ use core::convert::Infallible;
 
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
-    Active, ActiveConfig, AngleInput, BusError, Classifying, ClassifyingConfig, Clock,
-    CodeClassifier, Config, Event, FrameSource, Module, Servo, ServoConfig,
+    AngleInput, BusError, Clock, CodeClassifier, Config, Event, FrameSource, Hardware, Module,
+    WhiskerParts,
 };
-use mlx90333::{Decoder, FRAME_LEN};
-use tactile::{Model, Sequential, Threshold};
+use mlx90333::FRAME_LEN;
+use tactile::{Model, StreamClassifier};
+use whisking::Number;
 use whisking::motor::HBridge;
-use whisking::{Absent, Present, Start, State, filter, muscle, oscillator};
 
-use crate::format::{Format, Generator};
-use crate::listener::{THRESHOLD, open_9};
+use crate::listener::open_9;
 use crate::samples::frame;
 
-/// Ticks a second.
-const TICK_HZ: u32 = 2000;
 /// Counts of the clock between two ticks.
 const PERIOD: u32 = 45_000;
 
@@ -105,102 +101,76 @@ impl Clock for Counter {
     }
 }
 
-type Motor = HBridge<Compare, Pin>;
-type Motion<R, const S: usize, const N: usize> = Active<R, Motor, Encoder, S, N>;
-type Perception = Classifying<CodeClassifier<Sequential>>;
+/// All of these.
+pub struct Memory;
 
-type Whisking<R> = Generator<R, oscillator::Exact<R>, muscle::Exact<R>>;
-type Settings<R> = Config<
-    ActiveConfig<R, Whisking<R>>,
-    ClassifyingConfig<Absent, Threshold>,
-    Present<filter::Config<R>>,
->;
-
-/// A module and the last event that it told.
-#[derive(Debug)]
-pub struct Whole<R: Format, const S: usize, const N: usize> {
-    module: Module<R, Frames, Motion<R, S, N>, Perception, Counter, S, N>,
-    settings: Settings<R>,
-    told: Option<Event>,
+impl Hardware for Memory {
+    type Source = Frames;
+    type Motor = HBridge<Compare, Pin>;
+    type Angle = Encoder;
+    type Classifier = CodeClassifier;
+    type Clock = Counter;
 }
 
-impl<R: Format, const S: usize, const N: usize> Whole<R, S, N> {
-    /// Frame, contact filter, RCP, CIA, oscillators, muscles, position control
-    /// and a classifier of nine classes; no noise, which few scenes have.
-    const SETTINGS: Settings<R> = Config {
-        decoder: Decoder::new(),
-        // The samples are not a whisker's course; what is compared is the same.
-        sensor_limits: sensor_limits(TICK_HZ, Plausible::ANY),
-        contact: Present(*R::H50),
-        motion: ActiveConfig {
-            whisking: *R::WHISKING,
-            servo: ServoConfig {
-                pd: *R::PD,
-                retry: retry(TICK_HZ),
-                guards: *R::GUARDS,
-                approach: R::ONE,
-                homing: Absent,
-            },
-            stop_all: Absent,
-        },
-        perception: ClassifyingConfig {
-            contact_min: Absent,
-            rule: THRESHOLD,
-        },
-        period: PERIOD,
-    };
+/// A module with a classifier of nine classes, and the last event that it reported.
+pub struct Whole<R: Number> {
+    module: Module<R, Memory>,
+    reported: Option<Event>,
+}
 
+impl<R: Number> Whole<R> {
     /// A module that has not ticked yet.
     ///
     /// # Panics
-    /// If the build script made another model than this needs.
-    pub fn new(start: &Start<R, S, N>) -> Self {
+    /// If the build script has made another model, or another configuration, than this needs.
+    pub fn new(config: &Config<R>) -> Self {
+        let whiskers = config.head.whiskers();
+        let parts = (0..whiskers).map(|n| WhiskerParts {
+            source: Frames { next: n as u32 },
+            motor: Some((
+                HBridge::new(Compare(0), Pin(false)).with_buffered_pwm(),
+                Encoder(0),
+            )),
+        });
         let model = Model::parse(open_9()).expect("a model");
-        let classifier = Sequential::new(model, THRESHOLD).expect("any model has this rule");
-        let stream = CodeClassifier::new(classifier).expect("learnt from codes");
-        let servos = core::array::from_fn(|_| {
-            core::array::from_fn(|_| {
-                let motor = HBridge::new(Compare(0), Pin(false)).with_buffered_pwm();
-                Servo::new(motor, Encoder(0))
-            })
-        });
-        let sources = core::array::from_fn(|side| {
-            core::array::from_fn(|w| Frames {
-                next: (side + w) as u32,
-            })
-        });
-        let motion = Active::new(State::new(start, 1), servos);
-        let mut module = Module::new(sources, motion, Classifying::new(stream), Counter(0));
+        let (rule, deciding) = config
+            .classifier
+            .and_then(|classifier| Some((classifier.rule?, classifier.deciding)))
+            .expect("a rule");
+        let classifier = StreamClassifier::new(model, rule, deciding, whiskers);
+        let classifier = CodeClassifier::new(classifier.expect("any model has this rule"));
+        let classifier = classifier.expect("learnt from codes");
+        let mut module = Module::new(config, parts, Some(classifier), (Counter(0), PERIOD));
         module.arm(true);
         Self {
             module,
-            settings: Self::SETTINGS,
-            told: None,
+            reported: None,
         }
     }
 
     /// One tick.
     #[inline]
-    pub fn tick(&mut self) {
-        let told = &mut self.told;
+    pub fn tick(&mut self, config: &Config<R>) {
+        let reported = &mut self.reported;
         self.module
-            .tick(&self.settings, &mut |event| *told = Some(event));
+            .tick(config, &mut |event| *reported = Some(event));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Whole;
-    use crate::format::Format;
+    use crate::format::{Format, config};
     use crate::report::CALLS;
 
     #[test]
     fn what_is_counted_is_a_tick_in_which_all_is_well() {
         fn run<R: Format>() {
-            let mut whole = Whole::<R, 1, 1>::new(&R::START_1);
+            let config = config::<R>(R::LONE);
+            let mut whole = Whole::new(&config);
             for _ in 0..CALLS {
-                whole.tick();
-                assert_eq!(whole.told, None);
+                whole.tick(&config);
+                assert_eq!(whole.reported, None);
             }
             assert!(whole.module.contact()[0].to_f64() > 0.0);
         }

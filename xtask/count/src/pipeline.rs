@@ -2,37 +2,44 @@
 //! frame, two filtered channels, RCP, CIA, muscle, position control and a
 //! classifier of nine classes; for each side an oscillator and a drive.
 
+use heapless::Vec;
 use mlx90333::Decoder;
-use whisking::{PatternGenerator, Start, State, filter, pd};
+use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, State, filter, pd};
 
-use crate::format::{Format, in_memory};
+use crate::format::Parts;
 use crate::listener::{Listener, open_9};
 use crate::samples::frame;
 
 /// One whisker's share: sensor, filters, motor and classifier.
 #[derive(Debug)]
-pub struct Channel<R: Format> {
+struct Channel<R: Real> {
     filters: [filter::State<R>; 2],
     pd: pd::State<R>,
     listener: Listener<2>,
     counts: i32,
 }
 
-impl<R: Format> Channel<R> {
+impl<R: Real> Channel<R> {
+    fn new() -> Self {
+        Self {
+            filters: Default::default(),
+            pd: pd::State::default(),
+            listener: Listener::new(open_9()),
+            counts: 0,
+        }
+    }
+
     /// Takes the frame of a number in: what the classifier says, and the contact or
     /// `strongest`, whichever is more.
     #[inline]
-    fn listen(&mut self, number: u32, strongest: R) -> (u32, R) {
+    fn listen(&mut self, h50: &filter::Config<R>, number: u32, strongest: R) -> (u32, R) {
         let Ok(frame) = Decoder::new().decode(frame(number)) else {
             return (1 << 31, strongest);
         };
         let words = [frame.first(), frame.second()];
         let [x, y] = words.map(|word| R::from_code(word.signed14().max(-8191)));
         let [on_x, on_y] = &mut self.filters;
-        let felt = [
-            in_memory(R::H50).process(on_x, x),
-            in_memory(R::H50).process(on_y, y),
-        ];
+        let felt = [h50.process(on_x, x), h50.process(on_y, y)];
         let strongest = felt
             .into_iter()
             .fold(strongest, |most, one| one.abs().max(most));
@@ -41,106 +48,46 @@ impl<R: Format> Channel<R> {
     }
 }
 
-/// `S` sides with `N` whiskers each.
+/// The whiskers of a module.
 #[derive(Debug)]
-pub struct Pipeline<R: Format, const S: usize, const N: usize> {
-    state: State<R, S, N>,
-    channels: [[Channel<R>; N]; S],
-    /// Duties and decisions, so that nothing is computed for nobody.
+pub struct Pipeline<R: Real> {
+    state: State<R>,
+    channels: Vec<Channel<R>, MAX_WHISKERS>,
+    /// Duties and decisions, so that nothing is computed in vain.
     said: u32,
 }
 
-impl<R: Format, const S: usize, const N: usize> Pipeline<R, S, N> {
+impl<R: Number> Pipeline<R> {
     /// At its start.
-    pub fn new(start: &Start<R, S, N>) -> Self {
-        let channel = || Channel {
-            filters: Default::default(),
-            pd: pd::State::default(),
-            listener: Listener::new(open_9()),
-            counts: 0,
-        };
+    pub fn new(parts: &Parts<R>) -> Self {
+        let state = State::new(&parts.motion.start, 1);
         Self {
-            state: State::new(start, 1),
-            channels: core::array::from_fn(|_| core::array::from_fn(|_| channel())),
+            channels: state.whiskers.iter().map(|_| Channel::new()).collect(),
+            state,
             said: 0,
         }
     }
 
     /// One tick; whisker n has frame `call` + n.
     #[inline]
-    pub fn tick(&mut self, call: u32) -> u32 {
-        self.tick_by(call, Channel::listen, whisk, follow)
-    }
-
-    /// The same by functions that are not inlined: in one long function the
-    /// addresses of many whiskers are beyond what an instruction reaches.
-    #[inline]
-    pub fn tick_apart(&mut self, call: u32) -> u32 {
-        #[inline(never)]
-        fn listen<R: Format>(channel: &mut Channel<R>, number: u32, strongest: R) -> (u32, R) {
-            channel.listen(number, strongest)
+    pub fn tick(&mut self, parts: &Parts<R>, call: u32) -> u32 {
+        let mut contact = [R::ZERO; MAX_SIDES];
+        let whiskers = self.channels.iter_mut().zip(&self.state.whiskers);
+        for (n, (channel, whisker)) in whiskers.enumerate() {
+            let Some(strongest) = contact.get_mut(usize::from(whisker.side)) else {
+                continue;
+            };
+            let (said, contact) = channel.listen(&parts.h50, call + n as u32, *strongest);
+            self.said = self.said.wrapping_add(said);
+            *strongest = contact;
         }
-        #[inline(never)]
-        fn whisk<R: Format, const S: usize, const N: usize>(
-            state: &mut State<R, S, N>,
-            contact: [R; S],
-        ) {
-            self::whisk(state, contact);
+        parts.motion.whisking.step(&mut self.state, &contact);
+        for (channel, whisker) in self.channels.iter_mut().zip(&self.state.whiskers) {
+            channel.counts += 2;
+            let pd = &parts.motion.servo.pd;
+            let duty = pd.step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
+            self.said = self.said.wrapping_add(duty.magnitude().into());
         }
-        #[inline(never)]
-        fn follow<R: Format, const S: usize, const N: usize>(
-            channels: &mut [[Channel<R>; N]; S],
-            state: &State<R, S, N>,
-        ) -> u32 {
-            self::follow(channels, state)
-        }
-        self.tick_by(call, listen, whisk, follow)
-    }
-
-    #[inline]
-    fn tick_by(
-        &mut self,
-        call: u32,
-        listen: impl Fn(&mut Channel<R>, u32, R) -> (u32, R),
-        whisk: impl Fn(&mut State<R, S, N>, [R; S]),
-        follow: impl Fn(&mut [[Channel<R>; N]; S], &State<R, S, N>) -> u32,
-    ) -> u32 {
-        let mut contact = [R::ZERO; S];
-        for (side, channels) in self.channels.iter_mut().enumerate() {
-            for (n, channel) in channels.iter_mut().enumerate() {
-                let number = call + (side * N + n) as u32;
-                let (said, strongest) = listen(channel, number, contact[side]);
-                self.said = self.said.wrapping_add(said);
-                contact[side] = strongest;
-            }
-        }
-        whisk(&mut self.state, contact);
-        let duties = follow(&mut self.channels, &self.state);
-        self.said = self.said.wrapping_add(duties);
         self.said
     }
-}
-
-/// Moves the whiskers.
-#[inline]
-fn whisk<R: Format, const S: usize, const N: usize>(state: &mut State<R, S, N>, contact: [R; S]) {
-    in_memory(R::WHISKING).step(state, contact);
-}
-
-/// Lets the motors follow; the sum of the duties.
-#[inline]
-fn follow<R: Format, const S: usize, const N: usize>(
-    channels: &mut [[Channel<R>; N]; S],
-    state: &State<R, S, N>,
-) -> u32 {
-    let mut said = 0_u32;
-    for (channels, whiskers) in channels.iter_mut().zip(&state.whiskers) {
-        for (channel, whisker) in channels.iter_mut().zip(whiskers) {
-            channel.counts += 2;
-            let duty =
-                in_memory(R::PD).step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
-            said = said.wrapping_add(duty.magnitude().into());
-        }
-    }
-    said
 }

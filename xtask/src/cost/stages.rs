@@ -24,6 +24,11 @@ pub(super) struct Stage {
 }
 
 impl Stage {
+    /// Whether one run measures both.
+    pub(super) fn goes_with(&self, other: &Self) -> bool {
+        self.from == other.from && (!self.is_on_board() || self.target == other.target)
+    }
+
     pub(super) fn is_on_board(&self) -> bool {
         self.from.starts_with("scenes/")
     }

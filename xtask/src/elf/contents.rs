@@ -24,8 +24,8 @@ pub(crate) type Piece = [u64; 2];
 /// addresses outside.
 const FLASH: Range<u64> = 0x0800_0000..0x0900_0000;
 
-/// Code and constants.
-const SECTIONS: [&str; 2] = [".text", ".rodata"];
+/// Code, constants, and the model that a program brings with it.
+const SECTIONS: [&str; 3] = [".text", ".rodata", ".model"];
 
 /// Steps from an instance of a function to its declaration; in practice two.
 const REFERENCES: usize = 8;
@@ -48,29 +48,6 @@ pub(crate) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
         return Err(format!("{}: no function is named", elf.display()));
     }
     Ok(names)
-}
-
-/// The numbers of sides for which `elf` has a module, ascending.
-///
-/// # Errors
-/// If the file cannot be read.
-pub(crate) fn sides(elf: &Path) -> Result<Vec<usize>, Fault> {
-    let types = entries(elf, |dwarf, _, unit, entry| {
-        match (entry.tag(), entry.attr_value(gimli::DW_AT_name)?) {
-            (gimli::DW_TAG_structure_type, Some(name)) => {
-                let name = dwarf.attr_string(unit, name)?;
-                Ok(Some(name.to_string_lossy().into_owned()))
-            }
-            _ => Ok(None),
-        }
-    })?;
-    // Module<number, frames, motion, perception, clock, sides, whiskers>
-    let sides = types.iter().filter_map(|name| {
-        let arguments = name.strip_prefix("Module<")?.strip_suffix('>')?;
-        arguments.rsplit(", ").nth(1)?.parse().ok()
-    });
-    let sides: BTreeSet<usize> = sides.collect();
-    Ok(sides.into_iter().collect())
 }
 
 /// Where the code of functions stands that are inside others, of those whose names

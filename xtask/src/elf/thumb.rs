@@ -5,6 +5,7 @@
 mod jump;
 #[cfg(test)]
 mod tests;
+mod writes;
 
 use std::collections::BTreeSet;
 
@@ -35,15 +36,39 @@ pub(super) fn steps(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> boo
     for (number, code) in instructions.iter().enumerate() {
         let before = number.checked_sub(1).map(|before| instructions[before]);
         let frame = before.and_then(|before| code.frame(before, |at| word(body, begin, at)));
-        steps.extend(frame.map(Step::Push).or_else(|| code.step()));
-        let loads = number.checked_sub(2).map(|before| instructions[before]);
-        if let Some(jump) = code.jump(loads) {
+        let called = || called(&instructions[..number], *code, |at| word(body, begin, at));
+        let step = frame.map(Step::Push).or_else(|| called().map(Step::Go));
+        steps.extend(step.or_else(|| code.step()));
+        let before = &instructions[number.saturating_sub(4)..number];
+        if let Some(jump) = code.jump(before) {
             let table = jump::table(body, &place, code.end(), &is_instruction, is_literal);
             let stays = jump.stays(table, code.address, |to| place.contains(&to));
             steps.extend((!stays).then_some(Step::Open));
         }
     }
     steps
+}
+
+/// The function that `code` calls by a register that holds a constant, which the last
+/// instruction to write it has loaded, or moved from another: how several calls of one function
+/// take less room. `before` is the code before it.
+fn called(
+    mut before: &[Instruction],
+    code: Instruction,
+    word: impl Fn(u64) -> Option<i32>,
+) -> Option<u64> {
+    let mut register = code.goes_by()?;
+    loop {
+        let last = before.iter().rposition(|code| code.may_write(register))?;
+        let writer = before[last];
+        if let Some(from) = writer.is_move_to(register) {
+            (before, register) = (&before[..last], from);
+            continue;
+        }
+        let address = word(writer.literal().filter(|_| writer.is_load_of(register))?)?;
+        let address = u64::from(address.cast_unsigned());
+        return (address & 1 == 1).then_some(address & !1);
+    }
 }
 
 /// The word at an address of `body`.
@@ -130,12 +155,19 @@ impl Instruction {
         Some(if is_up { from + offset } else { from - offset })
     }
 
-    /// If it jumps by a table: `loads` is the instruction two before.
-    fn jump(self, loads: Option<Self>) -> Option<Jump> {
-        match self.second {
-            Some(second) => Jump::wide(self.first, second),
-            None => Jump::narrow(self.first, loads.map_or(0, |loads| loads.first)),
+    /// If it jumps by a table: `before` is the code before it.
+    fn jump(self, before: &[Self]) -> Option<Jump> {
+        if let Some(second) = self.second {
+            return Jump::wide(self.first, second);
         }
+        // MOV PC, register, to whose address the choice is added.
+        let register = self.first >> 3 & 0xF;
+        let is_move = self.first & 0xFF87 == 0x4687;
+        if is_move && before.iter().any(|code| code.is_address_to(register)) {
+            return Some(Jump::Branches);
+        }
+        let loads = before.iter().nth_back(1);
+        Jump::narrow(self.first, loads.map_or(0, |loads| loads.first))
     }
 }
 
@@ -170,7 +202,7 @@ fn narrow(code: u16, address: u64) -> Option<Step> {
         0xE000..=0xE7FF => Some(target(address, signed(word & 0x7FF, 11) * 2)),
         // BX register; BX LR goes back.
         0x4700..=0x477F if code & 0x78 != 0x70 => Some(Step::Open),
-        // BLX register.
+        // BLX register that may have any value.
         0x4780..=0x47FF => Some(Step::Open),
         // ADD SP, register. MOV SP, register takes it back up.
         _ if code & 0xFF87 == 0x4485 => Some(Step::Open),

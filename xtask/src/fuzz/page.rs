@@ -75,13 +75,15 @@ pub(super) fn write(found: &[Found]) -> Result<(), Fault> {
     let mut text = format!(
         "<!-- written by cargo xtask fuzz --page -->\n\
          # Untrusted input\n\n\
-         Frames, models, recordings, scenes and the tables of a campaign's shards that libFuzzer \
-         made, fed to their readers (`fuzz/src`) with checks of overflow and of ranges on: no \
-         panic, no input that takes more than 10 s or 256 MB at once. A model's sum is made to \
-         fit; a model that is taken classifies 2000 samples; a scene that is taken is planned, \
-         and simulated for its first ticks; tables that are taken are written and read again, \
-         merged, and made a page of. Inputs that were kept before, from earlier runs here, are \
-         fed again first. `cargo xtask nightly` feeds each target for an hour. Coverage counts the edges of the whole program that was fed, with its libraries \
+         Frames, configurations, models, recordings, scenes and the tables of a campaign's shards \
+         that libFuzzer made, fed to their readers (`fuzz/src`) with checks of overflow and of \
+         ranges on: no panic, no input that takes more than 10 s or 256 MB at once. The sums of a \
+         configuration and of a model are made to fit; by a configuration that is taken a module \
+         ticks; a model that is taken classifies 2000 samples; of a scene that is taken \
+         configurations are made, and it is simulated for its first ticks; tables that are taken \
+         are written and read again, merged, and made a page of. Inputs that were kept before, \
+         from earlier runs here, are fed again first. `cargo xtask nightly` feeds each target for \
+         an hour. Coverage counts the edges of the whole program that was fed, with its libraries \
          and with what no input reaches. {}.\n\n\
          | target | seconds | executions | edges covered | of | inputs kept | MB at most | findings |\n\
          |---|---|---|---|---|---|---|---|\n",

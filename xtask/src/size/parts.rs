@@ -3,11 +3,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use plan::NumberFormat;
+use config::NumberFormat;
 use scene::{Deciding, Driver, Integrator, Rule, Scene};
 use tactile::ModelBuf;
 
 use crate::run::Fault;
+
+/// In the names of functions that read and check constants.
+const READS: [&str; 5] = ["serde", "Deserialize", "Bounded", "TryFrom", "from_words"];
 
 /// Every part, with what stands in the names of its functions.
 fn parts() -> Result<BTreeMap<String, Vec<String>>, Fault> {
@@ -28,7 +31,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
     let awaits = scene.awaits_model();
     let knows_touches = awaits || model.is_some_and(|model| model.touch_rule().is_some());
     // All its tables, or none, are of samples alone.
-    let is_single = !awaits && model.is_none_or(|model| model.view().into_single().is_some());
+    let is_single = !awaits && model.is_none_or(|model| !model.view().is_joint());
     let whisking = scene.whisking.as_ref();
     let classifier = scene.classifier.as_ref();
     let rule = classifier.map(|classifier| &classifier.rule);
@@ -37,7 +40,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
     let has_threshold = knows_touches || classifier.is_some_and(|c| c.contact_min.is_some());
     // Whether anything is computed with numbers at all: motion, or contact.
     let computes = whisking.is_some() || has_threshold;
-    let is_fixed = plan::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed);
+    let is_fixed = config::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed);
     Ok(match part {
         "oscillators" | "muscles" => whisking.is_some(),
         "exact integrator" => integrates(Integrator::Exact),
@@ -55,8 +58,8 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "roughness" | "roughness or floors" => !is_single,
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
-        // What a deployed model says of touches is in single precision, and read at the start.
-        "single precision" => computes && (awaits || !is_fixed),
+        // What a model says of touches is in single precision, and read at the start.
+        "single precision" => classifier.is_some() || computes && !is_fixed,
         "fixed point" => computes && is_fixed,
         _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
     })
@@ -80,14 +83,26 @@ impl Seen {
     ) -> Result<Vec<String>, Fault> {
         let mut wrong = Vec::new();
         for (part, code) in parts()? {
-            let is_its = |name: &String| code.iter().any(|code| name.contains(code));
-            let found = functions.iter().any(is_its);
-            match (found, is_named(&part, named, has_fpu)?) {
-                (true, false) => wrong.push(format!("{part}: linked, but not named")),
-                (false, true) => wrong.push(format!("{part}: named, but not found")),
+            let is_its = |name: &&String| code.iter().any(|code| name.contains(code));
+            // Every image reads the constants of parts that it may be without.
+            let computes = |name: &&String| !READS.iter().any(|read| name.contains(read));
+            let found: Vec<&str> = functions
+                .iter()
+                .filter(computes)
+                .filter(is_its)
+                .map(String::as_str)
+                .collect();
+            match (found.is_empty(), is_named(&part, named, has_fpu)?) {
+                (false, false) => {
+                    wrong.push(format!(
+                        "{part}: not named, but linked: {}",
+                        found.join(", ")
+                    ));
+                }
+                (true, true) => wrong.push(format!("{part}: named, but not found")),
                 _ => {}
             }
-            self.0.entry(part).or_default()[usize::from(found)] = true;
+            self.0.entry(part).or_default()[usize::from(!found.is_empty())] = true;
         }
         Ok(wrong)
     }
@@ -118,7 +133,10 @@ mod tests {
         assert_eq!(seen.compare(&sound, scene, true), Ok(Vec::new()));
         let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned()]);
         let wrong = seen.compare(&gate, scene, true).unwrap();
-        assert_eq!(wrong, ["RCP: linked, but not named"]);
+        assert_eq!(
+            wrong,
+            ["RCP: not named, but linked: whisking::gate::Rcp<R>::step"]
+        );
         let all = parts().unwrap().len();
         assert_eq!(seen.unproven().count(), all - 1, "RCP was both");
     }

@@ -1,5 +1,7 @@
 //! `[classifier]`: which model, and when its evidence becomes a decision.
 
+use tactile::Deciding;
+
 use crate::choice::choice;
 use crate::key::Condition::{self, Is};
 use crate::key::{Key, between, integer, number, path, word};
@@ -44,17 +46,7 @@ impl Read for Rule {
     }
 }
 
-choice! {
-    /// Which whiskers decide, and by what.
-    pub enum Deciding {
-        /// The first of the array, left side first, by its own evidence.
-        First = "first",
-        /// Every one by itself.
-        Each = "each",
-        /// All, by the sum of their evidence.
-        Together = "together",
-    }
-}
+choice! { for Deciding { First = "first", Each = "each", Together = "together" } }
 
 const SEQUENTIAL: &[Condition] = &[Is("rule", RuleName::Sequential.name())];
 const WINDOW: &[Condition] = &[Is("rule", RuleName::Window.name())];
@@ -70,10 +62,10 @@ keys! {
         /// When a decision falls: once a posterior exceeds the threshold, or after each window.
         rule: Rule = rule(),
 
-        /// Likelihood model that is linked into the program: from the scene's folder when it
-        /// exists there, else from the current directory.
+        /// Likelihood model: from the scene's folder when it exists there, else from the current
+        /// directory.
         model: Option<String> = path().optional(
-            "`whisker deploy` gives the board one without a rebuild ([deploying.md](deploying.md)); until then nothing is decided"
+            "nothing is decided until `whisker deploy` brings one ([deploying.md](deploying.md))"
         ),
 
         /// Posterior probability at which a class is decided on.

@@ -1,20 +1,13 @@
 //! `[motor]`: motor, gear, encoder and position control.
 
+use whisking::motor::Driver;
 use whisking::ranges;
 
 use crate::choice::choice;
 use crate::key::{integer, number, positive, word};
 use crate::keys::keys;
 
-choice! {
-    /// The stage that turns a duty into winding currents.
-    pub enum Driver {
-        /// One H-bridge: a brushed motor.
-        HBridge = "h-bridge",
-        /// Three half-bridges commutated in six steps: a brushless motor.
-        SixStep = "six-step",
-    }
-}
+choice! { for Driver { HBridge = "h-bridge", SixStep = "six-step" } }
 
 choice! {
     /// What a fault switches off.

@@ -9,7 +9,7 @@ use crate::keys::keys;
 choice! { for Integrator { Exact = "exact", Euler = "euler" } }
 
 choice! {
-    /// Number format of the tick. `plan` says which one [`Numbers::Auto`] is.
+    /// Number format of the tick. `config` says which one [`Numbers::Auto`] is.
     pub enum Numbers {
         /// The one that suits the integrator and the board.
         Auto = "auto",

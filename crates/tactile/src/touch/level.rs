@@ -24,19 +24,25 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// Steps up and down of a share each, by which a level becomes a quantile.
-    pub(super) fn follow(&self, level: &mut u32, sign: u32, in_touch: bool, is_start: bool) {
-        let [up, down] = match (in_touch, is_start) {
+    /// Those of a sample.
+    #[inline]
+    pub(super) const fn at(&self, in_touch: bool, is_start: bool) -> [u32; 2] {
+        match (in_touch, is_start) {
             (_, true) => self.start,
             (true, false) => self.touch,
             (false, false) => self.air,
-        };
-        if sign > *level >> FRACTION {
-            // Below 2^31: signs are below 2^18.
-            *level = level.wrapping_add(*level >> up);
-        } else {
-            *level = (*level - (*level >> down)).max(1 << FRACTION);
         }
+    }
+}
+
+/// Steps up and down of a share each, by which a level becomes a quantile.
+#[inline]
+pub(super) fn follow(level: &mut u32, sign: u32, [up, down]: [u32; 2]) {
+    if sign > *level >> FRACTION {
+        // Below 2^31: signs are below 2^18.
+        *level = level.wrapping_add(*level >> up);
+    } else {
+        *level = (*level - (*level >> down)).max(1 << FRACTION);
     }
 }
 

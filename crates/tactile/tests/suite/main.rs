@@ -1,12 +1,12 @@
 //! The product's classifier: models, rules and training.
 
 mod channels;
+mod classifier;
 mod common;
 mod joint;
 mod model_file;
 mod rules;
 mod score;
-mod several;
 mod touch_detector;
 mod touches;
 mod training;

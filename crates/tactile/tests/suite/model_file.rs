@@ -43,26 +43,6 @@ fn a_header_alone_is_no_model() {
     }
 }
 
-/// Decides as it does with the code for what it does not have.
-#[test]
-fn a_model_of_single_tables_needs_no_code_for_touches() {
-    let threshold = Threshold::new(0.9).unwrap();
-    let mut with = Sequential::new(example(), threshold).unwrap();
-    let mut without = Sequential::new(example().into_single().unwrap(), threshold).unwrap();
-    let mut fell = 0;
-    for n in 0..400 {
-        let codes = [n * 37 % 1000, n * 91 % 1000];
-        let decided = with.push(&codes).unwrap();
-        assert_eq!(without.push(&codes).unwrap(), decided);
-        fell += usize::from(decided.is_some());
-        if n % 50 == 0 {
-            with.touch(n as u16);
-            without.touch(n as u16);
-        }
-    }
-    assert!(fell > 0);
-}
-
 #[test]
 fn content_survives() {
     let buf = example();
@@ -71,6 +51,7 @@ fn content_survives() {
     assert_eq!((model.bins(1), model.block()), (Some(5), 20));
     assert_eq!((model.bins(2), model.touch_rule()), (None, None));
     assert_eq!(model.floors(0), None);
+    assert!(!model.is_joint());
     let names: Vec<_> = model.names().collect();
     assert_eq!(names, ["class 0", "class 1", "class 2"]);
     assert_eq!((model.name(2), model.name(3)), (Some("class 2"), None));

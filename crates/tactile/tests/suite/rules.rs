@@ -2,7 +2,7 @@
 
 use crate::common::{code, ln_ratio, model, two_normals};
 use tactile::{
-    AnyRule, AnyRuleSettings, Decision, DecisionRule, Model, ModelBuf, NaiveBayes, Sequential,
+    AnyRule, Decision, DecisionRule, Model, ModelBuf, NaiveBayes, RuleSettings, Sequential,
     SequentialRule, SetupError, Threshold, Window, WindowRule, WrongChannels,
 };
 
@@ -68,13 +68,13 @@ fn a_perfect_tie_goes_to_the_first_class() {
         let mut c = NaiveBayes::<AnyRule, _>::new(model, settings).unwrap();
         (0..8).find_map(|_| c.push(&[1, 2]).unwrap())
     };
-    let window = decide(AnyRuleSettings::Window(8)).unwrap();
+    let window = decide(RuleSettings::Window(8)).unwrap();
     assert_eq!((window.class(), window.samples()), (Some(1), 8));
     // Two equal leaders: no posterior exceeds one half, and 0.49 is exceeded
     // once the others are far enough behind.
     let sequential = |theta| {
         let threshold = Threshold::new(theta).unwrap();
-        decide(AnyRuleSettings::Sequential(threshold))
+        decide(RuleSettings::Sequential(threshold))
     };
     assert_eq!(sequential(0.5), None);
     let decision = sequential(0.49).unwrap();
@@ -173,7 +173,7 @@ fn samples_of_other_channels_are_refused_and_not_taken() {
 /// A rule chosen at run time does what its own type does.
 #[test]
 fn any_rule_is_the_rule_itself() {
-    fn same<R: DecisionRule>(buf: &ModelBuf, settings: R::Settings, any: AnyRuleSettings) {
+    fn same<R: DecisionRule>(buf: &ModelBuf, settings: R::Settings, any: RuleSettings) {
         let mut typed = NaiveBayes::<R, _>::new(buf.view(), settings).unwrap();
         let mut any = NaiveBayes::<AnyRule, _>::new(buf.view(), any).unwrap();
         let mut decisions = 0;
@@ -189,9 +189,9 @@ fn any_rule_is_the_rule_itself() {
     }
     let buf = two_normals(4);
     let threshold = Threshold::new(0.75).unwrap();
-    same::<SequentialRule>(&buf, threshold, AnyRuleSettings::Sequential(threshold));
-    same::<WindowRule>(&buf, 40, AnyRuleSettings::Window(40));
-    let wrong = NaiveBayes::<AnyRule, _>::new(buf, AnyRuleSettings::Window(41));
+    same::<SequentialRule>(&buf, threshold, RuleSettings::Sequential(threshold));
+    same::<WindowRule>(&buf, 40, RuleSettings::Window(40));
+    let wrong = NaiveBayes::<AnyRule, _>::new(buf, RuleSettings::Window(41));
     let (window, block) = (41, 4);
     assert_eq!(wrong.unwrap_err(), SetupError::Window { window, block });
 }

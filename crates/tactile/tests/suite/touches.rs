@@ -120,10 +120,7 @@ fn content_survives() {
         [Some(floors[0]), Some(floors[1]), None]
     );
     assert_eq!(read.names().collect::<Vec<_>>(), ["same", "other"]);
-    assert!(
-        read.into_single().is_none(),
-        "it needs the code for all that"
-    );
+    assert!(read.is_joint(), "it needs the code for all that");
 }
 
 /// The mean of two samples' 2 bit, and 1 bit of roughness, a block.

@@ -1,11 +1,26 @@
 //! The signed drive of a motor as a fixed-point fraction.
 
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
+
 /// Signed drive in Q15: the integer `n` stands for `n / 32767` of the supply.
 ///
 /// Range −32767 (full retraction) to +32767 (full protraction); −32768 does
 /// not occur, so that both directions are alike and negation cannot overflow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize)]
+#[serde(transparent)]
 pub struct Duty(i16);
+
+/// Not every integer is a duty, so that what is read is checked.
+impl<'de> Deserialize<'de> for Duty {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let q15 = i16::deserialize(deserializer)?;
+        if q15 == i16::MIN {
+            return Err(D::Error::custom("-32768 is no duty"));
+        }
+        Ok(Self(q15))
+    }
+}
 
 impl Duty {
     /// No drive.
@@ -74,14 +89,28 @@ impl Duty {
     #[inline]
     pub const fn scaled_to(self, max: u16) -> u16 {
         const ONE: u32 = i16::MAX as u32;
-        // At most 32767 · 65535 + 16383 < 2^31; the quotient is at most max.
-        ((self.magnitude() as u32 * max as u32 + ONE / 2) / ONE) as u16
+        // At most 32767 · 65535 + 16384 < 2^31; the quotient is at most max.
+        let above = self.magnitude() as u32 * max as u32 + ONE / 2 + 1;
+        // Divided by 2^15 − 1 without a division, which a small core does not have:
+        // 1/(2^15 − 1) is 2^-15 + 2^-30 + 2^-45 and so on.
+        ((above + ((above + (above >> 15)) >> 15)) >> 15) as u16
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Duty;
+
+    #[test]
+    fn counts_are_those_of_a_division() {
+        for max in (1..=u16::MAX).rev().step_by(251) {
+            for q15 in 0..=i16::MAX {
+                let exact = (u32::from(q15.unsigned_abs()) * u32::from(max) + 16_383) / 32_767;
+                let found = Duty::from_q15(q15).scaled_to(max);
+                assert_eq!(u32::from(found), exact, "{q15} {max}");
+            }
+        }
+    }
 
     #[test]
     fn q24_gives_the_step_below_or_the_nearest_and_both_ends() {

@@ -1,8 +1,10 @@
 //! Plausibility of motion: whether what is measured fits what is driven.
 //!
 //! A motor on an [`HBridge`](super::HBridge) gives no sign of motion itself, so the control
-//! loop guards it by its encoder. No guard begins anew because the direction of the drive
+//! loop guards it by its encoder. No guard begins again because the direction of the drive
 //! changes: an encoder that stands still is found at any whisking frequency.
+
+use serde::{Deserialize, Serialize};
 
 use super::{Duty, Fault, StallConfig};
 use crate::{DEGREES_PER_UNIT, REST_DEG, Real};
@@ -80,8 +82,7 @@ impl GuardSettings {
 }
 
 /// What a motor may do. Counts are those of the angle input, protraction counting up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GuardConfig<R> {
     /// How long it may be driven hard in all without moving, and what is hard.
     pub stall: StallConfig,

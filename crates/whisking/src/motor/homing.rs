@@ -1,7 +1,9 @@
 //! Homing: finding where a whisker is by driving it gently against its retracted stop.
 //!
 //! First a little forward, then back until it stands still. Without the way forward a whisker
-//! that already leans on its stop could not be told from an encoder that is silent.
+//! that already leans on its stop could not be known from an encoder that is silent.
+
+use serde::{Deserialize, Serialize};
 
 use super::{Duty, Fault, GuardConfig};
 use crate::REST_DEG;
@@ -44,8 +46,7 @@ impl HomingSettings {
 }
 
 /// How a whisker is homed. Counts are those of the angle input, protraction counting up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HomingConfig {
     /// Duty towards protraction; towards the stop it is the same.
     pub duty: Duty,

@@ -9,14 +9,15 @@
 //! to ground, so the current circulates through the low switches between
 //! pulses and a zero duty brakes; `off` floats all phases and coasts.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     Duty, Fault, HallInputs, HallTracker, MotorDriver, Pair, Phase, PhaseEnables, PhasePwms, Role,
     Sector, StallConfig, StallGuard,
 };
 
 /// Settings of a [`SixStep`] driver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SixStepConfig {
     /// Magnet pole pairs of the rotor: electrical turns per rotor turn. Used
     /// only to state the resolution.

@@ -1,10 +1,11 @@
 //! Stall detection: driven hard, not moving, for too long.
 
+use serde::{Deserialize, Serialize};
+
 use super::Duty;
 
 /// When a motor counts as stalled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::motor))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StallConfig {
     /// Ticks in succession, driven and not moving, after which it is a stall;
     /// 0 is taken as 1. 400 is 0.2 s at 2000 Hz.

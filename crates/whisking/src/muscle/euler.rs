@@ -1,12 +1,14 @@
 //! The papers' integrator: forward Euler, with θ, v and the force taken at the
 //! state before the step.
 
-use super::{DAMPING, MuscleIntegrator, State, force, pace};
+use serde::{Deserialize, Serialize};
+
+use super::{DAMPING, State, force, pace};
 use crate::Real;
 
 /// Constants of forward Euler.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Euler<R: Real> {
     /// h = ω_n T.
     pub spring: R::Coefficient,
@@ -15,19 +17,21 @@ pub struct Euler<R: Real> {
 }
 
 impl<R: Real> Euler<R> {
+    /// For `cycles` = f_W T whisks per tick.
     pub(crate) fn new(cycles: f64) -> Self {
         Self {
             spring: R::coefficient(pace(cycles)),
             damping: R::coefficient(DAMPING * pace(cycles)),
         }
     }
-}
 
-impl<R: Real> MuscleIntegrator<R> for Euler<R> {
+    /// One tick with the gain of [`Config::step`](super::Config::step) and the drive W at its
+    /// beginning.
+    ///
     /// θ and v are limited to ±2, because large steps let them grow. No sensible
     /// input reaches that: the static solution at full drive is 1.015.
     #[inline]
-    fn step(&self, state: &mut State<R>, gain: R, drive: R, _after: R) {
+    pub fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let push = gain * force(drive, state.theta);
         let [velocity, _] = state.kept;
         let limited = |x: R| x.clamp(-R::TWO, R::TWO);

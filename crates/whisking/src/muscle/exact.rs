@@ -12,7 +12,9 @@
 //! exponential and one drive per tick. The gain is applied after the differences
 //! are taken, so that a jump of z or g does not enter the history.
 
-use super::{MuscleIntegrator, State, pace};
+use serde::{Deserialize, Serialize};
+
+use super::{State, pace};
 use crate::Real;
 use crate::linalg::{Matrix, exponential};
 
@@ -20,8 +22,8 @@ use crate::linalg::{Matrix, exponential};
 const RATES: [f64; 2] = [0.267_949_192_431_122_7, 3.732_050_807_568_877];
 
 /// Constants of the method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Exact<R: Real> {
     /// The slow lag and the fast one.
     pub lags: [Lag<R>; 2],
@@ -30,8 +32,8 @@ pub struct Exact<R: Real> {
 }
 
 /// A first-order lag over one tick, as increments.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::muscle))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Lag<R: Real> {
     /// 1 − exp(−λ T), the fraction of the way to a f.
     pub decay: R::Fine,
@@ -87,11 +89,11 @@ impl<R: Real> Exact<R> {
     fn theta(&self, [slow, fast]: [R; 2]) -> R {
         slow + (slow - fast).times(self.lead)
     }
-}
 
-impl<R: Real> MuscleIntegrator<R> for Exact<R> {
+    /// One tick with the gain of [`Config::step`](super::Config::step) and the drive W at its
+    /// end.
     #[inline]
-    fn step(&self, state: &mut State<R>, gain: R, _before: R, drive: R) {
+    pub fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let [f, d1, d2, d3] = state.history.force;
         let push = gain * f;
         let way = [0, 1].map(|i| (push - state.kept[i]).times_fine(self.lags[i].decay));

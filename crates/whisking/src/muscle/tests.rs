@@ -1,7 +1,7 @@
 //! What the muscles must do, whoever steps them.
 
 use super::exact::Lag;
-use super::{Config, Euler, Exact, History, MuscleIntegrator, State, drive, pace};
+use super::{Config, Euler, Exact, History, State, drive, pace};
 use crate::{Fix, Real};
 
 #[test]
@@ -46,7 +46,12 @@ fn newton_weights_integrate_polynomials_exactly() {
     // A lag that hardly decays is its rate times the integral of each basis
     // polynomial over a tick: Adams and Bashforth's numbers.
     let lag = Lag::<f64>::new(1e-6);
-    let weights = [lag.decay, lag.predict[0], lag.predict[1], lag.predict[2]];
+    let weights = [
+        lag.decay,
+        lag.predict.0[0],
+        lag.predict.0[1],
+        lag.predict.0[2],
+    ];
     let expected = [1.0, 1.0 / 2.0, 5.0 / 12.0, 3.0 / 8.0];
     for (found, expected) in weights.iter().zip(expected) {
         assert!((found / 1e-6 - expected).abs() < 2e-6, "{expected}");
@@ -66,7 +71,7 @@ fn a_fast_lag_answers_a_quartic_as_the_closed_form_says() {
     let d2 = past[0] - 2.0 * past[1] + past[2];
     let d3 = past[0] - 3.0 * past[1] + 3.0 * past[2] - past[3];
     let d4 = at(1.0) - 4.0 * past[0] + 6.0 * past[1] - 4.0 * past[2] + past[3];
-    let [w1, w2, w3] = lag.predict;
+    let [w1, w2, w3] = lag.predict.0;
     let found = past[0] * lag.decay + d1 * w1 + d2 * w2 + d3 * w3 + d4 * lag.correct;
     // By parts: I_n = 1 − (n/λ) I_{n−1}, I_0 = 1 − e^{−λ}.
     let expected = (1..=4).fold(1.0 - (-rate).exp(), |before, n| {

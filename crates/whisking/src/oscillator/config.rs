@@ -1,11 +1,14 @@
 //! The oscillators' integrator as a choice at run time.
 
-use super::{Euler, Exact, OscillatorIntegrator, Psi, State};
-use crate::Real;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use super::{Euler, Exact, Psi, State};
+use crate::{MAX_SIDES, Real};
 
 /// An integrator chosen at run time, with its constants.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub enum Config<R: Real> {
     /// Forward Euler.
     Euler(Euler<R>),
@@ -13,27 +16,37 @@ pub enum Config<R: Real> {
     Exact(Exact<R>),
 }
 
-impl<R: Real> OscillatorIntegrator<R> for Config<R> {
+impl<R: Real> Config<R> {
+    /// One tick. `noise` is T P_i (eq. 5) of each side; each state is limited to ±1.5
+    /// afterwards. From a state that no tick leads to, NaN included, all sides begin
+    /// again together.
     #[inline]
-    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
+    pub fn step(&self, state: &mut State<R>, noise: Option<&[Psi<R>]>) {
         match self {
-            Self::Euler(euler) => euler.step(state, noise),
-            Self::Exact(exact) => exact.step(state, noise),
+            Self::Euler(euler) if cfg!(feature = "euler") => euler.step(state, noise),
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.step(state, noise),
+            // The program cannot compute it: the module rests.
+            Self::Euler(_) | Self::Exact(_) => {}
         }
     }
 
+    /// ψ_1 of every side, which drives its muscles, within ±1.5 to rounding; zero for a side
+    /// that there is not.
     #[inline]
-    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
+    pub fn drives(&self, state: &State<R>) -> [R; MAX_SIDES] {
         match self {
-            Self::Euler(euler) => euler.drives(state),
-            Self::Exact(exact) => exact.drives(state),
+            Self::Euler(euler) if cfg!(feature = "euler") => euler.drives(state),
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.drives(state),
+            Self::Euler(_) | Self::Exact(_) => [R::ZERO; MAX_SIDES],
         }
     }
 
-    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
+    /// ψ of every side.
+    pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         match self {
-            Self::Euler(euler) => euler.psi(state),
-            Self::Exact(exact) => exact.psi(state),
+            Self::Euler(euler) if cfg!(feature = "euler") => euler.psi(state),
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.psi(state),
+            Self::Euler(_) | Self::Exact(_) => Vec::new(),
         }
     }
 }

@@ -1,12 +1,15 @@
 //! The papers' integrator: forward Euler, with every right-hand side taken at
 //! the state before the step. It keeps ψ itself.
 
-use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, anew, is_sound, limited, pull};
-use crate::Real;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use super::{Psi, Sides, State, TAU_PERIODS, again, is_sound, limited, of_sides, pull};
+use crate::{MAX_SIDES, Real};
 
 /// Constants of forward Euler.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Euler<R: Real> {
     /// T/τ_r.
     pub relax: R::Fine,
@@ -42,37 +45,52 @@ impl<R: Real> Euler<R> {
         // A lone side is coupled to itself, which has no effect.
         core::array::from_fn(|side| self.rate(psi[side], psi[(side + 1) % S][0]))
     }
-}
 
-impl<R: Real> OscillatorIntegrator<R> for Euler<R> {
+    /// See [`Config::step`](super::Config::step).
     #[inline]
-    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        let mut change = self.increments(&state.kept);
+    pub fn step(&self, state: &mut State<R>, noise: Option<&[Psi<R>]>) {
+        if let Some(sides) = state.sides::<2>() {
+            self.step_sides(sides, of_sides(noise));
+        } else if let Some(sides) = state.sides::<1>() {
+            self.step_sides(sides, of_sides(noise));
+        }
+    }
+
+    #[inline]
+    fn step_sides<const S: usize>(&self, mut sides: Sides<'_, R, S>, noise: Option<&[Psi<R>; S]>) {
+        let mut change = self.increments(sides.kept);
         for side in 0..S {
             for k in 0..2 {
                 if let Some(noise) = noise {
                     change[side][k] = change[side][k] + noise[side][k];
                 }
-                state.kept[side][k].accumulate(&mut state.carry[side][k], change[side][k]);
+                sides.kept[side][k].accumulate(&mut sides.carry[side][k], change[side][k]);
             }
         }
-        if !is_sound(&state.kept) {
-            *state = State::new(anew());
+        if !is_sound(sides.kept) {
+            sides.restart(again());
         }
-        for (psi, carry) in state.kept.iter_mut().zip(&mut state.carry) {
+        for (psi, carry) in sides.kept.iter_mut().zip(sides.carry) {
             let within = limited(*psi);
             if within != *psi {
                 (*psi, *carry) = (within, [R::Carry::default(); 2]);
             }
         }
     }
+
+    /// See [`Config::drives`](super::Config::drives).
     #[inline]
-    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
-        state.kept.map(|[drive, _]| drive)
+    pub fn drives(&self, state: &State<R>) -> [R; MAX_SIDES] {
+        match *state.kept {
+            [[drive, _]] => [drive, R::ZERO],
+            [[left, _], [right, _]] => [left, right],
+            _ => [R::ZERO; MAX_SIDES],
+        }
     }
 
-    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
-        state.kept
+    /// See [`Config::psi`](super::Config::psi).
+    pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
+        state.kept.clone()
     }
 }
 

@@ -11,14 +11,18 @@
 //! takes it to R L χ, and ψ = L½ χ is computed on demand. Without noise the limit
 //! cycle has radius one, to rounding, at any f_W T.
 
-use super::{OscillatorIntegrator, Psi, State, TAU_PERIODS, anew, is_sound, limited, pull};
-use crate::Real;
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use super::{Psi, Sides, State, TAU_PERIODS, again, is_sound, limited, of_sides, pull};
 use crate::linalg::{Matrix, exponential, identity, scaled};
+use crate::list::listed;
+use crate::{MAX_SIDES, Real};
 
 /// Constants of the structure-preserving step, as increments: factors near one
 /// would cost formats with few digits several of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Exact<R: Real> {
     /// The increment of a tick of L, exp(A T) − 1, of the mean (a rotation) and of
     /// the difference (rotation and decay).
@@ -36,8 +40,8 @@ pub struct Exact<R: Real> {
 }
 
 /// (x, y) → (−a x − c y, c x − b y), the increment of a rotation with decay.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking::oscillator))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
 pub struct Turn<R: Real> {
     /// a and b; their error shows in the radius.
     pub shrink: [R::Fine; 2],
@@ -154,7 +158,7 @@ fn grown(omega: f64, couple: f64, ticks: f64) -> Matrix<2> {
     m
 }
 
-impl<R: Real, const S: usize> State<R, S> {
+impl<R: Real, const S: usize> Sides<'_, R, S> {
     /// Adds `change`, and noise by sides, to the modes.
     #[inline]
     fn change(&mut self, change: &[Psi<R>; S], noise: Option<&[Psi<R>; S]>) {
@@ -240,18 +244,18 @@ impl<R: Real> Exact<R> {
 
     /// The same step far from the circle, where ψ may also reach its limits.
     #[cold]
-    fn far<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        let linear = increments(&self.tick, &state.kept);
-        let turned = sums(&state.kept, &linear);
+    fn far<const S: usize>(&self, mut sides: Sides<'_, R, S>, noise: Option<&[Psi<R>; S]>) {
+        let linear = increments(&self.tick, sides.kept);
+        let turned = sums(sides.kept, &linear);
         let pulls = crossed(&turned).map(|side| pull(side, self.relax));
-        state.change(&sums(&linear, &modes(&pulls)), noise);
-        let psi = self.unlimited(&state.kept);
-        let sound = is_sound(&state.kept) && is_sound(&psi);
-        let within = if sound { psi.map(limited) } else { anew() };
+        sides.change(&sums(&linear, &modes(&pulls)), noise);
+        let psi = self.unlimited(sides.kept);
+        let sound = is_sound(sides.kept) && is_sound(&psi);
+        let within = if sound { psi.map(limited) } else { again() };
         // A NaN differs from all.
         if within != psi {
             let modes = modes(&within);
-            *state = State::new(sums(&modes, &increments(&self.back, &modes)));
+            sides.restart(sums(&modes, &increments(&self.back, &modes)));
         }
     }
 
@@ -259,34 +263,49 @@ impl<R: Real> Exact<R> {
     fn unlimited<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
         crossed(&sums(kept, &increments(&self.half, kept)))
     }
-}
 
-impl<R: Real> OscillatorIntegrator<R> for Exact<R> {
+    /// See [`Config::step`](super::Config::step).
     #[inline]
-    fn step<const S: usize>(&self, state: &mut State<R, S>, noise: Option<&[Psi<R>; S]>) {
-        let linear = increments(&self.tick, &state.kept);
-        match self.near(&sums(&state.kept, &linear), &linear) {
-            Some(change) => state.change(&change, noise),
-            None => self.far(state, noise),
+    pub fn step(&self, state: &mut State<R>, noise: Option<&[Psi<R>]>) {
+        if let Some(sides) = state.sides::<2>() {
+            self.step_sides(sides, of_sides(noise));
+        } else if let Some(sides) = state.sides::<1>() {
+            self.step_sides(sides, of_sides(noise));
         }
     }
 
     #[inline]
-    fn drives<const S: usize>(&self, state: &State<R, S>) -> [R; S] {
-        let mut now = [R::ZERO; S];
-        for ((now, kept), half) in now.iter_mut().zip(&state.kept).zip(&self.drive) {
-            *now = kept[0] - R::dot(*kept, half);
+    fn step_sides<const S: usize>(&self, mut sides: Sides<'_, R, S>, noise: Option<&[Psi<R>; S]>) {
+        let linear = increments(&self.tick, sides.kept);
+        match self.near(&sums(sides.kept, &linear), &linear) {
+            Some(change) => sides.change(&change, noise),
+            None => self.far(sides, noise),
         }
-        let mut drives = now;
-        if let ([m, d], [left, right]) = (&now[..], &mut drives[..]) {
-            (*left, *right) = (*m + *d, *m - *d);
-        }
-        drives
     }
 
-    fn psi<const S: usize>(&self, state: &State<R, S>) -> [Psi<R>; S] {
+    /// See [`Config::drives`](super::Config::drives).
+    #[inline]
+    pub fn drives(&self, state: &State<R>) -> [R; MAX_SIDES] {
+        let [first, second] = &self.drive;
+        let now = |kept: Psi<R>, half| kept[0] - R::dot(kept, half);
+        match *state.kept {
+            [psi] => [now(psi, first), R::ZERO],
+            [m, d] => {
+                let (m, d) = (now(m, first), now(d, second));
+                [m + d, m - d]
+            }
+            _ => [R::ZERO; MAX_SIDES],
+        }
+    }
+
+    /// See [`Config::psi`](super::Config::psi).
+    pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         // Rounding may lead slightly beyond a limit.
-        self.unlimited(&state.kept).map(limited)
+        match *state.kept {
+            [psi] => listed(self.unlimited(&[psi]).map(limited)),
+            [m, d] => listed(self.unlimited(&[m, d]).map(limited)),
+            _ => Vec::new(),
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! What the oscillators must do, whoever steps them.
 
-use super::{Config, Euler, Exact, OscillatorIntegrator, PSI_LIMIT, Psi, State, keep, psi_limit};
+use super::{Config, Euler, Exact, PSI_LIMIT, Psi, State, keep, psi_limit};
+use crate::list::listed;
 use crate::{Fix, Real};
 
 /// Oscillators at work: configuration and state.
-struct Running<R: Real, const S: usize>(Config<R>, State<R, S>);
+struct Running<R: Real, const S: usize>(Config<R>, State<R>);
 
 impl<R: Real, const S: usize> Running<R, S> {
     fn exact(cycles: f64, psi: [Psi<f64>; S]) -> Self {
@@ -17,14 +18,15 @@ impl<R: Real, const S: usize> Running<R, S> {
     }
 
     fn new(config: Config<R>, kept: [Psi<f64>; S]) -> Self {
-        Self(config, State::new(kept.map(|p| p.map(R::from_f64))))
+        Self(config, State::new(listed(kept.map(|p| p.map(R::from_f64)))))
     }
 
     fn run(&mut self, ticks: usize) -> [Psi<f64>; S] {
         for _ in 0..ticks {
             self.0.step(&mut self.1, None);
         }
-        self.0.psi(&self.1).map(|p| p.map(R::to_f64))
+        let psi = self.0.psi(&self.1).into_array().unwrap();
+        psi.map(|p: Psi<R>| p.map(R::to_f64))
     }
 }
 

@@ -5,10 +5,12 @@
 //! 16 bits is cheap on every Cortex-M, one with 32 is not on a Cortex-M0+ (see
 //! [`product`](crate::math::product)).
 
+mod bounded;
 mod factor;
 #[cfg(test)]
 mod tests;
-mod words;
+
+use serde::{Deserialize, Serialize};
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -32,8 +34,7 @@ const fn product(x: i32, y: i32) -> i32 {
 /// Products with factors and readings saturate at ±4; a sum of two of them
 /// cannot wrap around, and no state of the tick comes near that. A state whose bits
 /// were flipped may; it wraps around, and is then limited as any other.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Fix(
     /// The value times 2^28.
     pub i32,

@@ -1,6 +1,6 @@
 //! f32 and f64 as number formats of the tick.
 
-use super::{FormatCode, Real};
+use super::{FactorRow, FormatCode, Real};
 use crate::Elementary;
 use crate::math::single;
 
@@ -11,7 +11,7 @@ macro_rules! float {
     ($float:ident) => {
         type Coefficient = Self;
         type Fine = Self;
-        type Row<const K: usize> = [Self; K];
+        type Row<const K: usize> = FactorRow<Self, K>;
         type Carry = Self;
         const ZERO: Self = 0.0;
         const ONE: Self = 1.0;
@@ -32,8 +32,8 @@ macro_rules! float {
             value as $float
         }
 
-        fn row<const K: usize>(values: [f64; K]) -> [Self; K] {
-            values.map(Self::coefficient)
+        fn row<const K: usize>(values: [f64; K]) -> FactorRow<Self, K> {
+            FactorRow(values.map(Self::coefficient))
         }
 
         fn fine(value: f64) -> Self {
@@ -66,8 +66,8 @@ macro_rules! float {
         }
 
         #[inline]
-        fn dot<const K: usize>(x: [Self; K], row: &[Self; K]) -> Self {
-            x.iter().zip(row).map(|(x, c)| x * c).sum()
+        fn dot<const K: usize>(x: [Self; K], row: &FactorRow<Self, K>) -> Self {
+            x.iter().zip(&row.0).map(|(x, c)| x * c).sum()
         }
 
         #[inline]

@@ -6,9 +6,9 @@ use rand_xoshiro::Xoshiro128PlusPlus;
 
 use crate::gate::Gate;
 use crate::muscle::History;
-use crate::oscillator::{OscillatorIntegrator, PSI_LIMIT};
+use crate::oscillator::PSI_LIMIT;
 use crate::{
-    Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, Whisker, filter,
+    Fix, GateSettings, Integrator, Number, Real, Settings, Side, State, WhiskerState, filter,
     muscle, noise, oscillator,
 };
 
@@ -88,23 +88,24 @@ enum Word<'a, R: Real> {
 struct Words<'a, R: Real>(Vec<(&'static str, Word<'a, R>)>);
 
 impl<'a, R: Real> Words<'a, R> {
-    fn of<const S: usize, const N: usize>(state: &'a mut State<R, S, N>) -> Self {
+    fn of(state: &'a mut State<R>) -> Self {
         let State {
             oscillators: oscillator::State { kept, carry },
-            z,
+            sides,
             whiskers,
-            drive,
             noise: noise::State { random: _, filters },
         } = state;
         let mut all = Self(Vec::new());
         all.numbers("oscillators", kept.iter_mut().flatten());
         all.carries("oscillators", carry.iter_mut().flatten());
-        all.numbers("drive", drive);
-        for z in z {
+        for Side { z, drive } in sides {
+            all.numbers("drive", [drive]);
             all.gate("z", z);
         }
-        for whisker in whiskers.iter_mut().flatten() {
-            let Whisker {
+        for whisker in whiskers {
+            // Whose whisker it is belongs to the shape of the state.
+            let WhiskerState {
+                side: _,
                 muscle,
                 lift,
                 nominal,
@@ -150,13 +151,13 @@ impl<'a, R: Real> Words<'a, R> {
 /// gates and noise; and how whisks that nothing disturbs end.
 struct Bench<R: Real, const S: usize> {
     config: crate::Config<R>,
-    start: State<R, S, 1>,
+    start: State<R>,
     ends: [[f64; 2]; S],
 }
 
 impl<R, const S: usize> Bench<R, S>
 where
-    R: Real + Bits,
+    R: Number + Bits,
     R::Carry: Bits,
 {
     fn new(integrator: Integrator, full: bool) -> Self {
@@ -171,7 +172,7 @@ where
             cia: gate(0.5),
         };
         let psi = [[1.0, 0.0]; S];
-        let start = settings.start::<R, S, 1>(psi, [[1.0]; S]).unwrap();
+        let start = settings.start::<R>(&psi, &[&[1.0][..]; S]).unwrap();
         let mut bench = Self {
             config: settings.build().unwrap(),
             start: State::new(&start, 1),
@@ -185,30 +186,30 @@ where
         bench
     }
 
-    fn tick(&self, state: &mut State<R, S, 1>) {
-        self.config.step(state, [R::ZERO; S]);
+    fn tick(&self, state: &mut State<R>) {
+        self.config.step(state, &[R::ZERO; S]);
         for psi in self.config.oscillators.psi(&state.oscillators) {
             assert!(psi.iter().all(|x| x.to_f64().abs() <= PSI_LIMIT), "{psi:?}");
         }
-        for [theta] in state.theta() {
+        for theta in state.theta() {
             assert!(theta.to_f64().abs() <= 2.5, "{theta:?}");
         }
         // Gates that no part of the module moves are not looked at.
-        for z in state.z.iter().filter(|_| self.config.rcp.is_some()) {
-            assert!((0.0..=1.0).contains(&z.value.to_f64()), "{z:?}");
+        for side in state.sides.iter().filter(|_| self.config.rcp.is_some()) {
+            assert!((0.0..=1.0).contains(&side.z.value.to_f64()), "{side:?}");
         }
-        let whiskers = state.whiskers.iter().flatten();
+        let whiskers = state.whiskers.iter();
         for whisker in whiskers.filter(|_| self.config.cia.is_some()) {
             assert!((0.0..=2.0).contains(&whisker.gain()), "{whisker:?}");
         }
     }
 
     /// The lowest and the highest θ of each whisker in a whisk.
-    fn whisk(&self, state: &mut State<R, S, 1>) -> [[f64; 2]; S] {
+    fn whisk(&self, state: &mut State<R>) -> [[f64; 2]; S] {
         let mut ends = [[f64::MAX, f64::MIN]; S];
         for _ in 0..WHISK {
             self.tick(state);
-            for ([low, high], [theta]) in ends.iter_mut().zip(state.theta()) {
+            for ([low, high], theta) in ends.iter_mut().zip(state.theta()) {
                 *low = low.min(theta.to_f64());
                 *high = high.max(theta.to_f64());
             }
@@ -217,7 +218,7 @@ where
     }
 
     /// How many whisks pass until they are again as they were, three in succession.
-    fn whisks_until_back(&self, mut state: State<R, S, 1>) -> usize {
+    fn whisks_until_back(&self, mut state: State<R>) -> usize {
         let is_back = |ends: [[f64; 2]; S]| {
             let mut pairs = ends.iter().flatten().zip(self.ends.iter().flatten());
             pairs.all(|(found, undisturbed)| (found - undisturbed).abs() <= BACK)
@@ -243,7 +244,7 @@ where
                 self.tick(&mut state);
             }
             for n in 0..Words::of(&mut state).0.len() {
-                let spoil = |k: usize| -> Option<(&'static str, State<R, S, 1>)> {
+                let spoil = |k: usize| -> Option<(&'static str, State<R>)> {
                     let mut copy = state.clone();
                     let (part, word) = Words::of(&mut copy).0.swap_remove(n);
                     match word {
@@ -281,7 +282,7 @@ const STATED: [(&str, [usize; 2]); 8] = [
 
 fn check<R, const S: usize>()
 where
-    R: Real + Bits,
+    R: Number + Bits,
     R::Carry: Bits,
 {
     for (n, integrator) in [Integrator::Exact, Integrator::Euler]
@@ -321,7 +322,7 @@ const OPPOSED: f64 = 0.2;
 fn whatever_bits_all_words_have_whisks_come_back() {
     fn run<R>()
     where
-        R: Real + Bits,
+        R: Number + Bits,
         R::Carry: Bits,
     {
         for (integrator, most) in [(Integrator::Exact, 10), (Integrator::Euler, 15)] {
@@ -337,7 +338,8 @@ fn whatever_bits_all_words_have_whisks_come_back() {
                     }
                 }
                 bench.tick(&mut state);
-                let [left, right] = bench.config.oscillators.psi(&state.oscillators);
+                let psi = bench.config.oscillators.psi(&state.oscillators);
+                let [left, right] = psi.into_array().unwrap();
                 let sum = |k: usize| left[k].to_f64() + right[k].to_f64();
                 let whisks = bench.whisks_until_back(state);
                 // Sides that are quite opposed stay so by the equations, until noise parts them.
@@ -347,6 +349,34 @@ fn whatever_bits_all_words_have_whisks_come_back() {
                     "{integrator:?}, {n}: {whisks}"
                 );
             }
+        }
+    }
+    run::<f32>();
+    run::<Fix>();
+}
+
+/// Whichever side a whisker is said to be of, it stays within its bounds; without a side it
+/// rests, and back at its side it whisks as before.
+#[test]
+fn a_whisker_of_no_side_rests() {
+    fn run<R>()
+    where
+        R: Number + Bits,
+        R::Carry: Bits,
+    {
+        let bench = Bench::<R, 2>::new(Integrator::Exact, true);
+        for side in 0..=u8::MAX {
+            let mut state = bench.start.clone();
+            state.whiskers[1].side = side;
+            let mut ends = [[0.0; 2]; 2];
+            for _ in 0..5 {
+                ends = bench.whisk(&mut state);
+            }
+            let [low, high] = ends[1];
+            let rests = low.abs() < BACK && high.abs() < BACK;
+            assert_eq!(rests, side > 1, "{side}: {ends:?}");
+            state.whiskers[1].side = 1;
+            assert!(bench.whisks_until_back(state) <= 2, "{side}");
         }
     }
     run::<f32>();

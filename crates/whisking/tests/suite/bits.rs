@@ -9,12 +9,35 @@ use crate::settings::plain;
 use whisking::muscle::drive;
 use whisking::{Elementary, Fix, Integrator, Settings, noise};
 
-/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits) of 32-bit words.
+/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits).
+pub(crate) struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub(crate) const fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    fn add_bytes(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+        }
+    }
+
+    /// Adds a number's bits.
+    pub(crate) fn add(&mut self, number: f64) {
+        self.add_bytes(number.to_bits().to_le_bytes());
+    }
+
+    pub(crate) const fn value(&self) -> u64 {
+        self.0
+    }
+}
+
+/// The fingerprint of 32-bit words.
 fn fingerprint(words: impl Iterator<Item = u32>) -> u64 {
-    let bytes = words.flat_map(u32::to_le_bytes);
-    bytes.fold(0xCBF2_9CE4_8422_2325, |hash: u64, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
-    })
+    let mut print = Fingerprint::new();
+    print.add_bytes(words.flat_map(u32::to_le_bytes));
+    print.value()
 }
 
 #[track_caller]
@@ -72,7 +95,7 @@ fn noise_of_a_seed() {
         ..plain(Integrator::Exact, 2_000.0, 8.0)
     };
     let config: noise::Config<f64> = settings.build().unwrap().noise.unwrap();
-    let mut state = noise::State::<f64, 2>::new(1);
+    let mut state = noise::State::<f64>::new(2, 1);
     let numbers = (0..200_000).flat_map(|_| config.step(&mut state)).flatten();
     let bits = numbers.map(f64::to_bits);
     let noise = fingerprint(bits.flat_map(|bits| [bits as u32, (bits >> 32) as u32]));

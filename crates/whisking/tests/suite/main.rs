@@ -2,6 +2,7 @@
 //! by topic.
 
 mod bits;
+mod bounds;
 mod module_terms;
 mod motor_duty;
 mod motor_guard;
@@ -15,5 +16,7 @@ mod motor_stall;
 mod oscillator_terms;
 mod phase_noise;
 mod pins;
+mod plain_data;
+mod same_bits;
 mod settings;
-mod words;
+mod sides;

@@ -2,9 +2,8 @@
 //! position control's filter against the same written out in f64.
 
 use crate::settings::plain;
-use whisking::muscle::{self, MuscleIntegrator, PEAK_GAIN};
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Fix, GateSettings, Integrator, PatternGenerator, Real, Settings, State, pd};
+use whisking::muscle::{self, PEAK_GAIN};
+use whisking::{Fix, GateSettings, Integrator, Real, Settings, State, pd};
 
 fn settings(integrator: Integrator) -> Settings {
     Settings {
@@ -57,37 +56,34 @@ fn gates_and_drives_reach_the_muscles() {
         let settings = settings(integrator);
         let config = settings.build::<f64>().unwrap();
         let start = settings
-            .start::<f64, 2, 2>([[1.0, 0.0], [0.6, 0.5]], [[1.0, 0.4], [0.7, 1.2]])
+            .start::<f64>(&[[1.0, 0.0], [0.6, 0.5]], &[&[1.0, 0.4], &[0.7, 1.2]])
             .unwrap();
         let mut state = State::new(&start, 1);
         let mut truth = state.clone();
         let mut drives = [1.0_f64, 0.6].map(|x| f64::midpoint((2.0 * x).tanh(), 1.0));
         for n in 0..60 {
             let contact = if n % 15 == 3 { [0.8, 0.1] } else { [0.0; 2] };
-            config.step(&mut state, contact);
+            config.step(&mut state, &contact);
 
             config.oscillators.step(&mut truth.oscillators, None);
             let psi = config.oscillators.psi(&truth.oscillators);
             for side in 0..2 {
                 let after = f64::midpoint((2.0 * psi[side][0]).tanh(), 1.0);
-                config.rcp.unwrap().step(&mut truth.z[side], contact[side]);
-                for whisker in &mut truth.whiskers[side] {
+                let z = &mut truth.sides[side].z;
+                config.rcp.unwrap().step(z, contact[side]);
+                let whiskers = truth.whiskers.iter_mut();
+                for whisker in whiskers.filter(|whisker| usize::from(whisker.side) == side) {
                     let cia = config.cia.unwrap();
                     let nominal = whisker.nominal();
                     cia.step(&mut whisker.lift, nominal, contact[0]);
                     let g = nominal + whisker.lift.mean;
-                    let gain = PEAK_GAIN * (1.0 - truth.z[side].mean) * g;
+                    let gain = PEAK_GAIN * (1.0 - z.mean) * g;
                     let muscle = &mut whisker.muscle;
                     config.muscle.step(muscle, gain, drives[side], after);
                 }
                 drives[side] = after;
             }
-            for (found, truth) in state
-                .theta()
-                .iter()
-                .flatten()
-                .zip(truth.theta().iter().flatten())
-            {
+            for (found, truth) in state.theta().zip(truth.theta()) {
                 assert!((found - truth).abs() < 1e-12, "{integrator:?}, {n}");
             }
         }

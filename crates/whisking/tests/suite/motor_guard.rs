@@ -47,7 +47,7 @@ fn a_following_error_may_last_so_long() {
     for error in [0.301, -0.301] {
         let found = trips(1000, |_| (Duty::ZERO, error, 0, 0));
         assert_eq!(found, Some((FOLLOWING, Fault::Following)));
-        // A tick within it, and it begins anew.
+        // A tick within it, and it begins again.
         let found = trips(1000, |tick| {
             let error = if tick == 50 { 0.0 } else { error };
             (Duty::ZERO, error, 0, 0)

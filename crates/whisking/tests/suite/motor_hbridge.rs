@@ -98,7 +98,7 @@ fn failing_pin_zeroes_the_pwm_and_holds_until_clear() {
     let mut bench = Bench::new();
     // First drive: zero, the pin fails, off.
     bench.zero().dir(HIGH).break_dir().zero();
-    // Second drive: off anew, no duty.
+    // Second drive: off again, no duty.
     bench.zero();
     // After clear.
     bench.zero().dir(HIGH).pulse(100, 100);

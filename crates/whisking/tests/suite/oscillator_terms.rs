@@ -3,7 +3,7 @@
 
 use crate::settings::plain;
 use core::f64::consts::TAU;
-use whisking::oscillator::{self, OscillatorIntegrator, Psi};
+use whisking::oscillator::{self, Psi};
 use whisking::{Fix, Integrator, Real, Settings};
 
 const TICK_HZ: f64 = 2000.0;
@@ -12,7 +12,7 @@ const CYCLES: f64 = HZ / TICK_HZ;
 
 struct Running<R: Real, const S: usize> {
     config: oscillator::Config<R>,
-    state: oscillator::State<R, S>,
+    state: oscillator::State<R>,
 }
 
 impl<R: Real, const S: usize> Running<R, S> {
@@ -21,10 +21,11 @@ impl<R: Real, const S: usize> Running<R, S> {
             coupling,
             ..plain(integrator, TICK_HZ, HZ)
         };
-        let start = settings.start::<R, S, 1>(psi, [[1.0]; S]).unwrap();
+        let start = settings.start::<R>(&psi, &[&[1.0][..]; S]).unwrap();
+        let kept = start.sides.iter().map(|side| side.oscillator);
         Self {
             config: settings.build().unwrap().oscillators,
-            state: oscillator::State::new(start.oscillators),
+            state: oscillator::State::new(kept.collect()),
         }
     }
 
@@ -36,11 +37,13 @@ impl<R: Real, const S: usize> Running<R, S> {
     }
 
     fn psi(&self) -> [Psi<f64>; S] {
-        self.config.psi(&self.state).map(|p| p.map(R::to_f64))
+        let psi = self.config.psi(&self.state).into_array().unwrap();
+        psi.map(|p: Psi<R>| p.map(R::to_f64))
     }
 
     fn drives(&self) -> [f64; S] {
-        self.config.drives(&self.state).map(R::to_f64)
+        let drives = self.config.drives(&self.state);
+        core::array::from_fn(|side| drives[side].to_f64())
     }
 }
 

@@ -7,8 +7,7 @@
 //! that variance, in rad².
 
 use crate::settings::plain;
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Integrator, PatternGenerator, Settings, State};
+use whisking::{Integrator, Settings, State};
 
 /// Mean square of the phase after ten seconds, over `SEEDS` runs of two sides.
 fn variance(integrator: Integrator, tick_hz: f64) -> f64 {
@@ -19,15 +18,15 @@ fn variance(integrator: Integrator, tick_hz: f64) -> f64 {
     };
     let phases = |noise, seed| {
         let config = settings(noise).build::<f64>().unwrap();
-        let start = settings(noise).start::<f64, 2, 0>([[1.0, 0.0]; 2], [[]; 2]);
+        let start = settings(noise).start::<f64>(&[[1.0, 0.0]; 2], &[&[][..]; 2]);
         let mut state = State::new(&start.unwrap(), seed);
         for _ in 0..(10.0 * tick_hz) as usize {
-            config.step(&mut state, [0.0; 2]);
+            config.step(&mut state, &[]);
         }
         let psi = config.oscillators.psi(&state.oscillators);
-        psi.map(|[a, b]| b.atan2(a))
+        psi.into_iter().map(|[a, b]: [f64; 2]| b.atan2(a))
     };
-    let [still, _] = phases(0.0, 1);
+    let still = phases(0.0, 1).next().unwrap();
     let moved = (0..SEEDS).flat_map(|seed| phases(0.1, u64::from(seed)));
     let squares = moved.map(|phase| (phase - still).powi(2));
     squares.sum::<f64>() / f64::from(2 * SEEDS)

@@ -1,5 +1,7 @@
 //! The STM32F103RB on its NUCLEO board (RM0008).
 
+use firmware::boards;
+
 use crate::chip::dma::Version;
 use crate::chip::flash;
 use crate::chip::gpio::Reset;
@@ -32,7 +34,7 @@ pub(crate) static F103: Model = Model {
     priority_bits: 4,
     flash: 128 * 1024,
     ram: 20 * 1024,
-    pwm_counts: 3_600,
+    facts: &boards::NUCLEO_F103RB,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

@@ -1,5 +1,7 @@
 //! The STM32F446RE on its NUCLEO board (RM0390).
 
+use firmware::boards;
+
 use crate::chip::dma::Version;
 use crate::chip::flash;
 use crate::chip::gpio::Reset;
@@ -32,7 +34,7 @@ pub(crate) static F446: Model = Model {
     priority_bits: 4,
     flash: 512 * 1024,
     ram: 128 * 1024,
-    pwm_counts: 8_000,
+    facts: &boards::NUCLEO_F446RE,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

@@ -1,5 +1,7 @@
 //! The STM32G071RB on its NUCLEO board (RM0444).
 
+use firmware::boards;
+
 use crate::chip::dma::Version;
 use crate::chip::flash;
 use crate::chip::gpio::Reset;
@@ -29,7 +31,7 @@ pub(crate) static G071: Model = Model {
     priority_bits: 2,
     flash: 128 * 1024,
     ram: 36 * 1024,
-    pwm_counts: 3_200,
+    facts: &boards::NUCLEO_G071RB,
     map: &[
         (Unit::Tim(TIM2), 0x4000_0000, Some((Bus::Apb1, 0))),
         (Unit::Tim(TIM3), 0x4000_0400, Some((Bus::Apb1, 1))),

@@ -1,23 +1,25 @@
-//! The serial port of a scene that has none: nothing.
+//! The serial port of a program that has none: nothing.
 
 use firmware::{Event, NotArmed, StartCause, Startup};
 use wire::{Answer, TaggedCommand};
 
+use crate::board::about::About;
 use crate::board::log::Health;
-use crate::board::scene::Names;
+use crate::board::perception::Names;
+use crate::board::telemetry::Configs;
 
-/// Nobody is told.
-pub(crate) fn started(_: StartCause, _: &Startup) {}
+/// There is no line.
+pub(crate) fn started(_: StartCause, _: &Startup, _: &About) {}
 
-/// Nobody is told.
-pub(crate) fn not_armed(_: NotArmed) {}
+/// There is no line.
+pub(crate) fn not_armed(_: NotArmed, _: &About) {}
 
 /// No port.
 pub(crate) struct Serial;
 
 impl Serial {
-    pub(crate) fn start() -> Self {
-        Self
+    pub(crate) fn start(_: &About) -> Option<Self> {
+        None
     }
 
     pub(crate) fn tell(&mut self, _: &Event, _: &Names) {}
@@ -26,7 +28,7 @@ impl Serial {
 
     pub(crate) fn health(&mut self, _: &Health, _: &Health) {}
 
-    pub(crate) fn serve(&mut self, _: u32) {}
+    pub(crate) fn serve(&mut self, _: u32, _: &About, _: &mut Configs) {}
 
     pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
         None

@@ -1,4 +1,4 @@
-//! The serial port of a scene that has one: lines of what happens, records, and what somebody
+//! The serial port of a program that has one: lines of what happens, records, and what somebody
 //! asks for as a line or in a frame. docs/serial.md says what they look like.
 //!
 //! Idle serves it after every tick; DMA moves the bytes. What finds no room is dropped whole.
@@ -8,6 +8,7 @@ mod received;
 #[path = "sent.rs"]
 mod sent;
 
+use firmware::boards::RECEIVED_BYTES;
 use firmware::{Event, NotArmed, StartCause, Startup, faults, lines};
 use heapless::Deque;
 use wire::text::{self, Spoken};
@@ -15,13 +16,13 @@ use wire::{
     Answer, Command, CommandStatus, Framed, Line, PACKET_WORDS, Piece, Splitter, TaggedCommand,
 };
 
-use crate::board::CLOCKS;
+use crate::board::about::About;
 use crate::board::counters::TICKS;
 use crate::board::log::Health;
+use crate::board::pace;
+use crate::board::perception::Names;
 use crate::board::pin_config::{Mode, PinConfig};
-use crate::board::scene::{self, NAME, Names, SERIAL_BAUD, SIDES, TICK_HZ};
-use crate::board::telemetry;
-use crate::board::timing::RECEIVED_BYTES;
+use crate::board::telemetry::{self, Configs};
 use crate::board::wiring::SERIAL;
 use crate::here::serial_dma::SerialTransfers;
 use crate::here::{self, SERIAL_FUNCTION, SERIAL_ROUTE, SERIAL_USART, usart};
@@ -35,15 +36,6 @@ const SAID_BYTES: usize = 80;
 
 /// Requests that may wait for others.
 const WAITING: usize = 4;
-
-/// Ticks without a byte after which a frame that was begun is none: 0.1 s.
-const PAUSE: u32 = TICK_HZ / 10;
-
-/// Bits a second that records of every tick take, each byte with its start and stop.
-const RECORDS_BAUD: u32 = TICK_HZ * SIDES.len() as u32 * wire::PACKET_FRAME_BYTES as u32 * 10;
-
-/// Whether the line carries them, with a twentieth left for lines and answers.
-const CARRIES_RECORDS: bool = RECORDS_BAUD / 20 * 21 <= SERIAL_BAUD;
 
 /// How something was asked for, and is answered.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -62,13 +54,18 @@ struct Asked {
 
 /// A line that begins now.
 fn line() -> Line {
-    lines::at(TICKS.get(), TICK_HZ)
+    lines::at(TICKS.get(), pace::tick_hz())
 }
 
 /// The first lines after a reset.
-pub(crate) fn started(cause: StartCause, start: &Startup) {
+#[inline(never)]
+pub(crate) fn started(cause: StartCause, start: &Startup, about: &About) {
+    if about.links.serial_baud.is_none() {
+        return;
+    }
     let mut said = line();
-    lines::start(&mut said, [VERSION, NAME], TICK_HZ, cause, start);
+    let named = [VERSION, about.name()];
+    lines::start(&mut said, named, pace::tick_hz(), cause, start);
     sent::line(said.ended());
     if start.fault != 0 {
         let mut said = line();
@@ -78,7 +75,11 @@ pub(crate) fn started(cause: StartCause, start: &Startup) {
 }
 
 /// The motors are off until they are armed.
-pub(crate) fn not_armed(reason: NotArmed) {
+#[inline(never)]
+pub(crate) fn not_armed(reason: NotArmed, about: &About) {
+    if about.links.serial_baud.is_none() {
+        return;
+    }
     let mut said = line();
     lines::not_armed(&mut said, reason);
     sent::line(said.ended());
@@ -96,11 +97,20 @@ pub(crate) struct Serial {
     pending: Option<Form>,
     /// Bytes of the piece under way.
     sending: u16,
+    /// Bits a second.
+    baud: u32,
+    /// Bits a second that records of every tick take.
+    records_baud: u32,
+    /// Ticks without a byte after which a frame that was begun is none: 0.1 s.
+    pause: u32,
 }
 
 impl Serial {
-    /// Opens it.
-    pub(crate) fn start() -> Self {
+    /// Opens it; `None` where the scene has none.
+    #[inline(never)]
+    pub(crate) fn start(about: &About) -> Option<Self> {
+        let baud = about.links.serial_baud?;
+        let divider = pace::clocks().serial_divider(baud)?;
         here::clock_serial();
         let transfers = SerialTransfers::start(
             &SERIAL_ROUTE,
@@ -108,15 +118,12 @@ impl Serial {
             received::address(),
             RECEIVED_BYTES as u16,
         );
-        usart::start(
-            SERIAL_USART,
-            const { CLOCKS.serial_divider_of(SERIAL_BAUD) },
-        );
+        usart::start(SERIAL_USART, divider);
         let [tx, rx] = SERIAL;
         tx.configure(PinConfig::new(Mode::AlternateOutput(SERIAL_FUNCTION)));
         // A line rests high; pulled up, it does so too where nobody is at its other end.
         rx.configure(PinConfig::new(Mode::AlternateInput(SERIAL_FUNCTION)).pulled_up());
-        Self {
+        Some(Self {
             transfers,
             received: Received::new(),
             splitter: Splitter::new(),
@@ -124,14 +131,16 @@ impl Serial {
             waiting: Deque::new(),
             pending: None,
             sending: 0,
-        }
+            baud,
+            records_baud: about.records_baud(),
+            pause: pace::tick_hz() / 10,
+        })
     }
 
     /// The line of an event. What the scene cannot do has none.
     pub(crate) fn tell(&mut self, event: &Event, names: &Names) {
         let mut said = line();
-        let name = |class| scene::class_name(names, class).unwrap_or("unknown");
-        lines::event(&mut said, event, name);
+        lines::event(&mut said, event, |class| names.class(class));
         sent::line(said.ended());
     }
 
@@ -145,7 +154,7 @@ impl Serial {
         let mut said = line();
         let fared = lines::Fared {
             worst_tenths: now.worst_tenths(),
-            period_us: 1_000_000 / TICK_HZ,
+            period_us: 1_000_000 / pace::tick_hz(),
             missed: now.missed,
             dropped: now.dropped,
             lost: sent::LOST.get(),
@@ -165,12 +174,12 @@ impl Serial {
     }
 
     /// What is to be done after the tick that is the `now`-th.
-    pub(crate) fn serve(&mut self, now: u32) {
+    pub(crate) fn serve(&mut self, now: u32, about: &About, configs: &mut Configs) {
         self.hear(now);
-        self.answer();
+        self.answer(about);
         if self.pending.is_none()
             && let Some(asked) = self.waiting.front()
-            && telemetry::ask_by_serial(asked.words)
+            && telemetry::ask_by_serial(asked.words, configs)
         {
             self.pending = Some(asked.form);
             self.waiting.pop_front();
@@ -201,7 +210,7 @@ impl Serial {
                     Ok(Spoken::Command(command)) => {
                         let words = TaggedCommand { tag: 0, command }.plain_words();
                         let form = Form::Line(command);
-                        take(&mut self.waiting, Asked { words, form });
+                        self.take(Asked { words, form });
                     }
                     Err((first, fault)) => refuse(first, fault.text()),
                 },
@@ -210,7 +219,7 @@ impl Serial {
                     match words {
                         Some(words) => {
                             let form = Form::Frame;
-                            take(&mut self.waiting, Asked { words, form });
+                            self.take(Asked { words, form });
                         }
                         None => refuse(b"", "a frame that is no request"),
                     }
@@ -218,18 +227,56 @@ impl Serial {
                 Some(Piece::Garbled(_)) => refuse(b"", "too long, or cut short"),
             }
         }
-        if now.wrapping_sub(self.heard) > PAUSE {
+        if now.wrapping_sub(self.heard) > self.pause {
             self.splitter.pause();
         }
     }
 
+    /// Has a request wait for its turn, unless it cannot be carried out here.
+    fn take(&mut self, asked: Asked) {
+        if let Ok(request) = TaggedCommand::from_words(asked.words)
+            && request.command == Command::Stream(true)
+            && !self.carries_records()
+        {
+            self.is_too_slow(asked.form, request);
+        } else if self.waiting.push_back(asked).is_err() {
+            refuse(b"", "too much at once, wait for answers");
+        }
+    }
+
+    /// Whether the line carries records of every tick, with a twentieth left for lines and
+    /// answers.
+    const fn carries_records(&self) -> bool {
+        self.records_baud / 20 * 21 <= self.baud
+    }
+
+    /// Refuses records.
+    fn is_too_slow(&self, form: Form, request: TaggedCommand) {
+        if form == Form::Frame {
+            let answer = Answer {
+                sequence: TICKS.get(),
+                tag: request.tag,
+                command: request.command.number(),
+                status: CommandStatus::TooSlow,
+                values: [0; 2],
+            };
+            sent::line(Framed::packet(answer.words()).bytes());
+        } else {
+            let mut said = Line::new();
+            said.text("refused stream: records of every tick take")
+                .field(self.records_baud);
+            said.text(" baud and a twentieth, found").field(self.baud);
+            sent::line(said.ended());
+        }
+    }
+
     /// Passes the tick's answer on.
-    fn answer(&mut self) {
+    fn answer(&mut self, about: &About) {
         let Some(form) = self.pending else {
             return;
         };
         if let Some(words) = telemetry::answer_for_serial()
-            && reply(form, words)
+            && reply(form, words, about)
         {
             telemetry::has_taken_answer();
             self.pending = None;
@@ -271,35 +318,6 @@ impl Serial {
     }
 }
 
-/// Has a request wait for its turn, unless it cannot be carried out here.
-fn take(waiting: &mut Deque<Asked, WAITING>, asked: Asked) {
-    if let Ok(request) = TaggedCommand::from_words(asked.words)
-        && request.command == Command::Stream(true)
-        && !CARRIES_RECORDS
-    {
-        if asked.form == Form::Frame {
-            let answer = Answer {
-                sequence: TICKS.get(),
-                tag: request.tag,
-                command: request.command.number(),
-                status: CommandStatus::TooSlow,
-                values: [0; 2],
-            };
-            sent::line(Framed::packet(answer.words()).bytes());
-        } else {
-            let mut said = Line::new();
-            said.text("refused stream: records of every tick take")
-                .field(RECORDS_BAUD);
-            said.text(" baud and a twentieth, found").field(SERIAL_BAUD);
-            sent::line(said.ended());
-        }
-        return;
-    }
-    if waiting.push_back(asked).is_err() {
-        refuse(b"", "too much at once, wait for answers");
-    }
-}
-
 /// The line of what is refused.
 fn refuse(what: &[u8], why: &str) {
     let mut said = Line::new();
@@ -311,7 +329,7 @@ fn refuse(what: &[u8], why: &str) {
 }
 
 /// Passes an answer on; whether there was room.
-fn reply(form: Form, words: [u32; PACKET_WORDS]) -> bool {
+fn reply(form: Form, words: [u32; PACKET_WORDS], about: &About) -> bool {
     let Form::Line(command) = form else {
         return sent::answer(Framed::packet(words).bytes());
     };
@@ -325,7 +343,10 @@ fn reply(form: Form, words: [u32; PACKET_WORDS]) -> bool {
                 .values
                 .into_iter()
                 .for_each(|code| _ = said.signed(code)),
-            Command::Hello => _ = said.word(NAME).field(first).field(second).word(VERSION),
+            Command::Hello => {
+                said.word(about.name()).field(first).field(second);
+                said.word(VERSION);
+            }
             Command::Status => _ = said.field(first).field(second).field(sent::LOST.get()),
             _ => {}
         }

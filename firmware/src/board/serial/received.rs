@@ -2,14 +2,10 @@
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
-use crate::board::scene::{SERIAL_BAUD, TICK_HZ};
-use crate::board::timing::RECEIVED_BYTES;
+use firmware::boards::RECEIVED_BYTES;
 
 /// Atomic, as the compiler does not see that the DMA writes them.
 static RING: [AtomicU8; RECEIVED_BYTES] = [const { AtomicU8::new(0) }; RECEIVED_BYTES];
-
-// Idle reads it after every tick; it may miss one.
-const _: () = assert!(crate::board::timing::serial_keeps_up(SERIAL_BAUD, TICK_HZ));
 
 /// Where the ring is.
 pub(crate) fn address() -> u32 {

@@ -1,16 +1,44 @@
-//! Telemetry of a scene that leaves it out: nothing.
+//! Telemetry of a program that leaves it out: nothing.
 
-use firmware::{Event, ModelState};
-use wire::{Answer, TaggedCommand};
+use firmware::{ConfigError, Event, ModelState};
+use wire::{Answer, Load, TaggedCommand};
 
-use crate::board::inner::Inner;
-use crate::board::scene::{Perception, Settings};
+use crate::board::scene::Deployed;
+use crate::board::types::{Inner, Number, Settings};
+
+/// Nothing goes from idle to the tick.
+pub(crate) struct Queue;
+
+impl Queue {
+    pub(crate) const fn new() -> Self {
+        Self
+    }
+
+    pub(crate) fn split(&'static mut self) -> ((), ()) {
+        ((), ())
+    }
+}
+
+/// Nothing is asked about configurations.
+pub(crate) struct Configs;
+
+impl Configs {
+    pub(crate) fn start(
+        _: Result<Deployed, ConfigError>,
+        _: Option<Number>,
+        _: (),
+    ) -> Option<Self> {
+        Some(Self)
+    }
+
+    pub(crate) fn tell(&mut self, _: u32) {}
+}
 
 /// There is nothing to hear.
-pub(crate) fn hear() {}
+pub(crate) fn hear(_: &mut Configs) {}
 
 /// There is nothing to load.
-pub(crate) fn to_load() -> Option<(Answer, bool)> {
+pub(crate) fn to_load() -> Option<(Load, Answer, bool)> {
     None
 }
 
@@ -45,30 +73,19 @@ pub(crate) fn waits() -> bool {
     false
 }
 
-/// Nobody is told of an event.
+/// No event is noted.
 #[inline]
 pub(crate) fn note(_: &Event) {}
 
-/// Nothing is told.
+/// No link.
 pub(crate) struct Telemetry;
 
 impl Telemetry {
-    pub(crate) const fn new(_: &Settings, _: &Perception, _: ModelState) -> Self {
+    pub(crate) fn new(_: &Settings, _: &Inner, _: ModelState, _: ()) -> Self {
         Self
     }
 
     pub(crate) fn send(&mut self, _: &Inner, _: &Settings, _: u32) {}
 
-    pub(crate) fn talk(&mut self, _: &mut Inner, _: &mut Settings, _: u32) {}
-}
-
-/// Nothing changes settings.
-pub(crate) struct Tuned;
-
-impl Tuned {
-    pub(crate) const fn new() -> Self {
-        Self
-    }
-
-    pub(crate) fn tell(&mut self, _: u32) {}
+    pub(crate) fn talk(&mut self, _: &mut Inner, _: &Settings, _: u32) {}
 }

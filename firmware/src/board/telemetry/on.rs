@@ -1,21 +1,26 @@
-//! Telemetry of a scene that has it: packets and requests through rings in RAM.
+//! Telemetry of a program that has it: packets and requests through rings in RAM.
+
+#[path = "configs.rs"]
+mod configs;
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use firmware::{About, Event, Link, ModelState, Notes, PacketSink, PacketSlot, Tuning};
+use firmware::{About, Event, Link, ModelState, Notes, PacketSink, PacketSlot, Part};
 use wire::{
-    Answer, Command, CommandStatus, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand,
+    Answer, Command, CommandStatus, Load, PACKET_BYTES, PACKET_WORDS, REQUEST_BYTES, TaggedCommand,
 };
 
-use crate::board::inner::Inner;
-use crate::board::integrity::{self, Changed};
+use crate::board::integrity::Changed;
 use crate::board::log;
-use crate::board::model_place;
 use crate::board::rtt::{DOWN, PACKETS, PACKETS_COUNT, REQUESTS, UP};
-use crate::board::scene::{AWAITS_MODEL, HAS_SERIAL, NAME, Perception, Settings, TICK_HZ};
+use crate::board::slots::{self, ROOM};
+use crate::board::types::{Inner, Settings};
+pub(crate) use configs::{Configs, Queue};
+use configs::{End, Spare, Verdict};
 
-/// A request from idle to the tick: its words but for the sum, which is right.
-static INBOX: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+/// A request from idle to the tick: its words but for the sum, which is right; then what idle has
+/// found out about it, a [`Verdict`].
+static INBOX: [AtomicU32; 5] = [const { AtomicU32::new(0) }; 5];
 
 /// Whether one lies there. Idle sets it, the tick clears it; loads and stores will do, as idle
 /// cannot interrupt the tick.
@@ -36,18 +41,18 @@ static IS_BUSY: AtomicBool = AtomicBool::new(false);
 
 /// Takes the next request that a PC has written, unless the tick has yet to take the last;
 /// for idle.
-pub(crate) fn hear() {
+pub(crate) fn hear(configs: &mut Configs) {
     if !IS_FULL.load(Ordering::Relaxed) && DOWN.waiting() as usize >= REQUEST_BYTES {
-        next();
+        next(configs);
     }
 }
 
 /// Hands the next request to the tick.
 #[cold]
-fn next() {
+fn next(configs: &mut Configs) {
     if let Some(words) = read_request() {
         SERIAL_READS.store(false, Ordering::Relaxed);
-        post(words, false);
+        post(words, false, configs);
     }
 }
 
@@ -71,11 +76,12 @@ fn read_request() -> Option<[u32; 2]> {
 }
 
 /// Hands a request to the tick.
-fn post(words: [u32; 2], is_by_serial: bool) {
-    if let Ok(request) = TaggedCommand::from_words(words) {
+fn post(words: [u32; 2], is_by_serial: bool, configs: &mut Configs) {
+    let verdict = TaggedCommand::from_words(words).map_or(Verdict::Unknown, |request| {
         log::requested(request.command);
-    }
-    for (place, word) in INBOX.iter().zip(words) {
+        configs.prepare(request.command)
+    });
+    for (place, word) in INBOX.iter().zip(words.into_iter().chain(verdict.words())) {
         place.store(word, Ordering::Relaxed);
     }
     IS_BY_SERIAL.store(is_by_serial, Ordering::Relaxed);
@@ -86,7 +92,7 @@ fn post(words: [u32; 2], is_by_serial: bool) {
 
 /// Hands a request of the serial port to the tick; whether that could take it. Whoever asks
 /// for records there has them from then on, and no probe.
-pub(crate) fn ask_by_serial(words: [u32; 2]) -> bool {
+pub(crate) fn ask_by_serial(words: [u32; 2], configs: &mut Configs) -> bool {
     if IS_FULL.load(Ordering::Relaxed) {
         return false;
     }
@@ -95,7 +101,7 @@ pub(crate) fn ask_by_serial(words: [u32; 2]) -> bool {
         UP.has_read(UP.writer());
         SERIAL_READS.store(true, Ordering::Relaxed);
     }
-    post(words, true);
+    post(words, true, configs);
     true
 }
 
@@ -132,22 +138,26 @@ pub(crate) fn has_taken_answer() {
     IS_ANSWERED.store(false, Ordering::Release);
 }
 
-/// Who wants a model loaded, whose answer lies there then: nobody, somebody at the serial port,
-/// or at a probe. A flipped bit makes none of these from another, lest it costs the model.
+/// Who wants a scene loaded, whose answer lies there then: nobody, somebody at the serial port,
+/// or at a probe. A flipped bit makes none of these from another, lest it costs a scene.
 static TO_LOAD: AtomicU32 = AtomicU32::new(0);
 const BY_SERIAL: u32 = 0x5A5A_A5A5;
 const BY_PROBE: u32 = 0xC33C_3CC3;
 
-/// The answer to whoever wants a model loaded, and whether that is at the serial port.
-pub(crate) fn to_load() -> Option<(Answer, bool)> {
-    if !AWAITS_MODEL {
-        return None;
-    }
+/// Words of it: of the configuration, of the model.
+static LOAD: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+
+/// What somebody wants to be loaded, the answer to it, and whether that is at the serial port.
+pub(crate) fn to_load() -> Option<(Load, Answer, bool)> {
     let by = TO_LOAD.load(Ordering::Acquire);
     if by != BY_SERIAL && by != BY_PROBE {
         return None;
     }
-    Some((Answer::from_words(ANSWER.get()), by == BY_SERIAL))
+    let [config, model] = LOAD
+        .each_ref()
+        .map(|words| words.load(Ordering::Relaxed) as u16);
+    let answer = Answer::from_words(ANSWER.get());
+    Some((Load { config, model }, answer, by == BY_SERIAL))
 }
 
 /// The probe's end of a loader, to which nobody else listens any more.
@@ -217,46 +227,29 @@ pub(crate) fn note(event: &Event) {
     NOTES.note(event);
 }
 
-/// Whether settings differ from the scene's.
-static DIFFER: AtomicBool = AtomicBool::new(false);
-
-/// How often the log says so, s.
-const AGAIN_S: u32 = 60;
-
-/// Whether a command is about constants.
-const fn is_tuning(command: Command) -> bool {
-    matches!(
-        command,
-        Command::Constant(_) | Command::Stage(..) | Command::Apply(_) | Command::Forget
-    )
-}
-
 /// The module's end of the link.
 pub(crate) struct Telemetry {
     link: Link,
     packets: Packets,
-    about: About<'static>,
+    about: About,
     /// What is to be answered came by the serial port.
     is_by_serial: bool,
-    tuning: Tuning,
     changed: Changed,
+    /// Idle, where other settings come from.
+    idle: End,
 }
 
 impl Telemetry {
-    /// Of a module with these settings and this perception, which stay where they are, and
-    /// which decides by this model.
-    pub(crate) fn new(settings: &Settings, perception: &Perception, model: ModelState) -> Self {
+    /// Of a module with these settings, both of which stay where they are; it decides by this
+    /// model, and other settings come from idle.
+    pub(crate) fn new(settings: &Settings, inner: &Inner, model: ModelState, idle: End) -> Self {
         Self {
             link: Link::new(),
             packets: Packets::new(),
-            about: About {
-                name: NAME,
-                tick_hz: TICK_HZ,
-                model,
-            },
+            about: About { model },
             is_by_serial: false,
-            tuning: Tuning::new(),
-            changed: Changed::new(settings, perception),
+            changed: Changed::new(settings, inner),
+            idle,
         }
     }
 
@@ -267,29 +260,35 @@ impl Telemetry {
     }
 
     /// Answers what was asked for, and carries out what is.
-    pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Settings, tick: u32) {
+    pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Spare, tick: u32) {
         self.answer();
         if self.link.is_free() && IS_FULL.load(Ordering::Acquire) {
-            let [first, value] = &INBOX;
+            let [first, value, verdict @ ..] = &INBOX;
             let words = [first, value].map(|word| word.load(Ordering::Relaxed));
+            let verdict = Verdict::of(verdict.each_ref().map(|word| word.load(Ordering::Relaxed)));
             // Erased too: no command has the number 0.
             first.store(0, Ordering::Relaxed);
             self.is_by_serial = IS_BY_SERIAL.load(Ordering::Relaxed);
             IS_FULL.store(false, Ordering::Release);
-            match TaggedCommand::from_words(words) {
-                Ok(request) if is_tuning(request.command) => {
-                    self.tune(module, settings, request, tick);
+            match (TaggedCommand::from_words(words), verdict) {
+                (Ok(request), Verdict::Done(status, values)) => {
+                    let answer = firmware::answer(request, tick, (status, values));
+                    self.link.reply(answer);
                 }
-                Ok(request)
-                    if let (true, Command::Load(words)) = (AWAITS_MODEL, request.command) =>
-                {
-                    self.load(module, settings, request, words, tick);
+                (Ok(request), Verdict::TakeOver) if Part::Set.is_built() => {
+                    self.take_over(module, settings, request, tick);
                 }
-                Ok(request) => {
-                    let about = self.about;
-                    self.link.carry_out(module, settings, request, about, tick);
+                (Ok(request), _) => {
+                    if let Command::Load(load) = request.command
+                        && Part::Deploy.is_built()
+                    {
+                        self.load(load, module.is_armed(), request, tick);
+                    } else {
+                        let about = self.about;
+                        self.link.carry_out(module, settings, request, about, tick);
+                    }
                 }
-                Err(unknown) => self.link.refuse(unknown, tick),
+                (Err(unknown), _) => self.link.refuse(unknown, tick),
             }
             self.answer();
         }
@@ -300,35 +299,29 @@ impl Telemetry {
 
     /// Answers whoever has asked.
     fn answer(&mut self) {
-        if HAS_SERIAL && self.is_by_serial {
+        if Part::Serial.is_built() && self.is_by_serial {
             self.link.answer(&mut SerialAnswer);
         } else {
             self.link.answer(&mut self.packets);
         }
     }
 
-    /// Has idle load a model, which answers then, or says why not.
-    fn load(
-        &mut self,
-        module: &Inner,
-        settings: &Settings,
-        request: TaggedCommand,
-        words: u32,
-        tick: u32,
-    ) {
-        let may = firmware::may_load(module, settings, words, model_place::words());
-        let answer = Answer {
-            sequence: tick,
-            tag: request.tag,
-            command: request.command.number(),
-            status: may.err().unwrap_or(CommandStatus::Done),
-            values: [words.cast_signed(), 0],
+    /// Has idle load a scene, which answers then, or says why not.
+    fn load(&mut self, load: Load, is_armed: bool, request: TaggedCommand, tick: u32) {
+        let may = match firmware::may_load(load, ROOM, is_armed) {
+            Ok(()) if !slots::is_paired(load) => Err(CommandStatus::OutOfRange),
+            may => may,
         };
+        let status = may.err().unwrap_or(CommandStatus::Done);
+        let answer = firmware::answer(request, tick, (status, [load.words().cast_signed(), 0]));
         if may.is_err() {
             self.link.reply(answer);
             return;
         }
         ANSWER.set(answer.words());
+        for (place, words) in LOAD.iter().zip([load.config, load.model]) {
+            place.store(words.into(), Ordering::Relaxed);
+        }
         let by = if self.is_by_serial {
             BY_SERIAL
         } else {
@@ -337,60 +330,32 @@ impl Telemetry {
         TO_LOAD.store(by, Ordering::Release);
     }
 
-    /// Reads or changes constants.
-    fn tune(
+    /// Has the module go on by the settings that idle has prepared.
+    #[cold]
+    #[inline(never)]
+    fn take_over(
         &mut self,
         module: &mut Inner,
-        settings: &mut Settings,
+        settings: &mut Spare,
         request: TaggedCommand,
         tick: u32,
     ) {
-        let Self {
-            link,
-            tuning,
-            changed,
-            ..
-        } = self;
-        let changes = matches!(request.command, Command::Apply(_));
         // The last thing that is asked for: idle resets the board.
-        if changes && !changed.holds() {
+        if !self.changed.holds() {
             return;
         }
-        let Some(answer) = tuning.carry_out(module, settings, request, tick) else {
+        let Some(mut next) = self.idle.receive.dequeue() else {
             return;
         };
-        if changes && answer.status == CommandStatus::Done {
-            changed.after();
-            DIFFER.store(tuning.differs(), Ordering::Relaxed);
+        let taken = firmware::take_over(module, settings, next);
+        if taken.is_ok() {
+            core::mem::swap(settings, &mut next);
+            self.changed.after(settings);
         }
-        link.reply(answer);
-    }
-}
-
-/// What the log says of settings that were changed; for idle.
-pub(crate) struct Tuned {
-    /// How often they were when it said so last, and in which tick that was.
-    changes: u32,
-    told: u32,
-}
-
-impl Tuned {
-    pub(crate) const fn new() -> Self {
-        Self {
-            changes: 0,
-            told: 0,
-        }
-    }
-
-    /// Says it after every change, and once a minute while settings differ from the scene's.
-    pub(crate) fn tell(&mut self, now: u32) {
-        let changes = integrity::changes();
-        let differ = DIFFER.load(Ordering::Relaxed);
-        let is_due = differ && now.wrapping_sub(self.told) >= AGAIN_S.wrapping_mul(TICK_HZ);
-        if changes != self.changes || is_due {
-            (self.changes, self.told) = (changes, now);
-            log::tuned(differ);
-        }
+        // There is room for one.
+        let _ = self.idle.send.enqueue(next);
+        let answer = firmware::answer(request, tick, firmware::applied(taken));
+        self.link.reply(answer);
     }
 }
 

@@ -3,8 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::Deserialize;
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Integrator, PatternGenerator, Real, State};
+use whisking::{Integrator, Number, State};
 
 use crate::accuracy::integrators::NEAR;
 use crate::accuracy::schemes::{Format, Pace};
@@ -36,7 +35,7 @@ pub(super) struct Row {
 }
 
 /// Runs one format; `done` counts minutes.
-pub(super) fn run<R: Real>(
+pub(super) fn run<R: Number>(
     format: Format,
     pace: Pace,
     length: Length,
@@ -45,12 +44,12 @@ pub(super) fn run<R: Real>(
     let settings = pace.settings(Integrator::Exact);
     let config = settings.build::<R>().map_err(refused)?;
     let start = settings
-        .start(NEAR.psi, [[NEAR.gain]; 2])
+        .start(&NEAR.psi, &[&[NEAR.gain][..]; 2])
         .map_err(refused)?;
-    let mut state = State::<R, 2, 1>::new(&start, 1);
+    let mut state = State::new(&start, 1);
     // A minute: sides in phase, radius one, to rounding.
     for _ in 0..MINUTE_TICKS {
-        config.step(&mut state, [R::ZERO; 2]);
+        config.step(&mut state, &[]);
     }
     let mut rows = Vec::new();
     let mut phase = Phase::default();
@@ -60,17 +59,17 @@ pub(super) fn run<R: Real>(
         let mut theta = square;
         for _ in 0..length.minutes {
             for _ in 0..MINUTE_TICKS {
-                config.step(&mut state, [R::ZERO; 2]);
+                config.step(&mut state, &[]);
                 ticks += 1;
-                let [left, right] = config.oscillators.psi(&state.oscillators);
-                let [left, right] = [left, right].map(|psi| psi.map(R::to_f64));
-                for [a, b] in [left, right] {
+                let psi = config.oscillators.psi(&state.oscillators);
+                for side in &psi {
+                    let [a, b] = side.map(R::to_f64);
                     widen(&mut square, a * a + b * b);
                 }
-                for [angle] in state.theta() {
+                for angle in state.theta() {
                     widen(&mut theta, angle.to_f64());
                 }
-                phase.see(ticks, left[0]);
+                phase.see(ticks, psi[0][0].to_f64());
             }
             done.fetch_add(1, Ordering::Relaxed);
         }

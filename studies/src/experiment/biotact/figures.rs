@@ -2,7 +2,7 @@
 //! has them: forward Euler, 2 kHz, 2 Hz, no noise, both sides started at
 //! ψ = (1, 0).
 
-use whisking::{GateSettings, Integrator, PatternGenerator, Settings, State, degrees, filter};
+use whisking::{GateSettings, Integrator, Settings, State, degrees, filter};
 
 use crate::paper::biotact::{Figure, OBSTACLES_DEG, OVERLAP_GAIN};
 use crate::refused::refused;
@@ -33,8 +33,8 @@ pub(super) fn run(figure: &Figure) -> Result<Vec<[f64; 2]>, Error> {
         cia: figure.cia.map(gate),
     };
     let config = settings.build::<f64>().map_err(refused)?;
-    let start = settings.start([[1.0, 0.0]; 2], [[figure.gain]; 2]);
-    let mut state = State::<f64, 2, 1>::new(&start.map_err(refused)?, 1);
+    let start = settings.start(&[[1.0, 0.0]; 2], &[&[figure.gain][..]; 2]);
+    let mut state = State::new(&start.map_err(refused)?, 1);
     let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ).map_err(refused)?;
     let mut filters = [filter::State::default(); 2];
     let mut angles = [50.0; 2];
@@ -47,8 +47,10 @@ pub(super) fn run(figure: &Figure) -> Result<Vec<[f64; 2]>, Error> {
                 *contact = h50.process(filter, x).abs();
             }
         }
-        config.step(&mut state, contact);
-        angles = state.theta().map(|[theta]| degrees(theta));
+        config.step(&mut state, &contact);
+        for (angle, theta) in angles.iter_mut().zip(state.theta()) {
+            *angle = degrees(theta);
+        }
         angles
     };
     Ok((0..RUN_TICKS).map(tick).collect())

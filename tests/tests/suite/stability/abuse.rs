@@ -58,17 +58,13 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
     }
 
     let [_, _, _, mut z, mut g] = module.view();
-    let nominal = module
-        .state
-        .whiskers
-        .each_ref()
-        .map(|side| side.each_ref().map(|whisker| whisker.nominal().to_f64()));
+    let nominal = [0, 1, 2, 3].map(|n| module.state.whiskers[n].nominal().to_f64());
     let kept_z = kept(&settings, settings.rcp.unwrap().tau_s);
     let kept_g = kept(&settings, settings.cia.unwrap().tau_s);
     for _ in 0..REST {
         tick(&mut module, [R::ZERO; 2]);
         let [_, _, _, found_z, found_g] = module.view();
-        for (w, nominal) in nominal.iter().flatten().enumerate() {
+        for (w, nominal) in nominal.iter().enumerate() {
             if let Some(kept) = kept_z {
                 z[w] *= kept;
                 let found = found_z[w];

@@ -4,13 +4,14 @@
 use std::fmt::Debug;
 
 use whisking::muscle::History;
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{Config, Fix, PatternGenerator, Real, Settings, Start, State, Whisker, filter};
+use whisking::{
+    Config, Fix, Number, Settings, SideStart, Start, State, WhiskerStart, WhiskerState, filter,
+};
 
 use super::axes::{Case, INPUTS, Input, NOMINAL, Random};
 
 /// The numbers of a format that come nearest to no number at all.
-pub(crate) trait Extreme: Real + Send + Sync {
+pub(crate) trait Extreme: Number + Send + Sync {
     const NOT_A_NUMBER: Self;
     const HIGHEST: Self;
     const LOWEST: Self;
@@ -46,13 +47,13 @@ impl Extreme for Fix {
 }
 
 /// The module.
-pub(crate) struct Module<R: Real> {
+pub(crate) struct Module<R: Number> {
     config: Config<R>,
-    pub(crate) state: State<R, 2, 2>,
+    pub(crate) state: State<R>,
 }
 
-impl<R: Real> Module<R> {
-    pub(crate) fn new(settings: &Settings, start: &Start<R, 2, 2>) -> Self {
+impl<R: Number> Module<R> {
+    pub(crate) fn new(settings: &Settings, start: &Start<R>) -> Self {
         Self {
             config: settings.build().unwrap(),
             state: State::new(start, 1),
@@ -61,7 +62,7 @@ impl<R: Real> Module<R> {
 
     /// One tick; fails if it leaves the bounds.
     pub(crate) fn tick(&mut self, contact: [R; 2], case: &impl Debug) {
-        self.config.step(&mut self.state, contact);
+        self.config.step(&mut self.state, &contact);
         let [psi, theta, kept, z, g] = self.view();
         let is_within = |list: &[f64], lo: f64, hi: f64| list.iter().all(|x| (lo..=hi).contains(x));
         assert!(
@@ -78,9 +79,8 @@ impl<R: Real> Module<R> {
     /// ψ, θ, v or the slow lag, z (twice) and g.
     pub(crate) fn view(&self) -> [[f64; 4]; 5] {
         let psi = self.config.oscillators.psi(&self.state.oscillators);
-        let [[a, b], [c, d]] = &self.state.whiskers;
-        let whiskers = [a, b, c, d];
-        let [l, r] = self.state.z.map(|z| z.value);
+        let whiskers = [0, 1, 2, 3].map(|n| &self.state.whiskers[n]);
+        let [l, r] = [0, 1].map(|side| self.state.sides[side].z.value);
         let numbers = [
             [psi[0][0], psi[0][1], psi[1][0], psi[1][1]],
             whiskers.map(|w| w.muscle.theta),
@@ -89,11 +89,11 @@ impl<R: Real> Module<R> {
         ]
         .map(|list: [R; 4]| list.map(R::to_f64));
         let [psi, theta, kept, z] = numbers;
-        [psi, theta, kept, z, whiskers.map(Whisker::gain)]
+        [psi, theta, kept, z, whiskers.map(WhiskerState::gain)]
     }
 
     /// The largest difference to another module's states.
-    pub(crate) fn distance<Q: Real>(&self, other: &Module<Q>) -> f64 {
+    pub(crate) fn distance<Q: Number>(&self, other: &Module<Q>) -> f64 {
         let (a, b) = (self.view(), other.view());
         let pairs = a.iter().flatten().zip(b.iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -101,26 +101,34 @@ impl<R: Real> Module<R> {
 }
 
 /// The start of `case`.
-pub(crate) fn start<R: Real>(case: Case, settings: &Settings) -> Start<R, 2, 2> {
-    settings.start(case.start(), NOMINAL).unwrap()
+pub(crate) fn start<R: Number>(case: Case, settings: &Settings) -> Start<R> {
+    let [left, right] = &NOMINAL;
+    settings.start(&case.start(), &[left, right]).unwrap()
 }
 
 /// The same start, to the last bit, in f64.
-pub(crate) fn widened<R: Real>(start: &Start<R, 2, 2>) -> Start<f64, 2, 2> {
+pub(crate) fn widened<R: Number>(start: &Start<R>) -> Start<f64> {
     Start {
-        oscillators: start.oscillators.map(|psi| psi.map(R::to_f64)),
-        drive: start.drive.map(R::to_f64),
-        gain: start.gain.map(|side| side.map(R::to_f64)),
-        history: start.history.map(|side| {
-            side.map(|history| History {
-                force: history.force.map(R::to_f64),
+        sides: (start.sides.iter())
+            .map(|side| SideStart {
+                oscillator: side.oscillator.map(R::to_f64),
+                drive: side.drive.to_f64(),
             })
-        }),
+            .collect(),
+        whiskers: (start.whiskers.iter())
+            .map(|whisker| WhiskerStart {
+                side: whisker.side,
+                gain: whisker.gain.to_f64(),
+                history: History {
+                    force: whisker.history.force.map(R::to_f64),
+                },
+            })
+            .collect(),
     }
 }
 
 /// Contact of both sides during abuse.
-pub(crate) struct Abuse<R: Real> {
+pub(crate) struct Abuse<R: Number> {
     input: Input,
     h50: filter::Config<R>,
     filters: [filter::State<R>; 2],

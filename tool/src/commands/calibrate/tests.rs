@@ -1,5 +1,6 @@
 //! Calibrating whiskers whose motor, encoder and way are known.
 
+use clap::Parser;
 use host_sim::loaded::Loaded;
 use host_sim::motor::Wire;
 use host_sim::origin::Origin;
@@ -7,7 +8,7 @@ use host_sim::run::Run;
 use wire::{TaggedCommand, WhiskerId};
 
 use super::*;
-use crate::source::{Heard, Source};
+use crate::source::{Heard, Source, SourceChoice};
 
 /// A whisker in free air; a motor is added where there is one.
 pub(in crate::commands) const SCENE: &str = r#"name = "free"
@@ -25,6 +26,12 @@ noise = 0.005
 gain = 1.0
 start = [[1.0, 0.0]]
 "#;
+
+#[derive(Parser)]
+struct Line {
+    #[command(flatten)]
+    source: SourceChoice,
+}
 
 /// A simulated module, of which a wire can be exchanged.
 struct Wired(Run);
@@ -51,8 +58,8 @@ impl Source for Wired {
         None
     }
 
-    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
-        Err(Error::Input(format!("no place for {:08x}", model.crc())))
+    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
+        Err(Error::Input(format!("no place for {what:?}")))
     }
 
     fn origin(&self) -> Origin {
@@ -66,7 +73,9 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
     let loaded = Loaded::new(&path).unwrap();
-    let tuner = Tuner::open(&path, true).unwrap();
+    let words = ["x", "--sim", path.to_str().unwrap()];
+    let Line { source } = Line::parse_from(words);
+    let tuner = Tuner::open(&path, &source).unwrap();
     let motor = tuner.scene().motor.as_ref().unwrap();
     let mut run = Run::new(&loaded.scene, None).unwrap();
     if let Some(wire) = wire {

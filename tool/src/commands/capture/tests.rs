@@ -85,8 +85,8 @@ impl Source for Bad {
         self.module.duration_s()
     }
 
-    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
-        self.module.deploy(model)
+    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
+        self.module.deploy(what)
     }
 
     fn origin(&self) -> Origin {

@@ -45,8 +45,8 @@ impl Source for Spoilt {
         None
     }
 
-    fn deploy(&mut self, model: &tactile::ModelBuf) -> Result<(), Error> {
-        self.module.deploy(model)
+    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
+        self.module.deploy(what)
     }
 
     fn origin(&self) -> Origin {

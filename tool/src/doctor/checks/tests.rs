@@ -11,6 +11,7 @@ fn probe() -> SeenProbe {
         serial: "066DFF".to_owned(),
         may_open: true,
         chip: Ok(0x421),
+        module: None,
     }
 }
 

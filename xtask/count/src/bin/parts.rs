@@ -2,45 +2,46 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Three;
-use count::format::in_memory;
+use count::format::{Oscillators, oscillators, parts};
 use count::samples::{drives, number};
-use whisking::gate::Gate;
-use whisking::muscle::MuscleIntegrator;
-use whisking::oscillator::OscillatorIntegrator;
-use whisking::{filter, muscle, oscillator, pd};
+use whisking::gate::{Cia, Gate, Rcp};
+use whisking::{filter, muscle, pd};
 
-count::program!(R,
+type Gates<'c, R> = (&'c Rcp<R>, &'c Cia<R>, Gate<R>, Gate<R>, R);
+
+count::program!(R, parts = parts::<R>(R::PAIR),
     ("h50",
-        (x: R, state: &mut filter::State<R>) -> R { in_memory(R::H50).process(state, x) },
-        number::<R>(-1.0, 1.0), filter::State::default()),
+        (x: R, (h50, state): &mut (&filter::Config<R>, filter::State<R>)) -> R {
+            h50.process(state, x)
+        },
+        number::<R>(-1.0, 1.0), (&parts.h50, filter::State::default())),
     ("gates z and g",
-        (contact: R, (z, lift, nominal): &mut (Gate<R>, Gate<R>, R)) {
-            in_memory(R::RCP).step(z, contact);
-            in_memory(R::CIA).step(lift, *nominal, contact);
+        (contact: R, (rcp, cia, z, lift, nominal): &mut Gates<R>) {
+            rcp.step(z, contact);
+            cia.step(lift, *nominal, contact);
         },
-        number::<R>(0.0, 1.0), (Gate::default(), Gate::default(), R::ONE)),
+        number::<R>(0.0, 1.0),
+        (
+            parts.motion.whisking.rcp.as_ref().expect("RCP"),
+            parts.motion.whisking.cia.as_ref().expect("CIA"),
+            Gate::default(), Gate::default(), R::ONE,
+        )),
     ("muscle",
-        (at: Three<R>, state: &mut muscle::State<R>) {
+        (at: Three<R>, (config, state): &mut (&muscle::Config<R>, muscle::State<R>)) {
             let Three(gain, before, after) = at;
-            in_memory(R::MUSCLE).step(state, gain, before, after);
+            config.step(state, gain, before, after);
         },
-        drives::<R>(), muscle::State::default()),
-    ("oscillator of 1 side",
-        (_: u32, (state, drive): &mut (oscillator::State<R, 1>, [R; 1])) {
-            in_memory(R::OSCILLATORS).step(state, None);
-            *drive = in_memory(R::OSCILLATORS).drives(state);
-        },
-        |call| call, (oscillator::State::new(R::START_1.oscillators), [R::ZERO; 1])),
+        drives::<R>(), (&parts.motion.whisking.muscle, muscle::State::default())),
     ("oscillators of 2 sides",
-        (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
-            in_memory(R::OSCILLATORS).step(state, None);
-            *drive = in_memory(R::OSCILLATORS).drives(state);
+        (_: u32, (config, state, drive): &mut Oscillators<R>) {
+            config.step(state, None);
+            *drive = config.drives(state);
         },
-        |call| call, (oscillator::State::new(R::START_2.oscillators), [R::ZERO; 2])),
+        |call| call, oscillators(&parts)),
     ("pd",
-        (setpoint: R, (state, counts): &mut (pd::State<R>, i32)) -> i16 {
+        (setpoint: R, (config, state, counts): &mut (&pd::Config<R>, pd::State<R>, i32)) -> i16 {
             *counts += 1;
-            in_memory(R::PD).step(state, setpoint, *counts, 1).q15()
+            config.step(state, setpoint, *counts, 1).q15()
         },
-        number::<R>(-0.4, 1.2), (pd::State::default(), 0)),
+        number::<R>(-0.4, 1.2), (&parts.motion.servo.pd, pd::State::default(), 0)),
 );

@@ -2,22 +2,21 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Three;
-use count::format::in_memory;
+use count::format::{Oscillators, oscillators, parts};
 use count::samples::drives;
-use whisking::muscle::{self, MuscleIntegrator};
-use whisking::oscillator::{self, OscillatorIntegrator};
+use whisking::muscle;
 
-count::program!(R,
+count::program!(R, parts = parts::<R>(R::EULER),
     ("muscle (euler)",
-        (at: Three<R>, state: &mut muscle::State<R>) {
+        (at: Three<R>, (config, state): &mut (&muscle::Config<R>, muscle::State<R>)) {
             let Three(gain, before, after) = at;
-            in_memory(R::EULER_MUSCLE).step(state, gain, before, after);
+            config.step(state, gain, before, after);
         },
-        drives::<R>(), muscle::State::default()),
+        drives::<R>(), (&parts.motion.whisking.muscle, muscle::State::default())),
     ("oscillators of 2 sides (euler)",
-        (_: u32, (state, drive): &mut (oscillator::State<R, 2>, [R; 2])) {
-            in_memory(R::EULER_OSCILLATORS).step(state, None);
-            *drive = in_memory(R::EULER_OSCILLATORS).drives(state);
+        (_: u32, (config, state, drive): &mut Oscillators<R>) {
+            config.step(state, None);
+            *drive = config.drives(state);
         },
-        |call| call, (oscillator::State::new(R::EULER_START.oscillators), [R::ZERO; 2])),
+        |call| call, oscillators(&parts)),
 );

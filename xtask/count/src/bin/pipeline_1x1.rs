@@ -1,12 +1,13 @@
 //! What a tick of one side and one whisker computes.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use count::format::{Parts, parts};
 use count::pipeline::Pipeline;
 
-count::program!(R,
+count::program!(R, parts = parts(R::LONE),
     ("computation of 1 whisker",
-        (call: u32, pipeline: &mut Pipeline<R, 1, 1>) -> u32 {
-            pipeline.tick(call)
+        (call: u32, (parts, pipeline): &mut (&Parts<R>, Pipeline<R>)) -> u32 {
+            pipeline.tick(parts, call)
         },
-        |call| call, Pipeline::new(&R::START_1)),
+        |call| call, (&parts, Pipeline::new(&parts))),
 );

@@ -2,10 +2,13 @@
 //! machine's memory does not hold that.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-count::program!(#[cfg(not(machine = "microbit"))] R,
+count::program!(#[cfg(not(machine = "microbit"))] R, parts = count::format::parts(R::HEAD),
     ("computation of 24 whiskers",
-        (call: u32, pipeline: &mut count::pipeline::Pipeline<R, 2, 12>) -> u32 {
-            pipeline.tick_apart(call)
+        (call: u32, (parts, pipeline): &mut (
+            &count::format::Parts<R>,
+            count::pipeline::Pipeline<R>,
+        )) -> u32 {
+            pipeline.tick(parts, call)
         },
-        |call| call, count::pipeline::Pipeline::new(&R::START_24)),
+        |call| call, (&parts, count::pipeline::Pipeline::new(&parts))),
 );

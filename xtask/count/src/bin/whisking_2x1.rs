@@ -2,14 +2,14 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use count::arguments::Two;
-use count::format::in_memory;
+use count::format::parts;
 use count::samples::pair;
-use whisking::{PatternGenerator, State};
+use whisking::{Config, State};
 
-count::program!(R,
+count::program!(R, parts = parts::<R>(R::PAIR),
     ("whisking 2 sides 1 whisker",
-        (contact: Two<R>, state: &mut State<R, 2, 1>) {
-            in_memory(R::WHISKING).step(state, [contact.0, contact.1]);
+        (contact: Two<R>, (config, state): &mut (&Config<R>, State<R>)) {
+            config.step(state, &[contact.0, contact.1]);
         },
-        pair::<R>(0.0, 1.0), State::new(&R::START_2, 1)),
+        pair::<R>(0.0, 1.0), (&parts.motion.whisking, State::new(&parts.motion.start, 1))),
 );

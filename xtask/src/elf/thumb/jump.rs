@@ -15,6 +15,8 @@ pub(super) enum Jump {
     Halves,
     /// To an address.
     Words,
+    /// To one of the branches that follow it, whose own addresses are read.
+    Branches,
     /// Who knows where to.
     Unknown,
 }
@@ -48,15 +50,16 @@ impl Jump {
         let forward = |entry: u64| is_within(address + 4 + 2 * entry);
         let halves = table.as_chunks::<2>().0.iter();
         let words = table.as_chunks::<4>().0.iter();
-        !table.is_empty()
-            && match self {
-                Self::Bytes => table.iter().all(|byte| forward((*byte).into())),
-                Self::Halves => halves.map(|h| u16::from_le_bytes(*h).into()).all(forward),
-                Self::Unknown => false,
-                Self::Words => words
-                    .map(|word| u64::from(u32::from_le_bytes(*word) & !1))
-                    .all(is_within),
-            }
+        matches!(self, Self::Branches)
+            || !table.is_empty()
+                && match self {
+                    Self::Bytes => table.iter().all(|byte| forward((*byte).into())),
+                    Self::Halves => halves.map(|h| u16::from_le_bytes(*h).into()).all(forward),
+                    Self::Unknown | Self::Branches => false,
+                    Self::Words => words
+                        .map(|word| u64::from(u32::from_le_bytes(*word) & !1))
+                        .all(is_within),
+                }
     }
 }
 

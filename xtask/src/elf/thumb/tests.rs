@@ -41,6 +41,29 @@ fn a_large_frame_is_read_from_its_constant() {
 }
 
 #[test]
+fn a_call_by_a_constant_is_a_call_of_that_function() {
+    const LOAD: u16 = 0x4C01; // ldr r4, [pc, #4]
+    const CALL: u16 = 0x47A0; // blx r4
+    let open = Step::Open;
+    let called = Step::Go(0x0800_0122);
+    let cases: [(u16, u16, u8, Step); 7] = [
+        (LOAD, 0x2001, 0x23, called),   // movs r0, #1
+        (LOAD, 0x6020, 0x23, called),   // str r0, [r4]
+        (0x4801, 0x4604, 0x23, called), // ldr r0, [pc, #4]; mov r4, r0
+        (LOAD, 0x4604, 0x23, open),     // mov r4, r0
+        (LOAD, 0x6804, 0x23, open),     // ldr r4, [r0]
+        (0x4D01, 0x2001, 0x23, open),   // ldr r5, [pc, #4]
+        (LOAD, 0x2001, 0x22, open),     // no address of code
+    ];
+    for (load, between, low, expected) in cases {
+        let code = [load, between, CALL, 0xBF00].map(u16::to_le_bytes);
+        let bytes = [code.as_flattened(), &[low, 0x01, 0x00, 0x08]].concat();
+        let found = steps(&bytes, 0x0800_0000, |at| at < 0x0800_0008);
+        assert_eq!(found, [expected], "{load:04x} {between:04x}");
+    }
+}
+
+#[test]
 fn where_branches_go_is_read() {
     let cases: [(&[u16], u64); 8] = [
         (&[0xF000, 0xF801], 0x0800_0006), // bl +2
@@ -126,6 +149,20 @@ fn a_jump_by_a_table_stays_or_is_open() {
         let found = steps(&bytes, 0x0800_0000, |at| !data.contains(&at));
         assert_eq!(found.is_empty(), stays, "{bytes:02x?}: {found:?}");
     }
+}
+
+#[test]
+fn a_jump_to_one_of_the_branches_behind_it_goes_where_they_go() {
+    // adr.w r4, #8; add.w r4, r4, r0, lsl #2; mov pc, r4; b.w .; b.w +0x1fc.
+    let code = [
+        0xF20F, 0x0408, 0xEB04, 0x0480, 0x46A7, 0xF7FF, 0xBFFE, 0xF000, 0xB8FE,
+    ];
+    let bytes: Vec<u8> = code
+        .iter()
+        .flat_map(|half: &u16| half.to_le_bytes())
+        .collect();
+    let found = steps(&bytes, 0x0800_0000, |_| true);
+    assert_eq!(found, [0x0800_000A, 0x0800_020E].map(Step::Go));
 }
 
 #[test]

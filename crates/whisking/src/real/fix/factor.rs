@@ -1,6 +1,9 @@
 //! The fixed-point format and its factors.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::product::{by_half, high};
+use crate::real::row::array;
 
 /// Bits after the binary point.
 pub(super) const FRACTION: u32 = 28;
@@ -9,8 +12,7 @@ pub(super) const SATURATED: i32 = 4 << FRACTION;
 
 /// A factor with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
 /// 3.1e-5 of its value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Factor {
     /// Magnitude 2^14 to 2^15 − 1, or zero.
     pub mantissa: i16,
@@ -19,8 +21,7 @@ pub struct Factor {
 }
 
 /// A factor below one: `mantissa` · 2^-(32 + `shift`), within 5e-10 of its value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FineFactor {
     /// Magnitude 2^30 to 2^31 − 1, or zero.
     pub mantissa: i32,
@@ -29,10 +30,10 @@ pub struct FineFactor {
 }
 
 /// Factors below one with a common scale: `mantissas` · 2^-(16 + `shift`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "bake", derive(databake::Bake), databake(path = whisking))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Factors<const K: usize> {
     /// Magnitude of the largest 2^14 to 2^15 − 1, or all zero.
+    #[serde(with = "array")]
     pub mantissas: [i16; K],
     /// −1 to 30.
     pub shift: i32,

@@ -1,0 +1,121 @@
+//! What a board cannot do, in the words of the scene's keys.
+
+use firmware::boards::{self, BoardFacts};
+use scene::{Rule, Scene, SensorMode, SensorModel};
+use tactile::ModelBuf;
+
+use crate::{Mismatch, NoSuchFormat};
+
+/// Largest exponent of a model's scale that still lets 14-bit codes fit it.
+const MAX_EXPONENT: i16 = 17;
+
+/// Why a scene does not run on a board.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Unfit {
+    /// The board has less than the scene asks for; the text names key, found and allowed.
+    #[error("{0}")]
+    Board(String),
+    /// The scene's model is not one for a board.
+    #[error("classifier.model: {0}")]
+    Model(String),
+    /// The board does not compute in this number format.
+    #[error(transparent)]
+    Format(#[from] NoSuchFormat),
+    /// The scene is wrong whatever the board.
+    #[error(transparent)]
+    Scene(#[from] Mismatch),
+}
+
+/// Whether a board can run a scene that decides by `model`.
+pub(crate) fn fits(
+    scene: &Scene,
+    model: Option<&ModelBuf>,
+    board: &BoardFacts,
+) -> Result<(), Unfit> {
+    if scene.sensor.model != SensorModel::Mlx90333 {
+        return Err(Unfit::Board(format!(
+            "sensor.model: found \"{}\"; allowed on the {}: \"mlx90333\", because no board's \
+             program reads the other yet",
+            scene.sensor.model, board.name
+        )));
+    }
+    let needs = needs(scene);
+    if let Err(misfit) = board.fits(&needs) {
+        let (key, found) = found(misfit, scene);
+        return Err(Unfit::Board(format!(
+            "{key}: found {found}; allowed on the {}: {misfit}",
+            board.name
+        )));
+    }
+    model.map_or(Ok(()), |model| model_fits(scene, model, board))
+}
+
+/// What a scene needs of a board.
+fn needs(scene: &Scene) -> boards::Needs {
+    boards::Needs {
+        tick_hz: scene.tick_hz,
+        is_slow: scene.sensor.mode == SensorMode::Slow,
+        sides: scene.head.sides.count() as u8,
+        whiskers_per_side: scene.head.whiskers_per_side as u8,
+        driver: scene.motor.as_ref().map(|motor| motor.driver),
+        serial_baud: scene.telemetry.serial_baud,
+    }
+}
+
+/// The key that a board refuses, and its value.
+fn found(misfit: boards::Misfit, scene: &Scene) -> (&'static str, String) {
+    match misfit {
+        boards::Misfit::Sides(_) => ("head.sides", "\"both\"".to_owned()),
+        boards::Misfit::Whiskers => {
+            let found = scene.head.whiskers_per_side.to_string();
+            ("head.whiskers_per_side", found)
+        }
+        boards::Misfit::TwoBrushless => ("motor.driver", "\"six-step\" on two sides".to_owned()),
+        boards::Misfit::TickHz { .. } => ("tick_hz", scene.tick_hz.to_string()),
+        boards::Misfit::BaudOfClock { .. } | boards::Misfit::BaudOfTicks { .. } => {
+            let baud = scene.telemetry.serial_baud.unwrap_or_default();
+            ("telemetry.serial_baud", baud.to_string())
+        }
+    }
+}
+
+fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(), Unfit> {
+    let Some(classifier) = &scene.classifier else {
+        return Ok(());
+    };
+    let takes_codes = |channel| {
+        model
+            .quantiser(channel)
+            .is_some_and(|q| q.takes_raw() && q.exponent <= MAX_EXPONENT.into())
+    };
+    if model.channels() != 2 || !takes_codes(0) || !takes_codes(1) {
+        let reason = "it was not trained on sensor codes of x and y";
+        return Err(Unfit::Model(reason.to_owned()));
+    }
+    if let Rule::Window { samples } = classifier.rule
+        && !samples.is_multiple_of(model.block())
+    {
+        return Err(Unfit::Board(format!(
+            "classifier.window: found {samples}; allowed: a multiple of the model's block of {}",
+            model.block()
+        )));
+    }
+    let (found, most) = (model.classes(), board.max_classes);
+    if found > most {
+        return Err(Unfit::Model(format!(
+            "found {found} classes; allowed on the {}: 2 to {most}",
+            board.name
+        )));
+    }
+    let (bytes, room) = (
+        model.as_bytes().len(),
+        board.flash.slots[0].model.bytes as usize,
+    );
+    if bytes > room {
+        return Err(Unfit::Model(format!(
+            "found {bytes} bytes; allowed on the {}: up to {room}",
+            board.name
+        )));
+    }
+    Ok(())
+}

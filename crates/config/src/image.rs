@@ -1,0 +1,131 @@
+//! What a board runs by: a configuration in its number format, and its model.
+
+use firmware::boards::BoardFacts;
+use firmware::{Config, ConfigBytes, Driver, Part, encode};
+use scene::Scene;
+use tactile::{Deciding, ModelBuf, RuleSettings};
+use whisking::{Fix, FormatCode, Real, oscillator};
+
+use crate::fits::{Unfit, fits};
+use crate::{NumberFormat, RunsOn, Target, build, on_board};
+
+/// A configuration in whichever number format.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyConfig {
+    /// `f32`.
+    Single(Box<Config<f32>>),
+    /// [`Fix`].
+    Fixed(Box<Config<Fix>>),
+}
+
+/// What is written into a board's flash besides its program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// The configuration.
+    pub config: AnyConfig,
+    /// The same as bytes, with its header.
+    pub bytes: ConfigBytes,
+    /// The features of the crate `firmware` by which a program has what it needs, and no more.
+    pub features: Vec<&'static str>,
+}
+
+/// The parts that a program needs for a configuration.
+fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
+    let links = &config.links;
+    let is_linked = links.has_rtt || links.serial_baud.is_some();
+    let is_tuned = config.motion.is_some() || config.classifier.is_some();
+    let mut parts = vec![
+        (is_linked && is_tuned, Part::Set),
+        // Whoever classifies wants to try other models.
+        (is_linked && config.classifier.is_some(), Part::Deploy),
+        (links.has_rtt, Part::Rtt),
+        (links.serial_baud.is_some(), Part::Serial),
+        (links.has_pins, Part::Pins),
+        (config.contact.is_some(), Part::Contact),
+        (config.sensor.limits.zero.is_some(), Part::Zero),
+    ];
+    if let Some(motion) = &config.motion {
+        let whisking = &motion.whisking;
+        let is_euler = matches!(whisking.oscillators, oscillator::Config::Euler(_));
+        let is_brushed = motion.driver == Driver::HBridge;
+        parts.extend([
+            (true, Part::Motion),
+            (is_euler, Part::Euler),
+            (!is_euler, Part::Exact),
+            (whisking.rcp.is_some(), Part::Rcp),
+            (whisking.cia.is_some(), Part::Cia),
+            (whisking.noise.is_some(), Part::Noise),
+            (is_brushed, Part::HBridge),
+            (!is_brushed, Part::SixStep),
+            (motion.servo.homing.is_some(), Part::Homing),
+        ]);
+    }
+    if let Some(classifier) = &config.classifier {
+        let is_window = matches!(classifier.rule, Some(RuleSettings::Window(_)));
+        parts.extend([
+            (true, Part::Classifier),
+            (is_window, Part::Window),
+            (!is_window, Part::Sequential),
+            (classifier.deciding != Deciding::First, Part::Several),
+        ]);
+    }
+    let needed = parts.into_iter().filter(|(is_needed, _)| *is_needed);
+    needed.map(|(_, part)| part).collect()
+}
+
+/// The features of a program for a configuration whose model is this one, or any.
+fn features<R: Real>(
+    config: &Config<R>,
+    model: Option<&ModelBuf>,
+    board: &BoardFacts,
+) -> Vec<&'static str> {
+    let mut features: Vec<_> = parts(config).into_iter().map(Part::feature).collect();
+    let may_be_joint = model.is_none_or(|model| model.view().is_joint());
+    if config.classifier.is_some() && may_be_joint {
+        features.push("joint");
+    }
+    if config.head.sides > 1 {
+        features.push("both-sides");
+    }
+    if board.has_fpu && R::FORMAT == FormatCode::Fixed {
+        features.push("fixed");
+    }
+    features
+}
+
+/// What `board` runs by for `scene`, whose classifier decides by `model`; `overrides` are the
+/// keys that differ from the scene's file.
+///
+/// # Errors
+/// Why the scene does not fit the board.
+pub fn image(
+    scene: &Scene,
+    model: Option<&ModelBuf>,
+    board: &BoardFacts,
+    overrides: &str,
+) -> Result<Image, Unfit> {
+    fits(scene, model, board)?;
+    let target = Target {
+        runs_on: RunsOn::Board,
+        gate: model.and_then(|model| model.touch_rule().map(|touch| touch.gate)),
+        overrides,
+    };
+    let format = on_board(scene, board.name, board.has_fpu)?;
+    let (config, bytes, features) = if format == NumberFormat::Fixed {
+        let config = build::<Fix>(scene, target)?;
+        let bytes = encode(&config, board.code);
+        let features = features(&config, model, board);
+        (AnyConfig::Fixed(Box::new(config)), bytes, features)
+    } else {
+        let config = build::<f32>(scene, target)?;
+        let bytes = encode(&config, board.code);
+        let features = features(&config, model, board);
+        (AnyConfig::Single(Box::new(config)), bytes, features)
+    };
+    let bytes = bytes.map_err(crate::Mismatch::Config)?;
+    Ok(Image {
+        config,
+        bytes,
+        features,
+    })
+}

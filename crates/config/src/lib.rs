@@ -1,0 +1,240 @@
+//! From a scene to the configuration of its module.
+//!
+//! One place for all who need one: the simulator when a run is built, `cargo xtask firmware` for
+//! what is linked into an image, `whisker deploy` and `whisker set` for what is sent to a board.
+//! So all of them run by the same numbers.
+
+mod fits;
+mod image;
+mod module;
+mod numbers;
+mod stability;
+
+pub use fits::Unfit;
+pub use image::{AnyConfig, Image, image};
+pub use module::{GATE, RunsOn, Target, build};
+pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
+pub use stability::{Instability, Unstable};
+
+use scene::Scene;
+use whisking::{Error, Real, filter};
+
+/// What is wrong with a scene for its module.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Mismatch {
+    /// The scene has another number of sides or whiskers.
+    #[error("the scene has another number of sides or whiskers")]
+    Shape,
+    /// A value is out of range; a checked scene has none.
+    #[error(transparent)]
+    Value(#[from] Error),
+    /// Its integrator, forward Euler, cannot carry it.
+    #[error("{0}")]
+    Unstable(Unstable),
+    /// Its classifier listens from another contact on than its model was trained from.
+    #[error(
+        "classifier.contact_min: found {found}; allowed: {gate}, from which the model was trained, \
+         or nothing"
+    )]
+    Gate {
+        /// The scene's contact π.
+        found: f64,
+        /// The model's.
+        gate: f32,
+    },
+    /// No rule can decide by it.
+    #[error("classifier.threshold: found {found}; {fault}")]
+    Threshold {
+        /// The scene's threshold.
+        found: f64,
+        /// What is wrong with it.
+        fault: tactile::SetupError,
+    },
+    /// The module has no room for it.
+    #[error("{0}")]
+    Config(#[from] firmware::ConfigError),
+}
+
+/// The pattern generator's settings; `None` for a passive scene.
+pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
+    let whisking = scene.whisking.as_ref()?;
+    Some(whisking::Settings {
+        tick_hz: f64::from(scene.tick_hz),
+        frequency_hz: whisking.frequency_hz,
+        integrator: whisking.integrator,
+        coupling: whisking.coupling,
+        noise: whisking.noise,
+        rcp: scene.rcp,
+        cia: scene.cia,
+    })
+}
+
+/// Whether the scene's integrator can carry it: `exact` can carry any scene,
+/// forward Euler none whose muscles swing up. [`build`] checks it too.
+///
+/// # Errors
+/// [`Mismatch::Unstable`].
+pub fn check(scene: &Scene) -> Result<(), Mismatch> {
+    let Some(settings) = settings(scene) else {
+        return Ok(());
+    };
+    match stability::check(&settings, true)? {
+        None => Ok(()),
+        Some(unstable) => Err(Mismatch::Unstable(unstable)),
+    }
+}
+
+/// What forward Euler carries badly in a scene that it can carry: oscillators
+/// and gates that live by their clamps. For a word to the user.
+pub fn cautions(scene: &Scene) -> Option<Unstable> {
+    stability::check(&settings(scene)?, false).ok()?
+}
+
+/// The contact below which the classifier of a scene does not listen: that of its model,
+/// `gate`, or the scene's. None: it always listens.
+///
+/// # Errors
+/// [`Mismatch::Gate`] if both have one and not the same: the model's weights and floors
+/// hold for what it was trained on.
+pub fn contact_min(scene: &Scene, gate: Option<f32>) -> Result<Option<f64>, Mismatch> {
+    let classifier = scene.classifier.as_ref();
+    let found = classifier.and_then(|classifier| classifier.contact_min);
+    match (found, gate) {
+        (Some(found), Some(gate)) if found as f32 != gate => Err(Mismatch::Gate { found, gate }),
+        (found, gate) => Ok(found.or(gate.map(f64::from))),
+    }
+}
+
+/// H50 for the contact signals, where the scene has something that uses them:
+/// RCP, CIA, zeros that are found in silences, or a classifier that `listens` only during
+/// contact, or whose model is deployed later and may have it listen so.
+///
+/// # Errors
+/// [`Mismatch::Value`] for a tick rate that leaves no room for 50 Hz.
+pub fn contact<R: Real>(
+    scene: &Scene,
+    listens: bool,
+) -> Result<Option<filter::Config<R>>, Mismatch> {
+    let listens = listens || scene.awaits_model() || scene.sensor.zero_after_s.is_some();
+    if scene.rcp.is_none() && scene.cia.is_none() && !listens {
+        return Ok(None);
+    }
+    Ok(Some(filter::Config::new(
+        filter::CORNER_HZ,
+        f64::from(scene.tick_hz),
+    )?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RunsOn, Target, build, contact, contact_min};
+    use firmware::{Config, MotionConfig};
+    use scene::Scene;
+    use whisking::State;
+
+    const BOARD: Target<'static> = Target {
+        runs_on: RunsOn::Board,
+        gate: None,
+        overrides: "",
+    };
+
+    fn motion(scene: &Scene) -> MotionConfig<f64> {
+        build::<f64>(scene, BOARD).unwrap().motion.unwrap()
+    }
+
+    const SCENE: &str = r#"
+name = "rcp7"
+tick_hz = 2000
+duration_s = 6.0
+seed = 1
+[head]
+whiskers_per_side = 2
+[whisking]
+frequency_hz = 2.0
+integrator = "exact"
+coupling = true
+noise = 0.0
+gain = [0.5, 1.0, 1.5, 2.0]
+start = [[1.0, 0.0], [0.6, 0.5]]
+[rcp]
+gain = 0.7
+tau_s = 0.125
+[plant]
+kind = "ideal"
+"#;
+
+    #[test]
+    fn every_value_reaches_its_place_left_side_first() {
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let motion = motion(&scene);
+        let whiskers = motion.start.whiskers.iter();
+        assert!(whiskers.map(|whisker| (whisker.side, whisker.gain)).eq([
+            (0, 0.5),
+            (0, 1.0),
+            (1, 1.5),
+            (1, 2.0)
+        ]));
+        let psi = State::new(&motion.start, 0).oscillators;
+        let psi = motion.whisking.oscillators.psi(&psi);
+        for (found, said) in psi.iter().flatten().zip([1.0, 0.0, 0.6, 0.5]) {
+            assert!((found - said).abs() < 1e-12);
+        }
+        let rcp = motion.whisking.rcp.unwrap();
+        assert!((1.0 - rcp.decay.tick - (-1.0_f64 / 250.0).exp()).abs() < 1e-15);
+        assert_eq!(rcp.gain, 0.7);
+        assert!(motion.whisking.cia.is_none() && motion.whisking.noise.is_none());
+        // 512 counts a turn of the motor and a gear of 11: 0.0639 degrees a count.
+        let counts_to_90_deg = 512.0 * 11.0 / 4.0;
+        let theta = motion.servo.pd.theta_per_count * counts_to_90_deg;
+        assert!((theta - 0.9).abs() < 1e-12);
+        assert!(contact::<f64>(&scene, false).unwrap().is_some());
+    }
+
+    #[test]
+    fn guards_are_in_counts_of_the_encoder() {
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let guards = motion(&scene).servo.guards;
+        let hard = guards.stall.threshold.q15();
+        assert_eq!(hard, 16_384, "half of a full duty");
+        // 40 degrees; 30 - 20 and 160 + 20 from a rest of 50; 15,000 degrees in 2000 ticks.
+        assert_eq!((guards.error, guards.error_ticks), (0.4, 80));
+        assert_eq!(guards.travel, [-625, 2034]);
+        assert_eq!((guards.speed, guards.against), (118, 704));
+        // 0.4 squared, and 8.2 s.
+        assert!((f64::from(guards.heat) / f64::from(1 << 30) - 0.16).abs() < 1e-4);
+        assert_eq!(guards.heat_shift, 14);
+        // 0.12, and three counts of 0.0639 degrees at 0.05 a degree.
+        assert_eq!((guards.unmoved, guards.unmoved_ticks), (4246, 40));
+    }
+
+    #[test]
+    fn scene_and_model_have_one_gate() {
+        let scene = |contact_min: &str| {
+            let classifier = format!(
+                "[classifier]\nrule = \"window\"\nmodel = \"m\"\nwindow = 20\n{contact_min}"
+            );
+            Scene::from_str("s.toml", &format!("{SCENE}{classifier}")).unwrap()
+        };
+        let (says, silent) = (scene("contact_min = 0.05"), scene(""));
+        assert_eq!(contact_min(&says, None), Ok(Some(0.05)));
+        assert_eq!(contact_min(&says, Some(0.05)), Ok(Some(0.05)));
+        assert_eq!(contact_min(&silent, Some(0.25)), Ok(Some(0.25)));
+        assert_eq!(contact_min(&silent, None), Ok(None));
+        let refused = contact_min(&says, Some(0.25)).unwrap_err().to_string();
+        assert!(refused.contains("found 0.05; allowed: 0.25"), "{refused}");
+        // A scene that is only scored has a classifier all the same.
+        let without = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        assert_eq!(contact_min(&without, Some(0.25)), Ok(Some(0.25)));
+    }
+
+    #[test]
+    fn what_a_scene_leaves_out_is_none() {
+        let passive = "name=\"p\"\ntick_hz=2000\nduration_s=1\nseed=1\n\
+            [head]\nwhiskers_per_side=1\n[plant]\nkind=\"ideal\"\n";
+        let scene = Scene::from_str("p.toml", passive).unwrap();
+        let config: Config<f32> = build(&scene, BOARD).unwrap();
+        assert!(config.motion.is_none() && config.contact.is_none());
+        assert!(config.classifier.is_none());
+        assert_eq!(config.check(), Ok(()));
+    }
+}

@@ -1,0 +1,218 @@
+//! The configuration of a module, in one number format.
+
+use firmware::design_parameters::{Plausible, retry, sensor_limits, zero_limits};
+use firmware::{
+    ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
+    SensorLimits, ServoConfig,
+};
+use scene::{Arm, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
+use tactile::{RuleSettings, Threshold};
+use whisking::motor::{GuardSettings, HomingSettings};
+use whisking::{Real, filter, pd};
+
+use crate::{Mismatch, check, contact, contact_min, settings};
+
+/// Contact from which a sample counts in a recording, unless the scene says otherwise.
+pub const GATE: f64 = 0.05;
+
+/// Where a module runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RunsOn {
+    /// In a simulation, whose plant `ideal` has nothing that guards could guard. It may record
+    /// for a model that is yet to be made.
+    Simulation {
+        /// Whether it records.
+        records: bool,
+    },
+    /// On a board, real or emulated.
+    Board,
+}
+
+/// For what a configuration is built.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target<'t> {
+    /// Where it runs.
+    pub runs_on: RunsOn,
+    /// The contact from which its model was trained, if that has one.
+    pub gate: Option<f32>,
+    /// The keys that differ from the scene's file, `KEY=VALUE` with spaces between.
+    pub overrides: &'t str,
+}
+
+/// The configuration of a scene's module.
+///
+/// # Errors
+/// What is wrong with the scene for it.
+pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mismatch> {
+    let (runs_on, gate) = (target.runs_on, target.gate);
+    let contact_min = contact_min(scene, gate)?;
+    let is_simulated = runs_on != RunsOn::Board;
+    let is_ideal = is_simulated && scene.plant.kind == PlantKind::Ideal;
+    let has_obstacle = scene.plant.obstacle.is_some();
+    let records = runs_on == RunsOn::Simulation { records: true };
+    // A recording has the touches that a model of it will know.
+    let contact_min = contact_min.or((records && has_obstacle).then_some(GATE));
+    let contact = match contact(scene, contact_min.is_some())? {
+        // The trace shows contact wherever there is something to touch.
+        None if is_simulated && has_obstacle => Some(filter::Config::new(
+            filter::CORNER_HZ,
+            f64::from(scene.tick_hz),
+        )?),
+        contact => contact,
+    };
+    let classifier = scene.classifier.as_ref();
+    let rule = classifier.filter(|_| !records);
+    let rule = rule.map(|classifier| rule_settings(classifier.rule));
+    // A simulation shows touches whether anything is decided or not.
+    let listens = is_simulated || classifier.is_some();
+    Ok(Config {
+        head: head(scene, target.overrides)?,
+        sensor: SensingConfig {
+            is_slow: scene.sensor.mode == SensorMode::Slow,
+            limits: sensor(scene, is_ideal),
+        },
+        contact,
+        motion: motion(scene, is_ideal)?,
+        classifier: listens
+            .then(|| -> Result<_, Mismatch> {
+                Ok(ClassifierConfig {
+                    rule: rule.transpose()?,
+                    deciding: classifier.map_or(Deciding::First, |classifier| classifier.whiskers),
+                    contact_min: contact_min.map(R::from_f64),
+                })
+            })
+            .transpose()?,
+        links: Links {
+            has_rtt: scene.telemetry.rtt,
+            serial_baud: scene.telemetry.serial_baud,
+            has_pins: scene.telemetry.pins,
+        },
+    })
+}
+
+fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
+    let too_long = |field| move |_| Mismatch::Config(ConfigError::Room(field));
+    Ok(HeadConfig {
+        name: heapless::String::try_from(scene.name.as_str()).map_err(too_long(Field::Name))?,
+        overrides: heapless::String::try_from(overrides).map_err(too_long(Field::Name))?,
+        tick_hz: scene.tick_hz,
+        sides: scene.head.sides.count() as u8,
+        whiskers_per_side: scene.head.whiskers_per_side as u8,
+    })
+}
+
+/// What is tolerated of a scene's sensors.
+fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
+    let sensor = &scene.sensor;
+    let plausible = Plausible {
+        frozen_s: sensor.frozen_s,
+        // By BIOTACT eq. 11 contact with a stiff obstacle is a step.
+        jump_per_s: if is_ideal {
+            f64::INFINITY
+        } else {
+            sensor.jump_per_s
+        },
+    };
+    SensorLimits {
+        zero: sensor
+            .zero_after_s
+            .map(|after_s| zero_limits(scene.tick_hz, after_s, sensor.zero_calm, sensor.zero_most)),
+        ..sensor_limits(scene.tick_hz, plausible)
+    }
+}
+
+/// The settings of a scene's rule.
+///
+/// # Errors
+/// [`Mismatch::Threshold`] for one that is too near to 1.
+pub(crate) fn rule_settings(rule: Rule) -> Result<RuleSettings, Mismatch> {
+    Ok(match rule {
+        Rule::Sequential { threshold } => {
+            let made = Threshold::new(threshold).map_err(|fault| Mismatch::Threshold {
+                found: threshold,
+                fault,
+            })?;
+            RuleSettings::Sequential(made)
+        }
+        Rule::Window { samples } => RuleSettings::Window(samples),
+    })
+}
+
+/// How the whiskers of a scene move; `None`: they are passive.
+fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<R>>, Mismatch> {
+    let (Some(settings), Some(whisking), Some(motor)) =
+        (settings(scene), &scene.whisking, &scene.motor)
+    else {
+        return Ok(None);
+    };
+    check(scene)?;
+    let each = scene.head.whiskers_per_side;
+    let gains: Vec<&[f64]> = whisking.gain.chunks(each).collect();
+    if gains.len() != whisking.start.len() || whisking.gain.len() != scene.whiskers() {
+        return Err(Mismatch::Shape);
+    }
+    let tick_hz = f64::from(scene.tick_hz);
+    let degrees_per_count = 360.0 / (f64::from(motor.counts_per_rev) * motor.gear);
+    let pd = pd::Settings {
+        kp: motor.kp,
+        kd: motor.kd,
+        limit: motor.duty_limit,
+        slew_per_s: motor.slew_per_s,
+        min_deg: motor.min_deg,
+        max_deg: motor.max_deg,
+        degrees_per_count,
+    };
+    // An ideal motor is where it should be whatever it is driven with, and it has no stop.
+    let guards = if is_ideal {
+        GuardSettings::NONE
+    } else {
+        guards(motor, degrees_per_count)
+    };
+    let finds_rest = motor.rest == Rest::Find && !is_ideal;
+    let approach = motor.approach_deg_s / tick_hz / whisking::DEGREES_PER_UNIT;
+    Ok(Some(MotionConfig {
+        whisking: settings.build()?,
+        start: settings.start(&whisking.start, &gains)?,
+        seed: scene.seed,
+        servo: ServoConfig {
+            pd: pd.build(tick_hz)?,
+            retry: retry(scene.tick_hz),
+            guards: guards.build(tick_hz),
+            approach: R::from_f64(approach),
+            homing: finds_rest.then(|| homing(motor, degrees_per_count).build(tick_hz)),
+        },
+        driver: motor.driver,
+        stops_all: motor.on_fault == OnFault::StopAll,
+        arms_at_start: motor.arm == Arm::AtStart,
+    }))
+}
+
+/// Counts that a motor may move before it is seen to have moved.
+const UNMOVED_COUNTS: f64 = 3.0;
+
+/// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
+/// is within its travel. Whatever the plant: a board does not know what is simulated.
+fn guards(motor: &MotorSection, degrees_per_count: f64) -> GuardSettings {
+    GuardSettings {
+        degrees_per_count,
+        hard_duty: motor.duty_limit / 2.0,
+        // A coarse encoder has its counts as far apart as the gain makes of them.
+        unmoved_duty: motor.unmoved_duty + motor.kp * UNMOVED_COUNTS * degrees_per_count,
+        following_deg: motor.following_limit_deg,
+        top_speed_deg_s: motor.top_speed_deg_s,
+        travel_deg: [
+            motor.min_deg.min(whisking::REST_DEG) - motor.travel_margin_deg,
+            motor.max_deg.max(whisking::REST_DEG) + motor.travel_margin_deg,
+        ],
+        continuous_duty: motor.continuous_duty,
+    }
+}
+
+/// How a whisker finds where it is.
+fn homing(motor: &MotorSection, degrees_per_count: f64) -> HomingSettings {
+    HomingSettings {
+        degrees_per_count,
+        duty: motor.homing_duty,
+        stop_deg: motor.retracted_deg(),
+    }
+}

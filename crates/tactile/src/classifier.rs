@@ -1,0 +1,281 @@
+//! The classifier of a module: the whiskers that are heard under one model and rule.
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
+use crate::constants::Constants;
+use crate::decision::Decision;
+use crate::error::SetupError;
+use crate::format::MAX_STREAMS;
+use crate::model::Model;
+use crate::naive_bayes::{Posteriors, posteriors};
+use crate::rule::DecisionRule;
+use crate::sequential::{SequentialEvidence, SequentialRule};
+use crate::stream::{StreamState, WrongChannels};
+use crate::words::Words;
+
+/// Which whiskers decide, and by what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Deciding {
+    /// The first, by its own evidence; no other is heard.
+    First,
+    /// Each, by its own evidence, as [`crate::NaiveBayes`] does.
+    Each,
+    /// All together: the evidence of each is added, log-likelihoods of samples that are
+    /// independent given the class (LEP12 eq. 3). Equal priors count once.
+    ///
+    /// After each block of a whisker the posterior of the sum is compared with the
+    /// threshold. A decision is for none of the classes if the whiskers that had a part in
+    /// it lie together below a floor of its class, each since the onset of its touch. It
+    /// bears the number of the touch whose block made it fall, and the samples of all;
+    /// after it every whisker starts again from the prior. Windows cannot be added: each
+    /// counts the samples of one whisker.
+    Together,
+}
+
+impl Deciding {
+    /// How many of a module's whiskers are heard.
+    pub const fn heard(self, whiskers: usize) -> usize {
+        match self {
+            Self::First if whiskers > 1 => 1,
+            _ => whiskers,
+        }
+    }
+}
+
+/// The classifier of a module: a model, a rule, and the evidence of each whisker that is
+/// heard, which is a *stream* of samples. `W` says where the model lies (see [`Model`]).
+#[derive(Debug, Clone)]
+pub struct StreamClassifier<W = &'static [u32]> {
+    constants: Constants<AnyRule, W>,
+    streams: Vec<StreamState<AnyEvidence>, MAX_STREAMS>,
+    deciding: Deciding,
+    heard: usize,
+}
+
+impl<W: Words> StreamClassifier<W> {
+    /// Joins a model and a rule for a module of so many whiskers; nothing is seen yet, all
+    /// classes are equal.
+    ///
+    /// # Errors
+    ///
+    /// The settings do not fit the model or one another, there are no whiskers or more than
+    /// [`MAX_STREAMS`] to hear, or the program was built without what is asked for.
+    pub fn new(
+        model: Model<W>,
+        rule: RuleSettings,
+        deciding: Deciding,
+        whiskers: usize,
+    ) -> Result<Self, SetupError> {
+        let mut classifier = Self::unstarted(model, rule, deciding, whiskers)?;
+        classifier.restart();
+        Ok(classifier)
+    }
+
+    /// The same without the evidence of its whiskers, which hears nothing before it
+    /// [restarts](Self::restart): for a board, whose stack has no room for both.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    #[inline]
+    pub fn unstarted(
+        model: Model<W>,
+        rule: RuleSettings,
+        deciding: Deciding,
+        whiskers: usize,
+    ) -> Result<Self, SetupError> {
+        check(rule, deciding)?;
+        let constants = Constants::new(model, rule)?;
+        let heard = deciding.heard(whiskers);
+        if !(1..=MAX_STREAMS).contains(&heard) {
+            return Err(SetupError::Whiskers(heard));
+        }
+        Ok(Self {
+            constants,
+            streams: Vec::new(),
+            deciding,
+            heard,
+        })
+    }
+
+    /// The model.
+    pub const fn model(&self) -> &Model<W> {
+        &self.constants.model
+    }
+
+    /// What no sample changes.
+    pub const fn constants(&self) -> &Constants<AnyRule, W> {
+        &self.constants
+    }
+
+    /// Which whiskers decide, and by what.
+    pub const fn deciding(&self) -> Deciding {
+        self.deciding
+    }
+
+    /// How many whiskers are heard.
+    pub const fn streams(&self) -> usize {
+        self.heard
+    }
+
+    /// Takes a sample of a stream that counts, as [`crate::NaiveBayes::push`]; a stream that
+    /// is not there takes none.
+    ///
+    /// # Errors
+    ///
+    /// As [`crate::NaiveBayes::push`].
+    #[inline]
+    pub fn push_to(
+        &mut self,
+        stream: usize,
+        codes: &[i32],
+    ) -> Result<Option<Decision>, WrongChannels> {
+        let is_sum = self.is_sum();
+        let Constants { model, rule } = &self.constants;
+        let Some(one) = self.streams.get_mut(stream) else {
+            return Ok(None);
+        };
+        if !one.push(model, codes, rule.interval())? {
+            return Ok(None);
+        }
+        Ok(if is_sum {
+            self.end_of_sum(stream)
+        } else {
+            one.end_of_block(model, rule)
+        })
+    }
+
+    /// Takes a sample of a stream that does not count, as [`crate::NaiveBayes::pass`].
+    ///
+    /// # Errors
+    ///
+    /// As [`crate::NaiveBayes::push`].
+    #[inline]
+    pub fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels> {
+        let stream = self.streams.get_mut(stream);
+        stream.map_or(Ok(()), |stream| stream.pass(&self.constants.model, codes))
+    }
+
+    /// The number of the touch of a stream, or of its last one.
+    #[inline]
+    pub fn touch_of(&self, stream: usize) -> u16 {
+        self.streams.get(stream).map_or(0, |stream| stream.touch)
+    }
+
+    /// A touch of a stream begins, as [`crate::NaiveBayes::touch`].
+    pub fn begin_touch(&mut self, stream: usize, number: u16) {
+        if let Some(stream) = self.streams.get_mut(stream) {
+            let Constants { model, rule } = &self.constants;
+            stream.begin_touch(model, rule, number);
+        }
+    }
+
+    /// Samples of a stream are missing, as [`crate::NaiveBayes::interrupt`].
+    pub fn interrupt_stream(&mut self, stream: usize) {
+        if let Some(stream) = self.streams.get_mut(stream) {
+            stream.interrupt();
+        }
+    }
+
+    /// Other settings of the rule take effect; evidence stays, unless it is that of the
+    /// other rule: then all streams start again.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`]; nothing has changed.
+    pub fn set_rule(&mut self, settings: RuleSettings) -> Result<(), SetupError> {
+        check(settings, self.deciding)?;
+        let before = core::mem::discriminant(&self.constants.rule);
+        self.constants.set_rule(settings)?;
+        if core::mem::discriminant(&self.constants.rule) != before {
+            self.restart();
+        }
+        Ok(())
+    }
+
+    /// Forgets all evidence.
+    pub fn restart(&mut self) {
+        self.streams.clear();
+        for _ in 0..self.heard.min(MAX_STREAMS) {
+            // No more than there is room for.
+            let _ = self.streams.push(StreamState::new(&self.constants.rule));
+        }
+    }
+
+    /// Posterior of each class after the last full block, by which a stream would decide;
+    /// see [`crate::NaiveBayes::posteriors`].
+    pub fn posteriors(&self, stream: usize) -> Posteriors {
+        let Constants { model, rule } = &self.constants;
+        if self.is_sum() {
+            let sum = AnyEvidence::Sequential(sum(model.classes(), &self.streams));
+            return posteriors(model, rule, &sum);
+        }
+        match self.streams.get(stream) {
+            Some(stream) => posteriors(model, rule, &stream.evidence),
+            None => posteriors(model, rule, &rule.start()),
+        }
+    }
+
+    /// Whether it decides by the sum of all evidence.
+    #[inline]
+    fn is_sum(&self) -> bool {
+        cfg!(feature = "several") && self.deciding == Deciding::Together
+    }
+
+    /// The end of a block of stream `n`, where all decide together.
+    // Once a block: apart from the samples, which then need less of the stack.
+    #[inline(never)]
+    fn end_of_sum(&mut self, n: usize) -> Option<Decision> {
+        let Constants { model, rule } = &self.constants;
+        // No other adds up.
+        let AnyRule::Sequential(of_sum) = rule else {
+            return None;
+        };
+        let stream = self.streams.get_mut(n)?;
+        let touch = stream.touch;
+        let (sums, evidence) = stream.close_block(model, rule);
+        of_sum.gather(sums, evidence.sequential_mut()?);
+        let sum = sum(model.classes(), &self.streams);
+        let decision = of_sum.decide_by(model.classes(), &sum)?;
+
+        let mut excess = [0_i32; 2];
+        for stream in &mut self.streams {
+            if stream
+                .evidence
+                .sequential()
+                .is_some_and(SequentialEvidence::is_begun)
+            {
+                let own = stream.excess(decision.leader());
+                for (sum, own) in excess.iter_mut().zip(own) {
+                    *sum = sum.saturating_add(own);
+                }
+                stream.evidence = rule.start();
+            }
+        }
+        let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
+        Some(decision.in_touch(touch, is_below))
+    }
+}
+
+/// The evidence of all streams together.
+// Not within what is generic: there once, and as small as this crate is built.
+#[inline(never)]
+fn sum(classes: usize, streams: &[StreamState<AnyEvidence>]) -> SequentialEvidence {
+    let all = streams
+        .iter()
+        .filter_map(|stream| stream.evidence.sequential());
+    SequentialRule::sum(classes, all)
+}
+
+/// Whether whiskers can decide so by a rule, and whether the program has the code for it.
+fn check(rule: RuleSettings, deciding: Deciding) -> Result<(), SetupError> {
+    match (rule, deciding) {
+        (_, Deciding::Each | Deciding::Together) if !cfg!(feature = "several") => {
+            Err(SetupError::NotBuilt("several whiskers"))
+        }
+        (RuleSettings::Window(_), Deciding::Together) => Err(SetupError::WindowTogether),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,131 @@
+//! A scene and its model as a board has them: in its flash, put there as by a probe, or sent to it
+//! word by word.
+
+use std::path::Path;
+
+use config::Image;
+use firmware::boards::{BoardFacts, SlotHeader};
+use host_sim::loaded::Loaded;
+use host_sim::{Error, files};
+use scene::Scene;
+use tactile::ModelBuf;
+use wire::{Load, LoadedWord};
+
+use crate::program::Program;
+
+/// What is deployed.
+#[derive(Debug, Clone)]
+pub(crate) struct Deployment {
+    /// The configuration, with its header.
+    pub(crate) config: Vec<u8>,
+    /// The model; empty: none.
+    pub(crate) model: Vec<u8>,
+}
+
+/// A scene, and a program as it is flashed for it.
+///
+/// # Errors
+/// [`Error::Input`] for a scene that is wrong, [`Error::Work`] for a program that cannot be run,
+/// or a scene that its board does not take.
+pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program), Error> {
+    let loaded = Loaded::new(scene)?;
+    let program = flashed_for(&loaded.scene, scene, program)?;
+    Ok((loaded, program))
+}
+
+/// A program as it is flashed for `scene`, which stands in the file `path`: one that brings no
+/// scene with it has this one in its first slot.
+///
+/// # Errors
+/// As [`flashed`].
+pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<Program, Error> {
+    let mut program = Program::load(program)?;
+    if !program.brings_scene()? {
+        let model = model_of(scene, path)?;
+        let facts = program.model()?.facts;
+        Deployment::of(scene, model.as_ref(), facts)?.flash(&mut program)?;
+    }
+    Ok(program)
+}
+
+/// The model that `scene` names, which stands in the file `path`.
+pub(crate) fn model_of(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, Error> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let model = scene
+        .model_path(folder)
+        .map(|path| files::load_model(&path));
+    Ok(model.transpose()?.map(|(_, model)| model))
+}
+
+/// What a board runs by for a scene that decides by `model`.
+pub(crate) fn image(
+    scene: &Scene,
+    model: Option<&ModelBuf>,
+    facts: &BoardFacts,
+) -> Result<Image, Error> {
+    let image = config::image(scene, model, facts, "");
+    image.map_err(|misfit| Error::Work(format!("{}: {misfit}", scene.name)))
+}
+
+impl Deployment {
+    /// A scene that decides by `model`, for a board.
+    ///
+    /// # Errors
+    /// [`Error::Work`] says why the board does not take it.
+    pub(crate) fn of(
+        scene: &Scene,
+        model: Option<&ModelBuf>,
+        facts: &BoardFacts,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            config: image(scene, model, facts)?.bytes.to_vec(),
+            model: model.map_or(&[][..], ModelBuf::as_bytes).to_vec(),
+        })
+    }
+
+    /// The CRC at the end of the model; 0: none.
+    pub(crate) fn model_crc(&self) -> u32 {
+        let crc = self.model.last_chunk();
+        crc.map_or(0, |crc| u32::from_le_bytes(*crc))
+    }
+
+    /// Has it lie in the first slot of a program that is flashed.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if there is no room for it.
+    pub(crate) fn flash(&self, program: &mut Program) -> Result<(), Error> {
+        let [slot, _] = program.model()?.facts.flash.slots;
+        let header = SlotHeader::linked(self.model_crc());
+        program.add(slot.head.start, &header.bytes())?;
+        program.add(slot.config().start, &self.config)?;
+        Ok(program.add(slot.model.start, &self.model)?)
+    }
+
+    /// How many words come when it is sent.
+    pub(crate) fn load(&self) -> Load {
+        let [config, model] = [&self.config, &self.model].map(|bytes| words(bytes).len());
+        Load {
+            config: config as u16,
+            model: model as u16,
+        }
+    }
+
+    /// These words, in the order in which they come.
+    pub(crate) fn words(&self) -> impl Iterator<Item = u32> {
+        let load = self.load();
+        let [config, model] = [&self.config, &self.model].map(|bytes| words(bytes));
+        (0..).map_while(move |number| match load.word(number)? {
+            LoadedWord::Config(n) => config.get(usize::from(n)).copied(),
+            LoadedWord::Model(n) => model.get(usize::from(n)).copied(),
+        })
+    }
+}
+
+/// Little-endian words, with zeros at the end up to a whole pair, by which the flash of some
+/// boards is written.
+pub(crate) fn words(bytes: &[u8]) -> Vec<u32> {
+    let mut padded = bytes.to_vec();
+    padded.resize(bytes.len().next_multiple_of(8), 0);
+    let (words, _) = padded.as_chunks();
+    words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+}

@@ -1,0 +1,44 @@
+//! What idle knows of the scene, whose settings are the tick's.
+
+use firmware::{Links, NAME_BYTES};
+
+use super::types::Settings;
+
+/// It does not change while the module runs.
+pub(crate) struct About {
+    name: heapless::String<NAME_BYTES>,
+    tick_hz: u32,
+    whiskers: u32,
+    /// By what the module can be talked to.
+    pub(crate) links: Links,
+    /// It has motors, which the button arms.
+    pub(crate) has_motors: bool,
+}
+
+impl About {
+    /// Of these settings.
+    pub(crate) fn new(settings: &Settings) -> Self {
+        Self {
+            name: settings.head.name.clone(),
+            tick_hz: settings.head.tick_hz,
+            whiskers: settings.head.whiskers() as u32,
+            links: settings.links,
+            has_motors: settings.motion.is_some(),
+        }
+    }
+
+    /// The name of the scene.
+    pub(crate) fn name(&self) -> &str {
+        if self.name.is_empty() {
+            "no-scene"
+        } else {
+            &self.name
+        }
+    }
+
+    /// Bits a second that records of every tick take, each byte with its start and stop.
+    pub(crate) const fn records_baud(&self) -> u32 {
+        self.tick_hz
+            .saturating_mul(self.whiskers * wire::PACKET_FRAME_BYTES as u32 * 10)
+    }
+}

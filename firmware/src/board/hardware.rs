@@ -1,0 +1,59 @@
+//! How a board's module starts.
+
+use firmware::{MotionConfig, Part, WhiskerParts};
+use static_cell::StaticCell;
+
+use super::encoder::Encoder;
+use super::motors::{Motor, MotorStart};
+use super::scene::Pace;
+use super::sensor::{FramePace, Frames};
+use super::types::{Inner, Number, Settings};
+use super::{pace, perception, pwm};
+use crate::here::{self, Counter, SIDES};
+
+/// Where the module lies.
+static INNER: StaticCell<Inner> = StaticCell::new();
+
+/// A module at its start, whose whiskers are at rest now, once the clocks are as its sensors
+/// need them. It can be made once.
+#[inline(never)]
+pub(crate) fn start(
+    settings: &Settings,
+    pace: &Pace,
+    counter: Counter,
+) -> Option<&'static mut Inner> {
+    let sides = settings.head.sides;
+    here::clock_sensors(sides);
+    let clocks = pace::clocks();
+    let frames = FramePace {
+        slot: pace.slot_counts,
+        lag: if settings.sensor.is_slow {
+            clocks.lag_cycles()
+        } else {
+            0
+        },
+    };
+    let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
+    let motor = motion.map(|motion| start_motors(motion, sides));
+    let parts = SIDES.iter().take(sides.into()).map(|side| WhiskerParts {
+        source: Frames::new(&side.sensor, frames),
+        motor: motor
+            .and_then(|motor| Some((Motor::start(side, &motor)?, Encoder::start(&side.encoder)))),
+    });
+    let period = clocks.tick_counts(pace.tick);
+    let inner = INNER.try_init_with(|| Inner::empty((counter, period)))?;
+    inner.build(settings, parts, perception::start(settings));
+    Some(inner)
+}
+
+/// Starts what all motors have in common.
+fn start_motors(motion: &MotionConfig<Number>, sides: u8) -> MotorStart {
+    let pwm_counts = pace::clocks().pwm_counts();
+    here::clock_motors(sides);
+    pwm::start(pwm_counts);
+    MotorStart {
+        driver: motion.driver,
+        stall: motion.servo.guards.stall,
+        pwm_counts,
+    }
+}

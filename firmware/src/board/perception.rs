@@ -1,0 +1,127 @@
+//! What decides, by the model of the scene's slot, and the names of its classes.
+
+use firmware::{CodeClassifier, ModelLimits, ModelState, Part, Refusal};
+use tactile::Model;
+use whisking::Real;
+
+use super::scene::Deployed;
+use super::slots::{self, SLOTS};
+use super::span::Span;
+use super::types::{Inner, Number, Settings};
+use crate::here::FACTS;
+
+/// A classifier of what the whiskers feel.
+type Classifier = CodeClassifier<&'static [u32]>;
+
+/// The classifier of a scene that has one, before a model was [found](find) for it.
+pub(crate) fn start(settings: &Settings) -> Option<Classifier> {
+    let config = settings.classifier.as_ref();
+    let config = config.filter(|_| Part::Classifier.is_built())?;
+    let heard = config.deciding.heard(settings.head.whiskers());
+    Some(CodeClassifier::refused(Refusal::Absent, heard))
+}
+
+/// Finds the model of a scene; refuses it, if it is not the one that the scene was deployed with,
+/// or nothing for it.
+#[inline(never)]
+pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Deployed>) {
+    let perception = inner.perception_mut();
+    let perception = perception.filter(|_| Part::Classifier.is_built());
+    let (Some(perception), Some(config), Some(deployed)) =
+        (perception, &settings.classifier, deployed)
+    else {
+        return;
+    };
+    let (Some(rule), Some(slot)) = (config.rule, SLOTS.get(deployed.slot)) else {
+        return;
+    };
+    let classifier = perception.classifier_mut();
+    let limits = ModelLimits {
+        classes: FACTS.max_classes,
+        // Compared below, in the number format of the settings.
+        contact_min: None,
+    };
+    let rule = (rule, config.deciding);
+    classifier.find(slots::model(slot), limits, rule, settings.head.whiskers());
+    let crc = classifier.model().map(Model::crc);
+    if crc.is_some_and(|crc| crc != deployed.model) {
+        classifier.refuse(Refusal::Other);
+    }
+    if let (Some(least), Some(gate)) = (config.contact_min, gate(classifier))
+        && least != gate
+    {
+        classifier.refuse(Refusal::Contact);
+    }
+}
+
+/// The contact π from which the model was trained, if that knows touches.
+fn gate(classifier: &Classifier) -> Option<Number> {
+    let gate = classifier.gate()?;
+    Some(Number::from_f64(f64::from(gate)))
+}
+
+/// The same of a module.
+pub(crate) fn gate_of(inner: &Inner) -> Option<Number> {
+    gate(inner.perception()?.classifier())
+}
+
+/// Has samples count from the contact that the model was trained from, unless the scene says from
+/// which.
+pub(crate) fn adapt(settings: &mut Settings, gate: Option<Number>) {
+    if let Some(classifier) = &mut settings.classifier {
+        classifier.contact_min = classifier.contact_min.or(gate);
+    }
+}
+
+/// By which model it decides.
+pub(crate) fn state(inner: &Inner) -> ModelState {
+    let perception = inner.perception().filter(|_| Part::Classifier.is_built());
+    perception.map_or(ModelState::NotHere, |perception| {
+        perception.classifier().state()
+    })
+}
+
+/// What of a module no sample changes: the model, what the classifier has made of it, the factors
+/// of its codes. Of one that decides nothing there is nothing.
+pub(crate) fn constants(inner: &Inner) -> [Span; 3] {
+    let perception = inner.perception().filter(|_| Part::Classifier.is_built());
+    let found = perception.and_then(|perception| {
+        let classifier = perception.classifier();
+        let (constants, factors) = classifier.constants()?;
+        let model = classifier.model()?;
+        Some([
+            Span::of(model.as_bytes()),
+            Span::of(constants),
+            Span::of(factors),
+        ])
+    });
+    found.unwrap_or([Span::NONE; 3])
+}
+
+/// How decisions are told.
+pub(crate) struct Names {
+    model: Option<Model<&'static [u32]>>,
+    /// Several whiskers decide, so each is told.
+    pub(crate) several: bool,
+}
+
+impl Names {
+    /// Of a module.
+    pub(crate) fn of(settings: &Settings, inner: &Inner) -> Self {
+        let perception = inner.perception().filter(|_| Part::Classifier.is_built());
+        let model = perception.and_then(|perception| perception.classifier().model().copied());
+        let heard = settings.classifier.as_ref().map_or(0, |classifier| {
+            classifier.deciding.heard(settings.head.whiskers())
+        });
+        Self {
+            model,
+            several: Part::Several.is_built() && heard > 1,
+        }
+    }
+
+    /// The name of a class.
+    pub(crate) fn class(&self, class: usize) -> &str {
+        let name = self.model.as_ref().and_then(|model| model.name(class));
+        name.unwrap_or("unknown")
+    }
+}

@@ -1,0 +1,122 @@
+//! The flash in which scenes and models lie apart from the program: two slots, of which the
+//! newest valid one counts (`firmware::boards`). A program may bring a first scene with it.
+
+use firmware::boards::{Region, Slot, SlotHeader};
+use firmware::{ConfigError, HEADER_BYTES, Part};
+use wire::Load;
+
+use crate::here::FACTS;
+
+/// Both slots.
+pub(crate) const SLOTS: [Slot; 2] = FACTS.flash.slots;
+
+/// The most that a slot has room for; models, where the image has a use for them.
+pub(crate) const ROOM: Load = {
+    let slot = SLOTS[0];
+    Load {
+        config: slot.config().words() as u16,
+        model: if Part::Classifier.is_built() {
+            slot.model.words() as u16
+        } else {
+            0
+        },
+    }
+};
+
+/// Whether words come in pairs, by which the flash of some boards is written: whoever sends fills
+/// up with zeros.
+pub(crate) const fn is_paired(load: Load) -> bool {
+    load.config.is_multiple_of(2) && load.model.is_multiple_of(2)
+}
+
+/// What lies in a region of flash. A debugger writes it while the core is halted, and resets the
+/// chip; or the loader does, once nothing reads it any more.
+fn contents(region: Region) -> &'static [u8] {
+    let start = core::ptr::with_exposed_provenance::<u8>(region.start as usize);
+    #[allow(unsafe_code, reason = "flash beside the program is no variable")]
+    // SAFETY: a region of the board's flash, of which a test says that the memory map has it
+    // beside the program's; it is there for ever, and nobody writes it while this slice is read:
+    // the loader, which does, has the chip for itself, and ends with a reset.
+    unsafe {
+        core::slice::from_raw_parts(start, region.bytes as usize)
+    }
+}
+
+/// The header of a slot, if it has one.
+pub(crate) fn header(slot: &Slot) -> Option<SlotHeader> {
+    SlotHeader::of(contents(slot.head))
+}
+
+/// Those of both.
+pub(crate) fn headers() -> [Option<SlotHeader>; 2] {
+    SLOTS.each_ref().map(header)
+}
+
+/// The bytes of a slot's configuration, which may go on behind it.
+pub(crate) fn config(slot: &Slot) -> &'static [u8] {
+    contents(slot.config())
+}
+
+/// Why a slot without a header has none.
+pub(crate) fn no_header(slot: &Slot) -> ConfigError {
+    let is_erased = |bytes: &[u8]| bytes.iter().all(|byte| *byte == u8::MAX);
+    match contents(slot.head).get(..HEADER_BYTES) {
+        Some(first) if !is_erased(first) => ConfigError::Strange,
+        _ => ConfigError::Absent,
+    }
+}
+
+/// The place of a slot's model.
+pub(crate) fn model(slot: &Slot) -> &'static [u8] {
+    contents(slot.model)
+}
+
+/// What the program brings with it: it lies where it would have been deployed to, and counts
+/// until something else is.
+#[cfg(linked_scene)]
+mod linked {
+    use firmware::boards::{SLOT_HEADER_BYTES, SlotHeader};
+
+    const CONFIG: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/scene.config"));
+
+    #[cfg(linked_model)]
+    const MODEL: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/scene.model"));
+    #[cfg(not(linked_model))]
+    const MODEL: &[u8] = &[];
+
+    /// The sum at the end of the model's file.
+    const MODEL_CRC: u32 = match MODEL.last_chunk() {
+        Some(crc) => u32::from_le_bytes(*crc),
+        None => 0,
+    };
+
+    #[repr(C)]
+    struct Scene {
+        header: [u8; SLOT_HEADER_BYTES],
+        config: [u8; CONFIG.len()],
+    }
+
+    #[allow(unsafe_code, reason = "the memory map has a place for it")]
+    // SAFETY: the section is the beginning of slot A, in which is nothing else.
+    #[unsafe(link_section = ".scene")]
+    #[used]
+    static SCENE: Scene = Scene {
+        header: SlotHeader::linked(MODEL_CRC).bytes(),
+        config: *include_bytes!(concat!(env!("OUT_DIR"), "/scene.config")),
+    };
+
+    #[cfg(linked_model)]
+    #[allow(unsafe_code, reason = "the memory map has a place for it")]
+    // SAFETY: the section is the place of the model of slot A, in which is nothing else.
+    #[unsafe(link_section = ".model")]
+    #[used]
+    static LINKED_MODEL: [u8; MODEL.len()] =
+        *include_bytes!(concat!(env!("OUT_DIR"), "/scene.model"));
+
+    /// As erased: what was deployed there is no more.
+    #[allow(unsafe_code, reason = "the memory map has a place for it")]
+    // SAFETY: the section is the beginning of slot B, in which is nothing else.
+    #[unsafe(link_section = ".scene_b")]
+    #[used]
+    static NO_SCENE: [u8; SLOT_HEADER_BYTES] = [u8::MAX; SLOT_HEADER_BYTES];
+}

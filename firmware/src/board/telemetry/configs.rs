@@ -1,0 +1,208 @@
+//! Idle's end of what is asked about configurations: their words, and another one for the module
+//! that runs. What takes long is done here, and the tick takes over what is ready.
+
+use firmware::{ConfigError, Part, Prepared, Tuning, refusal_code};
+use heapless::spsc::{Consumer, Producer};
+use static_cell::StaticCell;
+use wire::{Command, CommandStatus};
+
+use crate::board::scene::Deployed;
+use crate::board::types::{Number, Settings};
+use crate::board::{integrity, log, pace, perception};
+use crate::here::FACTS;
+
+/// Settings on their way from idle to the tick, which gives back those that they replace, or
+/// that it refuses: there is one place for settings more than the tick needs.
+pub(crate) type Spare = &'static mut Settings;
+
+/// A way for them.
+type Way = heapless::spsc::Queue<Spare, 2>;
+
+/// There and back.
+pub(crate) struct Queue([Way; 2]);
+
+impl Queue {
+    /// Empty.
+    pub(crate) const fn new() -> Self {
+        Self([Way::new(), Way::new()])
+    }
+
+    /// Idle's end and the tick's.
+    pub(crate) fn split(&'static mut self) -> (End, End) {
+        let Self([there, back]) = self;
+        let (send, taken) = there.split();
+        let (give, receive) = back.split();
+        (
+            End { send, receive },
+            End {
+                send: give,
+                receive: taken,
+            },
+        )
+    }
+}
+
+/// An end of both ways.
+pub(crate) struct End {
+    pub(super) send: Producer<'static, Spare>,
+    pub(super) receive: Consumer<'static, Spare>,
+}
+
+/// How often the log says that settings differ, s.
+const AGAIN_S: u32 = 60;
+
+/// What idle has found out about a request.
+pub(crate) enum Verdict {
+    /// Nothing: the tick carries it out.
+    Unknown,
+    /// The settings that it asks for are on their way.
+    TakeOver,
+    /// This is the answer.
+    Done(CommandStatus, [i32; 2]),
+}
+
+impl Verdict {
+    /// Above every status.
+    const UNKNOWN: u32 = 0x100;
+    const TAKE_OVER: u32 = 0x200;
+
+    /// On its way to the tick.
+    pub(super) fn words(&self) -> [u32; 3] {
+        match self {
+            Self::Unknown => [Self::UNKNOWN, 0, 0],
+            Self::TakeOver => [Self::TAKE_OVER, 0, 0],
+            Self::Done(status, [first, second]) => [
+                status.code().into(),
+                first.cast_unsigned(),
+                second.cast_unsigned(),
+            ],
+        }
+    }
+
+    pub(super) fn of([kind, first, second]: [u32; 3]) -> Self {
+        match kind {
+            Self::UNKNOWN => Self::Unknown,
+            Self::TAKE_OVER => Self::TakeOver,
+            status => Self::Done(
+                CommandStatus::from_code(status as u8),
+                [first, second].map(u32::cast_signed),
+            ),
+        }
+    }
+}
+
+/// Where the bytes of configurations lie, and settings that the tick does not read.
+static TUNING: StaticCell<Tuning<&[u8]>> = StaticCell::new();
+static SPARE: StaticCell<Settings> = StaticCell::new();
+
+/// Idle's end.
+pub(crate) struct Configs {
+    tuning: &'static mut Tuning<&'static [u8]>,
+    /// Settings that the tick does not read, while it has not got them.
+    spare: Option<Spare>,
+    tick: End,
+    /// The contact that samples count from, unless a configuration says it.
+    gate: Option<Number>,
+    /// Why there is no scene, if there is none.
+    none: Option<ConfigError>,
+    /// Bytes of what is on its way.
+    under_way: Option<u32>,
+    /// How often settings were changed when this last looked, and when the log said so.
+    changes: u32,
+    told: u32,
+}
+
+impl Configs {
+    /// Of a module that runs by this scene, or by none, and why. It can be made once.
+    #[inline(never)]
+    pub(crate) fn start(
+        deployed: Result<Deployed, ConfigError>,
+        gate: Option<Number>,
+        tick: End,
+    ) -> Option<Self> {
+        let bytes = deployed.map_or(&[][..], |deployed| deployed.bytes);
+        let tuning = TUNING.try_init_with(|| Tuning::new(FACTS.code, bytes))?;
+        let spare = if Part::Set.is_built() {
+            Some(SPARE.try_init_with(Settings::still)?)
+        } else {
+            None
+        };
+        Some(Self {
+            tuning,
+            spare,
+            tick,
+            gate,
+            none: deployed.err(),
+            under_way: None,
+            changes: 0,
+            told: 0,
+        })
+    }
+
+    /// Looks whether the tick has taken over what was on its way; whether it has.
+    fn settle(&mut self) -> bool {
+        let changes = integrity::changes();
+        if changes == self.changes {
+            return false;
+        }
+        self.changes = changes;
+        if let Some(length) = self.under_way.take() {
+            self.tuning.has_taken(length);
+        }
+        true
+    }
+
+    /// What can be done about a request here.
+    pub(crate) fn prepare(&mut self, command: Command) -> Verdict {
+        self.settle();
+        if let (Command::Scene, Some(error)) = (command, self.none) {
+            let [kind, _] = refusal_code(error);
+            return Verdict::Done(CommandStatus::Done, [0, -kind]);
+        }
+        if let Some((status, values)) = self.tuning.read::<Number>(command) {
+            return Verdict::Done(status, values);
+        }
+        if !Part::Set.is_built() {
+            return Verdict::Unknown;
+        }
+        let spare = match self.spare.take() {
+            None => self.tick.receive.dequeue(),
+            spare => spare,
+        };
+        // The tick gives it back before it takes another request.
+        let Some(spare) = spare else {
+            return Verdict::Unknown;
+        };
+        let prepared = self.tuning.prepare(command, spare);
+        if let (Some(Prepared::Next), Command::Apply(length)) = (prepared, command) {
+            perception::adapt(spare, self.gate);
+            self.under_way = Some(length);
+            // There is room for one.
+            self.spare = self.tick.send.enqueue(spare).err();
+            return Verdict::TakeOver;
+        }
+        self.spare = Some(spare);
+        match prepared {
+            Some(Prepared::Done(status, values)) => Verdict::Done(status, values),
+            _ => Verdict::Unknown,
+        }
+    }
+
+    /// Says in the log that settings were changed, after every change, and once a minute while
+    /// they differ from the scene's.
+    pub(crate) fn tell(&mut self, now: u32) {
+        if !Part::Set.is_built() {
+            return;
+        }
+        let has_changed = self.settle();
+        let again = AGAIN_S.wrapping_mul(pace::tick_hz());
+        let is_due = self.changes != 0 && now.wrapping_sub(self.told) >= again;
+        if has_changed || is_due {
+            self.told = now;
+            let differs = self.tuning.has_changed();
+            if differs || has_changed {
+                log::tuned(differs);
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! What a module is made of on a board.
+
+use firmware::{CodeClassifier, Hardware};
+
+use super::encoder::Encoder;
+use super::motors::Motor;
+use super::sensor::Frames;
+use crate::here::{self, Counter};
+
+/// The number format of the tick.
+pub(crate) type Number = here::Number;
+
+/// What the tick reads.
+pub(crate) type Settings = firmware::Config<Number>;
+
+/// The module on this board.
+pub(crate) type Inner = firmware::Module<Number, Board>;
+
+/// A board's hardware.
+pub(crate) struct Board;
+
+impl Hardware for Board {
+    type Source = Frames;
+    type Motor = Motor;
+    type Angle = Encoder;
+    type Classifier = CodeClassifier<&'static [u32]>;
+    type Clock = Counter;
+}

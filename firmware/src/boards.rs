@@ -1,0 +1,23 @@
+//! The boards that a module runs on, as plain facts: for their own programs, and for a PC that
+//! makes configurations for them and deploys these.
+//!
+//! # Glossary
+//!
+//! - *slot*: flash for a configuration with a [header](SlotHeader) before it. There are two, of
+//!   which the newest valid one counts: while one is written, the other is whole.
+//! - *slow*: of sensors that are read at half the clock.
+
+mod facts;
+mod fits;
+mod flash;
+mod slot;
+mod timing;
+
+pub use facts::{ALL, BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
+pub use fits::{Misfit, Needs};
+pub use flash::{FlashMap, Region, Slot};
+pub use slot::{SLOT_HEADER_BYTES, SLOT_HEADER_WORDS, SlotHeader, newest_first, next};
+pub use timing::{
+    CLOCK_WAIT_LOOPS, Clocks, PWM_HZ, RECEIVED_BYTES, REST_NS, SLOT_FAST_NS, TICK_MIN_HZ,
+    TickPeriod, serial_keeps_up,
+};

@@ -1,0 +1,214 @@
+//! What a board cannot do.
+
+use core::fmt;
+
+use whisking::Real;
+
+use super::timing::serial_most;
+use super::{BoardFacts, Clocks, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
+use crate::{Config, ConfigError, Driver, Field};
+
+/// What a scene needs of a board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Needs {
+    /// Ticks a second.
+    pub tick_hz: u32,
+    /// Sensors are read at half the clock.
+    pub is_slow: bool,
+    /// Sides.
+    pub sides: u8,
+    /// Whiskers on each.
+    pub whiskers_per_side: u8,
+    /// The motors' power stage, if there are motors.
+    pub driver: Option<Driver>,
+    /// Bits a second of the serial port, if there is one.
+    pub serial_baud: Option<u32>,
+}
+
+impl Needs {
+    /// Of a configuration.
+    pub fn of<R: Real>(config: &Config<R>) -> Self {
+        Self {
+            tick_hz: config.head.tick_hz,
+            is_slow: config.sensor.is_slow,
+            sides: config.head.sides,
+            whiskers_per_side: config.head.whiskers_per_side,
+            driver: config.motion.as_ref().map(|motion| motion.driver),
+            serial_baud: config.links.serial_baud,
+        }
+    }
+}
+
+/// Why a board does not take a scene, and what it does take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Misfit {
+    /// It has so many sides at most.
+    Sides(u8),
+    /// It has one whisker a side.
+    Whiskers,
+    /// One brushless motor takes every output of the PWM's timer.
+    TwoBrushless,
+    /// A sensor frame has to fit into a tick.
+    TickHz {
+        /// The highest rate at which it does, Hz; the lowest is [`TICK_MIN_HZ`].
+        most: u32,
+        /// How long it takes, µs.
+        frame_us: u32,
+    },
+    /// The clock of the serial port, Hz, is no multiple of its baud.
+    BaudOfClock {
+        /// That clock.
+        serial_hz: u32,
+    },
+    /// More bytes come in two ticks than there is room for.
+    BaudOfTicks {
+        /// The highest baud at this rate of ticks.
+        most: u32,
+    },
+}
+
+impl Misfit {
+    /// As a board says it.
+    pub const fn error(self) -> ConfigError {
+        match self {
+            Self::Sides(_) => ConfigError::Room(Field::Sides),
+            Self::Whiskers => ConfigError::Room(Field::Whiskers),
+            Self::TwoBrushless => ConfigError::Room(Field::Driver),
+            Self::TickHz { .. } => ConfigError::Range(Field::TickHz),
+            Self::BaudOfClock { .. } | Self::BaudOfTicks { .. } => {
+                ConfigError::Range(Field::SerialBaud)
+            }
+        }
+    }
+}
+
+/// What is allowed, and why.
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Sides(1) => f.write_str("\"left\", because it carries one whisker"),
+            Self::Sides(_) => f.write_str("\"left\" or \"both\""),
+            Self::Whiskers => f.write_str("1, because it carries one whisker a side"),
+            Self::TwoBrushless => f.write_str(
+                "\"h-bridge\" on two sides, because one brushless motor takes every output of \
+                 the PWM's timer",
+            ),
+            Self::TickHz { most, frame_us } => write!(
+                f,
+                "{TICK_MIN_HZ} to {most}, because a sensor frame takes {frame_us} us"
+            ),
+            Self::BaudOfClock { serial_hz } => write!(
+                f,
+                "up to {}, where {serial_hz} Hz are a multiple of it to within 1.5 %",
+                serial_hz / 16
+            ),
+            Self::BaudOfTicks { most } => write!(
+                f,
+                "up to {most}, which brings less than {RECEIVED_BYTES} bytes in two ticks"
+            ),
+        }
+    }
+}
+
+impl BoardFacts {
+    /// Its clocks, of sensors in their slow mode or not.
+    pub const fn clocks_of(&self, is_slow: bool) -> Clocks {
+        if is_slow {
+            self.clocks.halved()
+        } else {
+            self.clocks
+        }
+    }
+
+    /// Whether it can do what a scene needs.
+    ///
+    /// # Errors
+    /// The first thing that it cannot.
+    pub const fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
+        if needs.sides > self.max_sides {
+            return Err(Misfit::Sides(self.max_sides));
+        }
+        if needs.whiskers_per_side != 1 {
+            return Err(Misfit::Whiskers);
+        }
+        if needs.sides > 1 && matches!(needs.driver, Some(Driver::SixStep)) {
+            return Err(Misfit::TwoBrushless);
+        }
+        let clocks = self.clocks_of(needs.is_slow);
+        if needs.tick_hz < TICK_MIN_HZ || needs.tick_hz > clocks.tick_max_hz() {
+            return Err(Misfit::TickHz {
+                most: clocks.tick_max_hz(),
+                frame_us: clocks.frame_least_ns() / 1_000,
+            });
+        }
+        if let Some(baud) = needs.serial_baud {
+            if clocks.serial_divider(baud).is_none() {
+                let serial_hz = clocks.serial_hz;
+                return Err(Misfit::BaudOfClock { serial_hz });
+            }
+            if !serial_keeps_up(baud, needs.tick_hz) {
+                let most = serial_most(needs.tick_hz);
+                return Err(Misfit::BaudOfTicks { most });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Misfit, Needs};
+    use crate::boards::{ALL, NUCLEO_F446RE, NUCLEO_G071RB};
+    use crate::{Config, ConfigError, Driver, Field};
+
+    fn still() -> Needs {
+        Needs::of(&Config::<f32>::still())
+    }
+
+    #[test]
+    fn a_still_module_fits_every_board() {
+        for board in ALL {
+            assert_eq!(board.fits(&still()), Ok(()), "{}", board.name);
+        }
+    }
+
+    #[test]
+    fn what_a_board_cannot_do_is_refused_by_what_it_can() {
+        let both = Needs {
+            sides: 2,
+            ..still()
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&both), Ok(()));
+        assert_eq!(NUCLEO_G071RB.fits(&both), Err(Misfit::Sides(1)));
+        let array = Needs {
+            whiskers_per_side: 2,
+            ..still()
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&array), Err(Misfit::Whiskers));
+        let brushless = Needs {
+            driver: Some(Driver::SixStep),
+            ..both
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&brushless), Err(Misfit::TwoBrushless));
+        let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz();
+        let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
+        for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
+            let fast = Needs {
+                tick_hz,
+                is_slow,
+                ..still()
+            };
+            let found = NUCLEO_F446RE.fits(&fast).unwrap_err();
+            assert_eq!(found.error(), ConfigError::Range(Field::TickHz));
+        }
+        for (baud, tick_hz) in [(3_000_000, 2_000), (921_600, 200), (0, 2_000)] {
+            let quick = Needs {
+                serial_baud: Some(baud),
+                tick_hz,
+                ..still()
+            };
+            let found = NUCLEO_F446RE.fits(&quick).unwrap_err();
+            assert_eq!(found.error(), ConfigError::Range(Field::SerialBaud));
+        }
+    }
+}

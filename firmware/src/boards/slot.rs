@@ -1,0 +1,169 @@
+//! What stands before a configuration in flash: which of two is the newer, and which model it
+//! was deployed with.
+
+/// Words of a [`SlotHeader`].
+pub const SLOT_HEADER_WORDS: usize = 4;
+
+/// Bytes of a [`SlotHeader`]; the configuration begins behind them.
+pub const SLOT_HEADER_BYTES: usize = SLOT_HEADER_WORDS * size_of::<u32>();
+
+/// The first word.
+const MAGIC: u32 = u32::from_le_bytes(*b"WSLT");
+
+/// The header of a slot. It is written between the model, whose sum it holds, and the
+/// configuration, whose first two words come last: without them a slot counts as none, whatever
+/// writing has left of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SlotHeader {
+    /// Counts deployments; wraps around.
+    pub sequence: u32,
+    /// The CRC-32 at the end of the model that it was deployed with; 0: none.
+    pub model: u32,
+}
+
+impl SlotHeader {
+    /// Of what a program brings with it.
+    pub const fn linked(model: u32) -> Self {
+        Self { sequence: 1, model }
+    }
+
+    /// As it lies in flash: magic, sequence, CRC of the model, CRC-32 of the three.
+    pub const fn words(self) -> [u32; SLOT_HEADER_WORDS] {
+        let Self { sequence, model } = self;
+        [MAGIC, sequence, model, sum([MAGIC, sequence, model])]
+    }
+
+    /// The same byte by byte, little-endian.
+    pub const fn bytes(self) -> [u8; SLOT_HEADER_BYTES] {
+        let [a, b, c, d] = self.words();
+        let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (a.to_le_bytes(), b.to_le_bytes());
+        let ([c0, c1, c2, c3], [d0, d1, d2, d3]) = (c.to_le_bytes(), d.to_le_bytes());
+        [
+            a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3,
+        ]
+    }
+
+    /// That at the start of `bytes`; `None` where there is none, or a damaged one.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let (words, _) = bytes.as_chunks::<4>();
+        let &[magic, sequence, model, found, ..] = words else {
+            return None;
+        };
+        let [magic, sequence, model] = [magic, sequence, model].map(u32::from_le_bytes);
+        let is_whole = magic == MAGIC && u32::from_le_bytes(found) == sum([magic, sequence, model]);
+        is_whole.then_some(Self { sequence, model })
+    }
+
+    /// Whether it was written after `other`, across the wrap too.
+    pub const fn is_newer_than(self, other: Self) -> bool {
+        self.sequence.wrapping_sub(other.sequence).cast_signed() > 0
+    }
+}
+
+const fn sum([a, b, c]: [u32; 3]) -> u32 {
+    const CRC: crc::Crc<u32, crc::NoTable> =
+        crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
+    let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (a.to_le_bytes(), b.to_le_bytes());
+    let [c0, c1, c2, c3] = c.to_le_bytes();
+    CRC.checksum(&[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3])
+}
+
+/// The two slots, newest first: the order in which a start looks at them. One whose header is
+/// none comes last.
+pub fn newest_first(headers: [Option<SlotHeader>; 2]) -> [usize; 2] {
+    match headers {
+        [Some(first), Some(second)] if second.is_newer_than(first) => [1, 0],
+        [None, Some(_)] => [1, 0],
+        _ => [0, 1],
+    }
+}
+
+/// Which slot the next deployment is written into, and by which sequence, where a module runs by
+/// the scene of the slot `in_use`, or by none: never that one, and newer than both.
+pub fn next(headers: [Option<SlotHeader>; 2], in_use: Option<usize>) -> (usize, u32) {
+    let [newest, oldest] = newest_first(headers);
+    let slot = match in_use {
+        Some(0) => 1,
+        Some(_) => 0,
+        None => oldest,
+    };
+    let newest = headers.get(newest).copied().flatten();
+    let sequence = newest.map_or(1, |newest| newest.sequence.wrapping_add(1));
+    (slot, sequence)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{SLOT_HEADER_BYTES, SlotHeader, newest_first, next};
+
+    const fn header(sequence: u32) -> SlotHeader {
+        SlotHeader { sequence, model: 7 }
+    }
+
+    proptest! {
+        #[test]
+        fn a_header_is_read_as_it_was_written(sequence in any::<u32>(), model in any::<u32>()) {
+            let header = SlotHeader { sequence, model };
+            prop_assert_eq!(SlotHeader::of(&header.bytes()), Some(header));
+        }
+
+        #[test]
+        fn a_header_with_a_flipped_bit_is_none(
+            sequence in any::<u32>(),
+            bit in 0..8 * SLOT_HEADER_BYTES,
+        ) {
+            let mut bytes = SlotHeader { sequence, model: 3 }.bytes();
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            prop_assert_eq!(SlotHeader::of(&bytes), None);
+        }
+    }
+
+    #[test]
+    fn flash_that_was_never_written_has_no_header() {
+        for byte in [0, 0xFF] {
+            assert_eq!(SlotHeader::of(&[byte; 16]), None);
+        }
+        assert_eq!(SlotHeader::of(&[]), None);
+    }
+
+    #[test]
+    fn the_newer_of_two_comes_first_across_the_wrap() {
+        assert_eq!(newest_first([Some(header(1)), Some(header(2))]), [1, 0]);
+        assert_eq!(newest_first([Some(header(2)), Some(header(1))]), [0, 1]);
+        assert_eq!(
+            newest_first([Some(header(u32::MAX)), Some(header(0))]),
+            [1, 0]
+        );
+        assert_eq!(
+            newest_first([Some(header(0)), Some(header(u32::MAX))]),
+            [0, 1]
+        );
+        assert_eq!(newest_first([None, Some(header(5))]), [1, 0]);
+        assert_eq!(newest_first([Some(header(5)), None]), [0, 1]);
+        assert_eq!(newest_first([None, None]), [0, 1]);
+    }
+
+    #[test]
+    fn the_slot_in_use_is_never_written_and_the_written_one_is_the_newest() {
+        for headers in [
+            [None, None],
+            [Some(header(1)), None],
+            [None, Some(header(1))],
+            [Some(header(8)), Some(header(9))],
+            [Some(header(9)), Some(header(8))],
+            [Some(header(u32::MAX)), Some(header(0))],
+        ] {
+            for in_use in [None, Some(0), Some(1)] {
+                let (slot, sequence) = next(headers, in_use);
+                assert_ne!(Some(slot), in_use);
+                let mut after = headers;
+                after[slot] = Some(header(sequence));
+                assert_eq!(newest_first(after)[0], slot, "{headers:?}, {in_use:?}");
+            }
+        }
+        assert_eq!(next([Some(header(1)), None], Some(0)), (1, 2));
+        assert_eq!(next([None, None], None), (1, 1));
+    }
+}

@@ -1,0 +1,341 @@
+//! What follows from a board's clocks: every rate and duration that its drivers use, each with
+//! its derivation. Arithmetic of 32 bits throughout, as a board computes with it too.
+
+use mlx90333::timing::{
+    BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_LAG_SLOW_NS,
+    SS_LEAD_SLOW_NS, START_UP_WAIT_US,
+};
+
+/// The clocks of a board, Hz.
+#[allow(clippy::struct_field_names, reason = "a unit, not a common name")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Clocks {
+    /// The core's.
+    pub core_hz: u32,
+    /// The clock of every sensor's SPI.
+    pub spi_hz: u32,
+    /// What every byte timer counts.
+    pub byte_timer_hz: u32,
+    /// What the tick timer counts.
+    pub tick_timer_hz: u32,
+    /// What the counter that measures the ticks counts.
+    pub counter_hz: u32,
+    /// What the timer of the motor's PWM counts.
+    pub pwm_hz: u32,
+    /// What the serial port divides.
+    pub serial_hz: u32,
+    /// The watchdog's oscillator: least, nominal, most (the chip's data sheet).
+    pub watchdog_hz: [u32; 3],
+}
+
+/// From the start of a byte to that of the next where the tick leaves no more
+/// room, ns: a gap of 18 µs or more, half as much again as the sensor asks for
+/// in its fast mode.
+pub const SLOT_FAST_NS: u32 = 50_000;
+/// Least time for which /SS is high between frames, ns. The sensor's own need
+/// is not known; this is what it needs between bytes.
+pub const REST_NS: u32 = BYTE_GAP_SAFE_NS;
+
+/// The lowest tick rate of a board, Hz.
+pub const TICK_MIN_HZ: u32 = 200;
+
+/// Motor PWM, Hz: above hearing, and a bridge still switches it with ease.
+pub const PWM_HZ: u32 = 20_000;
+
+/// The watchdog's divider.
+const WATCHDOG_DIVIDER: u32 = 4;
+
+/// What the serial port's error is of a baud, at most: 3 in 200, which is 1.5 %. An asynchronous
+/// receiver bears 4 % over both ends (RM0390, chapter 25.4.5), and the G071's oscillator takes
+/// 1 % of it.
+const BAUD_ERROR: [u32; 2] = [3, 200];
+
+/// Bytes that the serial port holds of what comes, until idle has read it.
+pub const RECEIVED_BYTES: usize = 256;
+
+/// Whether what comes in two ticks finds room: idle reads after each, and may miss one.
+pub const fn serial_keeps_up(baud: u32, tick_hz: u32) -> bool {
+    baud <= serial_most(tick_hz)
+}
+
+/// The highest baud whose bytes, of ten bits each, find room in two ticks.
+pub(super) const fn serial_most(tick_hz: u32) -> u32 {
+    tick_hz.saturating_mul((RECEIVED_BYTES as u32 - 1) * 10 / 2)
+}
+
+/// Loops to wait for a clock before giving up: over a second at the 8 or 16 MHz
+/// a chip starts with, because the ST-LINK gives its clock only once it is awake.
+pub const CLOCK_WAIT_LOOPS: u32 = 4_000_000;
+
+impl Clocks {
+    /// These clocks, once it is certain that all that follows from them is in
+    /// range. For constants: does not compile otherwise.
+    pub(super) const fn checked(self) -> Self {
+        assert!(self.spi_hz <= CLOCK_MAX_HZ);
+        assert!(self.has_fast_slot() && self.tick_max_hz() >= 2_000);
+        let halved = self.halved();
+        assert!(halved.spi_hz >= 100_000 && halved.spi_hz <= CLOCK_SLOW_MAX_HZ);
+        assert!(halved.slot_safe_ns() >= SS_LEAD_SLOW_NS && halved.tick_max_hz() >= 500);
+        self.in_range();
+        halved.in_range();
+        self
+    }
+
+    /// What holds with the core's clock halved or not.
+    const fn in_range(&self) {
+        // Divided without a rest, and without a product of 64 bits.
+        assert!(self.spi_hz.is_multiple_of(125) && self.core_hz.is_multiple_of(1_000_000));
+        assert!(self.byte_timer_hz.is_multiple_of(1_000_000));
+        assert!(self.counter_hz.is_multiple_of(self.tick_timer_hz));
+        assert!(self.byte_timer_hz / 1_000_000 * self.slot_safe_ns() / 1_000 < u16::MAX as u32);
+        assert!(matches!(self.slot_counts(TICK_MIN_HZ), Some(1..)));
+        assert!(self.pwm_hz / PWM_HZ < u16::MAX as u32);
+        // The motor drivers rest one tick at a reversal, which must cover a PWM period.
+        assert!(PWM_HZ >= self.tick_max_hz());
+        // Idle feeds after every tick. Even at the slowest tick and the fastest
+        // watchdog one tick may be missing, and idle has time left for its logging.
+        let bites_ms =
+            self.watchdog_counts() as u32 * WATCHDOG_DIVIDER * 1_000 / self.watchdog_hz[2];
+        assert!(bites_ms >= 2 * 1_000 / TICK_MIN_HZ + 2);
+        assert!(self.tick(TICK_MIN_HZ).is_some() && self.tick(self.tick_max_hz()).is_some());
+    }
+
+    /// With the core's clock halved, and so all but the watchdog's: for sensors in their slow
+    /// mode, as the SPIs have no divider left.
+    #[must_use]
+    pub const fn halved(&self) -> Self {
+        Self {
+            core_hz: self.core_hz / 2,
+            spi_hz: self.spi_hz / 2,
+            byte_timer_hz: self.byte_timer_hz / 2,
+            tick_timer_hz: self.tick_timer_hz / 2,
+            counter_hz: self.counter_hz / 2,
+            pwm_hz: self.pwm_hz / 2,
+            serial_hz: self.serial_hz / 2,
+            watchdog_hz: self.watchdog_hz,
+        }
+    }
+
+    /// Whether bytes are short enough for the fast slot.
+    const fn has_fast_slot(&self) -> bool {
+        self.byte_ns() + BYTE_GAP_FAST_NS <= SLOT_FAST_NS
+    }
+
+    /// One byte on the wire, ns, rounded up.
+    pub const fn byte_ns(&self) -> u32 {
+        // Eight bits, both numbers divided by 125.
+        match self.spi_hz / 125 {
+            0 => u32::MAX,
+            hz => 64_000_000_u32.div_ceil(hz),
+        }
+    }
+
+    /// From the start of a byte to that of the next with the gap that is safe
+    /// in either of the sensor's modes, ns.
+    const fn slot_safe_ns(&self) -> u32 {
+        self.byte_ns() + BYTE_GAP_SAFE_NS
+    }
+
+    /// A frame from /SS low to /SS high, ns: one slot before the first byte,
+    /// eight bytes in their slots, of which the last needs no gap.
+    const fn frame_ns(&self, slot_ns: u32) -> u32 {
+        8 * slot_ns + self.byte_ns()
+    }
+
+    /// The shortest frame, ns.
+    pub const fn frame_least_ns(&self) -> u32 {
+        if self.has_fast_slot() {
+            self.frame_ns(SLOT_FAST_NS)
+        } else {
+            self.frame_ns(self.slot_safe_ns())
+        }
+    }
+
+    /// The highest tick rate that a frame fits into, Hz.
+    pub const fn tick_max_hz(&self) -> u32 {
+        1_000_000_000 / (self.frame_least_ns() + REST_NS)
+    }
+
+    /// The slot for a tick rate, ns: the safe one if its frame fits into a tick,
+    /// the fast one otherwise; `None` above the rate at which that fits, and for 0.
+    pub const fn slot_ns(&self, tick_hz: u32) -> Option<u32> {
+        let Some(tick_ns) = 1_000_000_000_u32.checked_div(tick_hz) else {
+            return None;
+        };
+        if self.frame_ns(self.slot_safe_ns()) + REST_NS <= tick_ns {
+            Some(self.slot_safe_ns())
+        } else if self.has_fast_slot() && self.frame_least_ns() + REST_NS <= tick_ns {
+            Some(SLOT_FAST_NS)
+        } else {
+            None
+        }
+    }
+
+    /// Counts of the byte timer in the slot for a tick rate, rounded up, where there is one.
+    pub const fn slot_counts(&self, tick_hz: u32) -> Option<u16> {
+        match self.slot_ns(tick_hz) {
+            // At most 90 µs of 80 MHz, which is certain of every board.
+            Some(slot_ns) => {
+                Some((slot_ns * (self.byte_timer_hz / 1_000_000)).div_ceil(1_000) as u16)
+            }
+            None => None,
+        }
+    }
+
+    /// Prescaler and period of the tick timer; `None` below [`TICK_MIN_HZ`].
+    pub const fn tick(&self, tick_hz: u32) -> Option<TickPeriod> {
+        TickPeriod::new(tick_hz, self.tick_timer_hz)
+    }
+
+    /// A tick in counts of the counter.
+    pub const fn tick_counts(&self, tick: TickPeriod) -> u32 {
+        tick.counts() * (self.counter_hz / self.tick_timer_hz)
+    }
+
+    /// Counts of the PWM's timer in a period; the duty has this many steps.
+    pub const fn pwm_counts(&self) -> u16 {
+        (self.pwm_hz / PWM_HZ) as u16
+    }
+
+    /// What divides the serial port's clock for `baud` bits a second: at least 16, as each
+    /// bit is sampled so often; `None` if that is more than 1.5 % off.
+    pub const fn serial_divider(&self, baud: u32) -> Option<u16> {
+        let Some(divider) = self.serial_hz.saturating_add(baud / 2).checked_div(baud) else {
+            return None;
+        };
+        if divider < 16 || divider > u16::MAX as u32 {
+            return None;
+        }
+        // Half a baud more than the clock at most.
+        let wanted = divider * baud;
+        let most = wanted / BAUD_ERROR[1] * BAUD_ERROR[0];
+        if self.serial_hz.abs_diff(wanted) <= most {
+            Some(divider as u16)
+        } else {
+            None
+        }
+    }
+
+    /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is
+    /// left on for as long, or for the longest over the spread of the watchdog's
+    /// oscillator, does no harm: a stall is tolerated for 200 ms.
+    pub const fn watchdog_counts(&self) -> u16 {
+        (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
+    }
+
+    /// Cycles of the core from the last byte to /SS high in the sensor's slow mode.
+    pub const fn lag_cycles(&self) -> u32 {
+        self.core_hz / 1_000_000 * SS_LAG_SLOW_NS / 1_000
+    }
+
+    /// Cycles of the core to wait for the sensor after power-up, with /SS high.
+    pub const fn start_up_cycles(&self) -> u32 {
+        self.core_hz / 1_000_000 * START_UP_WAIT_US
+    }
+}
+
+/// Prescaler and period of a 16-bit timer, whose product is the tick in counts
+/// of its clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TickPeriod {
+    /// Counts of the timer's clock a count of the timer.
+    pub prescaler: u16,
+    /// Counts of the timer a tick.
+    pub period: u16,
+}
+
+impl TickPeriod {
+    /// For a tick rate of [`TICK_MIN_HZ`] and more: exact where one of the
+    /// prescalers divides the tick, else within 2e-5.
+    const fn new(tick_hz: u32, timer_hz: u32) -> Option<Self> {
+        if tick_hz < TICK_MIN_HZ {
+            return None;
+        }
+        let counts = timer_hz.saturating_add(tick_hz / 2) / tick_hz;
+        let least = counts.div_ceil(u16::MAX as u32);
+        let mut prescaler = least;
+        while prescaler < least + 32 && !counts.is_multiple_of(prescaler) {
+            prescaler += 1;
+        }
+        if !counts.is_multiple_of(prescaler) {
+            prescaler = least;
+        }
+        match counts.checked_div(prescaler) {
+            Some(period) => Some(Self {
+                prescaler: prescaler as u16,
+                period: period as u16,
+            }),
+            None => None,
+        }
+    }
+
+    /// The tick in counts of the timer's clock.
+    pub const fn counts(self) -> u32 {
+        self.prescaler as u32 * self.period as u32
+    }
+}
+
+const _: () = {
+    let two_kilohertz = TickPeriod::new(2_000, 80_000_000);
+    assert!(matches!(
+        two_kilohertz,
+        Some(TickPeriod {
+            prescaler: 1,
+            period: 40_000
+        })
+    ));
+    let slowest = TickPeriod::new(TICK_MIN_HZ, 80_000_000);
+    assert!(matches!(slowest, Some(tick) if tick.counts() == 400_000));
+};
+
+#[cfg(test)]
+mod tests {
+    use super::{RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
+    use crate::boards::ALL;
+
+    #[test]
+    fn a_serial_port_keeps_up_while_two_ticks_of_bytes_find_room() {
+        for tick_hz in [200_u32, 1_000, 2_000] {
+            let most = (1..3_000_000_u32).rev().find(|baud| {
+                let bytes = (2 * baud).div_ceil(10 * tick_hz);
+                bytes < RECEIVED_BYTES as u32
+            });
+            let most = most.unwrap();
+            assert!(serial_keeps_up(most, tick_hz), "{most} at {tick_hz}");
+            assert!(!serial_keeps_up(most + 1, tick_hz), "{most} at {tick_hz}");
+        }
+    }
+
+    #[test]
+    fn every_rate_of_a_board_has_a_timer_and_no_other_has_a_slot() {
+        for board in ALL {
+            for clocks in [board.clocks, board.clocks.halved()] {
+                let most = clocks.tick_max_hz();
+                for tick_hz in TICK_MIN_HZ..=most {
+                    let tick = clocks.tick(tick_hz).unwrap();
+                    let exact = f64::from(clocks.tick_timer_hz) / f64::from(tick_hz);
+                    let error = f64::from(tick.counts()) / exact - 1.0;
+                    assert!(error.abs() < 2.5e-5, "{}: {tick_hz} Hz", board.name);
+                    assert!(clocks.slot_counts(tick_hz).is_some());
+                }
+                assert_eq!(clocks.slot_counts(most + 1), None);
+                assert_eq!(clocks.slot_counts(0), None);
+                assert_eq!(clocks.tick(TICK_MIN_HZ - 1), None);
+            }
+        }
+    }
+
+    #[test]
+    fn a_baud_is_had_to_within_its_error() {
+        for board in ALL {
+            for baud in [9_600, 115_200, 921_600] {
+                let divider = board.clocks.serial_divider(baud).unwrap();
+                let found = f64::from(board.clocks.serial_hz) / f64::from(divider);
+                assert!((found / f64::from(baud) - 1.0).abs() < 0.015);
+            }
+            assert_eq!(board.clocks.serial_divider(0), None);
+            assert_eq!(board.clocks.serial_divider(u32::MAX), None);
+            assert_eq!(board.clocks.serial_divider(1), None);
+        }
+    }
+}

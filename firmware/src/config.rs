@@ -1,0 +1,199 @@
+//! Everything that a module is made from: plain data, which a scene comes to.
+//!
+//! # Glossary
+//!
+//! - *part*: what a scene may leave out; `None` here.
+//! - *shape*: which parts there are and how many whiskers, the tick rate, the driver: what a
+//!   module is built from at its start, and what cannot change while it runs.
+//! - *limit that protects*: what makes a fault of a motor or a sensor.
+//!
+//! A configuration is built from a scene (the crate `config`), written as [bytes](encode) with a
+//! version and a sum, and read again by a board ([`decode`]), which [checks](Config::check) it
+//! once. After that a tick cannot fail. Every image has the same layout; what an image was built
+//! without is refused by its name ([`Part`]).
+
+mod bytes;
+mod check;
+mod parts;
+mod shape;
+
+use serde::{Deserialize, Serialize};
+use whisking::motor::Driver;
+use whisking::{Real, Start, filter};
+
+use crate::perception::ClassifierConfig;
+use crate::sensing::SensorLimits;
+use crate::servo::ServoConfig;
+
+pub use bytes::{
+    BoardCode, CONFIG_BYTES, ConfigBytes, HEADER_BYTES, Header, VERSION, decode, decode_into,
+    encode,
+};
+pub use check::Field;
+pub use parts::Part;
+
+/// Longest name of a scene, bytes.
+pub const NAME_BYTES: usize = 64;
+
+/// Longest text of the keys that differ from the scene's file, bytes.
+pub const OVERRIDES_BYTES: usize = 192;
+
+/// The constants of a module, in the number format of its tick.
+///
+/// ```
+/// use firmware::{BoardCode, Config, decode, encode};
+///
+/// # let config = Config::<f32>::still();
+/// let bytes = encode(&config, BoardCode::Simulation).unwrap();
+/// assert_eq!(decode::<f32>(&bytes, BoardCode::Simulation), Ok(config));
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct Config<R: Real> {
+    /// What it is called, how fast it ticks, and how many whiskers it has.
+    pub head: HeadConfig,
+    /// How its sensors are read.
+    pub sensor: SensingConfig,
+    /// H50 on x (BIOTACT eq. 9), where something needs contact signals.
+    pub contact: Option<filter::Config<R>>,
+    /// How it moves; `None`: its whiskers are passive.
+    pub motion: Option<MotionConfig<R>>,
+    /// What it makes of touches; `None`: nothing.
+    pub classifier: Option<ClassifierConfig<R>>,
+    /// By what it can be talked to.
+    pub links: Links,
+}
+
+/// What a module is called, how fast it ticks, and how many whiskers it has.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct HeadConfig {
+    /// The name of its scene.
+    pub name: heapless::String<NAME_BYTES>,
+    /// The keys that differ from the scene's file, `KEY=VALUE` with spaces between.
+    pub overrides: heapless::String<OVERRIDES_BYTES>,
+    /// Ticks a second, 200 to 20,000.
+    pub tick_hz: u32,
+    /// Sides, 1 (the left) or 2.
+    pub sides: u8,
+    /// Whiskers on each side, 1 to 12.
+    pub whiskers_per_side: u8,
+}
+
+impl HeadConfig {
+    /// How many whiskers there are.
+    pub const fn whiskers(&self) -> usize {
+        self.sides as usize * self.whiskers_per_side as usize
+    }
+}
+
+/// How sensors are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SensingConfig {
+    /// They compute in their slow mode, and are read at half the clock.
+    pub is_slow: bool,
+    /// What is tolerated of them.
+    pub limits: SensorLimits,
+}
+
+/// How whiskers move.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub struct MotionConfig<R: Real> {
+    /// Oscillators, muscles and gates.
+    pub whisking: whisking::Config<R>,
+    /// Where they start.
+    pub start: Start<R>,
+    /// Source of the oscillators' noise.
+    pub seed: u64,
+    /// Position control, and what is done about faults of a motor.
+    pub servo: ServoConfig<R>,
+    /// The motors' power stage.
+    pub driver: Driver,
+    /// A fault of any whisker switches every motor off until it is gone; otherwise that of its
+    /// whisker alone.
+    pub stops_all: bool,
+    /// Motors are armed when the program starts, unless a fault made it start.
+    pub arms_at_start: bool,
+}
+
+/// By what a module can be talked to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Links {
+    /// A probe reads records and writes requests in RAM.
+    pub has_rtt: bool,
+    /// Bits a second of the serial port; `None`: there is none.
+    pub serial_baud: Option<u32>,
+    /// Two pins show contact and decisions.
+    pub has_pins: bool,
+}
+
+impl<R: Real> Config<R> {
+    /// One passive whisker that feels nothing and tells nothing: the smallest configuration.
+    pub const fn still() -> Self {
+        Self {
+            head: HeadConfig {
+                name: heapless::String::new(),
+                overrides: heapless::String::new(),
+                tick_hz: 2000,
+                sides: 1,
+                whiskers_per_side: 1,
+            },
+            sensor: SensingConfig {
+                is_slow: false,
+                limits: SensorLimits::ANY,
+            },
+            contact: None,
+            motion: None,
+            classifier: None,
+            links: Links {
+                has_rtt: false,
+                serial_baud: None,
+                has_pins: false,
+            },
+        }
+    }
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum ConfigError {
+    /// There is none: its place is erased, or writing it was interrupted.
+    #[error("there is none: none was deployed, or writing it was interrupted")]
+    Absent,
+    /// Something else lies there.
+    #[error("what lies there is no configuration")]
+    Strange,
+    /// Its layout has another version.
+    #[error("its layout has version {0}, this program reads {VERSION}")]
+    Version(u16),
+    /// It was made for another board.
+    #[error("it was made for another board ({0})")]
+    Board(u8),
+    /// It has another number format.
+    #[error("it has another number format ({0}) than this program")]
+    Format(u8),
+    /// It is longer than its place.
+    #[error("it is longer than its place")]
+    TooLong,
+    /// Its sum is another.
+    #[error("it is damaged: its checksum does not match")]
+    Damaged,
+    /// A part cannot be read.
+    #[error("{0}: it cannot be read")]
+    Unreadable(Part),
+    /// A part is there that this image was built without.
+    #[error("{0}: this image was built without it")]
+    NotBuilt(Part),
+    /// A value is out of its range.
+    #[error("{0}: out of range")]
+    Range(Field),
+    /// The board has less than it asks for.
+    #[error("{0}: more than this board has")]
+    Room(Field),
+    /// It changes what only a start can change.
+    #[error("{0}: cannot change while the module runs; deploy the scene")]
+    Shape(Field),
+    /// It changes a limit that protects, and a motor is armed.
+    #[error("{0}: changes only while no motor is armed")]
+    Armed(Field),
+}

@@ -1,0 +1,88 @@
+//! The parts that an image may be built without.
+
+use core::fmt;
+
+macro_rules! parts {
+    (@built "") => { true };
+    (@built $feature:tt) => { cfg!(feature = $feature) };
+    ($($name:ident $feature:tt = $code:literal: $text:literal;)*) => {
+        /// A part of a configuration. Numbers keep their meanings.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[repr(u8)]
+        pub enum Part {
+            $(#[doc = $text]
+            $name = $code,)*
+        }
+
+        impl Part {
+            /// Every part.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+
+            /// The cargo feature that it is built by; empty: it is always there.
+            pub const fn feature(self) -> &'static str {
+                match self {
+                    $(Self::$name => $feature,)*
+                }
+            }
+
+            /// It in words.
+            pub const fn text(self) -> &'static str {
+                match self {
+                    $(Self::$name => $text,)*
+                }
+            }
+
+            /// Whether this image has it.
+            #[inline]
+            pub const fn is_built(self) -> bool {
+                match self {
+                    $(Self::$name => parts!(@built $feature),)*
+                }
+            }
+        }
+    };
+}
+
+parts! {
+    Head "" = 0: "head";
+    Sensor "" = 1: "sensor";
+    Links "" = 2: "links";
+    Contact "contact" = 3: "contact";
+    Motion "motion" = 4: "motion";
+    Rcp "rcp" = 5: "rcp";
+    Cia "cia" = 6: "cia";
+    Noise "noise" = 7: "noise";
+    Euler "euler" = 8: "integrator euler";
+    Exact "exact" = 9: "integrator exact";
+    HBridge "h-bridge" = 10: "driver h-bridge";
+    SixStep "six-step" = 11: "driver six-step";
+    Homing "homing" = 12: "homing";
+    Classifier "classifier" = 13: "classifier";
+    Sequential "sequential" = 14: "rule sequential";
+    Window "window" = 15: "rule window";
+    Several "several" = 16: "several whiskers that decide";
+    Zero "zero" = 17: "zero of the sensor";
+    Rtt "rtt" = 18: "link rtt";
+    Serial "serial" = 19: "link serial";
+    Pins "pins" = 20: "pins";
+    Set "set" = 21: "settings by command";
+    Deploy "deploy" = 22: "deployment by command";
+}
+
+impl Part {
+    /// Its number.
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// That of a number.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.iter().copied().find(|part| part.code() == code)
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text())
+    }
+}

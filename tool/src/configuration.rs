@@ -1,0 +1,193 @@
+//! The configuration that a module runs by: read back, made from a scene, and changed.
+
+mod program;
+mod runs_by;
+
+use config::{RunsOn, Target};
+use firmware::{
+    BoardCode, ConfigBytes, ConfigError, HeadConfig, Header, Links, Part, decode, encode,
+};
+use host_sim::Error;
+use scene::Scene;
+use serde_json::Value;
+use whisking::Real;
+
+pub(crate) use program::Program;
+pub(crate) use runs_by::RunsBy;
+
+/// `function::<R>(arguments)` in a number format.
+macro_rules! in_format {
+    ($format:expr, $function:ident($($argument:expr),* $(,)?)) => {
+        match $format {
+            ::whisking::FormatCode::Single => $function::<f32>($($argument),*),
+            ::whisking::FormatCode::Double => $function::<f64>($($argument),*),
+            ::whisking::FormatCode::Fixed => $function::<::whisking::Fix>($($argument),*),
+        }
+    };
+}
+pub(crate) use in_format;
+
+/// The configuration that a module runs by.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Running {
+    program: Program,
+    bytes: Vec<u8>,
+    /// The CRC-32 by which a module names it.
+    pub(crate) crc: u32,
+    pub(crate) head: HeadConfig,
+    pub(crate) links: Links,
+    /// Whether it decides, by a model that is deployed with it.
+    pub(crate) decides: bool,
+    /// The contact from which samples count.
+    contact_min: Option<f64>,
+}
+
+/// What helps where an image was built without a part.
+pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
+
+/// A request to an image that was built without what carries it out.
+pub(crate) fn not_built(part: Part) -> Error {
+    Error::Work(format!(
+        "the module's image was built without {part}; {ANY_SCENE}"
+    ))
+}
+
+fn read<R: Real>(program: Program, bytes: Vec<u8>) -> Result<Running, ConfigError> {
+    let config = decode::<R>(&bytes, program.board)?;
+    let classifier = config.classifier.as_ref();
+    Ok(Running {
+        crc: Header::of(&bytes)?.crc,
+        decides: classifier.is_some_and(|of| of.rule.is_some()),
+        contact_min: classifier.and_then(|of| of.contact_min.map(Real::to_f64)),
+        head: config.head,
+        links: config.links,
+        program,
+        bytes,
+    })
+}
+
+fn built<R: Real>(
+    scene: &Scene,
+    target: Target<'_>,
+    board: BoardCode,
+) -> Result<ConfigBytes, config::Mismatch> {
+    Ok(encode(&config::build::<R>(scene, target)?, board)?)
+}
+
+fn may_become<R: Real>(old: &Running, new: &Running) -> Result<(), ConfigError> {
+    let board = old.program.board;
+    let new = decode::<R>(&new.bytes, board)?;
+    decode::<R>(&old.bytes, board)?.may_become(&new, false)
+}
+
+/// All values by their names.
+fn tree<R: Real>(of: &Running) -> Value {
+    let config = decode::<R>(&of.bytes, of.program.board).ok();
+    serde_json::to_value(config).unwrap_or_default()
+}
+
+/// The names of the values in which two trees differ; `path` is theirs.
+fn differing(path: &str, one: &Value, other: &Value) -> Vec<String> {
+    match (one, other) {
+        (Value::Object(one), Value::Object(other)) => {
+            let inner = one.iter().flat_map(|(name, value)| {
+                let path = format!("{path}{}{name}", if path.is_empty() { "" } else { "." });
+                differing(&path, value, other.get(name).unwrap_or_default())
+            });
+            inner.collect()
+        }
+        _ if one == other => Vec::new(),
+        _ => vec![path.to_owned()],
+    }
+}
+
+impl Running {
+    /// Of its bytes.
+    ///
+    /// # Errors
+    /// [`Error::Work`] says why they cannot be read.
+    pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, Error> {
+        let strange = |fault: ConfigError| {
+            Error::Work(format!(
+                "the configuration of the module cannot be read: {fault}"
+            ))
+        };
+        let header = Header::of(&bytes).map_err(strange)?;
+        let program = Program::of(header.board, header.format)?;
+        in_format!(program.format, read(program, bytes)).map_err(strange)
+    }
+
+    /// That of a scene for this board or simulation.
+    ///
+    /// # Errors
+    /// What is wrong with the scene for it.
+    pub(crate) fn of_scene(
+        scene: &Scene,
+        board: BoardCode,
+        target: Target<'_>,
+    ) -> Result<Self, Error> {
+        let program = Program::for_scene(board, scene)?;
+        let built = in_format!(program.format, built(scene, target, board));
+        Self::of(
+            built
+                .map_err(|fault| Error::Input(fault.to_string()))?
+                .to_vec(),
+        )
+    }
+
+    /// That of a scene for the same module with the same model, with these keys in place of the
+    /// scene file's own.
+    ///
+    /// # Errors
+    /// What is wrong with the scene.
+    pub(crate) fn remade(&self, scene: &Scene, overrides: &str) -> Result<Self, Error> {
+        let board = self.program.board;
+        let (runs_on, is_recording) = match board {
+            BoardCode::Simulation => {
+                let records = !self.decides;
+                (RunsOn::Simulation { records }, records)
+            }
+            _ => (RunsOn::Board, false),
+        };
+        // What the model was trained from; a recording has none.
+        let own = scene.classifier.as_ref().and_then(|own| own.contact_min);
+        let is_models = own.is_none() && !is_recording;
+        let target = Target {
+            runs_on,
+            gate: self
+                .contact_min
+                .filter(|_| is_models)
+                .map(|gate| gate as f32),
+            overrides,
+        };
+        Self::of_scene(scene, board, target)
+    }
+
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    pub(crate) const fn program(&self) -> Program {
+        self.program
+    }
+
+    /// Whether a module that runs by it may go on by `new`, with its motors off.
+    ///
+    /// # Errors
+    /// What only a start can change.
+    pub(crate) fn may_become(&self, new: &Self) -> Result<(), ConfigError> {
+        in_format!(self.program.format, may_become(self, new))
+    }
+
+    /// The names of the values that another has otherwise, as [`firmware::Config`] has them.
+    pub(crate) fn differs_in(&self, other: &Self) -> Vec<String> {
+        if self.program != other.program {
+            return vec!["whisking.numbers".to_owned()];
+        }
+        let [one, other] = [self, other].map(|of| in_format!(of.program.format, tree(of)));
+        differing("", &one, &other)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,68 @@
+//! Which program a configuration is made for.
+
+use config::NumberFormat;
+use firmware::BoardCode;
+use firmware::boards::{ALL, BoardFacts};
+use host_sim::Error;
+use scene::Scene;
+use whisking::FormatCode;
+
+/// The program of a board, or of a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Program {
+    pub(crate) board: BoardCode,
+    pub(crate) format: FormatCode,
+}
+
+impl Program {
+    /// That of the numbers of a board and a number format.
+    ///
+    /// # Errors
+    /// [`Error::Work`] for a number that is not known here.
+    pub(crate) fn of(board: u8, format: u8) -> Result<Self, Error> {
+        let boards = ALL.iter().map(|facts| facts.code);
+        let mut boards = boards.chain([BoardCode::Simulation]);
+        let mut formats = [FormatCode::Single, FormatCode::Double, FormatCode::Fixed].into_iter();
+        let board = boards.find(|known| *known as u8 == board);
+        let format = formats.find(|known| *known as u8 == format);
+        let program = board.zip(format);
+        let program = program.map(|(board, format)| Self { board, format });
+        program.ok_or_else(|| {
+            let fault = "the module's program is newer than this one: it has another board or \
+                         number format";
+            Error::Work(fault.to_owned())
+        })
+    }
+
+    /// That which a scene needs on this board, or in a simulation.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a number format that the board does not have.
+    pub(crate) fn for_scene(board: BoardCode, scene: &Scene) -> Result<Self, Error> {
+        let format = match BoardFacts::of(board) {
+            None => config::in_simulation(scene),
+            Some(facts) => config::on_board(scene, facts.name, facts.has_fpu)
+                .map_err(|fault| Error::Input(fault.to_string()))?,
+        };
+        let format = match format {
+            NumberFormat::Single => FormatCode::Single,
+            NumberFormat::Double => FormatCode::Double,
+            NumberFormat::Fixed => FormatCode::Fixed,
+        };
+        Ok(Self { board, format })
+    }
+
+    /// Its board; none: a simulation.
+    pub(crate) fn facts(self) -> Option<&'static BoardFacts> {
+        BoardFacts::of(self.board)
+    }
+
+    /// The name of its number format, as a scene has it.
+    pub(crate) const fn format_name(self) -> &'static str {
+        match self.format {
+            FormatCode::Single => "f32",
+            FormatCode::Double => "f64",
+            FormatCode::Fixed => "fixed",
+        }
+    }
+}

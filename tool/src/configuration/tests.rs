@@ -1,0 +1,86 @@
+use std::path::{Path, PathBuf};
+
+use config::{RunsOn, Target};
+use firmware::BoardCode;
+use firmware::boards::ALL;
+use host_sim::bench::config_of;
+use host_sim::loaded::Loaded;
+use scene::{Override, Scene};
+use whisking::FormatCode;
+
+use super::Running;
+use crate::deployment::model_of;
+
+/// The scenes of the workspace that are whole.
+fn scenes() -> Vec<(PathBuf, Loaded)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let files = std::fs::read_dir(folder).unwrap();
+    let files = files.map(|file| file.unwrap().path());
+    let files = files.filter(|file| file.extension().is_some_and(|ext| ext == "toml"));
+    let scenes = files.filter_map(|file| Some((file.clone(), Loaded::new(&file).ok()?)));
+    scenes.collect()
+}
+
+#[test]
+fn a_configuration_is_made_again_from_its_scene() {
+    let mut count = 0;
+    for (file, loaded) in scenes() {
+        let scene = &loaded.scene;
+        let model = model_of(&file, scene).unwrap();
+        for board in &ALL {
+            let Ok(image) = config::image(scene, model.as_ref(), board, "motor.kp=0.05") else {
+                continue;
+            };
+            let running = Running::of(image.bytes.to_vec()).unwrap();
+            let again = running.remade(scene, "motor.kp=0.05").unwrap();
+            assert_eq!(again, running, "{} on {}", file.display(), board.name);
+            assert_eq!(running.program().board, board.code);
+            count += 1;
+        }
+        let gate = loaded.classifier().unwrap().and_then(|of| of.touch_rule());
+        let gate = gate.map(|touch| touch.gate);
+        let records = model.is_none();
+        let target = Target {
+            runs_on: RunsOn::Simulation { records },
+            gate,
+            overrides: "",
+        };
+        let running = Running::of_scene(scene, BoardCode::Simulation, target).unwrap();
+        let again = running.remade(scene, "").unwrap();
+        assert_eq!(again, running, "{}", file.display());
+        if running.program().format == FormatCode::Single {
+            // As host-sim has it.
+            let made = config_of::<f32>(scene, gate, records, "").unwrap();
+            let made = firmware::encode(&made, BoardCode::Simulation).unwrap();
+            assert_eq!(running.bytes(), &*made, "{}", file.display());
+        }
+    }
+    assert!(count > 20, "{count}");
+}
+
+#[test]
+fn what_differs_is_named() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
+    let text = std::fs::read_to_string(file).unwrap();
+    let of = |keys: &[&str]| {
+        let keys: Vec<Override> = keys.iter().map(|key| key.parse().unwrap()).collect();
+        let (scene, _) = Scene::from_str_with("textures.toml", &text, &keys).unwrap();
+        let target = Target {
+            runs_on: RunsOn::Board,
+            gate: None,
+            overrides: "",
+        };
+        Running::of_scene(&scene, BoardCode::NucleoF446re, target).unwrap()
+    };
+    let file = of(&[]);
+    assert!(file.differs_in(&file).is_empty());
+    for (key, names) in [
+        ("motor.kd=0.001", &["motion.servo.pd.kd"][..]),
+        ("rcp.gain=1.5", &["motion.whisking.rcp.gain"]),
+        ("sensor.zero_after_s=2", &["sensor.limits.zero"]),
+        ("telemetry.pins=true", &["links.has_pins"]),
+        ("whisking.numbers=fixed", &["whisking.numbers"]),
+    ] {
+        assert_eq!(file.differs_in(&of(&[key])), names, "{key}");
+    }
+}

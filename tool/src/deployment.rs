@@ -1,0 +1,168 @@
+//! What is deployed: a scene and its model, made for the module that gets it.
+
+use std::path::Path;
+
+use config::{RunsOn, Target};
+use firmware::boards::{BoardFacts, NUCLEO_F446RE};
+use firmware::{CodeClassifier, ConfigBytes, ConfigError, ModelLimits, ModelState, decode, encode};
+use host_sim::loaded::Loaded;
+use host_sim::{Error, files};
+use scene::Scene;
+use tactile::ModelBuf;
+use whisking::Real;
+
+use crate::configuration::{Program, Running, in_format};
+
+/// A scene and its model.
+#[derive(Debug)]
+pub(crate) struct Deployment {
+    pub(crate) config: Running,
+    pub(crate) model: Option<ModelBuf>,
+    /// The scene, for a module that is simulated.
+    pub(crate) loaded: Option<Loaded>,
+}
+
+/// The model that the scene in a file names, if any.
+///
+/// # Errors
+/// [`Error::Input`] if it is wrong.
+pub(crate) fn model_of(file: &Path, scene: &Scene) -> Result<Option<ModelBuf>, Error> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    let model = scene.model_path(folder);
+    let model = model.map(|path| files::load_model(&path)).transpose()?;
+    Ok(model.map(|(_, model)| model))
+}
+
+/// Whether a board has room for a model.
+fn has_room(model: &ModelBuf, board: &BoardFacts, name: &str) -> Result<(), Error> {
+    let (bytes, room) = (model.as_bytes().len(), board.flash.slots[0].model.bytes);
+    let (classes, most) = (model.classes(), board.max_classes);
+    let fault = if classes > most {
+        format!("found {classes} classes, allowed on the {name}: 2 to {most}")
+    } else if bytes > room as usize {
+        format!("found {bytes} bytes, allowed on the {name}: at most {room}")
+    } else {
+        return Ok(());
+    };
+    Err(Error::Input(format!("the model: {fault}")))
+}
+
+/// The configuration that a module runs by, for another model, which may be trained from a contact
+/// on; or why it does not do for that.
+fn with_model<R: Real>(
+    running: &Running,
+    model: &ModelBuf,
+    board: &BoardFacts,
+) -> Result<ConfigBytes, String> {
+    let code = running.program().board;
+    let of_config = |fault: ConfigError| fault.to_string();
+    let mut config = decode::<R>(running.bytes(), code).map_err(of_config)?;
+    let whiskers = config.head.whiskers();
+    let classifier = config.classifier.as_mut();
+    let Some((classifier, rule)) = classifier.and_then(|of| of.rule.map(|rule| (of, rule))) else {
+        return Err("it has no [classifier], and so no use for a model".to_owned());
+    };
+    let limits = ModelLimits {
+        classes: board.max_classes,
+        contact_min: classifier.contact_min.map(|least| least.to_f64() as f32),
+    };
+    let rule = (rule, classifier.deciding);
+    let found = CodeClassifier::at_start(model.as_bytes(), limits, rule, whiskers);
+    if let ModelState::Refused(refusal) = found.state() {
+        return Err(refusal.text().to_owned());
+    }
+    if let Some(gate) = found.gate() {
+        if config.contact.is_none() {
+            return Err("it computes no contact, from which this model was trained".to_owned());
+        }
+        let gate = R::from_f64(f64::from(gate));
+        classifier.contact_min.get_or_insert(gate);
+    }
+    encode(&config, code).map_err(of_config)
+}
+
+impl Deployment {
+    /// The scene in a file, which decides by `model`, for a program.
+    ///
+    /// # Errors
+    /// [`Error::Input`] says why the module's board does not take it.
+    pub(crate) fn of(
+        file: &Path,
+        loaded: Loaded,
+        model: Option<ModelBuf>,
+        program: Program,
+    ) -> Result<Self, Error> {
+        let wrong = |fault: &dyn std::fmt::Display| Error::file(file, fault);
+        let scene = &loaded.scene;
+        let config = if let Some(board) = program.facts() {
+            let image = config::image(scene, model.as_ref(), board, "");
+            Running::of(image.map_err(|misfit| wrong(&misfit))?.bytes.to_vec())?
+        } else {
+            if let Some(model) = &model {
+                has_room(model, &NUCLEO_F446RE, "simulated board")?;
+            }
+            let records = model.is_none();
+            let gate = loaded.classifier()?.and_then(|of| of.touch_rule());
+            let target = Target {
+                runs_on: RunsOn::Simulation { records },
+                gate: gate.map(|touch| touch.gate),
+                overrides: "",
+            };
+            Running::of_scene(scene, program.board, target)?
+        };
+        let found = config.program();
+        if program.facts().is_some() && found != program {
+            return Err(wrong(&format_args!(
+                "whisking.numbers: it comes to {}; the board's program computes in {}, whisker \
+                 flash gives it another",
+                found.format_name(),
+                program.format_name()
+            )));
+        }
+        Ok(Self {
+            config,
+            model,
+            loaded: Some(loaded),
+        })
+    }
+
+    /// The scene that a module runs, with another model.
+    ///
+    /// # Errors
+    /// [`Error::Input`] says why that does not go with it.
+    pub(crate) fn again(running: &Running, model: ModelBuf) -> Result<Self, Error> {
+        let program = running.program();
+        let board = program.facts().unwrap_or(&NUCLEO_F446RE);
+        has_room(&model, board, board.name)?;
+        let bytes = in_format!(program.format, with_model(running, &model, board));
+        let bytes = bytes.map_err(|fault| {
+            let name = &running.head.name;
+            Error::Input(format!(
+                "the scene {name} of the module: {fault}; --scene FILE deploys both"
+            ))
+        })?;
+        Ok(Self {
+            config: Running::of(bytes.to_vec())?,
+            model: Some(model),
+            loaded: None,
+        })
+    }
+
+    /// The words of the configuration and of the model, each an even number of them, with zeros
+    /// at the end: the flash of some boards is written by two.
+    pub(crate) fn words(&self) -> [Vec<u32>; 2] {
+        let model = self
+            .model
+            .as_ref()
+            .map_or(&[][..], |model| model.as_bytes());
+        [self.config.bytes(), model].map(|bytes| {
+            let mut bytes = bytes.to_vec();
+            bytes.resize(bytes.len().next_multiple_of(8), 0);
+            let (words, _) = bytes.as_chunks();
+            words.iter().map(|word| u32::from_le_bytes(*word)).collect()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
