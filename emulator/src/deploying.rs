@@ -77,15 +77,15 @@ struct Case<'p> {
 /// [`Error::Work`] says what did not happen.
 pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> {
     let case = Case::new(bench, model)?;
-    let mut told = Vec::new();
+    let mut lines = Vec::new();
     let without = case.agree(&case.old, &case.old.flash, COMPARED_S)?;
-    told.push(agreed("without a model", without));
+    lines.push(agreed("without a model", without));
     let with = case.agree(&case.new, &case.new.flash, COMPARED_S)?;
-    told.push(agreed("with a model", with));
+    lines.push(agreed("with a model", with));
     if without.decisions != 0 || with.decisions == 0 {
-        return Err(Error::Work(told.join("\n")));
+        return Err(Error::Work(lines.join("\n")));
     }
-    told.push(case.refuses_to_load()?);
+    lines.push(case.refuses_to_load()?);
     let words = case.new.deployment.load().words() as usize;
     for (way, written) in [
         (Way::Probe, 0),
@@ -93,7 +93,7 @@ pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> 
         (Way::Probe, words - 1),
     ] {
         case.keeps(way, &case.new.deployment, written, None)?;
-        told.push(format!(
+        lines.push(format!(
             "{written} of {words} words written: the scene before runs, as on the PC"
         ));
     }
@@ -103,14 +103,14 @@ pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> 
             model: Vec::new(),
         };
         let said = case.keeps(Way::Probe, &wrong, usize::MAX, Some(error))?;
-        told.push(format!("{said}; the scene before runs, as on the PC"));
+        lines.push(format!("{said}; the scene before runs, as on the PC"));
     }
     for (what, model, why) in wrong_models(&case.new.deployment.model, case.facts()?)? {
-        told.push(format!("{what}: {}", case.refuses(&model, why)?));
+        lines.push(format!("{what}: {}", case.refuses(&model, why)?));
     }
-    told.push(case.refuses_another()?);
-    told.extend(case.decides()?);
-    Ok(told)
+    lines.push(case.refuses_another()?);
+    lines.extend(case.decides()?);
+    Ok(lines)
 }
 
 fn agreed(what: &str, of: Agreement) -> String {
@@ -382,7 +382,7 @@ impl<'p> Case<'p> {
         let said = lines.iter().find(|line| line.contains("slot B: "));
         let said = said.map_or("", |line| line);
         if !driven || !is_old || !said.contains(text) {
-            let what = format!("the scene before runs, and why is told: {text}");
+            let what = format!("the scene before runs, and the log says why: {text}");
             return Err(missing(&what, &lines));
         }
         self.agree(&self.old, &session.flash()?, SHORT_S)?;

@@ -81,8 +81,8 @@ impl Loaded {
         Err(Error::Input(if self.scene.classifier.is_some() {
             self.places.fault(
                 "classifier.model",
-                "found, so the model is linked into the program; for one that is deployed take \
-                 this line out",
+                "found, so the scene brings its model; for one that is deployed apart take this \
+                 line out",
             )
         } else {
             let path = self.path.display();

@@ -121,8 +121,8 @@ fn experiments() -> Result<(), Fault> {
 /// A board's own program on the emulated chip: PC and board agree, in single precision
 /// and in fixed point, with one side and with two, the scene linked and deployed; contact on one
 /// side excites the other in time; no tick is missed, and ticks that are too long and a sensor
-/// that is lost, on either side, are noticed, no start that nobody asked for drives a motor, and
-/// a supply that dips switches it off; a PC is told and asks, at its price.
+/// that is lost, on either side, are noticed, no unwanted start drives a motor, and
+/// a supply that dips switches it off; a PC reads and asks, at its price.
 /// The boards that carry one side run its scene as the PC does, and notice a sensor that is
 /// lost; the last takes scenes and models that are right and refuses others. The rest is for the
 /// night. Half of it runs beside the other half.

@@ -2,8 +2,8 @@
 //! word, and writes them into the flash of the slot that is not in use.
 //!
 //! It has the chip for itself, from [`Command::Load`] to the reset: motors off, interrupts
-//! masked, flash read no more. When no request comes any more it starts the board anew, by the
-//! scene before, as the first words of the new one are written last; the watchdog is slow then,
+//! masked, flash read no more. When no request comes any more it resets the board, which starts by
+//! the scene before, as the first words of the new one are written last; the watchdog is slow then,
 //! and fed by each request. Where both slots have one model, the scene before may have lost it.
 
 use cortex_m::peripheral::{NVIC, SCB};
@@ -80,7 +80,7 @@ pub(crate) struct Order {
     pub(crate) answer: Answer,
 }
 
-/// Erases, writes what comes, and starts the chip anew.
+/// Erases, writes what comes, and resets the chip.
 pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
@@ -95,7 +95,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     answer.status = written(loading.erase(&mut watchdog));
     watchdog.feed();
     line.reply(&answer);
-    // 2 s, in which no watchdog bites that is slowed down, after which nobody asks any more.
+    // 2 s, in which no watchdog bites that is slowed down, after which no request is expected.
     let silence = pace::tick_hz().saturating_mul(2);
     let mut silent = 0;
     while silent < silence {
