@@ -108,7 +108,7 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
         model.display()
     ));
     assert!(
-        said.contains("textures.toml:34: classifier.model: found, so the model is linked"),
+        said.contains("textures.toml:34: classifier.model: found, so the scene brings its model"),
         "{said}"
     );
     let said = place.refused(&format!(
