@@ -7,6 +7,7 @@ mod tilt_fault;
 use core::fmt;
 
 use mlx90333::FrameError;
+use serde::{Deserialize, Serialize};
 use tactile::Decision;
 use whisking::motor;
 
@@ -15,7 +16,7 @@ use crate::faults::{name, number};
 pub use tilt_fault::TiltFault;
 
 /// A whisker of the array.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Place {
     /// 0 left, 1 right.
     pub side: u8,
@@ -36,7 +37,7 @@ impl Place {
 }
 
 /// Why a whisker's readings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SensorFault {
     /// No frame was finished in time.
     NoFrame,
@@ -44,9 +45,6 @@ pub enum SensorFault {
     Bus,
     /// The frame was refused; the reason says more.
     Frame(FrameError),
-    /// A sensor that measures a magnet's tilt gives none; the reason says more.
-    #[cfg(feature = "tmag5170")]
-    Tilt(TiltFault),
     /// Its words repeat to the bit for longer than the noise of a sensor lets them.
     Frozen,
     /// Its words jump about farther than a whisker can move.
@@ -54,6 +52,10 @@ pub enum SensorFault {
     /// Ticks without a good frame are too many, if never too many in succession. With the
     /// number of what was wrong with the last.
     Often(u8),
+    /// A sensor that measures a magnet's tilt gives none; the reason says more. The last, as
+    /// programs without it number the others alike.
+    #[cfg(feature = "tmag5170")]
+    Tilt(TiltFault),
 }
 
 impl SensorFault {
@@ -97,8 +99,9 @@ impl fmt::Display for SensorFault {
 
 impl core::error::Error for SensorFault {}
 
-/// Something worth a line in the log.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Something worth a line in the log. Ticks report all but the last three, which are the board's
+/// own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Event {
     /// A whisker touches something.
     Touch {
@@ -128,7 +131,24 @@ pub enum Event {
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.
     MotorRetry(Place),
-    /// A motor has had too many faults: it stays off until it is told to run
+    /// A motor has had too many faults: it stays off until it is cleared
     /// ([`Command::Clear`](crate::Command::Clear)).
     MotorGivenUp(Place),
+    /// The user button has armed the motors.
+    Armed,
+    /// Once a second: how the ticks keep their time.
+    Health(Health),
+    /// A limit with this number in the [table](crate::faults) was passed.
+    Limit(u8),
+}
+
+/// How the ticks keep their time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Health {
+    /// The longest tick of the last second, tenths of a microsecond.
+    pub worst_tenths: u16,
+    /// Ticks that did not happen in time, since the start.
+    pub missed: u32,
+    /// Events that found their queue full, since the start.
+    pub dropped: u32,
 }

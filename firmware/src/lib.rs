@@ -36,6 +36,7 @@ mod io;
 pub mod lines;
 mod module;
 mod motion;
+mod packet;
 mod perception;
 mod record;
 mod sensing;
@@ -56,10 +57,11 @@ pub use config::{
 };
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;
-pub use event::{Event, Place, SensorFault};
+pub use event::{Event, Health, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Hardware, Module, Whisker, WhiskerParts};
 pub use motion::{Command, Motion, NoActiveWhisker};
+pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
     Sample, SampleClassifier, Sensed, shifts,
@@ -68,7 +70,7 @@ pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCa
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
 pub use servo::{FAULTS, MotorRecord, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
-pub use telemetry::{About, Link, Notes, PacketSink, PacketSlot, may_load};
+pub use telemetry::{About, Link, letters, may_load};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{TiltScale, TiltSource};
 pub use timing::Timing;

@@ -1,10 +1,169 @@
-//! What a module tells as lines of text: fields with spaces between them, the first of which
-//! is the time. docs/serial.md lists them.
+//! What a module says of itself as lines: fields with spaces between them. docs/serial.md lists
+//! them.
+//!
+//! The wording stands here once, as texts of defmt. A board's log sends their numbers; the serial
+//! port, and a simulated module, fill them in ([`wire::Line::form`]).
 
-use wire::Line;
+use wire::{Field, Line};
 
-use crate::faults;
-use crate::{Event, NotArmed, Place, StartCause, Startup};
+use crate::faults::texts;
+use crate::{Event, NotArmed, StartCause, Startup};
+
+/// Says what an [`Event`] is by `$say!(LEVEL, TEXT, VALUES...)`: the level in the log, a text of
+/// defmt, and the values in it. `$texts` gives name and likely causes of a fault's number,
+/// `$class` the name of a class, `$load` the length of a tick in microseconds and how many lines
+/// found no room. What an image is built without has no line.
+#[macro_export]
+macro_rules! say_event {
+    ($say:ident, $event:expr, $texts:ident, $class:expr, $load:expr) => {
+        match $event {
+            $crate::Event::Touch { place, number } if $crate::Part::Classifier.is_built() => {
+                $say!(info, "touch {=str} {=u16}", place.side_name(), number);
+            }
+            $crate::Event::TouchEnd { place, number } if $crate::Part::Classifier.is_built() => {
+                $say!(info, "end {=str} {=u16}", place.side_name(), number);
+            }
+            $crate::Event::Decision(place, decision) if $crate::Part::Classifier.is_built() => {
+                let class = decision.class().map_or("unknown", $class);
+                let posterior = $crate::lines::percent(decision);
+                $say!(
+                    info,
+                    "decision {=str} {=str} {=u32}.{=u32:04} {=u32}",
+                    place.side_name(),
+                    class,
+                    posterior / 10_000,
+                    posterior % 10_000,
+                    decision.samples()
+                );
+            }
+            $crate::Event::SensorLost(place, why) => {
+                let [name, causes] = $texts(why.code());
+                $crate::say_fault!($say, place, why.code(), name, causes);
+            }
+            $crate::Event::SensorBack(place) => {
+                $say!(info, "back {=str}", place.side_name());
+            }
+            $crate::Event::ZeroMoved(place, [x, y]) if $crate::Part::Zero.is_built() => {
+                $say!(info, "zero {=str} {=i16} {=i16}", place.side_name(), x, y);
+            }
+            $crate::Event::MotorFault(place, why) if $crate::Part::Motion.is_built() => {
+                let [name, causes] = $texts(why.code());
+                $crate::say_fault!($say, place, why.code(), name, causes);
+            }
+            $crate::Event::MotorRetry(place) if $crate::Part::Motion.is_built() => {
+                $say!(info, "retry {=str}", place.side_name());
+            }
+            $crate::Event::MotorGivenUp(place) if $crate::Part::Motion.is_built() => {
+                $say!(error, "off {=str}", place.side_name());
+            }
+            $crate::Event::Armed if $crate::Part::Motion.is_built() => {
+                $say!(info, "armed");
+            }
+            $crate::Event::Health(health) => {
+                let [period_us, lost]: [u32; 2] = $load;
+                $say!(
+                    info,
+                    "health {=u16}.{=u16} {=u32} {=u32} {=u32} {=u32}",
+                    health.worst_tenths / 10,
+                    health.worst_tenths % 10,
+                    period_us,
+                    health.missed,
+                    health.dropped,
+                    lost
+                );
+            }
+            $crate::Event::Limit(number) => {
+                let [name, causes] = $texts(number);
+                $say!(warn, "limit {=u8} {=istr} ({=istr}?)", number, name, causes);
+            }
+            _ => {}
+        }
+    };
+}
+
+/// Says which fault a whisker has.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! say_fault {
+    ($say:ident, $place:expr, $number:expr, $name:expr, $causes:expr) => {
+        $say!(
+            error,
+            "fault {=str} {=u8} {=istr} ({=istr}?)",
+            $place.side_name(),
+            $number,
+            $name,
+            $causes
+        )
+    };
+}
+
+/// Says what has started, as [`say_event!`](crate::say_event) does: `$what` are the version, the
+/// scene and the ticks a second, `$start` is the [`Startup`] and its [`StartCause`].
+#[macro_export]
+macro_rules! say_start {
+    ($say:ident, $texts:ident, $what:expr, $start:expr) => {{
+        let (version, scene, tick_hz) = $what;
+        let (start, cause) = $start;
+        $say!(
+            info,
+            "start {=str} {=str} {=u32} {=str} {=u32} {=u8}",
+            version,
+            scene,
+            tick_hz,
+            $crate::StartCause::name(cause),
+            start.number,
+            start.fault
+        );
+        if start.fault != 0 {
+            $crate::say_board_fault!($say, $texts, start.fault);
+        }
+    }};
+}
+
+/// Says which fault the board has, or has started after.
+#[macro_export]
+macro_rules! say_board_fault {
+    ($say:ident, $texts:ident, $number:expr) => {{
+        let [name, causes] = $texts($number);
+        $say!(
+            error,
+            "fault board {=u8} {=istr} ({=istr}?)",
+            $number,
+            name,
+            causes
+        );
+    }};
+}
+
+/// Says why no motor is driven until somebody arms it.
+#[macro_export]
+macro_rules! say_not_armed {
+    ($say:ident, $texts:ident, $reason:expr) => {
+        match $reason {
+            $crate::NotArmed::After(number) => {
+                let [name, causes] = $texts(number);
+                $say!(
+                    warn,
+                    "not-armed {=u8} {=istr} ({=istr}?)",
+                    number,
+                    name,
+                    causes
+                );
+            }
+            $crate::NotArmed::Unknown => {
+                $say!(warn, "not-armed 0 cause of the reset unknown");
+            }
+            $crate::NotArmed::OnCommand => {
+                $say!(info, "not-armed 0 the scene waits for a command");
+            }
+        }
+    };
+}
+
+/// The posterior of a decision in units of 0.0001 %, rounded down: at most 99.9999 %.
+pub fn percent(decision: tactile::Decision) -> u32 {
+    ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
+}
 
 /// A line that begins with the time at which so many ticks had passed since the start, in
 /// seconds, which begin anew with the count of ticks.
@@ -21,129 +180,89 @@ pub fn at(ticks: u32, tick_hz: u32) -> Line {
     line
 }
 
-/// Appends what `event` says; `class_name` names classes.
-pub fn event<'n>(line: &mut Line, event: &Event, class_name: impl FnOnce(usize) -> &'n str) {
-    match *event {
-        Event::Touch { place, number } => {
-            of(line, "touch", place).field(number.into());
-        }
-        Event::TouchEnd { place, number } => {
-            of(line, "end", place).field(number.into());
-        }
-        Event::Decision(place, decision) => {
-            let class = decision.class().map_or("unknown", class_name);
-            of(line, "decision", place).word(class).word("");
-            // Percent with four decimals, rounded down: at most 99.9999.
-            let posterior = (u64::from(decision.posterior().q32()) * 1_000_000) >> 32;
-            line.fixed(posterior as u32, 4);
-            line.field(decision.samples());
-        }
-        Event::SensorLost(place, why) => fault(of(line, "fault", place), why.code()),
-        Event::MotorFault(place, why) => fault(of(line, "fault", place), why.code()),
-        Event::SensorBack(place) => _ = of(line, "back", place),
-        Event::ZeroMoved(place, [x, y]) => {
-            of(line, "zero", place).signed(x.into()).signed(y.into());
-        }
-        Event::MotorRetry(place) => _ = of(line, "retry", place),
-        Event::MotorGivenUp(place) => _ = of(line, "off", place),
-    }
-}
-
-/// Appends a word and the side that it is about.
-fn of<'l>(line: &'l mut Line, what: &str, place: Place) -> &'l mut Line {
-    line.word(what).word(place.side_name())
-}
-
-/// Appends number, name and likely causes of a fault or limit.
-#[inline(never)]
-fn fault(line: &mut Line, number: u8) {
-    let [name, causes] = faults::texts(number);
-    line.field(number.into()).word(name);
-    line.text(" (").text(causes).text("?)");
-}
-
-/// Appends what a limit is that was passed.
-pub fn limit(line: &mut Line, number: u8) {
-    fault(line.word("limit"), number);
-}
-
-/// How ticks and lines have fared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Fared {
-    /// The longest tick of the last second, tenths of a microsecond.
-    pub worst_tenths: u32,
+/// What lines need to know besides the event.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<N> {
+    /// Gives the name of a class.
+    pub class_name: N,
     /// A tick, µs.
     pub period_us: u32,
-    /// Ticks that did not happen in time, since the start.
-    pub missed: u32,
-    /// Events that found their queue full, since the start.
-    pub dropped: u32,
     /// Lines that found no room, since the start.
     pub lost: u32,
 }
 
-/// Appends it.
-pub fn health(line: &mut Line, fared: &Fared) {
-    line.word("health ").fixed(fared.worst_tenths, 1);
-    for number in [fared.period_us, fared.missed, fared.dropped, fared.lost] {
-        line.field(number);
-    }
-}
-
-/// Appends what has started: version, scene, ticks a second, why, starts since power-up and
-/// the number of the last fault.
-pub fn start(
+/// Appends what `event` says; returns its level in the log, or nothing where it has no line.
+#[inline(never)]
+pub fn event<'n>(
     line: &mut Line,
-    [version, scene]: [&str; 2],
-    tick_hz: u32,
-    cause: StartCause,
-    start: &Startup,
-) {
-    line.word("start").word(version).word(scene);
-    line.field(tick_hz).word(match cause {
-        StartCause::Watchdog => "watchdog",
-        StartCause::Software => "software",
-        StartCause::Power => "power-up",
-        StartCause::BrownOut => "brown-out",
-        StartCause::Pin => "reset-pin",
-        StartCause::Other => "unknown",
-    });
-    line.field(start.number).field(start.fault.into());
+    event: &Event,
+    context: Context<impl FnOnce(usize) -> &'n str>,
+) -> Option<&'static str> {
+    let mut level = None;
+    macro_rules! say {
+        ($level:ident, $text:literal $(, $value:expr)* $(,)?) => {{
+            level = Some(stringify!($level));
+            line.word("").form($text, &[$(Field::from($value)),*]);
+        }};
+    }
+    let Context {
+        class_name,
+        period_us,
+        lost,
+    } = context;
+    crate::say_event!(say, *event, texts, class_name, [period_us, lost]);
+    level
 }
 
-/// Appends the fault of the board that it has started after.
-pub fn board_fault(line: &mut Line, number: u8) {
-    fault(line.word("fault board"), number);
+/// Appends what has started, to the line that `begin` gives, and to another one the last fault;
+/// `end` takes each.
+pub fn start(
+    line: impl Fn() -> Line,
+    what: (&str, &str, u32),
+    start: (&Startup, StartCause),
+    mut end: impl FnMut(&mut Line),
+) {
+    macro_rules! say {
+        ($level:ident, $text:literal $(, $value:expr)* $(,)?) => {
+            end(line().word("").form($text, &[$(Field::from($value)),*]))
+        };
+    }
+    crate::say_start!(say, texts, what, start);
 }
 
 /// Appends why no motor is driven until somebody arms it.
 pub fn not_armed(line: &mut Line, reason: NotArmed) {
-    line.word("not-armed");
-    match reason {
-        NotArmed::After(number) => fault(line, number),
-        NotArmed::Unknown => _ = line.word("0 cause of the reset unknown"),
-        NotArmed::OnCommand => _ = line.word("0 the scene waits for a command"),
+    macro_rules! say {
+        ($level:ident, $text:literal $(, $value:expr)* $(,)?) => {
+            _ = line.word("").form($text, &[$(Field::from($value)),*])
+        };
     }
+    crate::say_not_armed!(say, texts, reason);
 }
 
 #[cfg(test)]
 mod tests {
     use tactile::Decision;
     use whisking::motor;
-    use wire::{LINE_BYTES, Line};
+    use wire::Line;
 
-    use super::{Fared, at, board_fault, event, health, limit, not_armed, start};
+    use super::{Context, at, event, not_armed, start};
     use crate::faults::{TABLE, number};
-    use crate::{Event, NotArmed, Place, Record, SensorFault, StartCause};
+    use crate::{Event, Health, NotArmed, Place, Record, SensorFault, StartCause};
 
     fn said(line: &mut Line) -> String {
         let text = String::from_utf8(line.ended().to_vec()).unwrap();
         text.strip_suffix("\r\n").unwrap().to_owned()
     }
 
-    fn told(of: &Event) -> String {
+    fn line_of(of: &Event) -> String {
         let mut line = at(24_690, 2_000);
-        event(&mut line, of, |class| ["smooth", "carpet"][class]);
+        let context = Context {
+            class_name: |class| ["smooth", "carpet"][class],
+            period_us: 500,
+            lost: u32::MAX,
+        };
+        event(&mut line, of, context).expect("a line");
         said(&mut line)
     }
 
@@ -169,12 +288,12 @@ mod tests {
             place: Place::new(0, 0),
             number: 65_535,
         };
-        assert_eq!(told(&touch), "12.345 touch left 65535");
+        assert_eq!(line_of(&touch), "12.345 touch left 65535");
         let end = Event::TouchEnd {
             place: RIGHT,
             number: 7,
         };
-        assert_eq!(told(&end), "12.345 end right 7");
+        assert_eq!(line_of(&end), "12.345 end right 7");
         // Class 1 at even odds after 34 samples; the same, unknown.
         for (touch, class) in [(0, "carpet"), (1 << 16, "unknown")] {
             let decision = Decision::from_memory(34, 1 << 27, touch).unwrap();
@@ -182,66 +301,64 @@ mod tests {
             let percent = f64::from(q32) / f64::from(1_u32 << 16) / 65_536.0 * 100.0;
             let percent = (percent * 1e4).floor() / 1e4;
             assert_eq!(
-                told(&Event::Decision(RIGHT, decision)),
+                line_of(&Event::Decision(RIGHT, decision)),
                 format!("12.345 decision right {class} {percent:.4} 34")
             );
         }
         assert_eq!(
-            told(&Event::SensorLost(RIGHT, SensorFault::NoFrame)),
+            line_of(&Event::SensorLost(RIGHT, SensorFault::NoFrame)),
             "12.345 fault right 16 no frame in time (none was started: follows another fault?)"
         );
         assert!(
-            told(&Event::MotorFault(RIGHT, motor::Fault::Stall))
+            line_of(&Event::MotorFault(RIGHT, motor::Fault::Stall))
                 .starts_with("12.345 fault right 6 driven but not moving (blocked;")
         );
-        assert_eq!(told(&Event::SensorBack(RIGHT)), "12.345 back right");
-        assert_eq!(told(&Event::MotorRetry(RIGHT)), "12.345 retry right");
-        assert_eq!(told(&Event::MotorGivenUp(RIGHT)), "12.345 off right");
+        assert_eq!(line_of(&Event::SensorBack(RIGHT)), "12.345 back right");
+        assert_eq!(line_of(&Event::MotorRetry(RIGHT)), "12.345 retry right");
+        assert_eq!(line_of(&Event::MotorGivenUp(RIGHT)), "12.345 off right");
     }
 
     #[test]
     fn every_fault_fits_whole() {
         for row in TABLE {
-            let mut line = at(u32::MAX, 2_000);
-            board_fault(&mut line, row.number);
-            let text = said(&mut line);
             let whole = format!(" {} {} ({}?)", row.number, row.name, row.causes);
-            assert!(text.ends_with(&whole), "{text}");
+            let limit = line_of(&Event::Limit(row.number));
+            assert!(limit.ends_with(&format!("limit{whole}")), "{limit}");
             // The longest word before it is that.
             let mut refused = at(u32::MAX, 2_000);
             not_armed(&mut refused, NotArmed::After(row.number));
             assert!(said(&mut refused).ends_with(&whole));
         }
-        let mut line = Line::new();
-        limit(&mut line, number::MISSED);
-        assert!(said(&mut line).starts_with(" limit 32 ticks were missed ("));
     }
 
     #[test]
     fn start_and_health_have_their_fields() {
-        let (_, first) = Record::start(None, StartCause::Power);
-        let mut line = at(0, 2_000);
-        start(
-            &mut line,
-            ["0.1.0", "textures"],
-            2_000,
-            StartCause::Power,
-            &first,
-        );
-        assert_eq!(
-            said(&mut line),
-            "0.000 start 0.1.0 textures 2000 power-up 1 0"
-        );
-        let fared = Fared {
+        let (mut record, first) = Record::start(None, StartCause::Power);
+        record.note(number::WATCHDOG);
+        let (_, second) = Record::start(Some(record), StartCause::Watchdog);
+        let mut lines = Vec::new();
+        for (begun, cause) in [(&first, StartCause::Power), (&second, StartCause::Watchdog)] {
+            let what = ("0.1.0", "textures", 2_000);
+            start(
+                || at(0, 2_000),
+                what,
+                (begun, cause),
+                |line| {
+                    lines.push(said(line));
+                },
+            );
+        }
+        assert_eq!(lines[0], "0.000 start 0.1.0 textures 2000 power-up 1 0");
+        let number = number::WATCHDOG;
+        let again = format!("0.000 start 0.1.0 textures 2000 watchdog 2 {number}");
+        assert_eq!(lines[1], again);
+        assert!(lines[2].starts_with(&format!("0.000 fault board {number} ")));
+        assert_eq!(lines.len(), 3);
+        let health = Event::Health(Health {
             worst_tenths: 123,
-            period_us: 500,
             missed: 1,
             dropped: 2,
-            lost: u32::MAX,
-        };
-        let mut line = at(2_000, 2_000);
-        health(&mut line, &fared);
-        assert_eq!(said(&mut line), "1.000 health 12.3 500 1 2 4294967295");
-        assert!(line.ended().len() < LINE_BYTES);
+        });
+        assert_eq!(line_of(&health), "12.345 health 12.3 500 1 2 4294967295");
     }
 }

@@ -32,6 +32,18 @@ pub enum StartCause {
 }
 
 impl StartCause {
+    /// Its word in the log.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Watchdog => "watchdog",
+            Self::Software => "software",
+            Self::Power => "power-up",
+            Self::BrownOut => "brown-out",
+            Self::Pin => "reset-pin",
+            Self::Other => "unknown",
+        }
+    }
+
     /// The first whose flag is set in the reset status register. The most specific must come
     /// first: a power-up sets the pin's flag too, and so does every internal reset.
     pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {

@@ -1,57 +1,16 @@
 //! The link to a PC: records of every tick, and requests that are carried out between two.
 //!
-//! Nothing waits here: a packet that finds no room is dropped whole and counted, and only an
-//! answer is kept until it has gone.
-
-use core::sync::atomic::{AtomicU32, Ordering};
+//! Nothing waits here: a record that finds no room is dropped whole and counted.
 
 use whisking::Real;
 use wire::{
-    Answer, Command as Said, CommandStatus, Flags, Load, PACKET_WORDS, TaggedCommand, TickRecord,
-    UnknownCommand, WhiskerId, q13,
+    Answer, Command as Said, CommandStatus, Flags, Load, TaggedCommand, TickRecord, WhiskerId, q13,
 };
 
 use crate::config::Part;
 use crate::module::{Hardware, Module, Whisker};
 use crate::servo::MotorRecord;
 use crate::{Command, Config, Event, ModelState, Place};
-
-/// Where packets go.
-pub trait PacketSink {
-    /// Has `fill` make a packet where the next one lies, or not at all where there is no room;
-    /// whether it has.
-    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool;
-}
-
-/// Where a packet lies, for a tick that writes it, and whoever reads it between two ticks.
-#[repr(transparent)]
-#[derive(Debug, Default)]
-pub struct PacketSlot([AtomicU32; PACKET_WORDS]);
-
-impl PacketSlot {
-    /// One of zeros.
-    pub const fn new() -> Self {
-        Self([const { AtomicU32::new(0) }; PACKET_WORDS])
-    }
-
-    /// Puts a packet there. Who reads it is told of it afterwards.
-    #[inline]
-    pub fn set(&self, words: [u32; PACKET_WORDS]) {
-        // One by one: a program for size makes a loop of it that takes ten times as long.
-        let [first, second, third, fourth, fifth] = &self.0;
-        first.store(words[0], Ordering::Relaxed);
-        second.store(words[1], Ordering::Relaxed);
-        third.store(words[2], Ordering::Relaxed);
-        fourth.store(words[3], Ordering::Relaxed);
-        fifth.store(words[4], Ordering::Relaxed);
-    }
-
-    /// What lies there.
-    #[inline]
-    pub fn get(&self) -> [u32; PACKET_WORDS] {
-        self.0.each_ref().map(|word| word.load(Ordering::Relaxed))
-    }
-}
 
 /// What a module says of itself besides its configuration.
 #[derive(Debug, Clone, Copy)]
@@ -60,7 +19,7 @@ pub struct About {
     pub model: ModelState,
 }
 
-/// The version of this crate, as [`wire::Command::Version`] tells it.
+/// The version of this crate, as [`wire::Command::Version`] says it.
 const VERSION: [i32; 2] = {
     let [major, minor, patch] = [
         env!("CARGO_PKG_VERSION_MAJOR"),
@@ -78,69 +37,18 @@ const fn number(digits: &str) -> i32 {
     }
 }
 
-/// What the events of ticks say, for the next record. Shared, as whoever gets the events has
-/// nothing else of the link at hand.
-#[derive(Debug, Default)]
-pub struct Notes {
-    /// The whiskers that touch something, a bit each.
-    touching: AtomicU32,
-    /// Flags of the events since the last record.
-    said: AtomicU32,
-}
-
-impl Notes {
-    /// Nothing yet.
-    pub const fn new() -> Self {
-        Self {
-            touching: AtomicU32::new(0),
-            said: AtomicU32::new(0),
-        }
-    }
-
-    /// Notes an event. Loads and stores will do: only the tick has events.
-    pub fn note(&self, event: &Event) {
-        let add = |flags: Flags| {
-            let said = self.said.load(Ordering::Relaxed);
-            self.said
-                .store(said | u32::from(flags.bits()), Ordering::Relaxed);
-        };
-        let touching = self.touching.load(Ordering::Relaxed);
-        match event {
-            Event::Touch { place, .. } => {
-                self.touching
-                    .store(touching | bit(*place), Ordering::Relaxed);
-            }
-            Event::TouchEnd { place, .. } => {
-                self.touching
-                    .store(touching & !bit(*place), Ordering::Relaxed);
-            }
-            Event::Decision(..) => add(Flags::DECIDED),
-            Event::SensorLost(..) | Event::MotorFault(..) | Event::MotorGivenUp(_) => {
-                add(Flags::FAULT);
-            }
-            Event::ZeroMoved(..) => add(Flags::ZEROED),
-            Event::SensorBack(_) | Event::MotorRetry(_) => {}
-        }
-    }
-
-    /// The flags since the last time, and who touches something.
-    fn take(&self) -> (Flags, u32) {
-        let said = self.said.load(Ordering::Relaxed);
-        self.said.store(0, Ordering::Relaxed);
-        let touching = self.touching.load(Ordering::Relaxed);
-        (Flags::from_bits(said as u16), touching)
-    }
-}
-
 /// The module's end of the link.
 #[derive(Debug, Default)]
 pub struct Link {
     streams: bool,
-    /// Packets that found no room, since the start.
+    /// The whiskers that touch something, a bit each.
+    touching: u32,
+    /// Flags of the events since the last record.
+    said: Flags,
+    /// Records that found no room, since the start.
     lost: u32,
     /// Says so, where the next record is the first after some that were lost.
     gap: Flags,
-    answer: Option<Answer>,
 }
 
 impl Link {
@@ -148,18 +56,33 @@ impl Link {
     pub const fn new() -> Self {
         Self {
             streams: false,
+            touching: 0,
+            said: Flags::NONE,
             lost: 0,
             gap: Flags::NONE,
-            answer: None,
         }
     }
 
-    /// Whether another request can be taken: its predecessor is answered.
-    pub const fn is_free(&self) -> bool {
-        self.answer.is_none()
+    /// Notes an event for the next record.
+    pub fn note(&mut self, event: &Event) {
+        match event {
+            Event::Touch { place, .. } => self.touching |= bit(*place),
+            Event::TouchEnd { place, .. } => self.touching &= !bit(*place),
+            Event::Decision(..) => self.said = self.said | Flags::DECIDED,
+            Event::SensorLost(..) | Event::MotorFault(..) | Event::MotorGivenUp(_) => {
+                self.said = self.said | Flags::FAULT;
+            }
+            Event::ZeroMoved(..) => self.said = self.said | Flags::ZEROED,
+            Event::SensorBack(_)
+            | Event::MotorRetry(_)
+            | Event::Armed
+            | Event::Health(_)
+            | Event::Limit(_) => {}
+        }
     }
 
     /// Whether records are sent after every tick.
+    #[inline]
     pub const fn streams(&self) -> bool {
         self.streams
     }
@@ -175,7 +98,7 @@ impl Link {
         request: TaggedCommand,
         about: About,
         sequence: u32,
-    ) {
+    ) -> Answer {
         let mut values = [0; 2];
         let mut done = |place: WhiskerId, command| {
             let place = Place::new(place.side, place.number);
@@ -237,8 +160,9 @@ impl Link {
                 }
                 ModelState::NotHere => Err(CommandStatus::NotHere),
             },
-            // By `Tuning`, or by a board's loader.
+            // By `Tuning`, by whoever knows the model's names, or by a board's loader.
             Said::Config(_)
+            | Said::Class(..)
             | Said::Scene
             | Said::Board
             | Said::Stage(..)
@@ -248,63 +172,37 @@ impl Link {
             | Said::Word(..)
             | Said::Restart => Err(CommandStatus::NotHere),
         };
-        self.reply(Answer {
+        Answer {
             sequence,
             tag: request.tag,
             command: request.command.number(),
             status: done.err().unwrap_or(CommandStatus::Done),
             values,
-        });
-    }
-
-    /// Refuses a request whose command is unknown.
-    pub const fn refuse(&mut self, unknown: UnknownCommand, sequence: u32) {
-        self.reply(Answer {
-            sequence,
-            tag: unknown.tag,
-            command: unknown.command,
-            status: CommandStatus::Unknown,
-            values: [0; 2],
-        });
-    }
-
-    /// Keeps an answer until it is sent.
-    pub const fn reply(&mut self, answer: Answer) {
-        self.answer = Some(answer);
-    }
-
-    /// Sends the answer that there is, if it finds room.
-    pub fn answer(&mut self, sink: &mut impl PacketSink) {
-        if let Some(answer) = &self.answer
-            && sink.put(|slot| slot.set(answer.words()))
-        {
-            self.answer = None;
         }
     }
 
     /// Sends the records of a tick, the `sequence`-th since the start, with what was noted in
-    /// it, if they were asked for.
+    /// it, if they were asked for. `put` says whether it had room for one.
+    #[inline]
     pub fn send<R: Real, H: Hardware>(
         &mut self,
         module: &Module<R, H>,
         config: &Config<R>,
         sequence: u32,
-        notes: &Notes,
-        sink: &mut impl PacketSink,
+        put: &mut impl FnMut(TickRecord) -> bool,
     ) {
         if !self.streams {
             return;
         }
-        let (said, touching) = notes.take();
         let tick = Tick {
             module,
             config,
             sequence,
-            said,
-            touching,
+            said: core::mem::take(&mut self.said),
+            touching: self.touching,
         };
         for whisker in module.whiskers().iter().enumerate() {
-            self.send_record(&tick, whisker, sink);
+            self.send_record(&tick, whisker, put);
         }
     }
 
@@ -316,9 +214,9 @@ impl Link {
         &mut self,
         tick: &Tick<'_, R, H>,
         whisker: (usize, &Whisker<R, H>),
-        sink: &mut impl PacketSink,
+        put: &mut impl FnMut(TickRecord) -> bool,
     ) {
-        if sink.put(|slot| tick.write_record(whisker, self.gap, slot)) {
+        if put(tick.record(whisker, self.gap)) {
             self.gap = Flags::NONE;
         } else {
             self.gap = Flags::LOST;
@@ -351,7 +249,7 @@ const fn bit(place: Place) -> u32 {
 }
 
 /// Eight letters of a name from one on; zeros follow the last.
-fn letters(name: &str, from: u8) -> [i32; 2] {
+pub fn letters(name: &str, from: u8) -> [i32; 2] {
     let rest = name.as_bytes().get(usize::from(from)..).unwrap_or_default();
     [0, 4].map(|at| {
         let mut word = [0; 4];
@@ -374,14 +272,14 @@ struct Tick<'a, R: Real, H: Hardware> {
 }
 
 impl<R: Real, H: Hardware> Tick<'_, R, H> {
-    /// Writes the record of the `n`-th whisker, for which `gap` is set too.
+    /// The record of the `n`-th whisker, for which `gap` is set too.
     #[inline]
-    fn write_record(&self, (n, whisker): (usize, &Whisker<R, H>), gap: Flags, slot: &PacketSlot) {
+    fn record(&self, (n, whisker): (usize, &Whisker<R, H>), gap: Flags) -> TickRecord {
         let (motor, z) = self.moved(n, whisker).unwrap_or_default();
         let place = whisker.place();
         let reading = whisker.sensor().reading();
         let touches = self.touching != 0 && self.touching & bit(place) != 0;
-        let record = TickRecord {
+        TickRecord {
             sequence: self.sequence,
             x: reading.x.raw(),
             y: reading.y.raw(),
@@ -397,8 +295,7 @@ impl<R: Real, H: Hardware> Tick<'_, R, H> {
                 | Flags::RIGHT.when(place.side > 0)
                 | Flags::FRESH.when(reading.fresh)
                 | Flags::VALID.when(reading.valid),
-        };
-        slot.set(record.words());
+        }
     }
 
     /// What the last tick has done with the motor of the `n`-th whisker, if it has one, and z of

@@ -6,12 +6,12 @@ mod sensor;
 
 use config::{Mismatch, NumberFormat, RunsOn, Target};
 use firmware::{
-    Command, Config, Event, ModelState, Module, NoActiveWhisker, Perception, Place, Refusal,
-    Whisker, WhiskerParts,
+    Command, Config, Event, ModelState, Module, NoActiveWhisker, Packet, Perception, Place,
+    Refusal, Whisker, WhiskerParts,
 };
 use scene::{Deciding, Scene, SensorSection};
 use whisking::{Fix, Number, Real};
-use wire::{Packet, TaggedCommand};
+use wire::TaggedCommand;
 
 use crate::Error;
 use crate::bus::Slave;
@@ -359,13 +359,14 @@ where
         (None, Some(_)) => ModelState::Refused(Refusal::Absent),
         (None, None) => ModelState::NotHere,
     };
+    let classes = tap.classes().to_vec();
     let config = config_of::<R>(scene, gate, tap.is_recording(), "")?;
     config
         .check()
         .map_err(|fault| Error::Work(fault.to_string()))?;
     Ok(Box::new(Hosted {
         module: module(&config, &scene.sensor, (scene.seed, pins), Some(tap))?,
-        line: Line::new(&config, model),
+        line: Line::new(&config, model, classes),
         built_with: config.clone(),
         config,
         sensor: scene.sensor,

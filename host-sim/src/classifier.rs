@@ -141,6 +141,11 @@ impl Tap {
         self.classifier.as_ref().map(Classifier::model)
     }
 
+    /// The names of its classes.
+    pub(crate) fn classes(&self) -> &[String] {
+        self.classifier.as_ref().map_or(&[], Classifier::classes)
+    }
+
     /// Whether there is none.
     pub(crate) const fn is_recording(&self) -> bool {
         self.classifier.is_none()

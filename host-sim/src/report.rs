@@ -54,7 +54,12 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
     let place =
         |place: &firmware::Place| format!("{} whisker {}", place.side_name(), place.whisker + 1);
     match event {
-        Event::Decision(..) | Event::Touch { .. } | Event::TouchEnd { .. } => {}
+        Event::Decision(..)
+        | Event::Touch { .. }
+        | Event::TouchEnd { .. }
+        | Event::Armed
+        | Event::Health(_)
+        | Event::Limit(_) => {}
         Event::SensorLost(at, fault) => {
             let (at, code) = (place(at), fault.code());
             warn(format_args!("{t_s:.4} s: {at}: fault {code}, {fault}"));

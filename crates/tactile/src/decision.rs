@@ -2,10 +2,12 @@
 
 use core::num::NonZeroU32;
 
+use serde::{Deserialize, Serialize};
+
 use crate::exp2::TERM_BITS;
 
 /// A decision. Three words, and no more in an `Option`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Decision {
     // Never zero.
     samples: NonZeroU32,

@@ -1,10 +1,9 @@
 //! An answer: what became of a request.
 
-use crate::flags::Flags;
-use crate::words::{PACKET_WORDS, halves, word};
+use serde::{Deserialize, Serialize};
 
 /// What became of a request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Answer {
     /// Ticks since the module started, as in a record.
     pub sequence: u32,
@@ -19,8 +18,9 @@ pub struct Answer {
 }
 
 /// What became of a request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[error("{}", self.text())]
+#[serde(from = "u8", into = "u8")]
 pub enum CommandStatus {
     /// It is done.
     Done,
@@ -89,29 +89,14 @@ impl CommandStatus {
     }
 }
 
-impl Answer {
-    /// As it is sent.
-    pub const fn words(&self) -> [u32; PACKET_WORDS] {
-        let what = u16::from_le_bytes([self.status.code(), self.command]);
-        [
-            self.sequence,
-            word(self.tag, what),
-            self.values[0].cast_unsigned(),
-            self.values[1].cast_unsigned(),
-            word(0, Flags::ANSWER.bits()),
-        ]
+impl From<CommandStatus> for u8 {
+    fn from(status: CommandStatus) -> Self {
+        status.code()
     }
+}
 
-    /// As it was sent.
-    pub const fn from_words(words: [u32; PACKET_WORDS]) -> Self {
-        let [tag, what] = halves(words[1]);
-        let [status, command] = what.to_le_bytes();
-        Self {
-            sequence: words[0],
-            tag,
-            command,
-            status: CommandStatus::from_code(status),
-            values: [words[2].cast_signed(), words[3].cast_signed()],
-        }
+impl From<u8> for CommandStatus {
+    fn from(code: u8) -> Self {
+        Self::from_code(code)
     }
 }

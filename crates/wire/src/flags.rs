@@ -2,9 +2,11 @@
 
 use core::ops::BitOr;
 
+use serde::{Deserialize, Serialize};
+
 /// A set of things that are so, one bit each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Flags(u16);
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Flags(#[serde(with = "postcard::fixint::le")] u16);
 
 impl Flags {
     /// None.
@@ -33,8 +35,6 @@ impl Flags {
     pub const LOST: Self = Self(1 << 10);
     /// The zero of a sensor was moved in this tick.
     pub const ZEROED: Self = Self(1 << 11);
-    /// This is no record but an answer.
-    pub const ANSWER: Self = Self(1 << 15);
 
     /// The flags of these bits.
     pub const fn from_bits(bits: u16) -> Self {

@@ -1,11 +1,9 @@
 //! What a whisker module and a PC say to each other.
 //!
-//! Upwards go [packets](Packet) of [`PACKET_WORDS`] words of 32 bits: a [`TickRecord`] of each
-//! whisker after every tick, once that is asked for, and [answers](Answer). Downwards go
-//! [requests](TaggedCommand) of [`REQUEST_WORDS`] words. Words are little-endian.
-//!
-//! A serial line carries both as [frames](Framed) between lines of text, and commands as
-//! [text] too.
+//! Upwards go packets: a [`TickRecord`] of each whisker after every tick, once that is asked for,
+//! what happens in between, and [answers](Answer). Downwards go [requests](TaggedCommand). Both
+//! are [frames](frame()), on a probe's rings as on a serial line, which carries them between lines
+//! of text, and commands as [text] too.
 //!
 //! # Glossary
 //!
@@ -17,26 +15,19 @@
 
 mod answer;
 mod flags;
-mod framed;
+mod frame;
 mod line;
 mod loading;
-mod packet;
 mod record;
 mod request;
 mod splitter;
 pub mod text;
-mod words;
 
 pub use answer::{Answer, CommandStatus};
 pub use flags::Flags;
-pub use framed::{Framed, PACKET_FRAME_BYTES, REQUEST_FRAME_BYTES};
-pub use line::{LINE_BYTES, Line};
+pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, open};
+pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
-pub use packet::Packet;
 pub use record::{TickRecord, degrees, q13, unit};
-pub use request::{
-    CONFIG_CHANGED, Command, REQUEST_BYTES, REQUEST_WORDS, TaggedCommand, UnknownCommand,
-    WhiskerId, summed,
-};
+pub use request::{CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
 pub use splitter::{Garbled, Piece, Splitter};
-pub use words::{PACKET_BYTES, PACKET_WORDS};

@@ -111,6 +111,33 @@ impl Line {
         self
     }
 
+    /// Appends a text with its fields in the places of what stands in braces, as defmt's texts
+    /// have them: `{=u32}`, or `{=u32:04}` for at least so many digits.
+    #[inline(never)]
+    pub fn form(&mut self, text: &str, fields: &[Field<'_>]) -> &mut Self {
+        let mut fields = fields.iter();
+        for (n, part) in text.split(['{', '}']).enumerate() {
+            // Every second part stood in braces.
+            if n % 2 == 0 {
+                self.text(part);
+                continue;
+            }
+            let last = part.as_bytes().last();
+            let least = if part.contains(':') { last } else { None };
+            let least = least.map_or(1, |digit| usize::from(digit.saturating_sub(b'0')));
+            match fields.next() {
+                Some(Field::Text(text)) => self.text(text),
+                Some(Field::Number(number)) => self.digits(*number, least),
+                Some(Field::Signed(number)) => {
+                    self.text(if *number < 0 { "-" } else { "" });
+                    self.digits(number.unsigned_abs(), least)
+                }
+                None => self,
+            };
+        }
+        self
+    }
+
     /// The line with its end.
     #[inline(never)]
     pub fn ended(&mut self) -> &[u8] {
@@ -120,6 +147,47 @@ impl Line {
         }
         let length = self.length + END.len();
         self.bytes.get(..length).unwrap_or_default()
+    }
+}
+
+/// What stands in the place of a pair of braces.
+#[derive(Debug, Clone, Copy)]
+pub enum Field<'t> {
+    /// Text.
+    Text(&'t str),
+    /// A whole number.
+    Number(u32),
+    /// One with its sign, if it is negative.
+    Signed(i32),
+}
+
+impl<'t> From<&'t str> for Field<'t> {
+    fn from(text: &'t str) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<u8> for Field<'_> {
+    fn from(number: u8) -> Self {
+        Self::Number(number.into())
+    }
+}
+
+impl From<u16> for Field<'_> {
+    fn from(number: u16) -> Self {
+        Self::Number(number.into())
+    }
+}
+
+impl From<u32> for Field<'_> {
+    fn from(number: u32) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<i16> for Field<'_> {
+    fn from(number: i16) -> Self {
+        Self::Signed(number.into())
     }
 }
 
@@ -151,6 +219,14 @@ mod tests {
             };
             prop_assert_eq!(text(&mut line), format!("{number} {fixed}\r\n"));
         }
+    }
+
+    #[test]
+    fn fields_stand_where_braces_stood() {
+        let mut line = Line::new();
+        let fields = ["left".into(), 7_u8.into(), 42_u32.into(), (-5_i16).into()];
+        line.form("{=str} {=u8}.{=u32:04} %, {=i16}!{=str}", &fields);
+        assert_eq!(text(&mut line), "left 7.0042 %, -5!\r\n");
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! In which order a scene and its model are written into flash.
 
+use serde::{Deserialize, Serialize};
+
 /// How many words of each come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Load {
     /// Words of the configuration, with its header.
     pub config: u16,
@@ -22,19 +24,6 @@ impl Load {
     /// How many words come in all.
     pub const fn words(self) -> u32 {
         self.config as u32 + self.model as u32
-    }
-
-    /// The value by which a request carries it.
-    pub(crate) const fn value(self) -> u32 {
-        self.config as u32 | (self.model as u32) << 16
-    }
-
-    /// That of a value.
-    pub(crate) const fn from_value(value: u32) -> Self {
-        Self {
-            config: value as u16,
-            model: (value >> 16) as u16,
-        }
     }
 
     /// The word that comes as the `number`-th, from 0: the model, then the configuration from its
@@ -73,7 +62,6 @@ mod tests {
     fn every_word_comes_once_and_the_first_of_the_configuration_last() {
         for (config, model) in [(1, 0), (5, 0), (4, 3), (300, 2_000)] {
             let load = Load { config, model };
-            assert_eq!(Load::from_value(load.value()), load);
             let words: Vec<LoadedWord> = (0..).map_while(|n| load.word(n)).collect();
             assert_eq!(words.len() as u32, load.words());
             assert_eq!(words.last(), Some(&LoadedWord::Config(0)));

@@ -1,67 +1,46 @@
 //! A record: one whisker in one tick.
 
-use crate::flags::Flags;
-use crate::words::{PACKET_WORDS, halves, word};
+use postcard::fixint::le;
+use serde::{Deserialize, Serialize};
 
-/// One whisker in one tick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+use crate::flags::Flags;
+
+/// One whisker in one tick: as it is sent 20 bytes, all numbers little-endian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct TickRecord {
     /// Ticks since the module started, this one included.
+    #[serde(with = "le")]
     pub sequence: u32,
     /// Deflection along the direction of whisking: the sensor's word, see [`codes`](Self::codes).
+    #[serde(with = "le")]
     pub x: u16,
     /// Deflection across it, alike.
+    #[serde(with = "le")]
     pub y: u16,
     /// Where the whisker should be: protraction, Q13.
+    #[serde(with = "le")]
     pub setpoint: i16,
     /// Where it is by its encoder: protraction, Q13.
+    #[serde(with = "le")]
     pub measured: i16,
     /// What drives the motor, of the supply: Q15.
+    #[serde(with = "le")]
     pub duty: i16,
     /// Gate z of its side (BIOTACT eq. 10), Q13.
+    #[serde(with = "le")]
     pub z: i16,
     /// Contact π of the whisker (BIOTACT eq. 9), 0 to 1: Q13.
+    #[serde(with = "le")]
     pub contact: i16,
     /// What is so.
     pub flags: Flags,
 }
 
 impl TickRecord {
-    /// As it is sent.
-    #[inline]
-    pub const fn words(&self) -> [u32; PACKET_WORDS] {
-        [
-            self.sequence,
-            word(self.x, self.y),
-            word(self.setpoint as u16, self.measured as u16),
-            word(self.duty as u16, self.z as u16),
-            word(self.contact as u16, self.flags.bits()),
-        ]
-    }
-
     /// x and y as codes of 14 bits, 0 to 16383, at rest 8192: the two lowest bits of a word are
     /// no measurement.
     pub const fn codes(&self) -> [u16; 2] {
         [self.x >> 2, self.y >> 2]
-    }
-
-    /// As it was sent.
-    pub(crate) const fn from_words(words: [u32; PACKET_WORDS]) -> Self {
-        let [x, y] = halves(words[1]);
-        let [setpoint, measured] = halves(words[2]);
-        let [duty, z] = halves(words[3]);
-        let [contact, flags] = halves(words[4]);
-        Self {
-            sequence: words[0],
-            x,
-            y,
-            setpoint: setpoint as i16,
-            measured: measured as i16,
-            duty: duty as i16,
-            z: z as i16,
-            contact: contact as i16,
-            flags: Flags::from_bits(flags),
-        }
     }
 }
 

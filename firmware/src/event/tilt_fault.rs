@@ -2,12 +2,13 @@
 
 use core::fmt;
 
+use serde::{Deserialize, Serialize};
 use tmag5170::{Register, ReplyError, StatusFaults};
 
 use crate::faults::number;
 
 /// What a TMAG5170 lets a whisker down by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TiltFault {
     /// Its reply was refused; the reason says more.
     Reply(ReplyError),

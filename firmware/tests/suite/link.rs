@@ -1,10 +1,7 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
-use firmware::{About, Config, Link, ModelState, Notes, PacketSink, PacketSlot, Refusal, may_load};
-use wire::{
-    Answer, Command, CommandStatus, Flags, Load, Packet, TaggedCommand, TickRecord, UnknownCommand,
-    WhiskerId,
-};
+use firmware::{About, Config, Event, Link, ModelState, Place, Refusal, may_load};
+use wire::{Answer, Command, CommandStatus, Flags, Load, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::command::{Whiskers, module, nominal, servo, tick};
 use crate::hardware::{Bent, feeling, passive};
@@ -12,41 +9,6 @@ use crate::hardware::{Bent, feeling, passive};
 const ABOUT: About = About {
     model: ModelState::Refused(Refusal::Damaged),
 };
-
-/// A PC that has room for so many packets.
-struct Reader {
-    room: usize,
-    packets: Vec<Packet>,
-}
-
-impl Reader {
-    const fn new(room: usize) -> Self {
-        Self {
-            room,
-            packets: Vec::new(),
-        }
-    }
-
-    fn records(&self) -> Vec<TickRecord> {
-        let records = self.packets.iter().filter_map(|packet| match packet {
-            Packet::Record(record) => Some(*record),
-            Packet::Answer(_) => None,
-        });
-        records.collect()
-    }
-}
-
-impl PacketSink for Reader {
-    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
-        let fits = self.packets.len() < self.room;
-        if fits {
-            let slot = PacketSlot::new();
-            fill(&slot);
-            self.packets.push(Packet::from_words(slot.get()));
-        }
-        fits
-    }
-}
 
 /// What the module answers.
 fn ask(
@@ -56,16 +18,28 @@ fn ask(
     command: Command,
 ) -> Answer {
     let request = TaggedCommand { tag: 9, command };
-    link.carry_out(module, config, request, ABOUT, 41);
-    let mut reader = Reader::new(1);
-    link.answer(&mut reader);
-    assert!(link.is_free());
-    let [Packet::Answer(answer)] = reader.packets[..] else {
-        panic!("{:?}", reader.packets);
-    };
+    let answer = link.carry_out(module, config, request, ABOUT, 41);
     assert_eq!((answer.tag, answer.sequence), (9, 41));
     assert_eq!(answer.command, command.number());
     answer
+}
+
+/// The records of a tick, for so many of which a PC has room.
+fn records(
+    link: &mut Link,
+    module: &Whiskers<f32>,
+    config: &Config<f32>,
+    (sequence, room): (u32, usize),
+) -> Vec<TickRecord> {
+    let mut records = Vec::new();
+    link.send(module, config, sequence, &mut |record| {
+        let fits = records.len() < room;
+        if fits {
+            records.push(record);
+        }
+        fits
+    });
+    records
 }
 
 const fn q24(value: f64) -> i32 {
@@ -155,17 +129,16 @@ fn a_motor_is_off_in_the_tick_after_stop_and_armed_only_by_command() {
 #[test]
 fn records_report_what_the_tick_has_done() {
     let (mut module, config) = module::<f32>();
-    let (mut link, notes) = (Link::new(), Notes::new());
+    let mut link = Link::new();
     let setpoint = Command::Setpoint(SECOND, q24(0.3));
     ask(&mut link, &mut module, &config, setpoint);
     ask(&mut link, &mut module, &config, Command::Stream(true));
-    let mut reader = Reader::new(2);
     for _ in 0..100 {
         tick(&mut module, &config);
     }
-    link.send(&module, &config, 101, &notes, &mut reader);
-    let [first, second] = reader.records()[..] else {
-        panic!("a record for each whisker: {:?}", reader.packets);
+    let found = records(&mut link, &module, &config, (101, 2));
+    let [first, second] = found[..] else {
+        panic!("a record for each whisker: {found:?}");
     };
     // The code 0xC000 is bent to the right by half; the whisker stands at rest.
     assert_eq!(second.codes(), [0xC000 >> 2, 8192]);
@@ -180,65 +153,46 @@ fn records_report_what_the_tick_has_done() {
 
     ask(&mut link, &mut module, &config, Command::Stop);
     tick(&mut module, &config);
-    reader = Reader::new(2);
-    link.send(&module, &config, 102, &notes, &mut reader);
-    let second = reader.records()[1];
+    let second = records(&mut link, &module, &config, (102, 2))[1];
     assert_eq!(second.duty, 0);
     assert_eq!(second.flags, Flags::FRESH | Flags::VALID);
+
+    let place = Place::new(0, 1);
+    link.note(&Event::Touch { place, number: 1 });
+    link.note(&Event::MotorGivenUp(place));
+    let flags = |found: Vec<TickRecord>| [found[0].flags, found[1].flags];
+    let touched = flags(records(&mut link, &module, &config, (103, 2)));
+    let still = Flags::FRESH | Flags::VALID;
+    let once = still | Flags::FAULT;
+    assert_eq!(touched, [once, once | Flags::TOUCHING]);
+    link.note(&Event::TouchEnd { place, number: 1 });
+    assert_eq!(
+        flags(records(&mut link, &module, &config, (104, 2))),
+        [still; 2]
+    );
 }
 
 #[test]
 fn records_without_room_are_lost_whole_and_counted() {
     let (mut module, config) = module::<f32>();
-    let (mut link, notes) = (Link::new(), Notes::new());
-    let mut full = Reader::new(0);
-    link.send(&module, &config, 1, &notes, &mut full);
+    let mut link = Link::new();
+    assert!(records(&mut link, &module, &config, (1, 2)).is_empty());
     assert!(!link.streams(), "none were asked for");
     ask(&mut link, &mut module, &config, Command::Stream(true));
     for tick in 2..5 {
-        link.send(&module, &config, tick, &notes, &mut full);
+        assert!(records(&mut link, &module, &config, (tick, 0)).is_empty());
     }
     let answer = ask(&mut link, &mut module, &config, Command::Status);
     assert_eq!(answer.values, [6, 0]);
-    let mut reader = Reader::new(4);
-    for tick in 5..7 {
-        link.send(&module, &config, tick, &notes, &mut reader);
-    }
-    let lost: Vec<bool> = reader
-        .records()
+    let found = [5, 6].map(|tick| records(&mut link, &module, &config, (tick, 2)));
+    let lost: Vec<bool> = found
         .iter()
+        .flatten()
         .map(|record| record.flags.contains(Flags::LOST))
         .collect();
     assert_eq!(lost, [true, false, false, false]);
     ask(&mut link, &mut module, &config, Command::Stream(false));
     assert!(!link.streams());
-}
-
-#[test]
-fn an_answer_waits_for_room_and_an_unknown_command_gets_one() {
-    let (module, config) = module::<f32>();
-    let (mut link, notes) = (Link::new(), Notes::new());
-    link.refuse(
-        UnknownCommand {
-            tag: 3,
-            command: 99,
-        },
-        7,
-    );
-    let mut full = Reader::new(0);
-    link.answer(&mut full);
-    link.send(&module, &config, 8, &notes, &mut full);
-    assert!(!link.is_free());
-    let mut reader = Reader::new(1);
-    link.answer(&mut reader);
-    let refused = Answer {
-        sequence: 7,
-        tag: 3,
-        command: 99,
-        status: CommandStatus::Unknown,
-        values: [0; 2],
-    };
-    assert_eq!(reader.packets, [Packet::Answer(refused)]);
 }
 
 #[test]
@@ -255,12 +209,7 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
         Command::Setpoint(left, 0),
     ] {
         let request = TaggedCommand { tag: 1, command };
-        link.carry_out(&mut module, &config, request, ABOUT, 0);
-        let mut reader = Reader::new(1);
-        link.answer(&mut reader);
-        let [Packet::Answer(answer)] = reader.packets[..] else {
-            panic!("{command:?}");
-        };
+        let answer = link.carry_out(&mut module, &config, request, ABOUT, 0);
         assert_eq!(answer.status, CommandStatus::NoWhisker, "{command:?}");
     }
 }
@@ -275,13 +224,8 @@ fn it_says_by_which_model_it_decides() {
             command: Command::Model,
         };
         let about = About { model };
-        link.carry_out(&mut module, &config, request, about, 0);
-        let mut reader = Reader::new(1);
-        link.answer(&mut reader);
-        match reader.packets[..] {
-            [Packet::Answer(answer)] => (answer.status, answer.values),
-            _ => panic!("{:?}", reader.packets),
-        }
+        let answer = link.carry_out(&mut module, &config, request, about, 0);
+        (answer.status, answer.values)
     };
     let runs = ModelState::Runs {
         crc: 0xFEDC_BA98,

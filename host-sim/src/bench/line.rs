@@ -1,72 +1,70 @@
 //! The link of a simulated module to whoever runs it, which has room for every packet.
 
 use firmware::{
-    About, BoardCode, Config, ConfigBytes, Event, Link, ModelState, Module, Notes, PacketSink,
-    PacketSlot, Prepared, Tuning, answer, applied, encode, take_over,
+    About, BoardCode, Config, ConfigBytes, Event, EventRecord, Link, ModelState, Module, Packet,
+    Prepared, Tuning, answer, applied, encode, letters, take_over,
 };
 use whisking::Real;
-use wire::{Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Command, CommandStatus, TaggedCommand};
 
 use super::mock::Mock;
 
 /// A module's end of the link.
 pub(super) struct Line {
     link: Link,
-    notes: Notes,
     tuning: Tuning<ConfigBytes>,
     ticks: u32,
-    sent: Sent,
+    sent: Vec<Packet>,
     model: ModelState,
-}
-
-/// Packets on their way.
-#[derive(Default)]
-struct Sent(Vec<Packet>);
-
-impl PacketSink for Sent {
-    fn put(&mut self, fill: impl FnOnce(&PacketSlot)) -> bool {
-        let slot = PacketSlot::new();
-        fill(&slot);
-        self.0.push(Packet::from_words(slot.get()));
-        true
-    }
+    classes: Vec<String>,
 }
 
 impl Line {
-    /// Before the first tick of a module, which decides by this model.
-    pub(super) fn new<R: Real>(config: &Config<R>, model: ModelState) -> Self {
+    /// Before the first tick of a module, which decides by this model, of these classes.
+    pub(super) fn new<R: Real>(
+        config: &Config<R>,
+        model: ModelState,
+        classes: Vec<String>,
+    ) -> Self {
         // A simulation has room for any scene; without the bytes only `get` says less.
         let bytes = encode(config, BoardCode::Simulation).unwrap_or_default();
         Self {
             link: Link::new(),
-            notes: Notes::new(),
             tuning: Tuning::new(BoardCode::Simulation, bytes),
             ticks: 0,
-            sent: Sent::default(),
+            sent: Vec::new(),
             model,
+            classes,
         }
     }
 
     /// Begins again.
     pub(super) fn restart(&mut self) {
         self.link = Link::new();
-        self.notes = Notes::new();
         self.tuning.restart();
         self.ticks = 0;
-        self.sent.0.clear();
+        self.sent.clear();
     }
 
-    /// Notes an event of a tick.
-    pub(super) fn note(&self, event: &Event) {
-        self.notes.note(event);
+    /// Takes an event of the tick that is under way.
+    pub(super) fn note(&mut self, event: &Event) {
+        self.link.note(event);
+        if self.link.streams() {
+            self.sent.push(Packet::Event(EventRecord {
+                sequence: self.ticks.wrapping_add(1),
+                event: *event,
+            }));
+        }
     }
 
     /// A tick has ended.
     pub(super) fn tick_ends<R: Real>(&mut self, module: &Module<R, Mock>, config: &Config<R>) {
         self.ticks = self.ticks.wrapping_add(1);
-        let (notes, sent) = (&self.notes, &mut self.sent);
-        self.link.send(module, config, self.ticks, notes, sent);
-        self.link.answer(sent);
+        let sent = &mut self.sent;
+        self.link.send(module, config, self.ticks, &mut |record| {
+            sent.push(Packet::Record(record));
+            true
+        });
     }
 
     /// Carries out a request.
@@ -80,13 +78,27 @@ impl Line {
             None => self.change(module, config, request.command),
             done => done,
         };
-        let Some(done) = done else {
-            let about = About { model: self.model };
-            let link = &mut self.link;
-            link.carry_out(module, config, request, about, self.ticks);
-            return;
+        let done = done.or_else(|| self.class(request.command));
+        let answer = match done {
+            Some(done) => answer(request, self.ticks, done),
+            None => {
+                let about = About { model: self.model };
+                let link = &mut self.link;
+                link.carry_out(module, config, request, about, self.ticks)
+            }
         };
-        self.link.reply(answer(request, self.ticks, done));
+        self.sent.push(Packet::Answer(answer));
+    }
+
+    /// Letters of the name of a class, if they are asked for.
+    fn class(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
+        let Command::Class(class, from) = command else {
+            return None;
+        };
+        Some(match self.classes.get(usize::from(class)) {
+            Some(name) => (CommandStatus::Done, letters(name, from)),
+            None => (CommandStatus::OutOfRange, [0; 2]),
+        })
     }
 
     /// Has the module go on by another configuration, if the request is about one.
@@ -112,6 +124,6 @@ impl Line {
 
     /// What was sent since the last call.
     pub(super) fn take(&mut self) -> Vec<Packet> {
-        std::mem::take(&mut self.sent.0)
+        std::mem::take(&mut self.sent)
     }
 }

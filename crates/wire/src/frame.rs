@@ -1,0 +1,143 @@
+//! What goes both ways as bytes: a value by [postcard], its CRC-32, and around both a frame by
+//! COBS, without a zero in it and between two.
+//!
+//! [postcard]: https://postcard.jamesmunns.com/wire-format
+
+use heapless::Vec;
+use serde::{Deserialize, Serialize};
+
+/// Most bytes of what a frame carries, the sum included: its first code stays below 32, by which
+/// a [`Splitter`](crate::Splitter) knows a frame from text.
+pub const CONTENT_BYTES: usize = 30;
+
+/// What framing adds to them: a code, and a zero at either end.
+const ADDED: usize = 3;
+
+/// Most bytes of a frame.
+pub const FRAME_BYTES: usize = CONTENT_BYTES + ADDED;
+
+/// Bytes of the sum.
+const SUM_BYTES: usize = size_of::<u32>();
+
+/// Bytes of the frame of a record, which are always as many: 20, and one that says what it is.
+pub const RECORD_FRAME_BYTES: usize = 1 + 20 + SUM_BYTES + ADDED;
+
+/// A frame.
+pub type Frame = Vec<u8, FRAME_BYTES>;
+
+/// CRC-32 as in the model file.
+const CRC: crc::Crc<u32, crc::NoTable> = crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
+
+/// The frame of a value. One that does not fit has none, an empty one; packets and requests fit.
+pub fn frame<T: Serialize>(value: &T) -> Frame {
+    enclose(value).unwrap_or_default()
+}
+
+fn enclose<T: Serialize>(value: &T) -> Option<Frame> {
+    let mut content = [0; CONTENT_BYTES];
+    let room = content.get_mut(..CONTENT_BYTES - SUM_BYTES)?;
+    let length = postcard::to_slice(value, room).ok()?.len();
+    let sum = CRC.checksum(content.get(..length)?).to_le_bytes();
+    for (place, byte) in content.get_mut(length..)?.iter_mut().zip(sum) {
+        *place = byte;
+    }
+    let mut frame = Frame::new();
+    frame.resize(FRAME_BYTES, 0).ok()?;
+    let inner = frame.get_mut(1..FRAME_BYTES - 1)?;
+    let coded = cobs::try_encode(content.get(..length + SUM_BYTES)?, inner).ok()?;
+    frame.truncate(1 + coded);
+    frame.push(0).ok()?;
+    Some(frame)
+}
+
+/// What a frame carries, if its sum is right.
+pub(crate) fn summed(content: &[u8]) -> Option<&[u8]> {
+    let (value, sum) = content.split_last_chunk::<SUM_BYTES>()?;
+    (CRC.checksum(value).to_le_bytes() == *sum).then_some(value)
+}
+
+/// The value that a frame carries: the bytes of a [`Piece::Frame`](crate::Piece::Frame). `None`
+/// if its sum is not right, or it is no such value.
+pub fn open<'c, T: Deserialize<'c>>(content: &'c [u8]) -> Option<T> {
+    let (value, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
+    rest.is_empty().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{CRC, FRAME_BYTES, RECORD_FRAME_BYTES, frame, open};
+    use crate::{Flags, Piece, Splitter, TickRecord};
+
+    /// What a reader of a line makes of a frame.
+    fn content(frame: &[u8]) -> Vec<u8> {
+        let mut splitter = Splitter::<FRAME_BYTES>::new();
+        let pieces = frame.iter().filter_map(|byte| match splitter.push(*byte)? {
+            Piece::Frame(content) => Some(content.to_vec()),
+            piece => panic!("{piece:?}"),
+        });
+        pieces.last().expect("a frame")
+    }
+
+    #[test]
+    fn a_record_lies_where_the_page_says() {
+        let record = TickRecord {
+            sequence: 0x0403_0201,
+            x: 0x0605,
+            y: 0x0807,
+            setpoint: 0x0A09,
+            measured: 0x0C0B,
+            duty: 0x0E0D,
+            z: 0x100F,
+            contact: 0x1211,
+            flags: Flags::from_bits(0x1413),
+        };
+        // Packets begin with what they are; a record is the first.
+        let framed = frame(&(0_u8, record));
+        assert_eq!(framed.len(), RECORD_FRAME_BYTES);
+        let content = content(&framed);
+        let plain: Vec<u8> = (0..=20).collect();
+        assert_eq!(content[..21], plain);
+        assert_eq!(content[21..], CRC.checksum(&plain).to_le_bytes());
+    }
+
+    #[test]
+    fn the_sum_is_that_of_other_programs() {
+        // python3 -c 'import zlib; print(hex(zlib.crc32(bytes([7, 5]))))'
+        assert_eq!(CRC.checksum(&[7, 5]), PYTHON);
+    }
+
+    /// See the test.
+    const PYTHON: u32 = 0x7EF270B7;
+
+    #[test]
+    fn what_does_not_fit_has_no_frame() {
+        assert!(frame(&[0x55_u8; 27]).is_empty());
+        assert_eq!(frame(&[0x55_u8; 26]).len(), FRAME_BYTES);
+    }
+
+    proptest! {
+        #[test]
+        fn a_value_is_what_it_was_and_no_frame_has_a_zero_in_it(values: (u32, u16, [i32; 2])) {
+            let framed = frame(&values);
+            let inner = &framed[1..framed.len() - 1];
+            prop_assert!(!inner.contains(&0) && inner[0] < 32);
+            let content = content(&framed);
+            prop_assert_eq!(open(&content), Some(values));
+        }
+
+        #[test]
+        fn one_with_a_flipped_bit_is_none(value: (u16, u32), bit in 0..48_usize) {
+            let mut content = content(&frame(&value));
+            let at = bit / 8 % content.len();
+            content[at] ^= 1 << (bit % 8);
+            prop_assert_eq!(open::<(u16, u32)>(&content), None);
+        }
+
+        #[test]
+        fn bytes_that_were_never_sent_are_none(bytes in prop::collection::vec(any::<u8>(), 0..5)) {
+            prop_assert_eq!(open::<(u16, u32)>(&bytes), None);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What comes from a module, taken apart: packets, and lines of text between them.
+
+use firmware::Packet;
+use wire::{LINE_BYTES, Piece, Splitter};
+
+/// What has come.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Received {
+    /// A line, without its end.
+    Line(String),
+    /// A packet.
+    Packet(Packet),
+    /// What is neither: a piece that was under way as reading began, a damaged one, or one of
+    /// another version.
+    Garbled,
+}
+
+/// Reads what a module sends, by a probe or a serial line.
+#[derive(Debug, Default)]
+pub struct Receiver {
+    splitter: Splitter<LINE_BYTES>,
+}
+
+impl Receiver {
+    /// What `bytes` complete.
+    pub fn take(&mut self, bytes: &[u8]) -> Vec<Received> {
+        let mut received = Vec::new();
+        for byte in bytes {
+            received.extend(self.splitter.push(*byte).map(|piece| match piece {
+                Piece::Line(line) => Received::Line(String::from_utf8_lossy(line).into_owned()),
+                Piece::Frame(frame) => {
+                    wire::open(frame).map_or(Received::Garbled, Received::Packet)
+                }
+                Piece::Garbled(_) => Received::Garbled,
+            }));
+        }
+        received
+    }
+
+    /// The packets that `bytes` complete.
+    pub fn packets(&mut self, bytes: &[u8]) -> Vec<Packet> {
+        let received = self.take(bytes).into_iter();
+        let packets = received.filter_map(|received| match received {
+            Received::Packet(packet) => Some(packet),
+            Received::Line(_) | Received::Garbled => None,
+        });
+        packets.collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use firmware::{Event, EventRecord, Packet, Place};
+    use wire::TickRecord;
+
+    use super::{Received, Receiver};
+
+    #[test]
+    fn packets_and_lines_come_in_any_order_and_what_is_damaged_is_left_out() {
+        let record = Packet::Record(TickRecord {
+            sequence: 7,
+            ..TickRecord::default()
+        });
+        let touch = Packet::Event(EventRecord {
+            sequence: 7,
+            event: Event::Touch {
+                place: Place::new(1, 0),
+                number: 3,
+            },
+        });
+        let mut damaged = wire::frame(&record);
+        damaged[5] ^= 4;
+        let bytes = [
+            b"0.003 touch right 3\r\n",
+            &wire::frame(&record)[..],
+            &damaged,
+            &wire::frame(&touch),
+            b"ok stop\r\n",
+        ];
+        // Whatever comes in one go.
+        let mut receiver = Receiver::default();
+        let received: Vec<_> = bytes
+            .concat()
+            .chunks(3)
+            .flat_map(|chunk| receiver.take(chunk))
+            .collect();
+        let expected = [
+            Received::Line("0.003 touch right 3".into()),
+            Received::Packet(record),
+            Received::Garbled,
+            Received::Packet(touch),
+            Received::Line("ok stop".into()),
+        ];
+        assert_eq!(received, expected);
+        assert_eq!(
+            Receiver::default().packets(&bytes.concat()),
+            [record, touch]
+        );
+    }
+}
