@@ -13,13 +13,13 @@
 
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
-use firmware::{AngleInput, Event, Place};
+use firmware::{AngleInput, Event, Packet, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{Pins, SimPwm};
+use host_sim::received::{Received, Receiver};
 use mlx90333::FRAME_LEN;
 use scene::Scene;
-use wire::Packet;
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
 use crate::machine::{Machine, Observer, Stop};
@@ -80,6 +80,9 @@ pub(crate) struct Board {
     sensors: Vec<Wired>,
     /// Left side first; none where the whiskers are passive.
     pins: Vec<Pins>,
+    /// Who reads what it sends by the probe's ring, and by its serial port.
+    ring: Receiver,
+    line: Receiver,
     log: Vec<u8>,
     /// Whether somebody fetches the log.
     has_reader: bool,
@@ -99,6 +102,24 @@ pub(crate) struct Board {
 /// the probe before the watchdog resets the chip.
 const PATIENCE: Ps = 3_000_000_000_000;
 
+/// What `bytes` complete; all that a board sends can be read.
+fn read(receiver: &mut Receiver, bytes: &[u8]) -> Result<Vec<Received>, Fault> {
+    let received = receiver.take(bytes);
+    if received.contains(&Received::Garbled) {
+        return Err(Fault::Garbled);
+    }
+    Ok(received)
+}
+
+/// The packets of what was received.
+pub(crate) fn packets(received: &[Received]) -> Vec<Packet> {
+    let packets = received.iter().filter_map(|received| match received {
+        Received::Packet(packet) => Some(*packet),
+        Received::Line(_) | Received::Garbled => None,
+    });
+    packets.collect()
+}
+
 fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
     let scaled = u64::from(on) * u64::from(pwm.max_duty_cycle()) / u64::from(period.max(1));
     let Ok(()) = pwm.set_duty_cycle(scaled as u16);
@@ -114,6 +135,8 @@ impl Board {
             watch: Watch::new(program, scene)?,
             sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
             pins,
+            ring: Receiver::default(),
+            line: Receiver::default(),
             log: Vec::new(),
             has_reader: true,
             notices: Vec::new(),
@@ -231,12 +254,18 @@ impl Board {
         Ok(sent == bytes.len())
     }
 
-    /// Fetches what the program tells a PC.
+    /// Fetches what the program has sent to a PC.
     pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.packets(memories)?;
         let bytes = ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))?;
-        Ok(bytes.as_chunks().0.iter().map(Packet::from_bytes).collect())
+        Ok(packets(&read(&mut self.ring, &bytes)?))
+    }
+
+    /// What the other end of the serial line has received since the last call, taken apart.
+    pub(crate) fn received(&mut self) -> Result<Vec<Received>, Fault> {
+        let bytes = self.serial_read();
+        read(&mut self.line, &bytes)
     }
 
     /// Has the other end of the serial line send bytes.

@@ -25,7 +25,6 @@ pub mod deadlines;
 mod debug_info;
 pub mod deploying;
 mod deployment;
-mod ear;
 pub mod emulate;
 pub mod endurance;
 pub mod latency;

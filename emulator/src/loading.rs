@@ -1,8 +1,8 @@
 //! A scene and its model to a board whose loader writes them, by requests.
 
-use firmware::{ConfigError, refusal_code};
+use firmware::{ConfigError, Packet, refusal_code};
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use crate::deployment::{Deployment, words};
 use crate::session::Session;

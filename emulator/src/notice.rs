@@ -29,7 +29,10 @@ impl Notice {
             Event::Decision(..)
             | Event::Touch { .. }
             | Event::TouchEnd { .. }
-            | Event::ZeroMoved(..) => None,
+            | Event::ZeroMoved(..)
+            | Event::Armed
+            | Event::Health(_)
+            | Event::Limit(_) => None,
         }
     }
 }

@@ -7,15 +7,15 @@ mod told;
 
 use std::path::Path;
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use scene::Scene;
-use wire::{Command, CommandStatus, Flags, Framed, Packet, TaggedCommand, TickRecord, WhiskerId};
+use wire::{Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::compare::Pair;
 use crate::deployment::{flashed, flashed_for};
-use crate::ear::{self, Ear};
-use talk::{Talk, wrong};
+use talk::{Talk, records, replies, wrong};
 
 /// For how long an answer is waited for, and the records of a part are taken, s.
 const PART_S: f64 = 0.1;
@@ -44,20 +44,19 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let scene = &loaded.scene;
     let mut talk = Talk {
         pair,
-        ear: Ear::default(),
         ticks: 0,
         part: (PART_S * f64::from(scene.tick_hz)) as u32,
         tag: 0,
     };
     let mut said = vec![told::compare(&mut talk, scene)?];
-    said.push(records(&mut talk, scene)?);
+    said.push(compare_records(&mut talk, scene)?);
     said.push(commands(&mut talk)?);
     said.push(garbage(&mut talk)?);
     Ok(said)
 }
 
 /// Records by the line are those of the same module on the PC, and none is lost.
-fn records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
+fn compare_records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
     // Where the lines were compared both had as many ticks.
     let first = talk.ticks;
     let (hello, _) = talk.ask(Command::Hello)?;
@@ -68,7 +67,7 @@ fn records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
     let (begun, mut found) = talk.ask(Command::Stream(true))?;
     let ticks = (RECORDS_S * f64::from(scene.tick_hz)) as u32;
     let heard = talk.pass(ticks)?;
-    found.extend(ear::records(&heard));
+    found.extend(records(&heard));
     let left = WhiskerId::default();
     // A command in between leaves no gap.
     let (gain, between) = talk.ask(Command::Gain(left, 1 << 23))?;
@@ -102,7 +101,7 @@ fn records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
         let packets = host.module_mut().take_packets();
         expected.extend(packets.iter().filter_map(|packet| match packet {
             Packet::Record(record) => Some(*record),
-            Packet::Answer(_) => None,
+            Packet::Answer(_) | Packet::Event(_) => None,
         }));
     }
     let feels = talk.pair.feels;
@@ -154,7 +153,7 @@ fn commands(talk: &mut Talk) -> Result<String, Error> {
     }
     let last = |talk: &mut Talk| -> Result<TickRecord, Error> {
         let heard = talk.pass(talk.part)?;
-        let last = ear::records(&heard).pop();
+        let last = records(&heard).pop();
         last.map_or_else(|| wrong("no record after `stream on`"), Ok)
     };
     let held = last(talk)?;
@@ -185,11 +184,11 @@ fn commands(talk: &mut Talk) -> Result<String, Error> {
 
 /// What is no command costs an answer, and nothing else.
 fn garbage(talk: &mut Talk) -> Result<String, Error> {
-    let whole = Framed::request(&TaggedCommand {
+    let whole = wire::frame(&TaggedCommand {
         tag: 7,
         command: Command::Hello,
     });
-    let mut flipped = *whole.bytes();
+    let mut flipped = whole.clone();
     flipped[6] ^= 2;
     let (line, binary) = ([b'a'; 300], [0xA5; 64]);
     for (bytes, refusals) in [
@@ -197,11 +196,11 @@ fn garbage(talk: &mut Talk) -> Result<String, Error> {
         (b"\n", 1),
         (&binary[..], 0),
         (b"\0", 1),
-        (&whole.bytes()[..9], 0),
+        (&whole[..5], 0),
         (&flipped[..], 2),
     ] {
         talk.write(bytes);
-        let replies = ear::replies(&talk.pass(talk.part / 4)?);
+        let replies = replies(&talk.pass(talk.part / 4)?);
         let refused = replies.iter().filter(|reply| reply.starts_with("refused"));
         if refused.count() != refusals {
             return wrong(format!("{bytes:?} was answered by {replies:?}"));
@@ -225,7 +224,6 @@ fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     let part = (PART_S * f64::from(loaded.scene.tick_hz)) as u32;
     let mut talk = Talk {
         pair,
-        ear: Ear::default(),
         ticks: 0,
         part,
         tag: 0,

@@ -4,14 +4,14 @@
 use std::ops::Range;
 use std::path::Path;
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::{Framed, Packet, TaggedCommand};
+use wire::TaggedCommand;
 
-use crate::board::Emulated;
+use crate::board::{self, Emulated};
 use crate::chip::Ps;
-use crate::ear::{Ear, Heard};
 use crate::emulate::start_without;
 use crate::program::Program;
 use rtt::LogDecoder;
@@ -28,8 +28,8 @@ pub struct Session {
     place: Range<u32>,
     /// Longer than any tick takes.
     most_wait: Ps,
-    /// Who listens to the serial line, where that is what requests go by.
-    ear: Option<Ear>,
+    /// Whether requests go by the serial line.
+    is_by_serial: bool,
 }
 
 impl Session {
@@ -63,14 +63,14 @@ impl Session {
             place: program.scenes()?,
             // Ticks are not equally long.
             most_wait: (1.5 * PS / f64::from(scene.tick_hz)) as Ps,
-            ear: None,
+            is_by_serial: false,
         })
     }
 
     /// The same, where requests go by the serial line, as frames, and not by a probe.
     pub(crate) fn by_serial(self) -> Self {
         Self {
-            ear: Some(Ear::default()),
+            is_by_serial: true,
             ..self
         }
     }
@@ -122,11 +122,12 @@ impl Session {
     /// [`Error::Work`] if the program's memory is not as it should be.
     pub fn request(&mut self, request: TaggedCommand) -> Result<bool, Error> {
         let board = &mut self.run.module_mut().board;
-        if self.ear.is_some() {
-            board.serial_write(Framed::request(&request).bytes());
+        let frame = wire::frame(&request);
+        if self.is_by_serial {
+            board.serial_write(&frame);
             return Ok(true);
         }
-        Ok(board.request(&request.bytes())?)
+        Ok(board.request(&frame)?)
     }
 
     /// What the board has sent since the last call.
@@ -135,15 +136,10 @@ impl Session {
     /// As [`Session::request`].
     pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
         let board = &mut self.run.module_mut().board;
-        let Some(ear) = &mut self.ear else {
-            return Ok(board.packets()?);
-        };
-        let heard = ear.hear(&board.serial_read())?;
-        let packets = heard.into_iter().filter_map(|heard| match heard {
-            Heard::Packet(packet) => Some(packet),
-            Heard::Line(_) => None,
-        });
-        Ok(packets.collect())
+        if self.is_by_serial {
+            return Ok(board::packets(&board.received()?));
+        }
+        Ok(board.packets()?)
     }
 
     /// Has the other end of the board's serial line, which has the scene's baud, send bytes

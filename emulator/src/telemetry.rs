@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::trace::Row;
 use scene::{PlantKind, Scene};
-use wire::{Answer, Command, CommandStatus, Flags, Packet, TaggedCommand, TickRecord, WhiskerId};
+use wire::{Answer, Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::board::Board;
 use crate::compare::Pair;
@@ -138,7 +139,7 @@ impl Talk {
             tag: self.tag,
             command,
         };
-        if !self.board().request(&request.bytes())? {
+        if !self.board().request(&wire::frame(&request))? {
             return Err(Error::Work("no room for a request".to_owned()));
         }
         self.asked.push(request);
@@ -166,7 +167,7 @@ impl Talk {
     fn records(&self) -> impl Iterator<Item = &TickRecord> {
         self.packets.iter().filter_map(|packet| match packet {
             Packet::Record(record) => Some(record),
-            Packet::Answer(_) => None,
+            Packet::Answer(_) | Packet::Event(_) => None,
         })
     }
 }
@@ -259,7 +260,7 @@ fn lose(talk: &mut Talk) -> Result<u32, Error> {
         .iter()
         .filter_map(|packet| match packet {
             Packet::Record(record) => Some(*record),
-            Packet::Answer(_) => None,
+            Packet::Answer(_) | Packet::Event(_) => None,
         })
         .collect();
     for pair in records.windows(2) {
@@ -302,7 +303,7 @@ fn equal(talk: &mut Talk) -> Result<usize, Error> {
     };
     let mut expected = expected.iter().filter_map(|packet| match packet {
         Packet::Record(record) => Some(plain(record)),
-        Packet::Answer(_) => None,
+        Packet::Answer(_) | Packet::Event(_) => None,
     });
     let mut compared = 0;
     for record in talk.records().map(plain) {
@@ -322,7 +323,7 @@ fn equal(talk: &mut Talk) -> Result<usize, Error> {
 fn answered(packet: &Packet) -> Option<Answer> {
     match packet {
         Packet::Answer(answer) => Some(*answer),
-        Packet::Record(_) => None,
+        Packet::Record(_) | Packet::Event(_) => None,
     }
 }
 
@@ -346,7 +347,7 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
         let mut run = start(scene, Vec::new(), elf)?;
         if streams {
             let command = Command::Stream(true);
-            let bytes = TaggedCommand { tag: 1, command }.bytes();
+            let bytes = wire::frame(&TaggedCommand { tag: 1, command });
             run.module_mut().board.request(&bytes)?;
         }
         for _ in 0..run.ticks() {

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use config::AnyConfig;
-use firmware::{BoardCode, Config, ConfigError, Field, encode, refusal_code};
+use firmware::{BoardCode, Config, ConfigError, Field, Packet, encode, refusal_code};
 use host_sim::Error;
 use host_sim::bench::config_of;
 use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
 use scene::{Arm, Rule, Scene};
 use whisking::Real;
-use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
 use crate::compare::Pair;
 use crate::damaged;
@@ -156,7 +156,7 @@ impl Talk {
         let packets = self.pair.target.module_mut().board.packets()?;
         let answers = packets.into_iter().filter_map(|packet| match packet {
             Packet::Answer(answer) => Some(answer),
-            Packet::Record(_) => None,
+            Packet::Record(_) | Packet::Event(_) => None,
         });
         Ok(answers.collect())
     }
@@ -173,7 +173,7 @@ impl Talk {
             command,
         };
         let board = &mut self.pair.target.module_mut().board;
-        if !board.request(&request.bytes())? {
+        if !board.request(&wire::frame(&request))? {
             return Err(Error::Work(format!("{command:?}: no room for it")));
         }
         for _ in 0..PATIENCE {

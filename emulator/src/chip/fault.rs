@@ -48,6 +48,9 @@ pub enum Fault {
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
     Reset(super::reset::ResetCause),
+    /// It has sent what is neither a packet nor a line.
+    #[error("it has sent what cannot be read")]
+    Garbled,
     /// The emulator's own memory map refused what it should not.
     #[error("memory: {0}")]
     Memory(String),

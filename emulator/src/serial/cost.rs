@@ -4,7 +4,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use scene::Scene;
-use wire::{Command, Framed, TaggedCommand};
+use wire::{Command, TaggedCommand};
 
 use super::talk::wrong;
 use crate::deployment::{flashed, flashed_for};
@@ -62,8 +62,8 @@ fn mean(scene: &Scene, program: &Program, reader: Reader) -> Result<f64, Error> 
     let board = &mut run.module_mut().board;
     match reader {
         Reader::Nobody => {}
-        Reader::Probe => _ = board.request(&request.bytes())?,
-        Reader::Serial => board.serial_write(Framed::request(&request).bytes()),
+        Reader::Probe => _ = board.request(&wire::frame(&request))?,
+        Reader::Serial => board.serial_write(&wire::frame(&request)),
     }
     for _ in 0..run.ticks() {
         run.tick();

@@ -1,10 +1,11 @@
 //! A conversation with a board over its serial line.
 
+use firmware::Packet;
 use host_sim::Error;
-use wire::{Answer, Command, Framed, Packet, TaggedCommand, TickRecord};
+use host_sim::received::Received;
+use wire::{Answer, Command, TaggedCommand, TickRecord};
 
 use crate::compare::Pair;
-use crate::ear::{self, Ear, Heard};
 
 /// What is not as it should be.
 pub(super) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
@@ -14,7 +15,6 @@ pub(super) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
 /// The board and the PC, and what the board has sent.
 pub(super) struct Talk {
     pub(super) pair: Pair,
-    pub(super) ear: Ear,
     /// Ticks of the board.
     pub(super) ticks: u32,
     /// Ticks of a part.
@@ -24,15 +24,14 @@ pub(super) struct Talk {
 
 impl Talk {
     /// Lets so many ticks pass on the board alone.
-    pub(super) fn pass(&mut self, ticks: u32) -> Result<Vec<Heard>, Error> {
+    pub(super) fn pass(&mut self, ticks: u32) -> Result<Vec<Received>, Error> {
         let mut all = Vec::new();
         for _ in 0..ticks {
             self.pair.target.tick();
             self.ticks += 1;
             let emulated = self.pair.target.module_mut();
             emulated.check()?;
-            let bytes = emulated.board.serial_read();
-            all.extend(self.ear.hear(&bytes)?);
+            all.extend(emulated.board.received()?);
         }
         Ok(all)
     }
@@ -45,8 +44,7 @@ impl Talk {
     pub(super) fn say(&mut self, line: &str) -> Result<Vec<String>, Error> {
         self.write(line.as_bytes());
         self.write(b"\n");
-        let heard = self.pass(self.part)?;
-        Ok(ear::replies(&heard))
+        Ok(replies(&self.pass(self.part)?))
     }
 
     /// Asks by a frame; the answer, and the records that came meanwhile.
@@ -54,11 +52,11 @@ impl Talk {
         self.tag += 1;
         let tag = self.tag;
         let request = TaggedCommand { tag, command };
-        self.write(Framed::request(&request).bytes());
-        let heard = self.pass(self.part)?;
-        let records = ear::records(&heard);
-        let mut answers = heard.iter().filter_map(|heard| match heard {
-            Heard::Packet(Packet::Answer(answer)) if answer.tag == tag => Some(*answer),
+        self.write(&wire::frame(&request));
+        let received = self.pass(self.part)?;
+        let records = records(&received);
+        let mut answers = received.iter().filter_map(|received| match received {
+            Received::Packet(Packet::Answer(answer)) if answer.tag == tag => Some(*answer),
             _ => None,
         });
         match (answers.next(), answers.next()) {
@@ -66,4 +64,24 @@ impl Talk {
             (found, _) => wrong(format!("{command:?}: answered {found:?}, or twice")),
         }
     }
+}
+
+/// The records of what was received.
+pub(super) fn records(received: &[Received]) -> Vec<TickRecord> {
+    let records = received.iter().filter_map(|received| match received {
+        Received::Packet(Packet::Record(record)) => Some(*record),
+        _ => None,
+    });
+    records.collect()
+}
+
+/// The lines that begin with no time: replies.
+pub(super) fn replies(received: &[Received]) -> Vec<String> {
+    let lines = received.iter().filter_map(|received| match received {
+        Received::Line(line) => Some(line.clone()),
+        Received::Packet(_) | Received::Garbled => None,
+    });
+    lines
+        .filter(|line| !line.starts_with(|first: char| first.is_ascii_digit()))
+        .collect()
 }

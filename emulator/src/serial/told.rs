@@ -3,10 +3,10 @@
 
 use firmware::{Event, Place};
 use host_sim::Error;
+use host_sim::received::Received;
 use scene::Scene;
 
 use super::talk::{Talk, wrong};
-use crate::ear::Heard;
 
 /// For how long, s: some touches of every texture.
 const TOLD_S: f64 = 3.0;
@@ -42,9 +42,9 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
         talk.pair.host.tick();
         let tick = talk.ticks + 1;
         due.extend(expected(talk, tick));
-        for heard in talk.pass(1)? {
-            let Heard::Line(line) = heard else {
-                return wrong(format!("nobody has asked for {heard:?}"));
+        for received in talk.pass(1)? {
+            let Received::Line(line) = received else {
+                return wrong(format!("nobody has asked for {received:?}"));
             };
             let Some((time, text)) = line.split_once(' ') else {
                 return wrong(format!("a line without a time: {line:?}"));
