@@ -4,6 +4,9 @@ use firmware::{Links, NAME_BYTES};
 
 use super::types::Settings;
 
+/// The name of none.
+pub(crate) const NO_SCENE: &str = "no-scene";
+
 /// It does not change while the module runs.
 pub(crate) struct About {
     name: heapless::String<NAME_BYTES>,
@@ -30,7 +33,7 @@ impl About {
     /// The name of the scene.
     pub(crate) fn name(&self) -> &str {
         if self.name.is_empty() {
-            "no-scene"
+            NO_SCENE
         } else {
             &self.name
         }
@@ -39,6 +42,6 @@ impl About {
     /// Bits a second that records of every tick take, each byte with its start and stop.
     pub(crate) const fn records_baud(&self) -> u32 {
         self.tick_hz
-            .saturating_mul(self.whiskers * wire::PACKET_FRAME_BYTES as u32 * 10)
+            .saturating_mul(self.whiskers * wire::RECORD_FRAME_BYTES as u32 * 10)
     }
 }

@@ -29,7 +29,7 @@ pub(crate) enum Line<'s> {
     /// The serial port.
     Serial(&'s mut Serial),
     /// What a probe reads and writes.
-    Probe(ProbeLine),
+    Probe(&'s mut ProbeLine),
 }
 
 impl Line<'_> {
@@ -38,17 +38,18 @@ impl Line<'_> {
     // follow.
     #[inline(never)]
     fn next(&mut self) -> Option<TaggedCommand> {
-        match self {
+        let request = match self {
             Self::Serial(serial) => serial.next(),
             Self::Probe(probe) => probe.next(),
-        }
+        };
+        request?.ok()
     }
 
     /// Sends an answer. Whoever asks waits for it before they ask again: there is room.
     fn reply(&mut self, answer: &Answer) {
         match self {
             Self::Serial(serial) => serial.reply(answer),
-            Self::Probe(probe) => probe.reply(answer),
+            Self::Probe(_) => ProbeLine::reply(answer),
         }
     }
 
@@ -56,7 +57,7 @@ impl Line<'_> {
     fn has_sent(&mut self) -> bool {
         match self {
             Self::Serial(serial) => serial.has_sent(),
-            Self::Probe(probe) => probe.has_sent(),
+            Self::Probe(_) => ProbeLine::has_sent(),
         }
     }
 }
@@ -112,13 +113,12 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
             Command::Restart => CommandStatus::Done,
             _ => CommandStatus::NotHere,
         };
-        line.reply(&Answer {
-            sequence: answer.sequence,
-            tag: request.tag,
-            command: request.command.number(),
-            status,
-            values: [loading.written, load.words()].map(u32::cast_signed),
-        });
+        let values = [loading.written, load.words()].map(u32::cast_signed);
+        line.reply(&firmware::answer(
+            request,
+            answer.sequence,
+            (status, values),
+        ));
         if request.command == Command::Restart {
             break;
         }

@@ -1,5 +1,5 @@
 //! Lines of the log, by defmt over RTT. Texts stay on the PC; the board sends
-//! a number for each.
+//! a number for each. What the serial port says too has its wording from [`firmware::lines`].
 //!
 //! Only the start writes here, idle, and fault handlers. A line that finds no room in the
 //! ring is dropped whole, on a Cortex-M0+ it takes the place of older ones; nothing waits for
@@ -10,14 +10,16 @@
 )]
 
 use firmware::faults::number;
-use firmware::{ConfigError, ModelState, NotArmed, Part, Place, SensorFault, StartCause, Startup};
+use firmware::{ConfigError, Event, ModelState, NotArmed, Part, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
 use whisking::motor;
 
+use super::about::NO_SCENE;
 use super::counters::TICKS;
-use super::pace;
+use super::perception::Names;
 use super::reset::ClockError;
 use super::scene::Scene;
+use super::{pace, serial};
 
 // Lines begin with the time since the first tick, in seconds to the tick.
 defmt::timestamp!("{=u32:ms}", {
@@ -29,44 +31,28 @@ defmt::timestamp!("{=u32:ms}", {
         .wrapping_add(part * 1_000 / tick_hz)
 });
 
+/// A line of the table of wording.
+macro_rules! say {
+    ($level:ident, $text:literal $(, $value:expr)* $(,)?) => {
+        defmt::$level!($text $(, $value)*)
+    };
+}
+
 /// The first lines after a reset.
 #[inline(never)]
 pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
-    let version = env!("CARGO_PKG_VERSION");
-    if found.deployed.is_some() {
-        defmt::info!(
-            "whisker {=str}: scene {=str}, {=u32} ticks a second",
-            version,
-            found.settings.head.name.as_str(),
-            pace::tick_hz()
-        );
+    let name = &found.settings.head.name;
+    let scene_name = if found.deployed.is_some() {
+        name.as_str()
     } else {
-        defmt::warn!(
-            "whisker {=str}: no scene, {=u32} ticks a second: whisker deploy brings one",
-            version,
-            pace::tick_hz()
-        );
+        NO_SCENE
+    };
+    let what = (env!("CARGO_PKG_VERSION"), scene_name, pace::tick_hz());
+    firmware::say_start!(say, texts, what, (start, cause));
+    if found.deployed.is_none() {
+        defmt::warn!("no scene: whisker deploy brings one");
     }
     scene(found);
-    match cause {
-        StartCause::Watchdog => fatal(number::WATCHDOG),
-        StartCause::Software if start.follows(number::SUPPLY_LOW) => fatal(number::SUPPLY_LOW),
-        StartCause::Software => defmt::info!("reset by software"),
-        StartCause::Power => defmt::info!("reset by power-up"),
-        StartCause::BrownOut => fatal(number::SUPPLY),
-        StartCause::Pin => defmt::info!("reset by the reset pin"),
-        StartCause::Other => defmt::warn!("reset, cause unknown"),
-    }
-    let (starts, fault) = (start.number, start.fault);
-    if fault == 0 {
-        defmt::info!("start {=u32} since power-up, no fault", starts);
-    } else {
-        defmt::warn!(
-            "start {=u32} since power-up, last fault {=u8}",
-            starts,
-            fault
-        );
-    }
 }
 
 /// Which scene runs, and why a slot does not count; an empty one has a line only where there is
@@ -164,28 +150,23 @@ pub(crate) fn model(state: ModelState) {
             defmt::info!("decides by model {=u32:08x}, {=u8} classes", crc, classes);
         }
         ModelState::Refused(refusal) if Part::Classifier.is_built() => {
-            limit(number::NO_MODEL);
+            let [name, causes] = texts(number::NO_MODEL);
+            say!(
+                warn,
+                "limit {=u8} {=istr} ({=istr}?)",
+                number::NO_MODEL,
+                name,
+                causes
+            );
             defmt::warn!("- {=str}", refusal.text());
         }
         _ => {}
     }
 }
 
-/// The motors are off until the user button is pressed.
+/// The motors are off until they are armed.
 pub(crate) fn not_armed(reason: NotArmed) {
-    match reason {
-        NotArmed::After(number) => {
-            let [name, _] = texts(number);
-            defmt::warn!("not armed: fault {=u8}, {=istr}", number, name);
-        }
-        NotArmed::Unknown => defmt::warn!("not armed: cause of the reset unknown"),
-        NotArmed::OnCommand => defmt::info!("not armed: the scene waits for the user button"),
-    }
-}
-
-/// The user button was pressed.
-pub(crate) fn armed() {
-    defmt::info!("armed by the user button");
+    firmware::say_not_armed!(say, texts, reason);
 }
 
 /// A PC asks for what a reader of the log should know of.
@@ -227,8 +208,7 @@ firmware::fault_table!(texts);
 
 /// The line of a fault of the board; lines with details may follow.
 pub(crate) fn fatal(number: u8) {
-    let [name, causes] = texts(number);
-    defmt::error!("fault {=u8}, {=istr} ({=istr}?)", number, name, causes);
+    firmware::say_board_fault!(say, texts, number);
 }
 
 /// The last lines where a clock did not start.
@@ -239,166 +219,26 @@ pub(crate) fn clock(error: ClockError) {
     }
 }
 
-/// The line of a limit.
-fn limit(number: u8) {
-    let [name, causes] = texts(number);
-    defmt::warn!("limit {=u8}, {=istr} ({=istr}?)", number, name, causes);
-}
-
-/// How the ticks keep their time.
-#[derive(Default)]
-pub(crate) struct Health {
-    /// The longest tick since the last line, counts of the clock.
-    pub(crate) worst: u32,
-    /// Ticks that did not happen in time, since the start.
-    pub(crate) missed: u32,
-    /// Events that found the queue full, since the start.
-    pub(crate) dropped: u32,
-}
-
-impl Health {
-    /// The longest tick, tenths of a microsecond.
-    pub(crate) fn worst_tenths(&self) -> u32 {
-        let us = match pace::clocks().counter_hz / 1_000_000 {
-            0 => 1,
-            counts => counts,
-        };
-        // In two steps, lest ten times the worst overflow.
-        self.worst / us * 10 + self.worst % us * 10 / us
-    }
-}
-
-/// Once a second: the longest tick, and the limits that were passed since `before`.
-pub(crate) fn health(now: &Health, before: &Health) {
-    let tenths = now.worst_tenths();
-    defmt::info!(
-        "longest tick {=u32}.{=u32} us of {=u32}; missed {=u32}, events dropped {=u32}",
-        tenths / 10,
-        tenths % 10,
-        1_000_000 / pace::tick_hz(),
-        now.missed,
-        now.dropped
+/// The line of an event, and of what is known besides.
+pub(crate) fn event(event: &Event, names: &Names) {
+    firmware::say_event!(
+        say,
+        *event,
+        texts,
+        |class| names.class(class),
+        [pace::period_us(), serial::lost()]
     );
-    if now.missed != before.missed {
-        limit(number::MISSED);
-    }
-    if now.dropped != before.dropped {
-        limit(number::DROPPED);
-    }
-}
-
-/// A line about what a whisker feels; where several are heard it begins with the whisker's
-/// side and number, and reads as the second text.
-macro_rules! felt_line {
-    ($felt:ident, $text:literal, $of_several:literal $(, $value:expr)* $(,)?) => {
-        let Felt { place: $felt, several } = $felt;
-        if Part::Several.is_built() && several {
-            defmt::info!($of_several, $felt.side_name(), $felt.whisker $(, $value)*);
-        } else {
-            defmt::info!($text $(, $value)*);
+    match *event {
+        Event::SensorLost(_, fault) => sensor_lost(fault),
+        Event::MotorFault(_, motor::Fault::InvalidHall(hall)) if Part::Motion.is_built() => {
+            defmt::error!("- Hall code {=u8}", hall);
         }
-    };
-}
-
-/// Who feels it, of several that are heard or of one.
-#[derive(Clone, Copy)]
-pub(crate) struct Felt {
-    pub(crate) place: Place,
-    pub(crate) several: bool,
-}
-
-/// A touch begins.
-pub(crate) fn touch(felt: Felt, number: u16) {
-    felt_line!(felt, "touch {=u16}", "{=str} {=u8}: touch {=u16}", number);
-}
-
-/// A touch has ended.
-pub(crate) fn touch_end(felt: Felt, number: u16) {
-    felt_line!(
-        felt,
-        "touch {=u16} has ended",
-        "{=str} {=u8}: touch {=u16} has ended",
-        number
-    );
-}
-
-/// A decision for the class `name`.
-pub(crate) fn decision(felt: Felt, name: &str, decided: tactile::Decision) {
-    // Percent with four decimals, rounded down: at most 99.9999.
-    let posterior = ((u64::from(decided.posterior().q32()) * 1_000_000) >> 32) as u32;
-    felt_line!(
-        felt,
-        "decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
-        "{=str} {=u8}: decision: {=str}, posterior {=u32}.{=u32:04} %, {=u32} samples",
-        name,
-        posterior / 10_000,
-        posterior % 10_000,
-        decided.samples()
-    );
-}
-
-/// The line of a whisker's fault.
-fn fault(place: Place, number: u8) {
-    let [name, causes] = texts(number);
-    defmt::error!(
-        "{=str} {=u8}: fault {=u8}, {=istr} ({=istr}?)",
-        place.side_name(),
-        place.whisker,
-        number,
-        name,
-        causes
-    );
-}
-
-/// A motor was switched off.
-pub(crate) fn motor_fault(place: Place, of: motor::Fault) {
-    fault(place, of.code());
-    if let motor::Fault::InvalidHall(hall) = of {
-        defmt::error!("- Hall code {=u8}", hall);
+        _ => {}
     }
 }
 
-/// The zero of a sensor was moved.
-pub(crate) fn zero_moved(place: Place, [x, y]: [i16; 2]) {
-    defmt::info!(
-        "{=str} {=u8}: zero moved to x {=i16}, y {=i16} codes",
-        place.side_name(),
-        place.whisker,
-        x,
-        y
-    );
-}
-
-/// A motor is tried again after its rest.
-pub(crate) fn motor_retry(place: Place) {
-    defmt::info!(
-        "{=str} {=u8}: motor is tried again",
-        place.side_name(),
-        place.whisker
-    );
-}
-
-/// A motor stays off until it is armed again.
-pub(crate) fn motor_given_up(place: Place) {
-    defmt::error!(
-        "{=str} {=u8}: three faults in a minute: motor off until armed",
-        place.side_name(),
-        place.whisker
-    );
-}
-
-/// A sensor is trusted again.
-pub(crate) fn sensor_back(place: Place) {
-    defmt::info!(
-        "{=str} {=u8}: sensor is back",
-        place.side_name(),
-        place.whisker
-    );
-}
-
-/// A sensor has a fault; the motor is off.
-pub(crate) fn sensor_lost(place: Place, of: SensorFault) {
-    fault(place, of.code());
+/// What is known of a sensor's fault.
+fn sensor_lost(of: SensorFault) {
     match of {
         SensorFault::Frame(FrameError::BadStart(found)) => {
             defmt::error!("- it begins with {=u8:#04x}", found);

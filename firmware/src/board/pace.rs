@@ -26,6 +26,19 @@ pub(crate) fn tick_hz() -> u32 {
     PACE[0].load(Ordering::Relaxed).max(1)
 }
 
+/// A tick, µs.
+pub(crate) fn period_us() -> u32 {
+    1_000_000 / tick_hz()
+}
+
+/// So many counts of the clock in tenths of a microsecond, as far as they go.
+pub(crate) fn tenths(counts: u32) -> u16 {
+    let us = (clocks().counter_hz / 1_000_000).max(1);
+    // In two steps, lest ten times the counts overflow.
+    let tenths = (counts / us).saturating_mul(10) + counts % us * 10 / us;
+    tenths.min(u16::MAX.into()) as u16
+}
+
 /// The clocks as they run once the start has halved them or not.
 pub(crate) fn clocks() -> &'static Clocks {
     if PACE[1].load(Ordering::Relaxed) == 0 {

@@ -98,30 +98,23 @@ pub(crate) fn constants(inner: &Inner) -> [Span; 3] {
     found.unwrap_or([Span::NONE; 3])
 }
 
-/// How decisions are told.
-pub(crate) struct Names {
-    model: Option<Model<&'static [u32]>>,
-    /// Several whiskers decide, so each is told.
-    pub(crate) several: bool,
-}
+/// The names of classes.
+pub(crate) struct Names(Option<Model<&'static [u32]>>);
 
 impl Names {
-    /// Of a module.
-    pub(crate) fn of(settings: &Settings, inner: &Inner) -> Self {
+    /// Of what a module decides for.
+    pub(crate) fn of(inner: &Inner) -> Self {
         let perception = inner.perception().filter(|_| Part::Classifier.is_built());
-        let model = perception.and_then(|perception| perception.classifier().model().copied());
-        let heard = settings.classifier.as_ref().map_or(0, |classifier| {
-            classifier.deciding.heard(settings.head.whiskers())
-        });
-        Self {
-            model,
-            several: Part::Several.is_built() && heard > 1,
-        }
+        Self(perception.and_then(|perception| perception.classifier().model().copied()))
+    }
+
+    /// The name of a class, if there is one.
+    pub(crate) fn find(&self, class: usize) -> Option<&str> {
+        self.0.as_ref()?.name(class)
     }
 
     /// The name of a class.
     pub(crate) fn class(&self, class: usize) -> &str {
-        let name = self.model.as_ref().and_then(|model| model.name(class));
-        name.unwrap_or("unknown")
+        self.find(class).unwrap_or("unknown")
     }
 }

@@ -14,7 +14,7 @@
 
 use firmware::boards::TickPeriod;
 use firmware::faults::number;
-use firmware::{ConfigError, Event, Part};
+use firmware::{ConfigError, Event, EventRecord, Health, Part};
 use heapless::spsc::{Consumer, Producer};
 use static_cell::StaticCell;
 
@@ -22,12 +22,11 @@ use super::about::About;
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::integrity::Integrity;
 use super::loading::{Line, Order};
-use super::log::Felt;
 use super::perception::Names;
 use super::scene::Scene;
 use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
-use super::telemetry::{self, Configs, Telemetry};
+use super::telemetry::{self, Configs, Exchange, Telemetry};
 use super::types::{Inner, Settings};
 use super::user_button::{REQUEST, UserButton};
 use super::watchdog::Watchdog;
@@ -37,8 +36,8 @@ use crate::here::{self, Counter};
 /// Events on their way from the tick to idle, and what idle sends to the tick. Fifteen events
 /// fit: idle drains them after every tick, which has four a side at most.
 pub struct Queues {
-    events: heapless::spsc::Queue<Event, 16>,
-    settings: telemetry::Queue,
+    events: heapless::spsc::Queue<EventRecord, 16>,
+    link: telemetry::Queues,
 }
 
 impl Queues {
@@ -46,7 +45,7 @@ impl Queues {
     pub(crate) const fn new() -> Self {
         Self {
             events: heapless::spsc::Queue::new(),
-            settings: telemetry::Queue::new(),
+            link: telemetry::Queues::new(),
         }
     }
 }
@@ -66,7 +65,7 @@ pub struct Module {
 static DROPPED: WrappingCounter = WrappingCounter::new();
 
 /// Of events, the tick's end of the queue.
-pub type Events = Producer<'static, Event>;
+pub type Events = Producer<'static, EventRecord>;
 
 /// What the start has made.
 pub(crate) struct Started {
@@ -100,7 +99,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         here::halve_clocks();
     }
     let (events, of_events) = queues.events.split();
-    let (next, of_next) = queues.settings.split();
+    let (idle_ends, settings_ways, tick_ends) = queues.link.split();
     let reason = no_scene(&found);
     let Scene {
         settings,
@@ -115,13 +114,13 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let gate = perception::gate_of(inner);
     perception::adapt(settings, gate);
     let integrity = Integrity::new(settings, inner);
-    let names = Names::of(settings, inner);
+    let names = Names::of(inner);
     let model = perception::state(inner);
     log::model(model);
-    let Some(configs) = Configs::start(deployed.ok_or(reason), gate, next) else {
+    let Some(configs) = Configs::start(deployed.ok_or(reason), gate, settings_ways) else {
         faults::die(number::SETTINGS, || {})
     };
-    let telemetry = Telemetry::new(settings, inner, model, of_next);
+    let telemetry = Telemetry::new(settings, inner, model, tick_ends);
     let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
     if let Some(motion) = motion {
         match start.may_arm(motion.arms_at_start) {
@@ -151,11 +150,11 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         pins: SignalPins::start(about.links.has_pins),
         about,
         events: of_events,
-        configs,
+        exchange: Exchange::new(idle_ends, configs),
         in_use: deployed.map(|deployed| deployed.slot),
         fed: 0,
         logged: 0,
-        before: log::Health::default(),
+        before: Health::default(),
     });
     let Some(idle) = idle else {
         faults::die(number::SETTINGS, || {})
@@ -182,11 +181,16 @@ pub(crate) fn tick(module: &mut Module, events: &mut Events) {
     if Part::Motion.is_built() && REQUEST.take() {
         module.inner.arm(true);
     }
-    let settings = &*module.settings;
-    module.inner.tick(settings, &mut |event| put(events, event));
+    let Module {
+        inner,
+        telemetry,
+        settings,
+        ..
+    } = module;
+    inner.tick(settings, &mut |event| put(events, telemetry, event));
     let tick_hz = settings.head.tick_hz;
     let now = TICKS.increment();
-    if telemetry::is_busy() {
+    if telemetry.is_busy() {
         tell(module);
     }
     // Full, or further ahead than a second can be: a flipped bit.
@@ -199,11 +203,13 @@ pub(crate) fn tick(module: &mut Module, events: &mut Events) {
 /// Puts an event into the queue. Events are few and come from many places, so that this stands in
 /// flash once.
 #[inline(never)]
-fn put(events: &mut Events, event: Event) {
-    if events.enqueue(event).is_err() {
+fn put(events: &mut Events, telemetry: &mut Telemetry, event: Event) {
+    // A tick counts itself once it has ended.
+    let sequence = TICKS.get().wrapping_add(1);
+    if events.enqueue(EventRecord { sequence, event }).is_err() {
         DROPPED.increment();
     }
-    telemetry::note(&event);
+    telemetry.note(&event);
 }
 
 /// Records of this tick, and what was asked for.
@@ -218,7 +224,7 @@ fn tell(module: &mut Module) {
         ..
     } = module;
     telemetry.send(inner, settings, TICKS.get());
-    if telemetry::waits() {
+    if telemetry.waits() {
         talk(module);
     }
 }
@@ -255,40 +261,6 @@ pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     }
 }
 
-/// Writes an event to the log. What the image was built without has no line.
-fn write(event: Event, names: &Names) {
-    let several = names.several;
-    match event {
-        Event::Decision(place, decision) if Part::Classifier.is_built() => {
-            let name = decision
-                .class()
-                .map_or("unknown", |class| names.class(class));
-            log::decision(Felt { place, several }, name, decision);
-        }
-        Event::Touch { place, number } if Part::Classifier.is_built() => {
-            log::touch(Felt { place, several }, number);
-        }
-        Event::TouchEnd { place, number } if Part::Classifier.is_built() => {
-            log::touch_end(Felt { place, several }, number);
-        }
-        Event::SensorLost(place, fault) => log::sensor_lost(place, fault),
-        Event::SensorBack(place) => log::sensor_back(place),
-        Event::ZeroMoved(place, codes) if Part::Zero.is_built() => log::zero_moved(place, codes),
-        Event::MotorFault(place, fault) if Part::Motion.is_built() => {
-            log::motor_fault(place, fault);
-        }
-        Event::MotorRetry(place) if Part::Motion.is_built() => log::motor_retry(place),
-        Event::MotorGivenUp(place) if Part::Motion.is_built() => log::motor_given_up(place),
-        Event::Decision(..)
-        | Event::Touch { .. }
-        | Event::TouchEnd { .. }
-        | Event::ZeroMoved(..)
-        | Event::MotorFault(..)
-        | Event::MotorRetry(_)
-        | Event::MotorGivenUp(_) => {}
-    }
-}
-
 /// The state of the idle task.
 pub(crate) struct Idle {
     integrity: Integrity,
@@ -298,14 +270,14 @@ pub(crate) struct Idle {
     serial: Option<Serial>,
     pins: Option<SignalPins>,
     about: About,
-    events: Consumer<'static, Event>,
-    configs: Configs,
+    events: Consumer<'static, EventRecord>,
+    exchange: Exchange,
     /// The slot of the scene that runs.
     in_use: Option<usize>,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
     logged: u32,
-    before: log::Health,
+    before: Health,
 }
 
 impl Idle {
@@ -316,59 +288,67 @@ impl Idle {
             return;
         }
         self.fed = now;
-        // A tick queues its events before it counts itself.
         while let Some(event) = self.events.dequeue() {
-            self.tell(event, now);
+            if let Some(pins) = &mut self.pins {
+                pins.note(&event.event, event.sequence);
+            }
+            self.report(event);
         }
         if let Some(pins) = &mut self.pins {
             pins.show(now);
         }
         if self.about.links.has_rtt {
-            telemetry::hear(&mut self.configs);
+            self.exchange.take_from_probe(&self.names);
         }
         self.load();
-        self.configs.tell(now);
+        self.exchange.log_changes(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.
         self.watchdog.feed();
         if Part::Motion.is_built() && self.about.has_motors && self.button.is_pressed() {
             REQUEST.make();
-            log::armed();
-            if let Some(serial) = &mut self.serial {
-                serial.armed();
-            }
+            self.report_now(Event::Armed);
         }
         if now.wrapping_sub(self.logged) >= pace::tick_hz() {
             self.logged = now;
             self.health();
         }
+        self.exchange.answer_probe();
         if let Some(serial) = &mut self.serial {
-            serial.serve(now, &self.about, &mut self.configs);
+            serial.serve(now, &self.about, (&mut self.exchange, &self.names));
+        }
+        self.exchange.send_records();
+        if let Some(serial) = &mut self.serial {
+            serial.send();
         }
     }
 
-    /// Tells of an event, of the tick that is the `now`-th.
-    fn tell(&mut self, event: Event, now: u32) {
-        if let Some(pins) = &mut self.pins {
-            pins.note(&event, now);
-        }
-        write(event, &self.names);
+    /// Reports what has happened by log, port and link.
+    fn report(&mut self, event: EventRecord) {
+        log::event(&event.event, &self.names);
         if let Some(serial) = &mut self.serial {
-            serial.tell(&event, &self.names);
+            serial.say(&event.event, &self.names);
         }
+        self.exchange.send_event(event);
     }
 
-    /// Has the loader take over, if somebody has asked for it.
+    /// The same of what idle has found.
+    fn report_now(&mut self, event: Event) {
+        let sequence = TICKS.get();
+        self.report(EventRecord { sequence, event });
+    }
+
+    /// Has the loader take over, if that was asked for.
     fn load(&mut self) {
         if !Part::Deploy.is_built() {
             return;
         }
-        let Some((load, answer, is_by_serial)) = telemetry::to_load() else {
+        let Some((load, answer, is_by_serial)) = self.exchange.to_load() else {
             return;
         };
         let line = match &mut self.serial {
             Some(serial) if is_by_serial => Line::Serial(serial),
-            _ => Line::Probe(telemetry::ProbeLine::new()),
+            _ => Line::Probe(&mut self.exchange.probe),
         };
         let order = Order {
             load,
@@ -378,18 +358,23 @@ impl Idle {
         loading::run(line, order);
     }
 
-    /// Once a second: how ticks have fared.
+    /// Once a second: how ticks have fared, and the limits that were passed.
     fn health(&mut self) {
-        let health = log::Health {
-            worst: WORST.get(),
+        let health = Health {
+            worst_tenths: pace::tenths(WORST.get()),
             missed: MISSED.get(),
             dropped: DROPPED.get(),
         };
-        log::health(&health, &self.before);
-        if let Some(serial) = &mut self.serial {
-            serial.health(&health, &self.before);
+        let before = core::mem::replace(&mut self.before, health);
+        self.report_now(Event::Health(health));
+        for (number, has_passed) in [
+            (number::MISSED, health.missed != before.missed),
+            (number::DROPPED, health.dropped != before.dropped),
+        ] {
+            if has_passed {
+                self.report_now(Event::Limit(number));
+            }
         }
-        self.before = health;
     }
 }
 

@@ -8,33 +8,22 @@
 //! | ring | what |
 //! |---|---|
 //! | up 0 | the log, by defmt |
-//! | up 1 | packets of the crate `wire`, where the program has telemetry |
-//! | down 0 | requests of the crate `wire`, there too |
+//! | up 1 | frames of packets, where the program has a link |
+//! | down 0 | frames of requests, there too |
 
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
-
-#[cfg(feature = "rtt")]
-use firmware::PacketSlot;
-#[cfg(feature = "rtt")]
-use wire::REQUEST_BYTES;
 
 /// The log's ring: what idle writes within the 100 ms after which a probe comes by.
 pub(crate) static LOG_BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
 
-/// Packets for which there is memory; one fewer fit. At 2 kHz and one whisker 63 ms pass
-/// until they are full, six times as long as a probe stays away.
+/// The ring of packets. At 2 kHz and one whisker 43 ms pass until records have filled it, four
+/// times as long as a probe stays away.
 #[cfg(feature = "rtt")]
-pub(crate) const PACKETS_COUNT: usize = 128;
-
-/// The ring of packets.
-#[cfg(feature = "rtt")]
-pub(crate) static PACKETS: [PacketSlot; PACKETS_COUNT] =
-    [const { PacketSlot::new() }; PACKETS_COUNT];
+pub(crate) static PACKETS: [AtomicU8; 2_560] = [const { AtomicU8::new(0) }; 2_560];
 
 /// The ring of requests: some, as only one is carried out a tick.
 #[cfg(feature = "rtt")]
-pub(crate) static REQUESTS: [AtomicU8; 8 * REQUEST_BYTES] =
-    [const { AtomicU8::new(0) }; 8 * REQUEST_BYTES];
+pub(crate) static REQUESTS: [AtomicU8; 128] = [const { AtomicU8::new(0) }; 128];
 
 /// A ring, as the probe knows it.
 #[repr(C)]

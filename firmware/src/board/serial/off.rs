@@ -1,18 +1,30 @@
 //! The serial port of a program that has none: nothing.
 
 use firmware::{Event, NotArmed, StartCause, Startup};
-use wire::{Answer, TaggedCommand};
+use wire::{Answer, Frame, TaggedCommand, UnknownCommand};
 
 use crate::board::about::About;
-use crate::board::log::Health;
 use crate::board::perception::Names;
-use crate::board::telemetry::Configs;
+use crate::board::telemetry::Exchange;
 
 /// There is no line.
 pub(crate) fn started(_: StartCause, _: &Startup, _: &About) {}
 
 /// There is no line.
 pub(crate) fn not_armed(_: NotArmed, _: &About) {}
+
+/// No line is lost.
+pub(crate) fn lost() -> u32 {
+    0
+}
+
+/// There is no line.
+pub(crate) fn send_event(_: &Frame) {}
+
+/// There is no room.
+pub(crate) fn send_record(_: &Frame) -> bool {
+    false
+}
 
 /// No port.
 pub(crate) struct Serial;
@@ -22,15 +34,13 @@ impl Serial {
         None
     }
 
-    pub(crate) fn tell(&mut self, _: &Event, _: &Names) {}
+    pub(crate) fn say(&mut self, _: &Event, _: &Names) {}
 
-    pub(crate) fn armed(&mut self) {}
+    pub(crate) fn serve(&mut self, _: u32, _: &About, _: (&mut Exchange, &Names)) {}
 
-    pub(crate) fn health(&mut self, _: &Health, _: &Health) {}
+    pub(crate) fn send(&mut self) {}
 
-    pub(crate) fn serve(&mut self, _: u32, _: &About, _: &mut Configs) {}
-
-    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
+    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         None
     }
 

@@ -9,20 +9,20 @@ mod received;
 mod sent;
 
 use firmware::boards::RECEIVED_BYTES;
-use firmware::{Event, NotArmed, StartCause, Startup, faults, lines};
+use firmware::lines::{self, Context};
+use firmware::{Event, NotArmed, Packet, StartCause, Startup};
 use heapless::Deque;
 use wire::text::{self, Spoken};
 use wire::{
-    Answer, Command, CommandStatus, Framed, Line, PACKET_WORDS, Piece, Splitter, TaggedCommand,
+    Answer, Command, CommandStatus, Frame, Line, Piece, Splitter, TaggedCommand, UnknownCommand,
 };
 
 use crate::board::about::About;
 use crate::board::counters::TICKS;
-use crate::board::log::Health;
 use crate::board::pace;
 use crate::board::perception::Names;
 use crate::board::pin_config::{Mode, PinConfig};
-use crate::board::telemetry::{self, Configs};
+use crate::board::telemetry::{Exchange, Origin};
 use crate::board::wiring::SERIAL;
 use crate::here::serial_dma::SerialTransfers;
 use crate::here::{self, SERIAL_FUNCTION, SERIAL_ROUTE, SERIAL_USART, usart};
@@ -37,19 +37,11 @@ const SAID_BYTES: usize = 80;
 /// Requests that may wait for others.
 const WAITING: usize = 4;
 
-/// How something was asked for, and is answered.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    /// By a line, which says this.
-    Line(Command),
-    Frame,
-}
-
-/// What is asked for: the words of a request but for their sum.
+/// What is asked for.
 #[derive(Clone, Copy)]
 struct Asked {
-    words: [u32; 2],
-    form: Form,
+    request: Result<TaggedCommand, UnknownCommand>,
+    origin: Origin,
 }
 
 /// A line that begins now.
@@ -63,15 +55,8 @@ pub(crate) fn started(cause: StartCause, start: &Startup, about: &About) {
     if about.links.serial_baud.is_none() {
         return;
     }
-    let mut said = line();
-    let named = [VERSION, about.name()];
-    lines::start(&mut said, named, pace::tick_hz(), cause, start);
-    sent::line(said.ended());
-    if start.fault != 0 {
-        let mut said = line();
-        lines::board_fault(&mut said, start.fault);
-        sent::line(said.ended());
-    }
+    let what = (VERSION, about.name(), pace::tick_hz());
+    lines::start(line, what, (start, cause), |said| sent::line(said.ended()));
 }
 
 /// The motors are off until they are armed.
@@ -85,16 +70,29 @@ pub(crate) fn not_armed(reason: NotArmed, about: &About) {
     sent::line(said.ended());
 }
 
+/// Lines and events that found no room, since the start.
+pub(crate) fn lost() -> u32 {
+    sent::LOST.get()
+}
+
+/// Sends the frame of an event, or counts it.
+pub(crate) fn send_event(frame: &Frame) {
+    sent::line(frame);
+}
+
+/// Sends the frame of a record, if there is room.
+pub(crate) fn send_record(frame: &Frame) -> bool {
+    sent::record(frame)
+}
+
 /// The port.
 pub(crate) struct Serial {
     transfers: SerialTransfers,
     received: Received,
     splitter: Splitter<SAID_BYTES>,
     /// The tick in which the last byte came.
-    heard: u32,
+    last_byte: u32,
     waiting: Deque<Asked, WAITING>,
-    /// How that was asked for which the tick has in hand.
-    pending: Option<Form>,
     /// Bytes of the piece under way.
     sending: u16,
     /// Bits a second.
@@ -127,9 +125,8 @@ impl Serial {
             transfers,
             received: Received::new(),
             splitter: Splitter::new(),
-            heard: 0,
+            last_byte: 0,
             waiting: Deque::new(),
-            pending: None,
             sending: 0,
             baud,
             records_baud: about.records_baud(),
@@ -137,69 +134,46 @@ impl Serial {
         })
     }
 
-    /// The line of an event. What the scene cannot do has none.
-    pub(crate) fn tell(&mut self, event: &Event, names: &Names) {
+    /// The line of an event. What the image was built without has none.
+    pub(crate) fn say(&mut self, event: &Event, names: &Names) {
         let mut said = line();
-        lines::event(&mut said, event, |class| names.class(class));
-        sent::line(said.ended());
-    }
-
-    /// The user button was pressed.
-    pub(crate) fn armed(&mut self) {
-        sent::line(line().word("armed").ended());
-    }
-
-    /// Once a second: how ticks and lines have fared, and the limits passed since `before`.
-    pub(crate) fn health(&mut self, now: &Health, before: &Health) {
-        let mut said = line();
-        let fared = lines::Fared {
-            worst_tenths: now.worst_tenths(),
-            period_us: 1_000_000 / pace::tick_hz(),
-            missed: now.missed,
-            dropped: now.dropped,
-            lost: sent::LOST.get(),
+        let context = Context {
+            class_name: |class| names.class(class),
+            period_us: pace::period_us(),
+            lost: lost(),
         };
-        lines::health(&mut said, &fared);
-        sent::line(said.ended());
-        for (number, passed) in [
-            (faults::number::MISSED, now.missed != before.missed),
-            (faults::number::DROPPED, now.dropped != before.dropped),
-        ] {
-            if passed {
-                let mut said = line();
-                lines::limit(&mut said, number);
-                sent::line(said.ended());
-            }
+        if lines::event(&mut said, event, context).is_some() {
+            sent::line(said.ended());
         }
     }
 
     /// What is to be done after the tick that is the `now`-th.
-    pub(crate) fn serve(&mut self, now: u32, about: &About, configs: &mut Configs) {
-        self.hear(now);
-        self.answer(about);
-        if self.pending.is_none()
-            && let Some(asked) = self.waiting.front()
-            && telemetry::ask_by_serial(asked.words, configs)
+    pub(crate) fn serve(
+        &mut self,
+        now: u32,
+        about: &About,
+        (exchange, names): (&mut Exchange, &Names),
+    ) {
+        self.receive(now);
+        if let Some((origin, answer)) = exchange.answer()
+            && origin != Origin::Probe
+            && reply(origin, &answer, about)
         {
-            self.pending = Some(asked.form);
-            self.waiting.pop_front();
+            exchange.has_answered();
         }
-        // Records stay where they are while there is no room, and are lost and counted there.
-        while let Some(words) = telemetry::packet_for_serial() {
-            if !sent::record(Framed::packet(words).bytes()) {
-                break;
-            }
-            telemetry::has_taken_packet();
+        if exchange.is_free()
+            && let Some(asked) = self.waiting.pop_front()
+        {
+            exchange.ask(asked.request, asked.origin, names);
         }
-        self.send();
     }
 
     /// Takes what has come.
     #[inline(never)]
-    fn hear(&mut self, now: u32) {
+    fn receive(&mut self, now: u32) {
         let left = self.transfers.left();
         while let Some(byte) = self.received.next(left) {
-            self.heard = now;
+            self.last_byte = now;
             match self.splitter.push(byte) {
                 None => {}
                 Some(Piece::Line(said)) => match text::parse(said) {
@@ -208,37 +182,35 @@ impl Serial {
                         sent::line(Line::new().text("ok help: ").text(text::ALLOWED).ended());
                     }
                     Ok(Spoken::Command(command)) => {
-                        let words = TaggedCommand { tag: 0, command }.plain_words();
-                        let form = Form::Line(command);
-                        self.take(Asked { words, form });
+                        self.take(Asked {
+                            request: Ok(TaggedCommand { tag: 0, command }),
+                            origin: Origin::Line(command),
+                        });
                     }
                     Err((first, fault)) => refuse(first, fault.text()),
                 },
-                Some(Piece::Frame(bytes)) => {
-                    let words = bytes.as_array().and_then(wire::summed);
-                    match words {
-                        Some(words) => {
-                            let form = Form::Frame;
-                            self.take(Asked { words, form });
-                        }
-                        None => refuse(b"", "a frame that is no request"),
-                    }
-                }
+                Some(Piece::Frame(content)) => match TaggedCommand::read(content) {
+                    Some(request) => self.take(Asked {
+                        request,
+                        origin: Origin::Frame,
+                    }),
+                    None => refuse(b"", "a frame that is no request"),
+                },
                 Some(Piece::Garbled(_)) => refuse(b"", "too long, or cut short"),
             }
         }
-        if now.wrapping_sub(self.heard) > self.pause {
+        if now.wrapping_sub(self.last_byte) > self.pause {
             self.splitter.pause();
         }
     }
 
     /// Has a request wait for its turn, unless it cannot be carried out here.
     fn take(&mut self, asked: Asked) {
-        if let Ok(request) = TaggedCommand::from_words(asked.words)
+        if let Ok(request) = asked.request
             && request.command == Command::Stream(true)
             && !self.carries_records()
         {
-            self.is_too_slow(asked.form, request);
+            self.is_too_slow(asked.origin, request);
         } else if self.waiting.push_back(asked).is_err() {
             refuse(b"", "too much at once, wait for answers");
         }
@@ -251,16 +223,11 @@ impl Serial {
     }
 
     /// Refuses records.
-    fn is_too_slow(&self, form: Form, request: TaggedCommand) {
-        if form == Form::Frame {
-            let answer = Answer {
-                sequence: TICKS.get(),
-                tag: request.tag,
-                command: request.command.number(),
-                status: CommandStatus::TooSlow,
-                values: [0; 2],
-            };
-            sent::line(Framed::packet(answer.words()).bytes());
+    fn is_too_slow(&self, origin: Origin, request: TaggedCommand) {
+        if origin == Origin::Frame {
+            let status = CommandStatus::TooSlow;
+            let answer = firmware::answer(request, TICKS.get(), (status, [0; 2]));
+            sent::line(&wire::frame(&Packet::Answer(answer)));
         } else {
             let mut said = Line::new();
             said.text("refused stream: records of every tick take")
@@ -270,21 +237,8 @@ impl Serial {
         }
     }
 
-    /// Passes the tick's answer on.
-    fn answer(&mut self, about: &About) {
-        let Some(form) = self.pending else {
-            return;
-        };
-        if let Some(words) = telemetry::answer_for_serial()
-            && reply(form, words, about)
-        {
-            telemetry::has_taken_answer();
-            self.pending = None;
-        }
-    }
-
     /// Sends the next piece once the last is sent.
-    fn send(&mut self) {
+    pub(crate) fn send(&mut self) {
         if self.transfers.is_sending() {
             return;
         }
@@ -299,16 +253,15 @@ impl Serial {
 /// What a loader uses, which has the port for itself.
 impl Serial {
     /// The next request.
-    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
+    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         // No time passes that would end a frame.
-        self.hear(self.heard);
-        let asked = self.waiting.pop_front()?;
-        TaggedCommand::from_words(asked.words).ok()
+        self.receive(self.last_byte);
+        Some(self.waiting.pop_front()?.request)
     }
 
     /// Sends an answer.
     pub(crate) fn reply(&mut self, answer: &Answer) {
-        sent::answer(Framed::packet(answer.words()).bytes());
+        sent::answer(&wire::frame(&Packet::Answer(*answer)));
     }
 
     /// Goes on sending; whether nothing is left.
@@ -329,11 +282,10 @@ fn refuse(what: &[u8], why: &str) {
 }
 
 /// Passes an answer on; whether there was room.
-fn reply(form: Form, words: [u32; PACKET_WORDS], about: &About) -> bool {
-    let Form::Line(command) = form else {
-        return sent::answer(Framed::packet(words).bytes());
+fn reply(origin: Origin, answer: &Answer, about: &About) -> bool {
+    let Origin::Line(command) = origin else {
+        return sent::answer(&wire::frame(&Packet::Answer(*answer)));
     };
-    let answer = Answer::from_words(words);
     let mut said = Line::new();
     if answer.status == CommandStatus::Done {
         said.text("ok").word(command.name());
@@ -347,7 +299,7 @@ fn reply(form: Form, words: [u32; PACKET_WORDS], about: &About) -> bool {
                 said.word(about.name()).field(first).field(second);
                 said.word(VERSION);
             }
-            Command::Status => _ = said.field(first).field(second).field(sent::LOST.get()),
+            Command::Status => _ = said.field(first).field(second).field(lost()),
             _ => {}
         }
     } else {

@@ -25,14 +25,14 @@ impl Received {
         Self { at: 0 }
     }
 
-    /// The next byte, where so many are left until the DMA begins anew.
+    /// The next byte, where so many are left until the DMA begins again.
     pub(crate) fn next(&mut self, left: u16) -> Option<u8> {
         let writer = RECEIVED_BYTES.saturating_sub(left.into()) % RECEIVED_BYTES;
         if self.at == writer {
             return None;
         }
         compiler_fence(Ordering::Acquire);
-        // A flipped bit has it begin anew.
+        // A flipped bit has it begin again.
         let byte = RING
             .get(self.at)
             .map_or(0, |byte| byte.load(Ordering::Relaxed));

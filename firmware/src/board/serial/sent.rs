@@ -18,7 +18,7 @@ static RING: [AtomicU8; BYTES] = [const { AtomicU8::new(0) }; BYTES];
 static WRITER: AtomicU32 = AtomicU32::new(0);
 static READER: AtomicU32 = AtomicU32::new(0);
 
-/// Lines that found no room, since the start.
+/// Lines and events that found no room, since the start.
 pub(crate) static LOST: WrappingCounter = WrappingCounter::new();
 
 /// An offset; 0 where that is beyond the end, by a flipped bit.

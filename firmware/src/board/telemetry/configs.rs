@@ -28,13 +28,13 @@ impl Queue {
     }
 
     /// Idle's end and the tick's.
-    pub(crate) fn split(&'static mut self) -> (End, End) {
+    pub(crate) fn split(&'static mut self) -> (Ways, Ways) {
         let Self([there, back]) = self;
         let (send, taken) = there.split();
         let (give, receive) = back.split();
         (
-            End { send, receive },
-            End {
+            Ways { send, receive },
+            Ways {
                 send: give,
                 receive: taken,
             },
@@ -43,7 +43,7 @@ impl Queue {
 }
 
 /// An end of both ways.
-pub(crate) struct End {
+pub(crate) struct Ways {
     pub(super) send: Producer<'static, Spare>,
     pub(super) receive: Consumer<'static, Spare>,
 }
@@ -61,36 +61,6 @@ pub(crate) enum Verdict {
     Done(CommandStatus, [i32; 2]),
 }
 
-impl Verdict {
-    /// Above every status.
-    const UNKNOWN: u32 = 0x100;
-    const TAKE_OVER: u32 = 0x200;
-
-    /// On its way to the tick.
-    pub(super) fn words(&self) -> [u32; 3] {
-        match self {
-            Self::Unknown => [Self::UNKNOWN, 0, 0],
-            Self::TakeOver => [Self::TAKE_OVER, 0, 0],
-            Self::Done(status, [first, second]) => [
-                status.code().into(),
-                first.cast_unsigned(),
-                second.cast_unsigned(),
-            ],
-        }
-    }
-
-    pub(super) fn of([kind, first, second]: [u32; 3]) -> Self {
-        match kind {
-            Self::UNKNOWN => Self::Unknown,
-            Self::TAKE_OVER => Self::TakeOver,
-            status => Self::Done(
-                CommandStatus::from_code(status as u8),
-                [first, second].map(u32::cast_signed),
-            ),
-        }
-    }
-}
-
 /// Where the bytes of configurations lie, and settings that the tick does not read.
 static TUNING: StaticCell<Tuning<&[u8]>> = StaticCell::new();
 static SPARE: StaticCell<Settings> = StaticCell::new();
@@ -100,7 +70,7 @@ pub(crate) struct Configs {
     tuning: &'static mut Tuning<&'static [u8]>,
     /// Settings that the tick does not read, while it has not got them.
     spare: Option<Spare>,
-    tick: End,
+    tick: Ways,
     /// The contact that samples count from, unless a configuration says it.
     gate: Option<Number>,
     /// Why there is no scene, if there is none.
@@ -109,7 +79,7 @@ pub(crate) struct Configs {
     under_way: Option<u32>,
     /// How often settings were changed when this last looked, and when the log said so.
     changes: u32,
-    told: u32,
+    logged: u32,
 }
 
 impl Configs {
@@ -118,7 +88,7 @@ impl Configs {
     pub(crate) fn start(
         deployed: Result<Deployed, ConfigError>,
         gate: Option<Number>,
-        tick: End,
+        tick: Ways,
     ) -> Option<Self> {
         let bytes = deployed.map_or(&[][..], |deployed| deployed.bytes);
         let tuning = TUNING.try_init_with(|| Tuning::new(FACTS.code, bytes))?;
@@ -135,7 +105,7 @@ impl Configs {
             none: deployed.err(),
             under_way: None,
             changes: 0,
-            told: 0,
+            logged: 0,
         })
     }
 
@@ -190,15 +160,15 @@ impl Configs {
 
     /// Says in the log that settings were changed, after every change, and once a minute while
     /// they differ from the scene's.
-    pub(crate) fn tell(&mut self, now: u32) {
+    pub(crate) fn log_changes(&mut self, now: u32) {
         if !Part::Set.is_built() {
             return;
         }
         let has_changed = self.settle();
         let again = AGAIN_S.wrapping_mul(pace::tick_hz());
-        let is_due = self.changes != 0 && now.wrapping_sub(self.told) >= again;
+        let is_due = self.changes != 0 && now.wrapping_sub(self.logged) >= again;
         if has_changed || is_due {
-            self.told = now;
+            self.logged = now;
             let differs = self.tuning.has_changed();
             if differs || has_changed {
                 log::tuned(differs);

@@ -1,21 +1,25 @@
-//! Telemetry of a program that leaves it out: nothing.
+//! The link of a program that has none: nothing.
 
-use firmware::{ConfigError, Event, ModelState};
-use wire::{Answer, Load, TaggedCommand};
+use firmware::{Event, EventRecord, ModelState};
+use wire::{Answer, Load, TaggedCommand, UnknownCommand};
 
+use crate::board::perception::Names;
 use crate::board::scene::Deployed;
 use crate::board::types::{Inner, Number, Settings};
 
 /// Nothing goes from idle to the tick.
-pub(crate) struct Queue;
+pub(crate) struct Queues;
 
-impl Queue {
+/// An end of nothing.
+pub(crate) struct Ends;
+
+impl Queues {
     pub(crate) const fn new() -> Self {
         Self
     }
 
-    pub(crate) fn split(&'static mut self) -> ((), ()) {
-        ((), ())
+    pub(crate) fn split(&'static mut self) -> (Ends, (), Ends) {
+        (Ends, (), Ends)
     }
 }
 
@@ -24,65 +28,72 @@ pub(crate) struct Configs;
 
 impl Configs {
     pub(crate) fn start(
-        _: Result<Deployed, ConfigError>,
+        _: Result<Deployed, firmware::ConfigError>,
         _: Option<Number>,
         _: (),
     ) -> Option<Self> {
         Some(Self)
     }
-
-    pub(crate) fn tell(&mut self, _: u32) {}
 }
 
-/// There is nothing to hear.
-pub(crate) fn hear(_: &mut Configs) {}
-
-/// There is nothing to load.
-pub(crate) fn to_load() -> Option<(Load, Answer, bool)> {
-    None
-}
-
-/// Nobody asks.
+/// No request comes.
 pub(crate) struct ProbeLine;
 
 impl ProbeLine {
-    pub(crate) const fn new() -> Self {
-        Self
-    }
-
-    pub(crate) fn next(&mut self) -> Option<TaggedCommand> {
+    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         None
     }
 
-    pub(crate) fn reply(&mut self, _: &Answer) {}
+    pub(crate) fn reply(_: &Answer) {}
 
-    pub(crate) fn has_sent(&self) -> bool {
+    pub(crate) fn has_sent() -> bool {
         true
     }
 }
 
-/// There is nothing to do.
-#[inline]
-pub(crate) fn is_busy() -> bool {
-    false
+/// Nobody asks.
+pub(crate) struct Exchange {
+    pub(crate) probe: ProbeLine,
 }
 
-/// Nothing waits.
-#[inline]
-pub(crate) fn waits() -> bool {
-    false
-}
+impl Exchange {
+    pub(crate) fn new(_: Ends, _: Configs) -> Self {
+        Self { probe: ProbeLine }
+    }
 
-/// No event is noted.
-#[inline]
-pub(crate) fn note(_: &Event) {}
+    pub(crate) fn log_changes(&mut self, _: u32) {}
+
+    pub(crate) fn take_from_probe(&mut self, _: &Names) {}
+
+    pub(crate) fn to_load(&mut self) -> Option<(Load, Answer, bool)> {
+        None
+    }
+
+    pub(crate) fn answer_probe(&mut self) {}
+
+    pub(crate) fn send_event(&self, _: EventRecord) {}
+
+    pub(crate) fn send_records(&mut self) {}
+}
 
 /// No link.
 pub(crate) struct Telemetry;
 
 impl Telemetry {
-    pub(crate) fn new(_: &Settings, _: &Inner, _: ModelState, _: ()) -> Self {
+    pub(crate) fn new(_: &Settings, _: &Inner, _: ModelState, _: Ends) -> Self {
         Self
+    }
+
+    pub(crate) fn note(&mut self, _: &Event) {}
+
+    #[inline]
+    pub(crate) fn is_busy(&self) -> bool {
+        false
+    }
+
+    #[inline]
+    pub(crate) fn waits(&self) -> bool {
+        false
     }
 
     pub(crate) fn send(&mut self, _: &Inner, _: &Settings, _: u32) {}

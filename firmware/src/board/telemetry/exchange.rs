@@ -1,0 +1,228 @@
+//! Idle's end of the link: frames of what comes from the tick, and requests on their way there.
+
+use firmware::{EventRecord, Packet, letters};
+use wire::{Answer, Command, CommandStatus, Load, TaggedCommand, UnknownCommand};
+
+use super::configs::{Configs, Verdict};
+use super::probe::ProbeLine;
+use super::{Asked, IdleEnds};
+use crate::board::counters::TICKS;
+use crate::board::perception::Names;
+use crate::board::{log, serial};
+
+/// How something was asked for, and is answered.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// By a probe.
+    Probe,
+    /// By a frame on the serial line.
+    Frame,
+    /// By a line of text there, which says this.
+    Line(Command),
+}
+
+/// A request that is not answered yet.
+#[derive(Clone, Copy)]
+struct Pending {
+    origin: Origin,
+    /// What it wants: unknown commands want nothing.
+    command: Option<Command>,
+}
+
+impl Pending {
+    /// What is to be loaded, where that was asked for and may be.
+    fn load(&self, answer: &Answer) -> Option<Load> {
+        match self.command {
+            Some(Command::Load(load)) if answer.status == CommandStatus::Done => Some(load),
+            _ => None,
+        }
+    }
+}
+
+/// Who gets records and events.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reader {
+    Probe,
+    Serial,
+}
+
+/// Idle's end.
+pub(crate) struct Exchange {
+    ends: IdleEnds,
+    configs: Configs,
+    pub(crate) probe: ProbeLine,
+    /// Whoever has asked for them last.
+    reader: Option<Reader>,
+    pending: Option<Pending>,
+    answer: Option<Answer>,
+    /// The number of the next request for the tick.
+    number: u8,
+}
+
+impl Exchange {
+    /// Nothing was asked for yet.
+    pub(crate) fn new(ends: IdleEnds, configs: Configs) -> Self {
+        Self {
+            ends,
+            configs,
+            probe: ProbeLine::new(),
+            reader: None,
+            pending: None,
+            answer: None,
+            number: 0,
+        }
+    }
+
+    /// Whether another request can be taken: its predecessor is answered.
+    pub(crate) const fn is_free(&self) -> bool {
+        self.pending.is_none()
+    }
+
+    /// Says in the log that settings were changed.
+    pub(crate) fn log_changes(&mut self, now: u32) {
+        self.configs.log_changes(now);
+    }
+
+    /// Takes what a probe asks for.
+    pub(crate) fn take_from_probe(&mut self, names: &Names) {
+        if self.is_free()
+            && let Some(request) = self.probe.next()
+        {
+            self.ask(request, Origin::Probe, names);
+        }
+    }
+
+    /// Answers a request, or hands it to the tick.
+    pub(crate) fn ask(
+        &mut self,
+        request: Result<TaggedCommand, UnknownCommand>,
+        origin: Origin,
+        names: &Names,
+    ) {
+        let command = request.ok().map(|request| request.command);
+        self.pending = Some(Pending { origin, command });
+        let request = match request {
+            Ok(request) => request,
+            Err(unknown) => {
+                self.answer = Some(refusal(unknown));
+                return;
+            }
+        };
+        log::requested(request.command);
+        let verdict = match request.command {
+            Command::Class(class, from) => class_name(names, class, from),
+            command => self.configs.prepare(command),
+        };
+        if let Verdict::Done(status, values) = verdict {
+            let answer = firmware::answer(request, TICKS.get(), (status, values));
+            self.answer = Some(answer);
+            return;
+        }
+        let asked = Asked {
+            number: self.number,
+            request,
+            takes_over: matches!(verdict, Verdict::TakeOver),
+        };
+        // There is room for one.
+        if self.ends.requests.enqueue(asked).is_ok() {
+            self.number = self.number.wrapping_add(1);
+        }
+    }
+
+    /// What was asked for last, and its answer, once that is there.
+    fn answered(&mut self) -> Option<(Pending, Answer)> {
+        if self.answer.is_none() {
+            self.answer = self.ends.answers.dequeue();
+        }
+        Some((self.pending?, self.answer?))
+    }
+
+    /// The answer that is to be sent, and how it was asked for.
+    pub(crate) fn answer(&mut self) -> Option<(Origin, Answer)> {
+        let (pending, answer) = self.answered()?;
+        // A loader has an answer of its own.
+        let is_sent = pending.load(&answer).is_none();
+        is_sent.then_some((pending.origin, answer))
+    }
+
+    /// What is to be loaded, once it may be, and whether that was asked for at the serial port.
+    pub(crate) fn to_load(&mut self) -> Option<(Load, Answer, bool)> {
+        let (pending, answer) = self.answered()?;
+        let load = pending.load(&answer)?;
+        Some((load, answer, pending.origin != Origin::Probe))
+    }
+
+    /// That answer is sent.
+    pub(crate) fn has_answered(&mut self) {
+        let answer = self.answer.take();
+        let is_done = answer.is_some_and(|answer| answer.status == CommandStatus::Done);
+        let pending = self.pending.take();
+        if let (true, Some(pending)) = (is_done, pending)
+            && let Some(Command::Stream(on)) = pending.command
+        {
+            let reader = match pending.origin {
+                Origin::Probe => Reader::Probe,
+                Origin::Frame | Origin::Line(_) => Reader::Serial,
+            };
+            self.reader = on.then_some(reader);
+        }
+    }
+
+    /// Answers a probe.
+    pub(crate) fn answer_probe(&mut self) {
+        if let Some((Origin::Probe, answer)) = self.answer()
+            && ProbeLine::put(&wire::frame(&Packet::Answer(answer)))
+        {
+            self.has_answered();
+        }
+    }
+
+    /// Sends an event to whoever reads records.
+    pub(crate) fn send_event(&self, event: EventRecord) {
+        let Some(reader) = self.reader else {
+            return;
+        };
+        let frame = wire::frame(&Packet::Event(event));
+        match reader {
+            Reader::Probe => _ = ProbeLine::put(&frame),
+            Reader::Serial => serial::send_event(&frame),
+        }
+    }
+
+    /// Sends records while there is room for them. Those that find none stay in their queue,
+    /// and are lost and counted where that is full.
+    pub(crate) fn send_records(&mut self) {
+        while let Some(record) = self.ends.records.peek() {
+            let frame = wire::frame(&Packet::Record(*record));
+            let is_sent = match self.reader {
+                Some(Reader::Probe) => ProbeLine::record(&frame),
+                Some(Reader::Serial) => serial::send_record(&frame),
+                None => false,
+            };
+            // Those that came before the answer to who has asked for them wait for it.
+            if !is_sent && (self.reader.is_some() || self.pending.is_some()) {
+                return;
+            }
+            _ = self.ends.records.dequeue();
+        }
+    }
+}
+
+/// The refusal of a command of a later version.
+fn refusal(unknown: UnknownCommand) -> Answer {
+    Answer {
+        sequence: TICKS.get(),
+        tag: unknown.tag,
+        command: unknown.command,
+        status: CommandStatus::Unknown,
+        values: [0; 2],
+    }
+}
+
+/// Letters of the name of a class.
+fn class_name(names: &Names, class: u8, from: u8) -> Verdict {
+    match names.find(class.into()) {
+        Some(name) => Verdict::Done(CommandStatus::Done, letters(name, from)),
+        None => Verdict::Done(CommandStatus::OutOfRange, [0; 2]),
+    }
+}

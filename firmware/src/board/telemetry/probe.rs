@@ -1,0 +1,83 @@
+//! The two rings of a probe: frames of packets go up, those of requests come down.
+
+use core::sync::atomic::Ordering;
+
+use wire::{Answer, CONTENT_BYTES, Frame, Piece, Splitter, TaggedCommand, UnknownCommand};
+
+use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
+
+/// Bytes of the ring that records leave free, for events and answers.
+const KEPT: u32 = 128;
+
+/// The board's end of them.
+pub(crate) struct ProbeLine {
+    splitter: Splitter<CONTENT_BYTES>,
+}
+
+impl ProbeLine {
+    /// Nothing has come yet.
+    pub(crate) const fn new() -> Self {
+        Self {
+            splitter: Splitter::new(),
+        }
+    }
+
+    /// The next request.
+    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+        while DOWN.waiting() > 0 {
+            let at = DOWN.reader() as usize;
+            // Erased, lest a flipped bit in an offset has a request carried out again.
+            let byte = REQUESTS.get(at).map_or(0, |place| {
+                let byte = place.load(Ordering::Relaxed);
+                place.store(0, Ordering::Relaxed);
+                byte
+            });
+            DOWN.has_read(if at + 1 < REQUESTS.len() {
+                at as u32 + 1
+            } else {
+                0
+            });
+            if let Some(Piece::Frame(content)) = self.splitter.push(byte)
+                && let Some(request) = TaggedCommand::read(content)
+            {
+                return Some(request);
+            }
+        }
+        None
+    }
+
+    /// Puts a record's frame in if room is left for the others; whether there was.
+    pub(crate) fn record(frame: &Frame) -> bool {
+        has_room(KEPT + frame.len() as u32) && Self::put(frame)
+    }
+
+    /// Puts a frame in, whole or not at all; whether there was room.
+    pub(crate) fn put(frame: &Frame) -> bool {
+        if !has_room(frame.len() as u32) {
+            return false;
+        }
+        let mut at = UP.writer() as usize;
+        for byte in frame {
+            if let Some(place) = PACKETS.get(at) {
+                place.store(*byte, Ordering::Relaxed);
+            }
+            at = if at + 1 < PACKETS.len() { at + 1 } else { 0 };
+        }
+        UP.has_written(at as u32);
+        true
+    }
+
+    /// Sends an answer of a loader, which waits for nothing.
+    pub(crate) fn reply(answer: &Answer) {
+        Self::put(&wire::frame(&firmware::Packet::Answer(*answer)));
+    }
+
+    /// Whether all was fetched.
+    pub(crate) fn has_sent() -> bool {
+        UP.waiting() == 0
+    }
+}
+
+fn has_room(bytes: u32) -> bool {
+    bytes <= UP.room(UP.writer())
+}
