@@ -84,9 +84,9 @@ pub(crate) struct Board {
     ring: Receiver,
     line: Receiver,
     log: Vec<u8>,
-    /// Whether somebody fetches the log.
+    /// Whether the log is fetched.
     has_reader: bool,
-    /// The faults that the module has told of, and their ends, until they are taken.
+    /// The faults that the module has queued, and their ends, until they are taken.
     pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
@@ -177,10 +177,7 @@ impl Board {
                 Stop::Ready => {}
                 Stop::Time if self.world_waits.is_some() => break,
                 Stop::Time => return Err(self.machine.stands_still()),
-                Stop::Reset(cause) => {
-                    self.reset = Some(cause);
-                    self.watch.restart();
-                }
+                Stop::Reset(cause) => self.was_reset(cause),
             }
             self.drain()?;
         }
@@ -191,9 +188,15 @@ impl Board {
 
     /// Resets the chip now.
     pub(crate) fn reset_now(&mut self, cause: ResetCause) -> Result<(), Fault> {
+        self.was_reset(cause);
+        self.machine.reset(cause)
+    }
+
+    /// The program starts again, with empty queues and rings.
+    fn was_reset(&mut self, cause: ResetCause) {
         self.reset = Some(cause);
         self.watch.restart();
-        self.machine.reset(cause)
+        self.ring = Receiver::default();
     }
 
     /// Lets `time` pass on the chip alone; whether the tick ends within it.
@@ -213,10 +216,7 @@ impl Board {
         loop {
             match self.machine.run(limit, &mut self.sensors, &mut ())? {
                 Stop::Time => return self.drain(),
-                Stop::Reset(cause) => {
-                    self.reset = Some(cause);
-                    self.watch.restart();
-                }
+                Stop::Reset(cause) => self.was_reset(cause),
                 Stop::Tick | Stop::Ready => {}
             }
             self.drain()?;
@@ -239,7 +239,7 @@ impl Board {
         rtt.log().ask_to_wait(memories)
     }
 
-    /// From now on nobody fetches the log, and its ring is full.
+    /// From now on the log is not fetched, and its ring is full.
     pub(crate) fn lose_reader(&mut self) -> Result<(), Fault> {
         self.has_reader = false;
         let Machine { rtt, memories, .. } = &self.machine;
@@ -427,7 +427,7 @@ impl Bench for Emulated {
     }
 
     fn tells_faults(&self) -> bool {
-        // Its queue has them without their numbers; the log tells those.
+        // Its queue has them without their numbers, which the log has.
         false
     }
 }

@@ -1,8 +1,11 @@
 //! host-sim and the emulated board side by side, tick by tick.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
 use config::AnyConfig;
+use firmware::{Event, EventRecord, Packet};
 use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
@@ -10,6 +13,7 @@ use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 use scene::Numbers;
+use wire::{Flags, TaggedCommand, TickRecord};
 
 use crate::board::Emulated;
 use crate::counters::Started;
@@ -119,6 +123,52 @@ impl Pair {
             )));
         }
         Ok(found.len() as u64)
+    }
+
+    /// Has the PC alone go through these ticks, where the board was before, with the requests of
+    /// each before it; all that it has sent.
+    pub(crate) fn replay(
+        &mut self,
+        ticks: Range<u32>,
+        requests: &[(u32, TaggedCommand)],
+    ) -> Vec<Packet> {
+        let mut sent = Vec::new();
+        for tick in ticks {
+            for (_, request) in requests.iter().filter(|(at, _)| *at == tick) {
+                self.host.module_mut().request(*request);
+            }
+            self.host.tick();
+            sent.extend(self.host.module_mut().take_packets());
+        }
+        sent
+    }
+
+    /// The records and events of each tick, as far as PC and board must agree about them: the
+    /// lower bits of a word are no measurement, contact that nothing uses is not computed, and
+    /// some events are the board's own.
+    pub(crate) fn by_tick(&self, packets: &[Packet]) -> BTreeMap<u32, Vec<Packet>> {
+        let mut ticks = BTreeMap::<u32, Vec<Packet>>::new();
+        for packet in packets {
+            let (tick, plain) = match packet {
+                Packet::Record(record) => {
+                    let plain = TickRecord {
+                        x: record.codes()[0],
+                        y: record.codes()[1],
+                        contact: if self.feels { record.contact } else { 0 },
+                        flags: record.flags.without(Flags::LOST),
+                        ..*record
+                    };
+                    (record.sequence, Packet::Record(plain))
+                }
+                Packet::Event(EventRecord { sequence, event }) => match event {
+                    Event::Armed | Event::Health(_) | Event::Limit(_) => continue,
+                    _ => (*sequence, *packet),
+                },
+                Packet::Answer(_) => continue,
+            };
+            ticks.entry(tick).or_default().push(plain);
+        }
+        ticks
     }
 }
 

@@ -45,13 +45,16 @@ pub fn damage(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let info = DebugInfo::new(&program)?;
     let mut flips = Vec::new();
     for (name, path) in SETTINGS {
-        flips.extend(evenly(member(info.variable(name)?, path)?, "fault 55")?);
+        flips.extend(evenly(
+            member(info.variable(name)?, path)?,
+            "fault board 55 ",
+        )?);
     }
     let classifier = loaded.scene.classifier.as_ref();
     if classifier.is_some_and(|classifier| classifier.model.is_some()) {
         let module = info.variable(MODULE)?;
         for path in CONSTANTS {
-            flips.extend(evenly(member(module, path)?, "fault 56")?);
+            flips.extend(evenly(member(module, path)?, "fault board 56 ")?);
         }
         let [slot, _] = program.model()?.facts.flash.slots;
         flips.push(Flip {
@@ -59,19 +62,19 @@ pub fn damage(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
             address: slot.model.start + 1_024,
             bit: 0,
             within: within(MODEL_BYTES),
-            fault: "fault 56",
+            fault: "fault board 56 ",
         });
     }
 
-    let mut heard = Vec::new();
+    let mut lines = Vec::new();
     for flip in flips {
         let mut trouble = whisking(&loaded, &program)?;
         let memories = &mut trouble.board_mut().machine.memories;
         memories.flip(flip.address, 1 << flip.bit)?;
-        heard.push(must_stop(&mut trouble, loaded.scene.tick_hz, &flip)?);
+        lines.push(must_stop(&mut trouble, loaded.scene.tick_hz, &flip)?);
     }
-    heard.dedup();
-    Ok(heard)
+    lines.dedup();
+    Ok(lines)
 }
 
 /// A bit that flips.
@@ -130,6 +133,6 @@ fn must_stop(trouble: &mut Trouble, tick_hz: u32, flip: &Flip) -> Result<String,
     if trouble.driven().contains(&true) {
         return Err(Error::Work(format!("{fault}: a motor is driven")));
     }
-    trouble.listen();
-    trouble.hear(fault)
+    trouble.take_log();
+    trouble.line(fault)
 }

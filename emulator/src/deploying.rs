@@ -209,7 +209,7 @@ fn missing(what: &str, lines: &[String]) -> Error {
 }
 
 fn says(lines: &[String], refusal: Refusal) -> bool {
-    let at = lines.iter().position(|line| line.contains("limit 34"));
+    let at = lines.iter().position(|line| line.contains("limit 34 "));
     let why = at.and_then(|at| lines.get(at + 1));
     why.is_some_and(|line| line.contains(refusal.text()))
 }
@@ -488,7 +488,7 @@ impl<'p> Case<'p> {
         let is_it = crc.cast_unsigned() == model.crc() && classes as usize == model.classes();
         let is_named = |line: &&String| {
             let mut names = model.names().chain(["unknown"]);
-            names.any(|name| line.contains(&format!("decision: {name},")))
+            names.any(|name| line.contains(&format!("decision left {name} ")))
         };
         let by = format!("decides by model {:08x}", model.crc());
         let has = lines.iter().any(|line| line.contains(&by));

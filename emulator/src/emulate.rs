@@ -50,7 +50,7 @@ pub(crate) fn start(
 }
 
 /// What the log of a board says that runs no scene.
-pub(crate) const NO_SCENE: &str = ": no scene, ";
+pub(crate) const NO_SCENE: &str = "no scene: ";
 
 /// As [`start`], of a board that may have no scene, or refuse it.
 ///
@@ -111,7 +111,7 @@ pub fn emulate(
         }
         Ok(board.check()?)
     });
-    // Where something went wrong the log tells what led to it.
+    // Where something went wrong the log says what led to it.
     written.whole(log.as_bytes())?;
     let played = done?;
     let title = plot::title(&scene.name, scene.duration_s);

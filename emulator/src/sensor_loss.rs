@@ -14,49 +14,43 @@ use crate::chip::SIDE_NAMES;
 use crate::deployment::flashed;
 use crate::trouble::Trouble;
 
-/// What befalls a sensor, and what the log then says of its whisker.
+/// What befalls a sensor, and which fault its whisker then has.
 struct Loss {
     befall: fn(&mut Slave),
     mend: fn(&mut Slave),
-    said: &'static str,
+    fault: u8,
     /// A line that follows.
     reason: Option<&'static str>,
     /// Tenths of a second within which it is found.
     tenths: u32,
 }
 
-const fn on_the_wire(befall: fn(&mut Slave), said: &'static str) -> Loss {
+const fn on_the_wire(befall: fn(&mut Slave), fault: u8) -> Loss {
     Loss {
         befall,
         mend: |slave| slave.set_fault(None),
-        said,
+        fault,
         reason: None,
         tenths: 1,
     }
 }
 
 const LOSSES: [Loss; 6] = [
-    on_the_wire(|slave| slave.set_fault(Some(WireFault::Silent)), "fault 18"),
-    on_the_wire(
-        |slave| slave.set_fault(Some(WireFault::LineLow)),
-        "fault 19",
-    ),
-    on_the_wire(|slave| slave.set_fault(Some(WireFault::BadSum)), "fault 21"),
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::Silent)), 18),
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::LineLow)), 19),
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::BadSum)), 21),
     Loss {
         befall: |slave| slave.set_error_word(Faults::FIELD_TOO_LOW),
         mend: |slave| slave.set_error_word(Faults::NONE),
-        said: "fault 22",
+        fault: 22,
         reason: Some("field too low"),
         tenths: 1,
     },
-    on_the_wire(
-        |slave| slave.set_fault(Some(WireFault::LowAfterStart)),
-        "fault 23",
-    ),
+    on_the_wire(|slave| slave.set_fault(Some(WireFault::LowAfterStart)), 23),
     Loss {
         // A quarter of a second, unless the scene has another.
         tenths: 3,
-        ..on_the_wire(|slave| slave.set_fault(Some(WireFault::Frozen)), "fault 24")
+        ..on_the_wire(|slave| slave.set_fault(Some(WireFault::Frozen)), 24)
     },
 ];
 
@@ -83,14 +77,14 @@ pub fn lose(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     trouble.pass(tenth)?;
     let motor = loaded.scene.motor.as_ref();
     let stops_all = motor.is_some_and(|motor| motor.on_fault == OnFault::StopAll);
-    let mut heard = Vec::new();
+    let mut lines = Vec::new();
     for lost in lost {
         let off = if stops_all { &sides } else { lost };
         for loss in &LOSSES {
-            heard.extend(pass_through(&mut trouble, tenth, lost, off, loss)?);
+            lines.extend(pass_through(&mut trouble, tenth, lost, off, loss)?);
         }
     }
-    Ok(heard)
+    Ok(lines)
 }
 
 /// Broken for as long as it takes to be found, mended for a tenth of a second, each seen to
@@ -108,38 +102,46 @@ fn pass_through(
         (loss.befall)(sensor(trouble, side)?);
     }
     trouble.pass(loss.tenths * tenth)?;
-    check(trouble, tenth, off, &format!("after {}", loss.said))?;
+    check(trouble, tenth, off, &format!("after fault {}", loss.fault))?;
     let contact = trouble.run.row().contact;
     if let Some(side) = lost.iter().find(|&&side| contact[side] != 0.0) {
         let what = format!(
-            "the {} still has contact, after {}",
-            SIDE_NAMES[*side], loss.said
+            "the {} still has contact, after fault {}",
+            SIDE_NAMES[*side], loss.fault
         );
         return Err(Error::Work(what));
     }
-    let mut heard = Vec::new();
+    let mut lines = Vec::new();
     for (side, name) in SIDE_NAMES.into_iter().enumerate() {
-        let line = format!("{name} 0: fault");
+        let line = format!("fault {name} ");
         if lost.contains(&side) {
-            heard.push(trouble.hear(&format!("{name} 0: {}", loss.said))?);
+            lines.push(trouble.line(&format!("{line}{} ", loss.fault))?);
         } else if trouble.log.iter().any(|said| said.contains(&line)) {
-            let what = format!("the log has a fault of the {name} too, after {}", loss.said);
+            let what = format!(
+                "the log has a fault of the {name} too, after fault {}",
+                loss.fault
+            );
             return Err(Error::Work(what));
         }
     }
     if let Some(reason) = loss.reason {
-        heard.push(trouble.hear(reason)?);
+        lines.push(trouble.line(reason)?);
     }
 
     for &side in lost {
         (loss.mend)(sensor(trouble, side)?);
     }
     trouble.pass(tenth)?;
-    check(trouble, tenth, &[], &format!("mended from {}", loss.said))?;
+    check(
+        trouble,
+        tenth,
+        &[],
+        &format!("mended from fault {}", loss.fault),
+    )?;
     for &side in lost {
-        heard.push(trouble.hear(&format!("{} 0: sensor is back", SIDE_NAMES[side]))?);
+        lines.push(trouble.line(&format!("back {}", SIDE_NAMES[side]))?);
     }
-    Ok(heard)
+    Ok(lines)
 }
 
 fn sensor(trouble: &mut Trouble, side: usize) -> Result<&mut Slave, Error> {

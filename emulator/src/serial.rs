@@ -1,9 +1,9 @@
-//! The serial line as a board has it: what it tells, what it does with what is asked for, and
+//! The serial line as a board has it: what it says, what it does with what is asked for, and
 //! that the tick takes no longer for it.
 
 mod cost;
+mod lines;
 mod talk;
-mod told;
 
 use std::path::Path;
 
@@ -13,9 +13,10 @@ use host_sim::loaded::Loaded;
 use scene::Scene;
 use wire::{Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 
+use crate::board::packets;
 use crate::compare::Pair;
 use crate::deployment::{flashed, flashed_for};
-use talk::{Talk, records, replies, wrong};
+use talk::{Talk, replies, wrong};
 
 /// For how long an answer is waited for, and the records of a part are taken, s.
 const PART_S: f64 = 0.1;
@@ -48,15 +49,15 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
         part: (PART_S * f64::from(scene.tick_hz)) as u32,
         tag: 0,
     };
-    let mut said = vec![told::compare(&mut talk, scene)?];
-    said.push(compare_records(&mut talk, scene)?);
+    let mut said = vec![lines::compare(&mut talk, scene)?];
+    said.push(compare_packets(&mut talk, scene)?);
     said.push(commands(&mut talk)?);
     said.push(garbage(&mut talk)?);
     Ok(said)
 }
 
-/// Records by the line are those of the same module on the PC, and none is lost.
-fn compare_records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
+/// Records and events by the line are those of the same module on the PC, and none is lost.
+fn compare_packets(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
     // Where the lines were compared both had as many ticks.
     let first = talk.ticks;
     let (hello, _) = talk.ask(Command::Hello)?;
@@ -64,73 +65,50 @@ fn compare_records(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
         return wrong(format!("{hello:?}"));
     }
     let (before, _) = talk.ask(Command::Status)?;
-    let (begun, mut found) = talk.ask(Command::Stream(true))?;
-    let ticks = (RECORDS_S * f64::from(scene.tick_hz)) as u32;
-    let heard = talk.pass(ticks)?;
-    found.extend(records(&heard));
+    let mut found = Vec::new();
+    let mut requests = Vec::new();
     let left = WhiskerId::default();
     // A command in between leaves no gap.
-    let (gain, between) = talk.ask(Command::Gain(left, 1 << 23))?;
-    found.extend(between);
-    let (ended, last) = talk.ask(Command::Stream(false))?;
-    found.extend(last);
+    for command in [
+        Command::Stream(true),
+        Command::Gain(left, 1 << 23),
+        Command::Stream(false),
+    ] {
+        let (answer, meanwhile) = talk.ask(command)?;
+        requests.push((answer.sequence, TaggedCommand { tag: 0, command }));
+        found.extend(meanwhile);
+        if command == Command::Stream(true) {
+            let ticks = (RECORDS_S * f64::from(scene.tick_hz)) as u32;
+            found.extend(packets(&talk.pass(ticks)?));
+        }
+    }
     let (after, none) = talk.ask(Command::Status)?;
     if before.values[0] != after.values[0] || !none.is_empty() {
+        return wrong(format!("lost: {before:?}, {after:?}; too many: {none:?}"));
+    }
+    let expected = talk.pair.replay(first..talk.ticks, &requests);
+    let [found, expected] = [found, expected].map(|packets| talk.pair.by_tick(&packets));
+    if let Some((on_board, on_pc)) = found.iter().zip(&expected).find(|(a, b)| a != b) {
         return wrong(format!(
-            "lost: {before:?}, {after:?}; {} too many",
-            none.len()
+            "sent on the PC, on the board\n  {on_pc:?}\n  {on_board:?}"
         ));
     }
-
-    let requests = [
-        (begun.sequence, Command::Stream(true)),
-        (gain.sequence, Command::Gain(left, 1 << 23)),
-        (ended.sequence, Command::Stream(false)),
-    ];
-    let host = &mut talk.pair.host;
-    let mut expected = Vec::new();
-    for tick in first..talk.ticks {
-        for (_, command) in requests.iter().filter(|(at, _)| *at == tick) {
-            let request = TaggedCommand {
-                tag: 0,
-                command: *command,
-            };
-            host.module_mut().request(request);
-        }
-        host.tick();
-        let packets = host.module_mut().take_packets();
-        expected.extend(packets.iter().filter_map(|packet| match packet {
-            Packet::Record(record) => Some(*record),
-            Packet::Answer(_) | Packet::Event(_) => None,
-        }));
-    }
-    let feels = talk.pair.feels;
-    // The lower bits of a word are no measurement; contact nobody uses is not computed.
-    let plain = |record: &TickRecord| TickRecord {
-        x: record.codes()[0],
-        y: record.codes()[1],
-        contact: if feels { record.contact } else { 0 },
-        ..*record
-    };
-    let same = |a: &TickRecord, b: &TickRecord| plain(a) == plain(b);
-    let differs = found.iter().zip(&expected).find(|(a, b)| !same(a, b));
-    if let Some((on_board, on_pc)) = differs {
+    let (first, last) = (requests[0].0, requests[2].0);
+    let ticks = (last - first) as usize;
+    if found.len() != expected.len() || found.len() != ticks || ticks == 0 {
         return wrong(format!(
-            "a record on the PC, on the board\n  {on_pc:?}\n  {on_board:?}"
-        ));
-    }
-    let needed = (ended.sequence - begun.sequence) as usize * scene.whiskers();
-    if found.len() != expected.len() || found.len() != needed || needed == 0 {
-        return wrong(format!(
-            "{} records came, {} are on the PC, {needed} ticks' were asked for",
+            "packets of {} ticks came, the PC has {}, {ticks} were asked for",
             found.len(),
             expected.len()
         ));
     }
-    Ok(format!("{needed} records as on the PC, none lost"))
+    let events = found.values().flatten().count() - ticks * scene.whiskers();
+    Ok(format!(
+        "records of {ticks} ticks and {events} events as on the PC, none lost"
+    ))
 }
 
-/// Commands as lines: what is answered, and what the records then tell.
+/// Commands as lines: what is answered, and what the records then say.
 fn commands(talk: &mut Talk) -> Result<String, Error> {
     let exchanges = [
         ("arm", "ok arm"),
@@ -152,8 +130,11 @@ fn commands(talk: &mut Talk) -> Result<String, Error> {
         }
     }
     let last = |talk: &mut Talk| -> Result<TickRecord, Error> {
-        let heard = talk.pass(talk.part)?;
-        let last = records(&heard).pop();
+        let received = packets(&talk.pass(talk.part)?);
+        let last = received.iter().rev().find_map(|packet| match packet {
+            Packet::Record(record) => Some(*record),
+            _ => None,
+        });
         last.map_or_else(|| wrong("no record after `stream on`"), Ok)
     };
     let held = last(talk)?;
@@ -234,8 +215,8 @@ fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     if replies.len() != 1 || !replies.iter().all(is_refused) {
         return wrong(format!("at {SLOW_BAUD} baud: {replies:?}"));
     }
-    let (answer, records) = talk.ask(Command::Stream(true))?;
-    if answer.status != CommandStatus::TooSlow || !records.is_empty() {
+    let (answer, packets) = talk.ask(Command::Stream(true))?;
+    if answer.status != CommandStatus::TooSlow || !packets.is_empty() {
         return wrong(format!("at {SLOW_BAUD} baud: {answer:?}"));
     }
     if talk.say("arm")? != ["ok arm"] {

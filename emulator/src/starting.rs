@@ -33,51 +33,60 @@ pub fn start_again(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let mut trouble = Trouble::new(&loaded.scene, &program)?;
     trouble.run.module_mut().bears_resets = true;
     let hundredth = loaded.scene.tick_hz / 100;
-    let mut heard = Vec::new();
+    let mut lines = Vec::new();
 
     whisks(&mut trouble, 100 * hundredth, "after power-up")?;
-    heard.push(trouble.hear("start 1 since power-up, no fault")?);
+    lines.push(trouble.line(" power-up 1 0")?);
 
     trouble.hold(HANG);
     rests(&mut trouble, 100 * hundredth, "after the watchdog")?;
-    heard.push(trouble.hear("last fault 52")?);
-    heard.push(trouble.hear("not armed: fault 52")?);
+    lines.push(trouble.line(" watchdog 2 52")?);
+    lines.push(trouble.line("not-armed 52 ")?);
     press(&mut trouble, 150 * hundredth)?;
     rests(&mut trouble, 10 * hundredth, "after a press of 1.5 s")?;
     press(&mut trouble, 10 * hundredth)?;
     whisks(&mut trouble, 100 * hundredth, "after a press")?;
-    heard.push(trouble.hear("armed by the user button")?);
+    lines.push(trouble.line("INFO  armed")?);
 
     // The first while it whisks, the others after it.
-    for _ in 0..FAULTS {
-        heard.push(crash(&mut trouble, Upset::Astray, "fault 49", hundredth)?);
+    for n in 0..FAULTS {
+        lines.push(crash(&mut trouble, Upset::Astray, (49, 3 + n), hundredth)?);
     }
     trouble.log.clear();
     trouble.board_mut().reset_now(ResetCause::Pin)?;
     rests(&mut trouble, 10 * hundredth, "after many resets")?;
-    heard.push(trouble.hear("not armed: fault 59")?);
+    lines.push(trouble.line("not-armed 59 ")?);
 
     let mut trouble = Trouble::new(&loaded.scene, &program)?;
     trouble.run.module_mut().bears_resets = true;
     whisks(&mut trouble, 100 * hundredth, "after power-up")?;
-    heard.push(crash(&mut trouble, Upset::NoStack, "fault 54", hundredth)?);
-    Ok(heard)
+    lines.push(crash(&mut trouble, Upset::NoStack, (54, 2), hundredth)?);
+    Ok(lines)
 }
 
 /// Lets a fault of the program befall the core in the next tick. The pins must be low within
-/// [`PINS_LOW`] of its start, and stay so; the log must tell the fault at the next start.
-fn crash(trouble: &mut Trouble, upset: Upset, said: &str, hundredth: u32) -> Result<String, Error> {
+/// [`PINS_LOW`] of its start, and stay so; the log must say which fault it is, and so must the next start, which has this number.
+fn crash(
+    trouble: &mut Trouble,
+    upset: Upset,
+    (fault, start): (u8, usize),
+    hundredth: u32,
+) -> Result<String, Error> {
     trouble.log.clear();
     let period = 10_000_000_000 / Ps::from(hundredth);
     let board = trouble.board_mut();
     board.machine.upset_next_tick(MIDDLE, upset);
     if board.run_for(period + PINS_LOW)? || trouble.driven().contains(&true) {
-        return Err(Error::Work(format!("driven in {said}")));
+        return Err(Error::Work(format!("driven in fault {fault}")));
     }
     rests(trouble, FAULT_HUNDREDTHS * hundredth, "after a fault")?;
-    trouble.hear(said)?;
-    trouble.hear(&format!("last {said}"))?;
-    trouble.hear(&format!("not armed: {said}"))
+    let line = format!("fault board {fault} ");
+    let said = trouble.log.iter().filter(|said| said.contains(&line));
+    if said.count() != 2 {
+        return Err(Error::Work(format!("not twice: {line}")));
+    }
+    trouble.line(&format!(" watchdog {start} {fault}"))?;
+    trouble.line(&format!("not-armed {fault} "))
 }
 
 /// Holds the button down for so many ticks, and lets it go before and after.

@@ -51,15 +51,15 @@ const DIP: Ps = 45 * MS;
 pub fn dip(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let board = || Bench::new(&loaded, &program);
-    let mut heard = Vec::new();
+    let mut lines = Vec::new();
     for within_tick in [false, true] {
-        heard.extend(board()?.falls(within_tick)?);
+        lines.extend(board()?.falls(within_tick)?);
     }
-    heard.extend(board()?.goes()?);
-    heard.extend(board()?.browns_out()?);
-    heard.extend(board()?.clock_stops()?);
-    heard.extend(board()?.stray_interrupt()?);
-    Ok(heard)
+    lines.push(board()?.goes()?);
+    lines.extend(board()?.browns_out()?);
+    lines.extend(board()?.clock_stops()?);
+    lines.extend(board()?.stray_interrupt()?);
+    Ok(lines)
 }
 
 /// A board that whisks.
@@ -85,28 +85,27 @@ impl Bench {
         let reset = self.leaves_clock()?;
         self.supply(LOWER_MV)?;
         self.wait(DIP)?;
-        self.trouble.hear("waiting for the supply")?;
+        self.trouble.line("waiting for the supply")?;
         self.supply(WELL_MV)?;
-        Ok([low, reset, self.refuses("fault 58")?])
+        Ok([low, reset, self.refuses("software", 58)?])
     }
 
-    fn goes(mut self) -> Result<[String; 2], Error> {
+    fn goes(mut self) -> Result<String, Error> {
         self.await_drive(false)?;
         self.supply(GONE_MV)?;
         self.wait(DIP)?;
         self.supply(LOW_MV)?;
         self.wait(DIP)?;
-        self.trouble.hear("waiting for the supply")?;
+        self.trouble.line("waiting for the supply")?;
         self.supply(WELL_MV)?;
-        let refused = self.refuses("fault 53")?;
-        Ok([self.trouble.hear("reset by power-up")?, refused])
+        self.refuses("power-up", 53)
     }
 
     fn browns_out(mut self) -> Result<Vec<String>, Error> {
         const TOO_LOW: &str = "brown-out level";
-        let told = self.trouble.hear(TOO_LOW);
+        let before = self.trouble.line(TOO_LOW);
         if !self.machine().disturb(Chip::set_brown_out) {
-            return match told {
+            return match before {
                 Ok(line) => Err(Error::Work(format!("there is none: {line}"))),
                 Err(_) => Ok(Vec::new()),
             };
@@ -116,10 +115,10 @@ impl Bench {
         self.wait(DIP)?;
         self.trouble.log.clear();
         self.supply(WELL_MV)?;
-        let refused = self.refuses("fault 53")?;
-        match self.trouble.hear(TOO_LOW) {
+        let refused = self.refuses("brown-out", 53)?;
+        match self.trouble.line(TOO_LOW) {
             Ok(line) => Err(Error::Work(format!("at the highest level: {line}"))),
-            Err(_) => Ok(vec![told?, refused]),
+            Err(_) => Ok(vec![before?, refused]),
         }
     }
 
@@ -131,16 +130,16 @@ impl Bench {
         }
         let low = self.pins_low("the clock stops in a tick")?;
         self.machine().disturb(|chip| chip.stop_clock(false))?;
-        self.dies("fault 50")?;
-        Ok(vec![low, self.refuses("fault 50")?])
+        self.dies(50)?;
+        Ok(vec![low, self.refuses("watchdog", 50)?])
     }
 
     fn stray_interrupt(mut self) -> Result<[String; 2], Error> {
         self.await_drive(true)?;
         self.machine().raise_nmi();
         let low = self.pins_low("a non-maskable interrupt without a cause")?;
-        self.dies("fault 51")?;
-        Ok([low, self.refuses("fault 51")?])
+        self.dies(51)?;
+        Ok([low, self.refuses("watchdog", 51)?])
     }
 
     fn machine(&mut self) -> &mut Machine {
@@ -174,7 +173,7 @@ impl Bench {
     /// Lets time pass on the chip alone, at whose end no motor may be driven.
     fn wait(&mut self, time: Ps) -> Result<(), Error> {
         self.trouble.board_mut().wait(time)?;
-        self.trouble.listen();
+        self.trouble.take_log();
         if self.trouble.driven().contains(&true) {
             return Err(Error::Work("driven without supply or clock".to_owned()));
         }
@@ -210,20 +209,20 @@ impl Bench {
 
     /// The handler of this fault has its line in the log and feeds the watchdog, for longer than
     /// that bears without; its bite is not waited for, which other tests do.
-    fn dies(&mut self, fault: &str) -> Result<(), Error> {
+    fn dies(&mut self, fault: u8) -> Result<(), Error> {
         self.wait(DIP)?;
-        self.trouble.hear(fault)?;
+        self.trouble.line(&format!("fault board {fault} "))?;
         if let Some(cause) = self.trouble.board_mut().reset {
-            return Err(Error::Work(format!("{fault}: reset by {cause:?}")));
+            return Err(Error::Work(format!("fault {fault}: reset by {cause:?}")));
         }
         self.trouble.board_mut().reset_now(ResetCause::Watchdog)?;
         Ok(())
     }
 
-    /// The module ticks, with its motors off, as after this fault.
-    fn refuses(&mut self, fault: &str) -> Result<String, Error> {
-        rests(&mut self.trouble, self.tick_hz / 10, fault)?;
-        self.trouble.hear(&format!("last {fault}"))?;
-        self.trouble.hear(&format!("not armed: {fault}"))
+    /// The module ticks, with its motors off; its second start was for this cause and fault.
+    fn refuses(&mut self, cause: &str, fault: u8) -> Result<String, Error> {
+        rests(&mut self.trouble, self.tick_hz / 10, cause)?;
+        self.trouble.line(&format!("not-armed {fault} "))?;
+        self.trouble.line(&format!(" {cause} 2 {fault}"))
     }
 }

@@ -1,4 +1,4 @@
-//! The link to a PC as a board has it: what it tells of every tick, what it does with
+//! The link to a PC as a board has it: what it sends of every tick, what it does with
 //! requests, what is lost where nobody reads, and what all that costs.
 
 use std::path::Path;
@@ -97,9 +97,10 @@ fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
 struct Talk {
     pair: Pair,
     whiskers: u32,
-    ticks: u32,
     part: u32,
     packets: Vec<Packet>,
+    /// Of each tick: the angles before the world moved on, and what was so after it.
+    worlds: Vec<([f64; 2], Row)>,
     tag: u16,
     asked: Vec<TaggedCommand>,
     is_apart: bool,
@@ -110,25 +111,28 @@ impl Talk {
         &mut self.pair.target.module_mut().board
     }
 
-    /// Lets so many ticks pass. Records must tell what is so in the world, until a motor was
-    /// stopped, after which nobody knows where its whisker rests, or nobody has read for long.
+    /// Lets so many ticks pass. Records must say what is so in the world, until a motor was
+    /// stopped, after which it is not known where its whisker rests, or what was sent was not read.
     fn pass(&mut self, ticks: u32) -> Result<(), Error> {
         for _ in 0..ticks {
-            let before = self.pair.target.row().angle_deg;
-            let row = self.pair.target.tick();
-            self.ticks += 1;
-            self.pair.target.module_mut().check()?;
+            self.tick()?;
             let packets = self.board().packets()?;
             for packet in &packets {
                 if let Packet::Record(record) = packet
                     && !self.is_apart
                 {
-                    same_as_world(record, before, &row)?;
+                    self.same_as_world(record)?;
                 }
             }
             self.packets.extend(packets);
         }
         Ok(())
+    }
+
+    fn tick(&mut self) -> Result<(), Error> {
+        let before = self.pair.target.row().angle_deg;
+        self.worlds.push((before, self.pair.target.tick()));
+        Ok(self.pair.target.module_mut().check()?)
     }
 
     /// Asks for something, and lets a part of the time pass.
@@ -164,11 +168,41 @@ impl Talk {
         }
     }
 
-    fn records(&self) -> impl Iterator<Item = &TickRecord> {
-        self.packets.iter().filter_map(|packet| match packet {
-            Packet::Record(record) => Some(record),
-            Packet::Answer(_) | Packet::Event(_) => None,
-        })
+    /// A record must have the angle that the encoder has read in its tick, before the world moved
+    /// on, the codes that its sensor has got, and z as a debugger reads it.
+    fn same_as_world(&self, record: &TickRecord) -> Result<(), Error> {
+        let Some((before, row)) = self.worlds.get(record.sequence.wrapping_sub(1) as usize) else {
+            return Err(Error::Work(format!("of a tick to come: {record:?}")));
+        };
+        let side = usize::from(record.flags.contains(Flags::RIGHT));
+        let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
+        let codes = [row.x[side], row.y[side]];
+        let are_codes = record.codes().map(f64::from) == codes;
+        // A scene that does not whisk has none.
+        let z = if row.z[side].is_nan() {
+            0.0
+        } else {
+            row.z[side]
+        };
+        let is_z = (f64::from(wire::unit(record.z)) - z).abs() <= Z_STEP;
+        if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !are_codes || !is_z {
+            return Err(Error::Work(format!(
+                "at {} degrees with codes {codes:?} and z {z}: {record:?}",
+                before[side]
+            )));
+        }
+        Ok(())
+    }
+
+    /// The records from this packet on.
+    fn records(&self, first: usize) -> impl Iterator<Item = &TickRecord> {
+        self.packets
+            .iter()
+            .skip(first)
+            .filter_map(|packet| match packet {
+                Packet::Record(record) => Some(record),
+                Packet::Answer(_) | Packet::Event(_) => None,
+            })
     }
 }
 
@@ -182,9 +216,9 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let mut talk = Talk {
         pair,
         whiskers: scene.whiskers() as u32,
-        ticks: 0,
         part: (PART_S * f64::from(scene.tick_hz)) as u32,
         packets: Vec::new(),
+        worlds: Vec::new(),
         tag: 0,
         asked: Vec::new(),
         is_apart: false,
@@ -206,9 +240,9 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
                 return wrong(format!("{command:?}: {answer:?}"));
             }
         }
-        let driven = talk.records().last().map(|record| record.duty != 0);
+        let driven = talk.records(0).last().map(|record| record.duty != 0);
         if command == Command::Stop && driven != Some(false) {
-            return wrong("driven after it was told to stop".to_owned());
+            return wrong("driven after it was to stop".to_owned());
         }
     }
     let name = name(&mut talk)?;
@@ -216,18 +250,17 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
         return wrong(format!("it says that its scene is {name}"));
     }
     let lost = lose(&mut talk)?;
-    let compared = equal(&mut talk)?;
+    let [records, events] = equal(&mut talk)?;
     Ok(vec![
         format!(
-            "{} requests answered, {} records as on the PC",
-            talk.asked.len(),
-            compared
+            "{} requests answered, {records} records and {events} events as on the PC",
+            talk.asked.len()
         ),
         format!("{lost} records lost while nobody read, and counted"),
     ])
 }
 
-/// The name of the scene, as the board tells it.
+/// The name of the scene, as the board says it.
 fn name(talk: &mut Talk) -> Result<String, Error> {
     let mut letters = Vec::new();
     loop {
@@ -246,81 +279,64 @@ fn lose(talk: &mut Talk) -> Result<u32, Error> {
     let before = talk.ask(Command::Status)?.values[0];
     talk.is_apart = true;
     for _ in 0..2 * talk.part {
-        talk.pair.target.tick();
-        talk.ticks += 1;
+        talk.tick()?;
     }
     let first = talk.packets.len();
     talk.pass(talk.part)?;
     let after = talk.ask(Command::Status)?.values[0];
-    let told = after.wrapping_sub(before).cast_unsigned();
+    let counted = after.wrapping_sub(before).cast_unsigned();
 
     let whiskers = talk.whiskers;
     let mut gap = 0;
-    let records: Vec<TickRecord> = talk.packets[first..]
-        .iter()
-        .filter_map(|packet| match packet {
-            Packet::Record(record) => Some(*record),
-            Packet::Answer(_) | Packet::Event(_) => None,
-        })
-        .collect();
+    let records: Vec<_> = talk.records(first).collect();
     for pair in records.windows(2) {
         let side = |record: &TickRecord| u32::from(record.flags.contains(Flags::RIGHT));
         let place = |record: &TickRecord| record.sequence * whiskers + side(record);
-        let missing = place(&pair[1]) - place(&pair[0]) - 1;
+        let missing = place(pair[1]) - place(pair[0]) - 1;
         if pair[1].flags.contains(Flags::LOST) != (missing > 0) {
             return Err(Error::Work(format!("{missing} lost before {:?}", pair[1])));
         }
         gap += missing;
     }
-    if gap != told || gap == 0 {
-        return Err(Error::Work(format!("{gap} records lost, {told} counted")));
+    if gap != counted || gap == 0 {
+        return Err(Error::Work(format!(
+            "{gap} records lost, {counted} counted"
+        )));
     }
     Ok(gap)
 }
 
-/// Runs the same on the PC: every record that was not lost must be the same. Returns how many
-/// there were.
-fn equal(talk: &mut Talk) -> Result<usize, Error> {
-    let answers: Vec<Answer> = talk.packets.iter().filter_map(answered).collect();
-    let mut expected = Vec::new();
-    for tick in 0..talk.ticks {
-        for request in &talk.asked {
-            let is_now = |answer: &&Answer| answer.tag == request.tag && answer.sequence == tick;
-            if answers.iter().any(|answer| is_now(&answer)) {
-                talk.pair.host.module_mut().request(*request);
-            }
-        }
-        talk.pair.host.tick();
-        expected.extend(talk.pair.host.module_mut().take_packets());
+/// Runs the same on the PC: every record and every event must be the same, but in ticks of which
+/// something was lost. Returns how many there were.
+fn equal(talk: &mut Talk) -> Result<[usize; 2], Error> {
+    let mut requests = Vec::new();
+    for answer in talk.packets.iter().filter_map(answered) {
+        let asked = talk.asked.iter().filter(|asked| asked.tag == answer.tag);
+        requests.extend(asked.map(|asked| (answer.sequence, *asked)));
     }
-    let feels = talk.pair.feels;
-    let plain = |record: &TickRecord| TickRecord {
-        x: record.codes()[0],
-        y: record.codes()[1],
-        contact: if feels { record.contact } else { 0 },
-        flags: record.flags.without(Flags::LOST),
-        ..*record
-    };
-    let mut expected = expected.iter().filter_map(|packet| match packet {
-        Packet::Record(record) => Some(plain(record)),
-        Packet::Answer(_) | Packet::Event(_) => None,
-    });
-    let mut compared = 0;
-    for record in talk.records().map(plain) {
-        // Those before it were lost.
-        let place = |of: &TickRecord| (of.sequence, of.flags.contains(Flags::RIGHT));
-        let on_pc = expected.find(|on_pc| place(on_pc) == place(&record));
-        if on_pc != Some(record) {
+    let expected = talk.pair.replay(0..talk.worlds.len() as u32, &requests);
+    let mut expected = talk.pair.by_tick(&expected);
+    let (mut records, mut events) = (0, 0);
+    for (tick, found) in talk.pair.by_tick(&talk.packets) {
+        let expected = expected.remove(&tick).unwrap_or_default();
+        let count = found.iter().filter(|packet| is_record(packet)).count();
+        let is_whole = count == talk.whiskers as usize;
+        if found != expected && (is_whole || found.iter().any(|found| !expected.contains(found))) {
             return Err(Error::Work(format!(
-                "a record on the PC, on the board\n  {on_pc:?}\n  {record:?}"
+                "tick {tick}: sent on the PC, on the board\n  {expected:?}\n  {found:?}"
             )));
         }
-        compared += 1;
+        records += count;
+        events += found.len() - count;
     }
-    Ok(compared)
+    Ok([records, events])
 }
 
-fn answered(packet: &Packet) -> Option<Answer> {
+const fn is_record(packet: &Packet) -> bool {
+    matches!(packet, Packet::Record(_))
+}
+
+const fn answered(packet: &Packet) -> Option<Answer> {
     match packet {
         Packet::Answer(answer) => Some(*answer),
         Packet::Record(_) | Packet::Event(_) => None,
@@ -378,32 +394,9 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
             "telemetry {what}: {more:.1} instructions a tick beside {without:.1}"
         ));
         if more > most {
-            let told = said.join("\n");
-            return Err(Error::Work(format!("{told}\nat most {most} are allowed")));
+            let said = said.join("\n");
+            return Err(Error::Work(format!("{said}\nat most {most} are allowed")));
         }
     }
     Ok(said)
-}
-
-/// A record must tell the angle that the encoder has read in its tick, `before` the world
-/// moved on, the codes that its sensor has got, and z as a debugger reads it.
-fn same_as_world(record: &TickRecord, before: [f64; 2], row: &Row) -> Result<(), Error> {
-    let side = usize::from(record.flags.contains(Flags::RIGHT));
-    let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
-    let codes = [row.x[side], row.y[side]];
-    let are_codes = record.codes().map(f64::from) == codes;
-    // A scene that does not whisk has none.
-    let z = if row.z[side].is_nan() {
-        0.0
-    } else {
-        row.z[side]
-    };
-    let is_z = (f64::from(wire::unit(record.z)) - z).abs() <= Z_STEP;
-    if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !are_codes || !is_z {
-        return Err(Error::Work(format!(
-            "at {} degrees with codes {codes:?} and z {z}: {record:?}",
-            before[side]
-        )));
-    }
-    Ok(())
 }

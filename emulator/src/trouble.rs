@@ -36,13 +36,13 @@ impl Trouble {
             self.run.tick();
             let board = self.run.module_mut();
             board.check()?;
-            self.listen();
+            self.take_log();
         }
         Ok(())
     }
 
     /// Takes what the board has logged.
-    pub(crate) fn listen(&mut self) {
+    pub(crate) fn take_log(&mut self) {
         let bytes = self.run.module_mut().take_log();
         self.log.extend(self.decoder.lines(&bytes));
     }
@@ -70,7 +70,7 @@ impl Trouble {
     }
 
     /// The line of the log that says `text`.
-    pub(crate) fn hear(&self, text: &str) -> Result<String, Error> {
+    pub(crate) fn line(&self, text: &str) -> Result<String, Error> {
         let line = self.log.iter().find(|line| line.contains(text)).cloned();
         line.ok_or_else(|| {
             let said = self.log.join("\n  ");

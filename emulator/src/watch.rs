@@ -21,9 +21,10 @@ mod name {
 
     /// The module.
     pub(super) const MODULE: &str = "INNER";
-    /// The queues between the tick and idle, and in them that of the events.
+    /// The queues between the tick and idle, and in them that of the events with their ticks.
     pub(super) const QUEUES: &str = "__rtic_internal_local_init_queues";
     pub(super) const EVENTS: &str = "events";
+    pub(super) const EVENT: &str = "event";
     /// In a queue: its ring, and where the next goes.
     pub(super) const RING: &str = "buffer";
     pub(super) const TAIL: &str = "tail";
@@ -205,7 +206,7 @@ impl Watch {
         ram.word(self.missed)
     }
 
-    /// The program starts anew, with an empty queue.
+    /// The program starts again, with an empty queue.
     pub(crate) const fn restart(&mut self) {
         self.queue.seen = 0;
     }
@@ -221,11 +222,12 @@ impl Queue {
         let queue = info.variable(name::QUEUES)?.member(name::EVENTS)?;
         let events = queue.member(name::RING)?;
         let first = events.element(0)?;
-        let (tag, value, event) = first.variant(name::DECISION)?;
+        let of_first = first.member(name::EVENT)?;
+        let (tag, value, event) = of_first.variant(name::DECISION)?;
         let [whisker, decision] = name::PLACED.map(|part| event.member(part));
         let (whisker, decision) = (whisker?, decision?);
         let notices = name::NOTICES.into_iter();
-        let notices = notices.map(|(name, notice)| Ok((first.variant(name)?.1, notice)));
+        let notices = notices.map(|(name, notice)| Ok((of_first.variant(name)?.1, notice)));
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {

@@ -3,8 +3,9 @@
 use firmware::Packet;
 use host_sim::Error;
 use host_sim::received::Received;
-use wire::{Answer, Command, TaggedCommand, TickRecord};
+use wire::{Answer, Command, TaggedCommand};
 
+use crate::board::packets;
 use crate::compare::Pair;
 
 /// What is not as it should be.
@@ -47,32 +48,23 @@ impl Talk {
         Ok(replies(&self.pass(self.part)?))
     }
 
-    /// Asks by a frame; the answer, and the records that came meanwhile.
-    pub(super) fn ask(&mut self, command: Command) -> Result<(Answer, Vec<TickRecord>), Error> {
+    /// Asks by a frame; the answer, and the other packets that came meanwhile.
+    pub(super) fn ask(&mut self, command: Command) -> Result<(Answer, Vec<Packet>), Error> {
         self.tag += 1;
         let tag = self.tag;
-        let request = TaggedCommand { tag, command };
-        self.write(&wire::frame(&request));
-        let received = self.pass(self.part)?;
-        let records = records(&received);
-        let mut answers = received.iter().filter_map(|received| match received {
-            Received::Packet(Packet::Answer(answer)) if answer.tag == tag => Some(*answer),
-            _ => None,
-        });
-        match (answers.next(), answers.next()) {
-            (Some(answer), None) => Ok((answer, records)),
-            (found, _) => wrong(format!("{command:?}: answered {found:?}, or twice")),
+        self.write(&wire::frame(&TaggedCommand { tag, command }));
+        let (mut answers, mut others) = (Vec::new(), Vec::new());
+        for packet in packets(&self.pass(self.part)?) {
+            match packet {
+                Packet::Answer(answer) if answer.tag == tag => answers.push(answer),
+                _ => others.push(packet),
+            }
+        }
+        match answers[..] {
+            [answer] => Ok((answer, others)),
+            _ => wrong(format!("{command:?}: answered {answers:?}")),
         }
     }
-}
-
-/// The records of what was received.
-pub(super) fn records(received: &[Received]) -> Vec<TickRecord> {
-    let records = received.iter().filter_map(|received| match received {
-        Received::Packet(Packet::Record(record)) => Some(*record),
-        _ => None,
-    });
-    records.collect()
 }
 
 /// The lines that begin with no time: replies.
