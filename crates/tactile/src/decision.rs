@@ -4,6 +4,7 @@ use core::num::NonZeroU32;
 
 use serde::{Deserialize, Serialize};
 
+use crate::divide::divide;
 use crate::exp2::TERM_BITS;
 
 /// A decision. Three words, and no more in an `Option`.
@@ -119,26 +120,15 @@ impl Posterior {
         )
     }
 
-    /// p in units of 2⁻³², rounded down, at most 2³² − 1. A division, bit by bit, as a
-    /// kilobyte of flash for those of 64 bits is dearer on a small board.
+    /// p in units of 2⁻³², rounded down, at most 2³² − 1.
     pub fn q32(self) -> u32 {
         let (mantissa, exponent) = self.mantissa_and_exponent();
         // Shifts by 15 to 78: nothing is left where checked_shr says None.
         let against = (u64::from(mantissa) << 32)
             .checked_shr(exponent)
             .unwrap_or(0);
-        let divisor = (1 << 32) + against;
-        // Of 2⁶⁴ − 1: the upper half is less than the divisor, then each bit is one.
-        let (mut rest, mut quotient) = (u64::from(u32::MAX), 0);
-        for _ in 0..u32::BITS {
-            rest = 2 * rest + 1;
-            quotient *= 2;
-            if rest >= divisor {
-                rest -= divisor;
-                quotient += 1;
-            }
-        }
-        quotient
+        // Of 2⁶⁴ − 1.
+        divide(u32::MAX, u32::MAX, (1 << 32) + against)
     }
 
     /// p in double precision.

@@ -70,6 +70,7 @@ mod binner;
 mod classifier;
 mod constants;
 mod decision;
+mod divide;
 mod error;
 mod evidence;
 mod exp2;

@@ -6,6 +6,7 @@
 //! bin, and what lies outside goes to the edge bin.
 
 use crate::binner::Binner;
+use crate::divide::divide;
 use crate::error::QuantiserError;
 
 /// Largest magnitude of [`Quantiser::exponent`].
@@ -72,7 +73,8 @@ impl Quantiser {
     /// always so for a model trained on integers of 31 bits, unless they are
     /// huge beside their range.
     pub fn takes_raw(&self) -> bool {
-        self.origin == 0.0 && self.exponent >= 0
+        // Zero of either sign, without a comparison in double precision.
+        self.origin.to_bits() << 1 == 0 && self.exponent >= 0
     }
 
     /// The code of a raw integer, raw · 2^exponent, saturated. The exponent is
@@ -91,14 +93,14 @@ impl Quantiser {
     /// As [`Self::check`].
     pub fn binner(&self, bins: usize) -> Result<Binner, QuantiserError> {
         self.check(bins)?;
-        let span = u64::from(self.high.abs_diff(self.low));
-        // checked_div: None for a constant channel, whose slope of zero sends
-        // every code to bin 0. Span > 2 bins keeps the slope below 2³¹.
-        let slope = ((bins as u64) << 32)
-            .checked_add(span.saturating_sub(1))
-            .and_then(|numerator| numerator.checked_div(span))
-            .unwrap_or(0);
-        Ok(Binner::new(self.low, slope as u32))
+        // More than two a bin, which keeps the slope below 2³¹; none of a constant channel, whose
+        // slope of zero sends every code to bin 0.
+        let slope = match self.high.abs_diff(self.low) {
+            0 => 0,
+            // Rounded up.
+            span => divide(bins as u32, span - 1, span.into()),
+        };
+        Ok(Binner::new(self.low, slope))
     }
 }
 

@@ -73,6 +73,10 @@ pub trait Real:
     /// The nearest representable number. For configurations, not for the tick.
     fn from_f64(value: f64) -> Self;
 
+    /// The same from single precision, without a number of double precision in between, which
+    /// links two kilobytes where a core has none.
+    fn from_f32(value: f32) -> Self;
+
     /// The same value in f64. For reports, not for the tick.
     fn to_f64(self) -> f64;
 

@@ -76,19 +76,6 @@ impl Line {
         self.digits(number, 1)
     }
 
-    /// Appends a number of so many decimals, at most nine, given in units of the last.
-    #[inline(never)]
-    pub fn fixed(&mut self, number: u32, decimals: u32) -> &mut Self {
-        // Not 0: that is seen at any level of optimisation.
-        let one = (0..decimals.min(9)).fold(1_u32, |one, _| one * 10).max(1);
-        self.digits(number / one, 1);
-        if one > 1 {
-            self.put(b'.');
-            self.digits(number % one, decimals as usize);
-        }
-        self
-    }
-
     /// Appends at least so many digits.
     #[inline(never)]
     fn digits(&mut self, number: u32, least: usize) -> &mut Self {
@@ -116,26 +103,35 @@ impl Line {
     #[inline(never)]
     pub fn form(&mut self, text: &str, fields: &[Field<'_>]) -> &mut Self {
         let mut fields = fields.iter();
-        for (n, part) in text.split(['{', '}']).enumerate() {
-            // Every second part stood in braces.
-            if n % 2 == 0 {
-                self.text(part);
-                continue;
-            }
-            let last = part.as_bytes().last();
-            let least = if part.contains(':') { last } else { None };
-            let least = least.map_or(1, |digit| usize::from(digit.saturating_sub(b'0')));
-            match fields.next() {
-                Some(Field::Text(text)) => self.text(text),
-                Some(Field::Number(number)) => self.digits(*number, least),
-                Some(Field::Signed(number)) => {
-                    self.text(if *number < 0 { "-" } else { "" });
-                    self.digits(number.unsigned_abs(), least)
+        let (mut is_hint, mut least) = (false, 1);
+        for byte in text.bytes() {
+            match byte {
+                b'{' => (is_hint, least) = (true, 1),
+                b'}' => {
+                    is_hint = false;
+                    self.fill_in(fields.next(), least);
                 }
-                None => self,
-            };
+                // A hint of 1 is none: digits of a type's name are passed over.
+                b':' if is_hint => least = 0,
+                _ if is_hint && least != 1 => least = usize::from(byte.wrapping_sub(b'0')),
+                _ if is_hint => {}
+                _ => self.put(byte),
+            }
         }
         self
+    }
+
+    /// Appends a field, a number with at least so many digits, if that is a number of digits.
+    fn fill_in(&mut self, field: Option<&Field<'_>>, least: usize) {
+        match field {
+            Some(Field::Text(text)) => self.text(text),
+            Some(Field::Number(number)) => self.digits(*number, least),
+            Some(Field::Signed(number)) => {
+                self.text(if *number < 0 { "-" } else { "" });
+                self.digits(number.unsigned_abs(), least)
+            }
+            None => self,
+        };
     }
 
     /// The line with its end.
@@ -209,15 +205,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn numbers_are_written_as_std_writes_them(number: u32, decimals in 0..=9_usize) {
+        fn numbers_are_written_as_std_writes_them(number: u32, signed: i16) {
             let mut line = Line::new();
-            let one = 10_u32.pow(decimals as u32);
-            line.number(number).text(" ").fixed(number, decimals as u32);
-            let fixed = match decimals {
-                0 => number.to_string(),
-                _ => format!("{}.{:0decimals$}", number / one, number % one),
-            };
-            prop_assert_eq!(text(&mut line), format!("{number} {fixed}\r\n"));
+            let fields = [number.into(), signed.into(), number.into()];
+            line.form("{=u32} {=i16} {=u32:04}", &fields);
+            prop_assert_eq!(text(&mut line), format!("{number} {signed} {number:04}\r\n"));
         }
     }
 

@@ -57,7 +57,7 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Depl
 /// The contact π from which the model was trained, if that knows touches.
 fn gate(classifier: &Classifier) -> Option<Number> {
     let gate = classifier.gate()?;
-    Some(Number::from_f64(f64::from(gate)))
+    Some(Number::from_f32(gate))
 }
 
 /// The same of a module.

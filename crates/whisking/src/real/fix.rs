@@ -88,6 +88,10 @@ impl Real for Fix {
         Self(libm::round(value * f64::from(1 << FRACTION)) as i32)
     }
 
+    fn from_f32(value: f32) -> Self {
+        Self(fixed_point(value, FRACTION))
+    }
+
     fn to_f64(self) -> f64 {
         f64::from(self.0) / f64::from(1 << FRACTION)
     }
@@ -187,6 +191,38 @@ impl Real for Fix {
         let (step, left) = share.of(self.0, *carry);
         *carry = left;
         self.0 = self.0.wrapping_sub(step);
+    }
+}
+
+/// `value` times 2^`fraction`, rounded half away from zero, limited to what fits; 0 of no number.
+fn fixed_point(value: f32, fraction: u32) -> i32 {
+    const MANTISSA_BITS: u32 = 23;
+    let bits = value.to_bits();
+    let biased = bits >> MANTISSA_BITS & 0xFF;
+    let (leading, exponent) = (u32::from(biased > 0), biased.max(1));
+    let mantissa = u64::from(bits % (1 << MANTISSA_BITS) | leading << MANTISSA_BITS);
+    // 127 is the bias of the exponent.
+    let shift = exponent + fraction;
+    let magnitude = match shift.checked_sub(127 + MANTISSA_BITS) {
+        // More bits than a word has, whatever the mantissa: below they are exact.
+        Some(left) => mantissa << left.min(8),
+        None => {
+            let right = 127 + MANTISSA_BITS - shift;
+            ((mantissa << 1 >> right.min(62)) + 1) >> 1
+        }
+    };
+    let limit = if value.is_sign_negative() {
+        1 << 31
+    } else {
+        i32::MAX as u64
+    };
+    let magnitude = magnitude.min(limit) as u32;
+    if value.is_nan() {
+        0
+    } else if value.is_sign_negative() {
+        magnitude.wrapping_neg().cast_signed()
+    } else {
+        magnitude.cast_signed()
     }
 }
 

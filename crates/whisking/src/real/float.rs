@@ -23,6 +23,11 @@ macro_rules! float {
         }
 
         #[inline]
+        fn from_f32(value: f32) -> Self {
+            value as $float
+        }
+
+        #[inline]
         fn to_f64(self) -> f64 {
             f64::from(self)
         }

@@ -9,6 +9,15 @@ const STEP: f64 = 1.0 / (1_u64 << FRACTION) as f64;
 const FACTOR: f64 = 3.1e-5;
 
 proptest! {
+    /// Any bits, and numbers of the format's range, halves of a step among them.
+    #[test]
+    fn single_precision_is_converted_as_double(bits: u32, near in -9.0..9.0_f32, half in -999..999_i16) {
+        let halves = f32::from(half) * (0.5 * STEP as f32);
+        for value in [f32::from_bits(bits), near, halves, near * 1e-8] {
+            prop_assert_eq!(Fix::from_f32(value), Fix::from_f64(value.into()), "{:e}", value);
+        }
+    }
+
     #[test]
     fn products_with_constants_are_close_or_saturate(
         x in -4.0..4.0_f64, power in -18.0..20.0_f64, up in any::<bool>()
