@@ -2,11 +2,12 @@
 
 use core::ops::BitOr;
 
-use serde::{Deserialize, Serialize};
+use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 /// A set of things that are so, one bit each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Flags(#[serde(with = "postcard::fixint::le")] u16);
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, FromBytes, IntoBytes, Immutable)]
+#[repr(transparent)]
+pub struct Flags(u16);
 
 impl Flags {
     /// None.

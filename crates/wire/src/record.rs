@@ -1,36 +1,29 @@
 //! A record: one whisker in one tick.
 
-use postcard::fixint::le;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use zerocopy::{FromBytes, Immutable, IntoBytes};
 
 use crate::flags::Flags;
 
 /// One whisker in one tick: as it is sent 20 bytes, all numbers little-endian.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, FromBytes, IntoBytes, Immutable)]
+#[repr(C)]
 pub struct TickRecord {
     /// Ticks since the module started, this one included.
-    #[serde(with = "le")]
     pub sequence: u32,
     /// Deflection along the direction of whisking: the sensor's word, see [`codes`](Self::codes).
-    #[serde(with = "le")]
     pub x: u16,
     /// Deflection across it, alike.
-    #[serde(with = "le")]
     pub y: u16,
     /// Where the whisker should be: protraction, Q13.
-    #[serde(with = "le")]
     pub setpoint: i16,
     /// Where it is by its encoder: protraction, Q13.
-    #[serde(with = "le")]
     pub measured: i16,
     /// What drives the motor, of the supply: Q15.
-    #[serde(with = "le")]
     pub duty: i16,
     /// Gate z of its side (BIOTACT eq. 10), Q13.
-    #[serde(with = "le")]
     pub z: i16,
     /// Contact π of the whisker (BIOTACT eq. 9), 0 to 1: Q13.
-    #[serde(with = "le")]
     pub contact: i16,
     /// What is so.
     pub flags: Flags,
@@ -41,6 +34,23 @@ impl TickRecord {
     /// no measurement.
     pub const fn codes(&self) -> [u16; 2] {
         [self.x >> 2, self.y >> 2]
+    }
+}
+
+/// The bytes of a record; both sides of a link are little-endian.
+type Bytes = [u8; size_of::<TickRecord>()];
+
+impl Serialize for TickRecord {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let bytes: Bytes = zerocopy::transmute!(*self);
+        bytes.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for TickRecord {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let bytes = Bytes::deserialize(deserializer)?;
+        Ok(zerocopy::transmute!(bytes))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::frame::{open, summed};
+use crate::frame::summed;
 use crate::loading::Load;
 
 /// A whisker of the array.
@@ -176,13 +176,15 @@ impl TaggedCommand {
     /// # Errors
     /// [`UnknownCommand`]: that of a later version, or with parts that it has not.
     pub fn read(content: &[u8]) -> Option<Result<Self, UnknownCommand>> {
-        let value = summed(content)?;
-        if let Some(request) = open(content) {
-            return Some(Ok(request));
-        }
-        let (tag, rest) = postcard::take_from_bytes(value).ok()?;
-        let command = *rest.first()?;
-        Some(Err(UnknownCommand { tag, command }))
+        let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
+        let number = *rest.first()?;
+        Some(match postcard::take_from_bytes(rest) {
+            Ok((command, [])) => Ok(Self { tag, command }),
+            _ => Err(UnknownCommand {
+                tag,
+                command: number,
+            }),
+        })
     }
 }
 

@@ -21,7 +21,9 @@ use crate::board::slots::{self, ROOM};
 use crate::board::types::{Inner, Settings};
 pub(crate) use configs::Configs;
 use configs::{Spare, Ways};
-pub(crate) use exchange::{Exchange, Origin};
+pub(crate) use exchange::Exchange;
+#[cfg(feature = "serial")]
+pub(crate) use exchange::Origin;
 pub(crate) use probe::ProbeLine;
 
 /// Records of as many ticks as idle may be late, of two whiskers, and one more.
