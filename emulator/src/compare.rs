@@ -53,6 +53,9 @@ pub struct Circumstances {
 /// after the lines of the start.
 const GONE_AFTER_S: f64 = 0.5;
 
+/// What a tick of the board has come to.
+pub(crate) type Seen = (Row, Vec<Decided>);
+
 /// A scene on the PC, in the board's number format, and on the board.
 pub(crate) struct Pair {
     pub(crate) host: Run,
@@ -95,9 +98,25 @@ impl Pair {
     /// # Errors
     /// [`Error::Work`] says what is not the same.
     pub(crate) fn tick(&mut self, n: u64, touch: impl Fn(u16) -> u16) -> Result<u64, Error> {
-        let mut expected = self.host.tick();
-        let mut found = self.target.tick();
+        let found = self.tick_board()?;
+        self.follow(n, found, touch)
+    }
+
+    /// One tick of the board alone.
+    pub(crate) fn tick_board(&mut self) -> Result<Seen, Error> {
+        let row = self.target.tick();
         self.target.module_mut().check()?;
+        Ok((row, self.target.decisions().collect()))
+    }
+
+    /// One tick of the PC, the `n`-th, as [`Self::tick`]; the board was ahead.
+    pub(crate) fn follow(
+        &mut self,
+        n: u64,
+        (mut found, found_decisions): Seen,
+        touch: impl Fn(u16) -> u16,
+    ) -> Result<u64, Error> {
+        let mut expected = self.host.tick();
         if !self.feels {
             expected.contact = [0.0; 2];
             found.contact = [0.0; 2];
@@ -116,13 +135,12 @@ impl Pair {
         for decided in &mut expected {
             decided.touch = touch(decided.touch);
         }
-        let found: Vec<Decided> = self.target.decisions().collect();
-        if expected != found {
+        if expected != found_decisions {
             return Err(Error::Work(format!(
-                "tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found:?}"
+                "tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found_decisions:?}"
             )));
         }
-        Ok(found.len() as u64)
+        Ok(found_decisions.len() as u64)
     }
 
     /// Has the PC alone go through these ticks, where the board was before, with the requests of

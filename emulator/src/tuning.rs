@@ -1,5 +1,6 @@
 //! Another configuration for a board that runs, beside the same module on the PC.
 
+use std::collections::VecDeque;
 use std::path::Path;
 
 use config::AnyConfig;
@@ -12,7 +13,7 @@ use scene::{Arm, Rule, Scene};
 use whisking::Real;
 use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
-use crate::compare::Pair;
+use crate::compare::{Pair, Seen};
 use crate::damaged;
 use crate::deployment::{flashed, image, model_of, words};
 
@@ -25,8 +26,9 @@ const PATIENCE: u32 = 20;
 /// A board and a PC, tick by tick.
 struct Talk {
     pair: Pair,
-    /// Ticks of both.
+    /// Ticks of the PC, and those of the board after them.
     ticks: u64,
+    ahead: VecDeque<Seen>,
     tag: u16,
     part: u32,
 }
@@ -42,6 +44,7 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let mut talk = Talk {
         pair: Pair::new(&mut loaded, &program)?,
         ticks: 0,
+        ahead: VecDeque::new(),
         tag: 0x4000,
         part: (PART_S * f64::from(loaded.scene.tick_hz)) as u32,
     };
@@ -76,13 +79,14 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     }
     let apply = Command::Apply(on_board.len() as u32);
     let answer = talk.ask(apply)?;
-    if answer.status != CommandStatus::Done || u64::from(answer.sequence) != talk.ticks {
+    if answer.status != CommandStatus::Done {
         return Err(Error::Work(format!("another configuration: {answer:?}")));
     }
     talk.request_on_pc(Command::Apply(on_pc.len() as u32));
     let took = talk.ticks - before;
     talk.pass(2 * talk.part)?;
     talk.runs_by(&on_board)?;
+    talk.follow(u64::MAX)?;
     let missed = talk.pair.target.module_mut().board.missed()?;
     if missed != 0 {
         return Err(Error::Work(format!("{missed} ticks missed")));
@@ -149,10 +153,9 @@ fn simulated<R: Real>(config: &Config<R>) -> Result<Vec<u8>, Error> {
 }
 
 impl Talk {
-    /// A tick of both, which must be the same; what the board has answered.
+    /// A tick of the board; what it has answered.
     fn tick(&mut self) -> Result<Vec<Answer>, Error> {
-        self.ticks += 1;
-        self.pair.tick(self.ticks, |number| number)?;
+        self.ahead.push_back(self.pair.tick_board()?);
         let packets = self.pair.target.module_mut().board.packets()?;
         let answers = packets.into_iter().filter_map(|packet| match packet {
             Packet::Answer(answer) => Some(answer),
@@ -161,11 +164,24 @@ impl Talk {
         Ok(answers.collect())
     }
 
-    fn pass(&mut self, ticks: u32) -> Result<(), Error> {
-        (0..ticks).try_for_each(|_| self.tick().map(drop))
+    /// The PC follows up to this tick: each must be the same.
+    fn follow(&mut self, to: u64) -> Result<(), Error> {
+        while self.ticks < to
+            && let Some(seen) = self.ahead.pop_front()
+        {
+            self.ticks += 1;
+            self.pair.follow(self.ticks, seen, |number| number)?;
+        }
+        Ok(())
     }
 
-    /// Asks the board for something; comes back in the tick that has answered.
+    fn pass(&mut self, ticks: u32) -> Result<(), Error> {
+        (0..ticks).try_for_each(|_| self.tick().map(drop))?;
+        self.follow(u64::MAX)
+    }
+
+    /// Asks the board for something; the PC has followed up to the tick after which that was
+    /// done.
     fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         self.tag += 1;
         let request = TaggedCommand {
@@ -179,6 +195,7 @@ impl Talk {
         for _ in 0..PATIENCE {
             let answers = self.tick()?;
             if let Some(answer) = answers.into_iter().find(|answer| answer.tag == self.tag) {
+                self.follow(answer.sequence.into())?;
                 return Ok(answer);
             }
         }
