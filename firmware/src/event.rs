@@ -7,7 +7,6 @@ mod tilt_fault;
 use core::fmt;
 
 use mlx90333::FrameError;
-use serde::{Deserialize, Serialize};
 use tactile::Decision;
 use whisking::motor;
 
@@ -16,7 +15,7 @@ use crate::faults::{name, number};
 pub use tilt_fault::TiltFault;
 
 /// A whisker of the array.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// 0 left, 1 right.
     pub side: u8,
@@ -37,7 +36,7 @@ impl Place {
 }
 
 /// Why a whisker's readings cannot be used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {
     /// No frame was finished in time.
     NoFrame,
@@ -101,7 +100,7 @@ impl core::error::Error for SensorFault {}
 
 /// Something worth a line in the log. Ticks report all but the last three, which are the board's
 /// own.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// A whisker touches something.
     Touch {
@@ -143,7 +142,7 @@ pub enum Event {
 }
 
 /// How the ticks keep their time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Health {
     /// The longest tick of the last second, tenths of a microsecond.
     pub worst_tenths: u16,

@@ -11,7 +11,6 @@ use core::ops::BitOr;
 /// `gain too high, field too low, unknown 0x0001`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Faults(u16);
 
 impl Faults {

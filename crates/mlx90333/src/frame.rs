@@ -140,7 +140,6 @@ impl Frame {
 /// given here, is the one reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FrameError {
     /// All bytes 0xFF: nobody drove the line. Likely cause: /SS or the data
     /// line open, no supply, or the sensor still starting up.

@@ -2,13 +2,11 @@
 
 use core::num::NonZeroU32;
 
-use serde::{Deserialize, Serialize};
-
 use crate::divide::divide;
 use crate::exp2::TERM_BITS;
 
 /// A decision. Three words, and no more in an `Option`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decision {
     // Never zero.
     samples: NonZeroU32,
@@ -50,6 +48,11 @@ impl Decision {
             packed,
             touch,
         })
+    }
+
+    /// What [`from_memory`](Self::from_memory) takes.
+    pub const fn words(&self) -> [u32; 3] {
+        [self.samples.get(), self.packed, self.touch]
     }
 
     /// The class decided for: its index in the model. `None`: unknown, what was felt

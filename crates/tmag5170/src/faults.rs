@@ -15,7 +15,6 @@ use core::ops::BitOr;
 /// `restarted, supply too low, unknown 0x00400000`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StatusFaults(u32);
 
 /// A fault with its words.

@@ -7,7 +7,6 @@
 /// A register. All are 16 bits wide.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[repr(u8)]
 pub enum Register {
     /// Averaging, operating mode, temperature channel: [`DeviceConfig`](crate::DeviceConfig).

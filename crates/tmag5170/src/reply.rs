@@ -19,7 +19,6 @@ use crate::value::Field;
 /// The status bits of a reply: twelve with a register, the lowest four with a pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Status(u16);
 
 impl Status {
@@ -66,7 +65,6 @@ impl Status {
 /// Why a reply is no reading. In the order in which they are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ReplyError {
     /// All bits one. Likely cause: no sensor, no supply, or a cut wire, on a line with a
     /// pull-up.

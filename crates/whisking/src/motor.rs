@@ -89,7 +89,7 @@ pub trait MotorDriver {
 /// Why a motor was switched off.
 ///
 /// Numbers (see [`Fault::code`]) never change meaning; 0 is reserved for "none".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
     /// 1: a pin could not be read or written.
     Pin,

@@ -1,9 +1,7 @@
 //! An answer: what became of a request.
 
-use serde::{Deserialize, Serialize};
-
 /// What became of a request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Answer {
     /// Ticks since the module started, as in a record.
     pub sequence: u32,
@@ -18,9 +16,8 @@ pub struct Answer {
 }
 
 /// What became of a request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.text())]
-#[serde(from = "u8", into = "u8")]
 pub enum CommandStatus {
     /// It is done.
     Done,
@@ -89,14 +86,25 @@ impl CommandStatus {
     }
 }
 
-impl From<CommandStatus> for u8 {
-    fn from(status: CommandStatus) -> Self {
-        status.code()
+impl Answer {
+    /// As it is sent.
+    pub const fn words(&self) -> [u32; 5] {
+        let [low, high] = self.tag.to_le_bytes();
+        let what = u32::from_le_bytes([low, high, self.command, self.status.code()]);
+        let [first, second] = self.values;
+        let values = [first.cast_unsigned(), second.cast_unsigned()];
+        [self.sequence, what, values[0], values[1], 0]
     }
-}
 
-impl From<u8> for CommandStatus {
-    fn from(code: u8) -> Self {
-        Self::from_code(code)
+    /// As it was sent.
+    pub const fn from_words([sequence, what, first, second, _]: [u32; 5]) -> Self {
+        let [low, high, command, status] = what.to_le_bytes();
+        Self {
+            sequence,
+            tag: u16::from_le_bytes([low, high]),
+            command,
+            status: CommandStatus::from_code(status),
+            values: [first.cast_signed(), second.cast_signed()],
+        }
     }
 }

@@ -2,11 +2,8 @@
 
 use core::ops::BitOr;
 
-use zerocopy::{FromBytes, Immutable, IntoBytes};
-
 /// A set of things that are so, one bit each.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, FromBytes, IntoBytes, Immutable)]
-#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Flags(u16);
 
 impl Flags {

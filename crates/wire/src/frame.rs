@@ -67,8 +67,8 @@ pub fn open<'c, T: Deserialize<'c>>(content: &'c [u8]) -> Option<T> {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{CRC, FRAME_BYTES, RECORD_FRAME_BYTES, frame, open};
-    use crate::{Flags, Piece, Splitter, TickRecord};
+    use super::{CRC, FRAME_BYTES, frame, open};
+    use crate::{Piece, Splitter};
 
     /// What a reader of a line makes of a frame.
     fn content(frame: &[u8]) -> Vec<u8> {
@@ -78,28 +78,6 @@ mod tests {
             piece => panic!("{piece:?}"),
         });
         pieces.last().expect("a frame")
-    }
-
-    #[test]
-    fn a_record_lies_where_the_page_says() {
-        let record = TickRecord {
-            sequence: 0x0403_0201,
-            x: 0x0605,
-            y: 0x0807,
-            setpoint: 0x0A09,
-            measured: 0x0C0B,
-            duty: 0x0E0D,
-            z: 0x100F,
-            contact: 0x1211,
-            flags: Flags::from_bits(0x1413),
-        };
-        // Packets begin with what they are; a record is the first.
-        let framed = frame(&(0_u8, record));
-        assert_eq!(framed.len(), RECORD_FRAME_BYTES);
-        let content = content(&framed);
-        let plain: Vec<u8> = (0..=20).collect();
-        assert_eq!(content[..21], plain);
-        assert_eq!(content[21..], CRC.checksum(&plain).to_le_bytes());
     }
 
     #[test]

@@ -1,13 +1,9 @@
 //! A record: one whisker in one tick.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use zerocopy::{FromBytes, Immutable, IntoBytes};
-
 use crate::flags::Flags;
 
-/// One whisker in one tick: as it is sent 20 bytes, all numbers little-endian.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, FromBytes, IntoBytes, Immutable)]
-#[repr(C)]
+/// One whisker in one tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TickRecord {
     /// Ticks since the module started, this one included.
     pub sequence: u32,
@@ -30,6 +26,37 @@ pub struct TickRecord {
 }
 
 impl TickRecord {
+    /// As it is sent.
+    #[inline]
+    pub const fn words(&self) -> [u32; 5] {
+        [
+            self.sequence,
+            word(self.x, self.y),
+            word(self.setpoint.cast_unsigned(), self.measured.cast_unsigned()),
+            word(self.duty.cast_unsigned(), self.z.cast_unsigned()),
+            word(self.contact.cast_unsigned(), self.flags.bits()),
+        ]
+    }
+
+    /// As it was sent.
+    pub const fn from_words(words: [u32; 5]) -> Self {
+        let [x, y] = halves(words[1]);
+        let [setpoint, measured] = halves(words[2]);
+        let [duty, z] = halves(words[3]);
+        let [contact, flags] = halves(words[4]);
+        Self {
+            sequence: words[0],
+            x,
+            y,
+            setpoint: setpoint.cast_signed(),
+            measured: measured.cast_signed(),
+            duty: duty.cast_signed(),
+            z: z.cast_signed(),
+            contact: contact.cast_signed(),
+            flags: Flags::from_bits(flags),
+        }
+    }
+
     /// x and y as codes of 14 bits, 0 to 16383, at rest 8192: the two lowest bits of a word are
     /// no measurement.
     pub const fn codes(&self) -> [u16; 2] {
@@ -37,21 +64,14 @@ impl TickRecord {
     }
 }
 
-/// The bytes of a record; both sides of a link are little-endian.
-type Bytes = [u8; size_of::<TickRecord>()];
-
-impl Serialize for TickRecord {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let bytes: Bytes = zerocopy::transmute!(*self);
-        bytes.serialize(serializer)
-    }
+/// The halves of a word, the lower one first.
+const fn halves(word: u32) -> [u16; 2] {
+    [word as u16, (word >> 16) as u16]
 }
 
-impl<'de> Deserialize<'de> for TickRecord {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let bytes = Bytes::deserialize(deserializer)?;
-        Ok(zerocopy::transmute!(bytes))
-    }
+/// The word of two halves, the lower one first.
+const fn word(low: u16, high: u16) -> u32 {
+    low as u32 | (high as u32) << 16
 }
 
 /// Q24 as Q13, rounded downwards, limited to what fits: −4 to 3.9999.
@@ -73,7 +93,25 @@ pub fn degrees(q13: i16) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{degrees, q13, unit};
+    use super::{TickRecord, degrees, q13, unit};
+
+    #[test]
+    fn a_record_lies_where_the_page_says() {
+        let words = [
+            0x0403_0201,
+            0x0807_0605,
+            0x0C0B_0A09,
+            0x100F_0E0D,
+            0x1413_1211,
+        ];
+        let record = TickRecord::from_words(words);
+        assert_eq!(record.words(), words);
+        assert_eq!([record.x, record.y], [0x0605, 0x0807]);
+        assert_eq!([record.setpoint, record.measured], [0x0A09, 0x0C0B]);
+        assert_eq!([record.duty, record.z], [0x0E0D, 0x100F]);
+        assert_eq!(record.contact, 0x1211);
+        assert_eq!(record.flags.bits(), 0x1413);
+    }
 
     #[test]
     fn numbers_keep_their_value_and_their_sign() {

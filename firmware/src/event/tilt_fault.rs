@@ -2,13 +2,12 @@
 
 use core::fmt;
 
-use serde::{Deserialize, Serialize};
 use tmag5170::{Register, ReplyError, StatusFaults};
 
 use crate::faults::number;
 
 /// What a TMAG5170 lets a whisker down by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TiltFault {
     /// Its reply was refused; the reason says more.
     Reply(ReplyError),
