@@ -10,7 +10,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use firmware::Event;
-use firmware::faults::name;
+use firmware::lines::{self, Context};
+use wire::Line;
 
 use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
@@ -49,38 +50,37 @@ pub fn ended(program: &str, done: Result<(), Error>) -> ExitCode {
     }
 }
 
+/// What a module says of an event, of a model of these classes, and its level in the log. How it
+/// fares it says of itself alone.
+pub fn said(event: &Event, classes: &[String]) -> Option<(&'static str, String)> {
+    let context = Context {
+        class_name: |class| classes.get(class).map_or("", String::as_str),
+        period_us: 0,
+        lost: 0,
+    };
+    let mut line = Line::new();
+    let level = match event {
+        Event::Health(_) => None,
+        _ => lines::event(&mut line, event, context),
+    };
+    let text = String::from_utf8_lossy(line.ended());
+    Some((level?, text.trim().to_owned()))
+}
+
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].
 pub fn limits_and_faults(t_s: f64, event: &Event) {
-    let place =
-        |place: &firmware::Place| format!("{} whisker {}", place.side_name(), place.whisker + 1);
-    match event {
-        Event::Decision(..)
-        | Event::Touch { .. }
-        | Event::TouchEnd { .. }
-        | Event::Armed
-        | Event::Health(_)
-        | Event::Limit(_) => {}
-        Event::SensorLost(at, fault) => {
-            let (at, code) = (place(at), fault.code());
-            warn(format_args!("{t_s:.4} s: {at}: fault {code}, {fault}"));
-        }
-        Event::ZeroMoved(at, [x, y]) => warn(format_args!(
-            "{t_s:.4} s: {}: zero moved to x {x:+} and y {y:+} codes",
-            place(at)
-        )),
-        Event::SensorBack(at) => warn(format_args!("{t_s:.4} s: {}: sensor is back", place(at))),
-        Event::MotorFault(at, fault) => {
-            let (at, code) = (place(at), fault.code());
-            warn(format_args!(
-                "{t_s:.4} s: {at}: fault {code}, {}",
-                name(code)
-            ));
-        }
-        Event::MotorGivenUp(at) => warn(format_args!(
-            "{t_s:.4} s: {}: three faults in a minute: motor off",
-            place(at)
-        )),
-        Event::MotorRetry(at) => warn(format_args!("{t_s:.4} s: {}: motor tried again", place(at))),
+    let (Event::SensorLost(place, _)
+    | Event::ZeroMoved(place, _)
+    | Event::SensorBack(place)
+    | Event::MotorFault(place, _)
+    | Event::MotorGivenUp(place)
+    | Event::MotorRetry(place)) = event
+    else {
+        return;
+    };
+    if let Some((_, said)) = said(event, &[]) {
+        let number = place.whisker + 1;
+        warn(format_args!("{t_s:.4} s: whisker {number}: {said}"));
     }
 }
 

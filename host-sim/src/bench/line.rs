@@ -79,13 +79,12 @@ impl Line {
             done => done,
         };
         let done = done.or_else(|| self.class(request.command));
-        let answer = match done {
-            Some(done) => answer(request, self.ticks, done),
-            None => {
-                let about = About { model: self.model };
-                let link = &mut self.link;
-                link.carry_out(module, config, request, about, self.ticks)
-            }
+        let answer = if let Some(done) = done {
+            answer(request, self.ticks, done)
+        } else {
+            let about = About { model: self.model };
+            let link = &mut self.link;
+            link.carry_out(module, config, request, about, self.ticks)
         };
         self.sent.push(Packet::Answer(answer));
     }

@@ -140,7 +140,7 @@ fn a_fault_stands_in_the_trace_by_its_number() {
         .position(|fault| *fault != "0")
         .expect("a fault");
     let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
-    let told = format!("{t_s:.4} s: left whisker 1: fault {}, ", faults[first]);
+    let told = format!("{t_s:.4} s: whisker 1: fault left {} ", faults[first]);
     assert!(ran.stderr.starts_with(&told), "{told}: {}", ran.stderr);
     // Its motor is off meanwhile.
     assert_eq!(

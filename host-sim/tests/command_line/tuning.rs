@@ -1,7 +1,7 @@
 //! Another configuration for a module: as if its scene had been that one from the start.
 
 use firmware::{
-    BoardCode, ConfigBytes, ConfigError, Field, HEADER_BYTES, Header, encode, refusal_of,
+    BoardCode, ConfigBytes, ConfigError, Field, HEADER_BYTES, Header, Packet, encode, refusal_of,
 };
 use host_sim::bench::config_of;
 use host_sim::bus::WireFault;
@@ -10,7 +10,7 @@ use host_sim::run::Run;
 use scene::{Override, Scene};
 use tactile::ModelBuf;
 use whisking::{Fix, Number};
-use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
 use crate::common::{SEQUENTIAL, TEXTURED, model};
 
@@ -88,7 +88,7 @@ fn answers(run: &mut Run, commands: &[Command]) -> Vec<Answer> {
         let packets = run.module_mut().take_packets();
         answers.extend(packets.iter().filter_map(|packet| match packet {
             Packet::Answer(answer) => Some(*answer),
-            Packet::Record(_) => None,
+            Packet::Record(_) | Packet::Event(_) => None,
         }));
     }
     answers
