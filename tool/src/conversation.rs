@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand, WhiskerId};
+use wire::{Answer, Command, CommandStatus, TaggedCommand, WhiskerId};
 
 use crate::source::{Heard, Source};
 
@@ -119,16 +120,32 @@ impl Conversation {
                 "the module says that it does not tick".to_owned(),
             ));
         }
+        let scene = self.name(Command::Name)?;
+        Ok(AboutModule { scene, tick_hz })
+    }
+
+    /// The names of the classes of its model; none where it decides by none.
+    pub(crate) fn classes(&mut self) -> Result<Vec<String>, Error> {
+        let answer = self.answer(Command::Model)?;
+        let count = match answer.status {
+            CommandStatus::Done => u8::try_from(answer.values[1]).unwrap_or(0),
+            _ => 0,
+        };
+        let mut name = |class| self.name(|from| Command::Class(class, from));
+        (0..count).map(&mut name).collect()
+    }
+
+    /// A name, letters of which `command` asks for.
+    fn name(&mut self, command: impl Fn(u8) -> Command) -> Result<String, Error> {
         let mut letters: Vec<u8> = Vec::new();
         while let Ok(from) = u8::try_from(letters.len()) {
-            let answer = self.ask(Command::Name(from))?;
+            let answer = self.ask(command(from))?;
             letters.extend(answer.values.map(i32::to_le_bytes).as_flattened());
             if letters.last() == Some(&0) {
                 break;
             }
         }
         letters.retain(|letter| *letter != 0);
-        let scene = String::from_utf8_lossy(&letters).into_owned();
-        Ok(AboutModule { scene, tick_hz })
+        Ok(String::from_utf8_lossy(&letters).into_owned())
     }
 }

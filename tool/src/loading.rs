@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use firmware::Part;
+use firmware::{Packet, Part};
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Load, LoadedWord, Packet, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, Load, LoadedWord, TaggedCommand};
 
 use crate::configuration::not_built;
 use crate::deployment::Deployment;

@@ -17,7 +17,6 @@ mod deployment;
 mod doctor;
 mod exchange;
 mod loading;
-mod log_line;
 mod monitor;
 mod probe;
 mod record_file;

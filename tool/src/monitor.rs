@@ -14,6 +14,7 @@ mod svg;
 mod view;
 mod window;
 
+pub(crate) use faults::number;
 pub(crate) use hearing::{Hearing, Shared, Wish};
 pub(crate) use history::History;
 pub(crate) use known::Known;

@@ -5,10 +5,10 @@ mod messages;
 
 use std::path::{Path, PathBuf};
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
 use host_sim::output::{self, Output, is_stdout};
-use wire::Packet;
 
 use crate::table::RecordWriter;
 use messages::Messages;
@@ -54,11 +54,16 @@ pub(crate) fn check_new(path: &Path) -> Result<(), Error> {
 }
 
 impl RecordFile {
-    /// A file of a module with so many ticks a second.
-    pub(crate) fn create(path: &Path, origin: &Origin, tick_hz: u32) -> Result<Self, Error> {
+    /// A file of a module with so many ticks a second, which decides for these classes.
+    pub(crate) fn create(
+        path: &Path,
+        origin: &Origin,
+        tick_hz: u32,
+        classes: &[String],
+    ) -> Result<Self, Error> {
         let failed = |error| Error::write(path, error);
         let form = if is_messages(path)? {
-            let messages = Messages::new(Output::create(path)?, origin, tick_hz);
+            let messages = Messages::new(Output::create(path)?, origin, tick_hz, classes);
             Form::Messages(Box::new(messages.map_err(failed)?))
         } else {
             let output = Output::create_or_stdout(path)?;
@@ -71,12 +76,12 @@ impl RecordFile {
         })
     }
 
-    /// Writes records and answers; a table has no answers.
+    /// Writes records, answers and events; a table has records alone.
     pub(crate) fn packets(&mut self, packets: &[Packet]) -> Result<(), Error> {
         for packet in packets {
             let written = match (&mut self.form, packet) {
                 (Form::Table(rows), Packet::Record(record)) => rows.row(record),
-                (Form::Table(_), Packet::Answer(_)) => Ok(()),
+                (Form::Table(_), _) => Ok(()),
                 (Form::Messages(messages), packet) => messages.packet(packet),
             };
             written.map_err(|error| Error::write(&self.path, error))?;

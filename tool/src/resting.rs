@@ -1,8 +1,9 @@
 //! Bringing whiskers to rest, and their motors off: before a module is started anew, which takes
 //! where its whiskers are then for their rest.
 
+use firmware::Packet;
 use host_sim::Error;
-use wire::{Command, CommandStatus, Flags, Packet, TickRecord, WhiskerId, degrees};
+use wire::{Command, CommandStatus, Flags, TickRecord, WhiskerId, degrees};
 
 use crate::conversation::Conversation;
 

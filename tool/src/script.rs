@@ -3,10 +3,11 @@
 use std::collections::VecDeque;
 use std::path::Path;
 
+use firmware::Packet;
 use host_sim::Error;
 use scene::Override;
 use wire::text::{self, Spoken};
-use wire::{Command, CommandStatus, Packet};
+use wire::{Command, CommandStatus};
 
 use crate::conversation::Conversation;
 use crate::source::SourceChoice;

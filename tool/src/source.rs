@@ -7,7 +7,6 @@ mod flash;
 mod laying;
 mod person;
 mod port;
-mod port_line;
 mod program;
 #[cfg(test)]
 mod scripted;
@@ -24,17 +23,17 @@ pub(crate) use scripted::Scripted;
 #[cfg(unix)]
 pub(crate) use texture::texture;
 
-use firmware::Links;
+use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::{Packet, TaggedCommand};
+use wire::TaggedCommand;
 
 use crate::deployment::Deployment;
 
 /// What has come from a module.
 #[derive(Debug, Default)]
 pub(crate) struct Heard {
-    /// Records and answers, in their order.
+    /// Records, answers and events, in their order.
     pub(crate) packets: Vec<Packet>,
     /// Whole lines of its log.
     pub(crate) lines: Vec<String>,

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use firmware::Packet;
 use host_sim::Error;
-use wire::{Command, Flags, Packet, TickRecord, WhiskerId, degrees};
+use wire::{Command, Flags, TickRecord, WhiskerId, degrees};
 
 use crate::conversation::Conversation;
 use crate::tally::{Before, Tally, side};

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use firmware::Packet;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use jiff::Timestamp;
 use toml_edit::DocumentMut;
-use wire::{Command, Packet};
+use wire::Command;
 
 use super::order::SideName;
 use crate::capture::{Checks, Label, Recording, Sampler, Touches};

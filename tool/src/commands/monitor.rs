@@ -125,22 +125,25 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Read
     let scene = arguments.source.scene();
     let known = Known::of(scene, arguments.model.as_deref())?;
     let mut module = Conversation::new(arguments.source.open(0)?);
+    let begun_s = module.source().now_s();
     // From the first tick on: how the whisker swings in the air is learnt from.
     module.ask(Command::Stream(true))?;
     let [_, whiskers] = module.ask(Command::Hello)?.values;
     let whiskers = usize::try_from(whiskers).unwrap_or(1);
     let crate::conversation::AboutModule { scene, tick_hz, .. } = module.about()?;
+    let classes = module.classes()?;
     let listener = known.map(|known| Listener::new(known, tick_hz, whiskers));
     let origin: Origin = module.origin()?.with("scene", &scene);
     let files = arguments.out.iter();
-    let files = files.map(|path| RecordFile::create(path, &origin, tick_hz));
+    let files = files.map(|path| RecordFile::create(path, &origin, tick_hz, &classes));
     let files = files.collect::<Result<Vec<_>, _>>()?;
     let board = origin.get("board").unwrap_or("unknown").to_owned();
     let mut title = format!("{scene}, {board}, {tick_hz} Hz");
     if !files.is_empty() {
         title.push_str(", recording");
     }
-    let history = History::new(tick_hz, whiskers, listener.transpose()?);
+    let mut history = History::new(tick_hz, whiskers, listener.transpose()?);
+    history.module_classes = classes;
     let shared = Arc::new(Mutex::new(Shared {
         history,
         message: None,
@@ -158,6 +161,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Read
             Some(_) => None,
             None => arguments.speed.or(arguments.source.pace()),
         },
+        begun_s,
         most_s: pictures.or(arguments.seconds),
     };
     let about = About {

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use firmware::Packet;
 use host_sim::output::is_stdout;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
-use wire::{Command, Flags, Packet, TickRecord};
+use wire::{Command, Flags, TickRecord};
 
 use crate::conversation::Conversation;
 use crate::record_file::{self, RecordFile};
@@ -79,10 +80,11 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     module.ask(Command::Stream(true))?;
     let lost_before = module.ask(Command::Status)?.values[0];
     let about = module.about()?;
+    let classes = module.classes()?;
     let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
 
     let origin = module.origin()?.with("scene", &about.scene);
-    let mut kept = RecordFile::create(out, &origin, about.tick_hz)?;
+    let mut kept = RecordFile::create(out, &origin, about.tick_hz, &classes)?;
     let mut summary = Summary::default();
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
     let mut first = None;

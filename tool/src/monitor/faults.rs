@@ -2,33 +2,41 @@
 
 use std::fmt::Write as _;
 
-use firmware::faults::{FaultRow, TABLE};
+use firmware::faults::TABLE;
+use firmware::{Event, EventRecord};
+use host_sim::report;
 
 /// A fault that was told of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
-    /// When, where and which.
+    /// When, where and which, and its likely causes.
     pub(crate) what: String,
-    pub(crate) cause: &'static str,
     pub(crate) remedy: String,
 }
 
-/// What the table of faults says of a number that a line of the log tells of.
-pub(super) fn fault(number: u8, place: &str, text: &str) -> Fault {
-    let row: Option<&FaultRow> = TABLE.iter().find(|row| row.number == number);
-    let Some(row) = row else {
-        return Fault {
-            what: format!("{place}{text}"),
-            cause: "not in this program's table",
-            remedy: "a newer version of this program".to_owned(),
-        };
-    };
-    let kind = text.split(' ').next().unwrap_or("fault");
-    Fault {
-        what: format!("{place}{kind} {number}: {}", row.name),
-        cause: row.causes,
-        remedy: plain(row.check),
+/// The number of the fault or limit that an event is about, if it is about one.
+pub(crate) const fn number(event: &Event) -> Option<u8> {
+    match event {
+        Event::SensorLost(_, why) => Some(why.code()),
+        Event::MotorFault(_, why) => Some(why.code()),
+        Event::Limit(number) => Some(*number),
+        _ => None,
     }
+}
+
+/// What the table of faults says of an event, if it is about a fault.
+pub(super) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32) -> Option<Fault> {
+    let number = number(event)?;
+    let t_s = f64::from(*sequence) / f64::from(tick_hz);
+    let (_, said) = report::said(event, &[])?;
+    let row = TABLE.iter().find(|row| row.number == number);
+    Some(Fault {
+        what: format!("{t_s:.3} {said}"),
+        remedy: row.map_or_else(
+            || "a newer version of this program".to_owned(),
+            |row| plain(row.check),
+        ),
+    })
 }
 
 /// A row of the table of faults in plain text.

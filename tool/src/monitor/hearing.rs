@@ -5,8 +5,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use firmware::Packet;
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Flags, Packet};
+use wire::{Answer, Command, CommandStatus, Flags};
 
 use super::history::History;
 use crate::conversation::Conversation;
@@ -58,6 +59,8 @@ pub(crate) struct Hearing {
     pub(crate) wishes: Receiver<Wish>,
     /// Seconds of the module in a second; none: as fast as it goes.
     pub(crate) speed: Option<f64>,
+    /// When it has begun, s of the module.
+    pub(crate) begun_s: f64,
     /// How long to listen, s of the module; none: until it is ended.
     pub(crate) most_s: Option<f64>,
 }
@@ -92,8 +95,7 @@ impl Hearing {
     }
 
     fn hear(&mut self) -> Result<(), Error> {
-        let begun_s = self.module.source().now_s();
-        let mut pace = Pace::new(self.speed, begun_s);
+        let mut pace = Pace::new(self.speed, self.module.source().now_s());
         let mut stopping: Option<Stopping> = None;
         let mut ends_at_s: Option<f64> = None;
         let mut is_ending = false;
@@ -151,7 +153,11 @@ impl Hearing {
             if is_off || ends_at_s.is_some_and(|end_s| now_s >= end_s) {
                 return Ok(());
             }
-            if !is_ending && self.most_s.is_some_and(|most_s| now_s - begun_s >= most_s) {
+            if !is_ending
+                && self
+                    .most_s
+                    .is_some_and(|most_s| now_s - self.begun_s >= most_s)
+            {
                 return Ok(());
             }
         }
@@ -210,7 +216,7 @@ impl Hearing {
 fn is_unarmed(heard: &Heard) -> bool {
     let mut flags = heard.packets.iter().filter_map(|packet| match packet {
         Packet::Record(record) => Some(record.flags),
-        Packet::Answer(_) => None,
+        Packet::Answer(_) | Packet::Event(_) => None,
     });
     let first = flags.next();
     first.is_some_and(|first| {

@@ -2,18 +2,17 @@
 
 use std::collections::{VecDeque, vec_deque};
 
-use wire::{Answer, Flags, Packet, TickRecord};
+use firmware::{Event, EventRecord, Health, Packet};
+use wire::{Answer, Flags, TickRecord};
 
-use super::faults::{Fault, fault};
 use super::listener::{Decided, Listener};
-use crate::log_line::{Health, LogLine, News};
 use crate::source::Heard;
-use crate::tally::{Before, SIDES, Tally, TickCount, side};
+use crate::tally::{Before, Tally, TickCount, side};
 
 /// For how long records are held, s.
 pub(crate) const HELD_S: u32 = 300;
 
-/// How many lines of the log are held.
+/// How many lines of the log are held, and how many events.
 const LINES: usize = 4000;
 
 /// How often the classifier's posteriors are kept in a second.
@@ -48,9 +47,10 @@ pub(crate) struct History {
     pub(crate) tally: Tally,
     pub(crate) sides: [VecDeque<Entry>; 2],
     pub(crate) lines: VecDeque<Said<String>>,
-    /// Touches and decisions, as they are shown, and faults.
-    pub(crate) events: VecDeque<Said<String>>,
-    pub(crate) faults: VecDeque<Said<Fault>>,
+    /// What has happened in the module, health apart.
+    pub(crate) events: VecDeque<Said<EventRecord>>,
+    /// The names of the module's classes.
+    pub(crate) module_classes: Vec<String>,
     pub(crate) beliefs: [VecDeque<Belief>; 2],
     /// What the PC decided last for each side.
     pub(crate) decided: [VecDeque<Said<Decided>>; 2],
@@ -76,7 +76,7 @@ impl History {
             sides: [VecDeque::new(), VecDeque::new()],
             lines: VecDeque::new(),
             events: VecDeque::new(),
-            faults: VecDeque::new(),
+            module_classes: Vec::new(),
             beliefs: [VecDeque::new(), VecDeque::new()],
             decided: [VecDeque::new(), VecDeque::new()],
             health: None,
@@ -117,10 +117,15 @@ impl History {
             match packet {
                 Packet::Record(record) => self.record(record),
                 Packet::Answer(answer) => answers.push(*answer),
+                Packet::Event(EventRecord {
+                    event: Event::Health(health),
+                    ..
+                }) => self.health = Some(*health),
+                Packet::Event(event) => say(&mut self.events, self.ticks.now(), *event),
             }
         }
         for line in &heard.lines {
-            self.line(line);
+            say(&mut self.lines, self.ticks.now(), line.clone());
         }
         answers
     }
@@ -175,51 +180,8 @@ impl History {
             }
         }
         for decided in decided {
-            let decisions = &mut self.decided[decided.side.min(1)];
-            decisions.push_back(Said {
-                ticks,
-                what: decided,
-            });
-            bound(decisions, LINES);
+            say(&mut self.decided[decided.side.min(1)], ticks, decided);
         }
-    }
-
-    fn line(&mut self, line: &str) {
-        let ticks = self.now();
-        let told = LogLine::of(line);
-        let t_s = told.t_s.unwrap_or(ticks as f64 / f64::from(self.tick_hz));
-        let side = told.side.map(|side| SIDES[usize::from(side)]);
-        let of = side.map_or(String::new(), |side| format!("{side} "));
-        let event = match told.news {
-            News::Touch(number) => Some(format!("{t_s:8.3} {of}touch {number}")),
-            News::TouchEnd(number) => Some(format!("{t_s:8.3} {of}  {number} ends")),
-            News::Decision {
-                class,
-                posterior,
-                samples,
-            } => {
-                let percent = 100.0 * posterior;
-                Some(format!("{t_s:8.3} {of}{class} {percent:.2} % {samples}"))
-            }
-            News::Fault(number) => {
-                let what = fault(number, &format!("{t_s:.3} {of}"), told.text);
-                self.faults.push_back(Said { ticks, what });
-                bound(&mut self.faults, LINES);
-                None
-            }
-            News::Health(health) => {
-                self.health = Some(health);
-                None
-            }
-            News::Other => None,
-        };
-        if let Some(what) = event {
-            self.events.push_back(Said { ticks, what });
-            bound(&mut self.events, LINES);
-        }
-        let what = line.to_owned();
-        self.lines.push_back(Said { ticks, what });
-        bound(&mut self.lines, LINES);
     }
 
     /// What is held of a side from `from` on, up to and with `to`.
@@ -247,6 +209,11 @@ pub(crate) fn by<T>(said: &VecDeque<Said<T>>, end: u64) -> Option<&Said<T>> {
     until(said, end).next_back()
 }
 
+fn say<T>(all: &mut VecDeque<Said<T>>, ticks: u64, what: T) {
+    all.push_back(Said { ticks, what });
+    bound(all, LINES);
+}
+
 fn bound<T>(all: &mut VecDeque<T>, most: usize) {
     while all.len() > most {
         all.pop_front();
@@ -255,7 +222,8 @@ fn bound<T>(all: &mut VecDeque<T>, most: usize) {
 
 #[cfg(test)]
 mod tests {
-    use wire::{Flags, Packet, TickRecord};
+    use firmware::{Event, EventRecord, Health, Packet};
+    use wire::{Flags, TickRecord};
 
     use super::{HELD_S, History, by};
     use crate::source::Heard;
@@ -292,8 +260,15 @@ mod tests {
     fn lines_have_the_tick_by_which_they_came() {
         let mut history = History::new(1000, 1, None);
         let mut next = heard(40, Flags::default());
-        next.lines =
-            vec!["0.040 INFO  longest tick 10.0 us of 1000; missed 3, events dropped 0".into()];
+        next.lines = vec!["0.040 INFO  health 10.0 1000 3 0 0".into()];
+        let missed = Health {
+            missed: 3,
+            ..Health::default()
+        };
+        next.packets.push(Packet::Event(EventRecord {
+            sequence: 40,
+            event: Event::Health(missed),
+        }));
         history.take(&next);
         history.take(&heard(50, Flags::default()));
         assert_eq!(history.health.unwrap().missed, 3);

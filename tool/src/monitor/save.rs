@@ -2,30 +2,39 @@
 
 use std::path::{Path, PathBuf};
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::Packet;
 
-use super::history::{Entry, History};
+use super::history::History;
 use crate::record_file::RecordFile;
 
 /// What is held, taken at once.
 pub(crate) struct Held {
     tick_hz: u32,
-    entries: Vec<Entry>,
+    records: usize,
+    packets: Vec<(u64, Packet)>,
     lines: Vec<(u64, String)>,
+    classes: Vec<String>,
 }
 
 impl Held {
     /// All that a history has.
     pub(crate) fn of(history: &History) -> Self {
-        let mut entries: Vec<Entry> = history.sides.iter().flatten().copied().collect();
+        let records = history.sides.iter().flatten();
+        let records = records.map(|entry| (entry.ticks, Packet::Record(entry.record)));
+        let mut packets: Vec<_> = records.collect();
+        let count = packets.len();
+        let events = history.events.iter();
+        packets.extend(events.map(|said| (said.ticks, Packet::Event(said.what))));
         // The left side's first, as they came.
-        entries.sort_by_key(|entry| entry.ticks);
+        packets.sort_by_key(|(ticks, _)| *ticks);
         let lines = history.lines.iter();
         Self {
             tick_hz: history.tick_hz,
-            entries,
+            records: count,
+            packets,
+            classes: history.module_classes.clone(),
             lines: lines.map(|said| (said.ticks, said.what.clone())).collect(),
         }
     }
@@ -33,19 +42,19 @@ impl Held {
     /// Writes it to a new file; returns which, and how many records are in it.
     pub(crate) fn write(&self, path: &Path, origin: &Origin) -> Result<(PathBuf, usize), Error> {
         let path = free(path);
-        let mut file = RecordFile::create(&path, origin, self.tick_hz)?;
+        let mut file = RecordFile::create(&path, origin, self.tick_hz, &self.classes)?;
         let mut lines = self.lines.iter().peekable();
-        for entry in &self.entries {
-            while let Some((_, line)) = lines.next_if(|(ticks, _)| *ticks < entry.ticks) {
+        for (ticks, packet) in &self.packets {
+            while let Some((_, line)) = lines.next_if(|(said, _)| said < ticks) {
                 file.line(line)?;
             }
-            file.packets(&[Packet::Record(entry.record)])?;
+            file.packets(std::slice::from_ref(packet))?;
         }
         for (_, line) in lines {
             file.line(line)?;
         }
         file.finish()?;
-        Ok((path, self.entries.len()))
+        Ok((path, self.records))
     }
 }
 
@@ -61,8 +70,9 @@ fn free(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use firmware::Packet;
     use host_sim::origin::Origin;
-    use wire::{Flags, Packet, TickRecord};
+    use wire::{Flags, TickRecord};
 
     use super::Held;
     use crate::monitor::history::History;

@@ -1,8 +1,10 @@
 //! What is drawn, taken from the history at once, so that nothing is drawn while it is held.
 
+use firmware::{Event, EventRecord, Place};
+use host_sim::decisions;
 use wire::{Flags, TickRecord, degrees, unit};
 
-use super::faults::Fault;
+use super::faults::{Fault, fault, number};
 use super::history::{History, by, until};
 use super::view::{Extent, View};
 use crate::tally::SIDES;
@@ -91,9 +93,13 @@ impl History {
         let extent = self.extent();
         let end = view.end(extent);
         let from = end.saturating_sub(self.ticks_of(view.span_s()));
-        let events = until(&self.events, end);
-        let old = events.len().saturating_sub(MOST_LINES);
-        let faults = until(&self.faults, end);
+        let events = || until(&self.events, end).map(|said| &said.what);
+        let lines = events().rev().filter_map(|event| self.line(event));
+        let mut lines: Vec<_> = lines.take(MOST_LINES).collect();
+        lines.reverse();
+        let faults = events()
+            .rev()
+            .filter_map(|event| fault(event, self.tick_hz));
         Shown {
             title: title.to_owned(),
             from_s: end as f64 / hz - view.span_s(),
@@ -105,17 +111,33 @@ impl History {
                 .iter()
                 .map(|side| self.whisker(*side, from, end))
                 .collect(),
-            events: events.skip(old).map(|said| said.what.clone()).collect(),
-            fault_count: faults.len(),
-            faults: faults
-                .rev()
-                .take(MOST_FAULTS)
-                .map(|said| said.what.clone())
-                .collect(),
+            events: lines,
+            fault_count: events().filter_map(|of| number(&of.event)).count(),
+            faults: faults.take(MOST_FAULTS).collect(),
             load: self.load(),
             classifying: self.classifying(view, end),
             message,
         }
+    }
+
+    /// A touch or a decision.
+    fn line(&self, EventRecord { sequence, event }: &EventRecord) -> Option<String> {
+        let t_s = f64::from(*sequence) / f64::from(self.tick_hz);
+        let of = |place: &Place| match self.whiskers {
+            1 => String::new(),
+            _ => format!("{} ", place.side_name()),
+        };
+        Some(match event {
+            Event::Touch { place, number } => format!("{t_s:8.3} {}touch {number}", of(place)),
+            Event::TouchEnd { place, number } => format!("{t_s:8.3} {}  {number} ends", of(place)),
+            Event::Decision(place, decision) => {
+                let class = decisions::name(*decision, &self.module_classes);
+                let percent = 100.0 * decision.posterior().to_f64();
+                let samples = decision.samples();
+                format!("{t_s:8.3} {}{class} {percent:.2} % {samples}", of(place))
+            }
+            _ => return None,
+        })
     }
 
     fn whisker(&self, side: usize, from: u64, end: u64) -> Whisker {
@@ -170,11 +192,9 @@ impl History {
         let mut load = Vec::new();
         match self.health {
             Some(health) => {
-                let share = 100.0 * health.longest_us / health.period_us.max(1e-9);
-                load.push(format!(
-                    "longest tick {:.1} us ({share:.0} %)",
-                    health.longest_us
-                ));
+                let longest_us = f64::from(health.worst_tenths) / 10.0;
+                let share = longest_us * f64::from(self.tick_hz) / 1e4;
+                load.push(format!("longest tick {longest_us:.1} us ({share:.0} %)"));
                 load.push(format!(
                     "ticks missed {}, events dropped {}",
                     health.missed, health.dropped

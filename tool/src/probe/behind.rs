@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use firmware::Links;
 use host_sim::Error;
 use host_sim::origin::Origin;
+use host_sim::received::Receiver;
 use rtt::{LogDecoder, Ram, Ring, Rtt};
-use wire::{Packet, TaggedCommand};
+use wire::TaggedCommand;
 
 use super::find;
 use super::memory::MemoryPort;
@@ -16,7 +17,7 @@ use crate::deployment::Deployment;
 use crate::loading::load;
 use crate::source::{BoardName, Heard, Laying, Source, by_probe};
 
-/// Between two looks where nothing has come: a sixth of the time in which the ring of packets
+/// Between two looks where nothing has come: a quarter of the time in which the ring of packets
 /// fills.
 const PAUSE: Duration = Duration::from_millis(10);
 
@@ -45,6 +46,7 @@ pub(super) struct Behind {
     rtt: Rtt,
     /// Of packets and requests; none where its program has no telemetry.
     rings: Option<[Ring; 2]>,
+    receiver: Receiver,
     decoder: Option<LogDecoder>,
     laying: Laying,
     since: Instant,
@@ -85,6 +87,7 @@ impl Behind {
             board,
             rtt,
             rings,
+            receiver: Receiver::default(),
             decoder,
             laying,
             since: Instant::now(),
@@ -117,13 +120,13 @@ impl Source for Behind {
             sleep(PAUSE);
         }
         Ok(Heard {
-            packets: bytes.as_chunks().0.iter().map(Packet::from_bytes).collect(),
+            packets: self.receiver.packets(&bytes),
             lines: lines.unwrap_or_default(),
         })
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        let bytes = request.bytes();
+        let bytes = wire::frame(&request);
         let sent = match self.rings {
             Some([_, requests]) => requests.send(&mut self.memory, &bytes)?,
             None => 0,

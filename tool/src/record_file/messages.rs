@@ -4,17 +4,19 @@
 use std::collections::BTreeMap;
 use std::io;
 
+use firmware::{Event, EventRecord, Packet};
 use host_sim::origin::Origin;
 use host_sim::output::Output;
+use host_sim::{decisions, report};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
-use wire::{Answer, Packet, TickRecord};
+use wire::{Answer, TickRecord};
 
-use crate::log_line::{LogLine, News};
+use crate::monitor::number;
 use crate::table;
-use crate::tally::{SIDES, TickCount, side};
+use crate::tally::{TickCount, side};
 
 /// Nanoseconds in a second.
 const NS: u64 = 1_000_000_000;
@@ -27,18 +29,25 @@ pub(super) struct Messages {
     count: u32,
     tick_hz: u32,
     ticks: TickCount,
+    classes: Vec<String>,
 }
 
 struct Channels {
     records: [u16; 2],
     answers: u16,
     decisions: u16,
+    events: u16,
     log: u16,
 }
 
 impl Messages {
-    /// Messages of a module with so many ticks a second.
-    pub(super) fn new(output: Output, origin: &Origin, tick_hz: u32) -> io::Result<Self> {
+    /// Messages of a module with so many ticks a second, which decides for these classes.
+    pub(super) fn new(
+        output: Output,
+        origin: &Origin,
+        tick_hz: u32,
+        classes: &[String],
+    ) -> io::Result<Self> {
         let options = WriteOptions::new()
             .disable_seeking(true)
             .compression(None)
@@ -66,6 +75,7 @@ impl Messages {
                 ],
                 answers: channel("/answers", "whisker.Answer", answer_schema())?,
                 decisions: channel("/decisions", "whisker.Decision", decision_schema())?,
+                events: channel("/events", "whisker.Event", event_schema())?,
                 // The one that Foxglove's panel of logs reads.
                 log: channel("/log", "foxglove.Log", log_schema())?,
             })
@@ -77,6 +87,7 @@ impl Messages {
             count: 0,
             tick_hz,
             ticks: TickCount::default(),
+            classes: classes.to_vec(),
         })
     }
 
@@ -88,7 +99,33 @@ impl Messages {
                 let message = answer_message(answer, self.tick_hz);
                 self.write(channel, message.to_string().as_bytes())
             }
+            Packet::Event(event) => self.event(event),
         }
+    }
+
+    fn event(&mut self, EventRecord { sequence, event }: &EventRecord) -> io::Result<()> {
+        let t_s = f64::from(*sequence) / f64::from(self.tick_hz);
+        let (channel, message) = match event {
+            Event::Decision(place, decision) => {
+                let message = json!({
+                    "t_s": t_s,
+                    "side": place.side_name(),
+                    "decision": decisions::name(*decision, &self.classes),
+                    "posterior": decision.posterior().to_f64(),
+                    "samples": decision.samples(),
+                });
+                (self.channels.decisions, message)
+            }
+            event => {
+                let Some((_, said)) = report::said(event, &self.classes) else {
+                    return Ok(());
+                };
+                let fault = number(event).unwrap_or(0);
+                let message = json!({"t_s": t_s, "fault": fault, "said": said});
+                (self.channels.events, message)
+            }
+        };
+        self.write(channel, message.to_string().as_bytes())
     }
 
     fn record(&mut self, record: &TickRecord) -> io::Result<()> {
@@ -98,11 +135,10 @@ impl Messages {
         self.write(channel, message.as_bytes())
     }
 
-    /// A line of the log; one about a decision is a decision besides.
+    /// A line of the log.
     pub(super) fn line(&mut self, line: &str) -> io::Result<()> {
-        let told = LogLine::of(line);
         let ns = self.now();
-        let level = match told.level {
+        let level = match line.split(' ').nth(1) {
             Some("DEBUG" | "TRACE") => 1,
             Some("WARN") => 3,
             Some("ERROR") => 4,
@@ -116,24 +152,7 @@ impl Messages {
             "file": "",
             "line": 0,
         });
-        self.write(self.channels.log, message.to_string().as_bytes())?;
-        if let News::Decision {
-            class,
-            posterior,
-            samples,
-        } = told.news
-        {
-            let message = json!({
-                "t_s": told.t_s.unwrap_or(ns as f64 / NS as f64),
-                // A module whose one whisker decides does not name its side.
-                "side": SIDES[usize::from(told.side == Some(1))],
-                "decision": class,
-                "posterior": posterior,
-                "samples": samples,
-            });
-            self.write(self.channels.decisions, message.to_string().as_bytes())?;
-        }
-        Ok(())
+        self.write(self.channels.log, message.to_string().as_bytes())
     }
 
     /// The time of what came last, ns.
@@ -201,6 +220,14 @@ fn decision_schema() -> Value {
         "decision": {"type": "string", "description": "the class, or unknown"},
         "posterior": {"type": "number", "description": "its probability, 0 to 1"},
         "samples": {"type": "integer", "description": "samples that it used"},
+    })
+}
+
+fn event_schema() -> Value {
+    json!({
+        "t_s": {"type": "number", "description": "when it was, s"},
+        "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
+        "said": {"type": "string", "description": "what (docs/serial.md)"},
     })
 }
 

@@ -4,14 +4,14 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use firmware::Links;
+use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
+use host_sim::received::{Received, Receiver};
 use serial2::SerialPort;
-use wire::{Framed, LINE_BYTES, Packet, Piece, Splitter, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use super::laying::Laying;
-use super::port_line::{Said, logged};
 use super::{Heard, Source};
 use crate::deployment::Deployment;
 use crate::loading::load;
@@ -23,8 +23,17 @@ const WAIT: Duration = Duration::from_millis(50);
 /// an emulated one may take some.
 const SILENCE: Duration = Duration::from_secs(20);
 
-/// When an unanswered `hello` is said again.
+/// When an unanswered [`HELLO`] is sent again.
 const ASK_AGAIN: Duration = Duration::from_secs(1);
+
+/// Asks who is there.
+const HELLO: TaggedCommand = TaggedCommand {
+    tag: TAG,
+    command: Command::Hello,
+};
+
+/// Its tag, by which conversations do not begin.
+const TAG: u16 = 0;
 
 /// Most that a line comes behind its time, s.
 const LATE_S: f64 = 1.0;
@@ -53,7 +62,7 @@ impl BoardTime {
 pub(super) struct Port {
     line: SerialPort,
     name: String,
-    splitter: Splitter<LINE_BYTES>,
+    receiver: Receiver,
     laying: Laying,
     /// When something has come last.
     heard: Instant,
@@ -71,7 +80,7 @@ impl Port {
         let mut port = Self {
             line,
             name: path.display().to_string(),
-            splitter: Splitter::new(),
+            receiver: Receiver::default(),
             laying,
             heard: Instant::now(),
             time: BoardTime::default(),
@@ -89,14 +98,27 @@ impl Port {
     fn greet(&mut self) -> Result<(), Error> {
         let begun = Instant::now();
         let mut asked = None;
+        // A board that waits for more of a scene refuses, and gives it up once no request comes.
+        let mut is_loading = false;
         while self.tick_hz.is_none() {
-            if asked.is_none_or(|asked: Instant| asked.elapsed() > ASK_AGAIN) {
-                // A zero ends whatever the board has heard so far, of whomever; behind it the
-                // end of a line would begin a frame.
-                self.write(b"\0hello\n")?;
+            if !is_loading && asked.is_none_or(|asked: Instant| asked.elapsed() > ASK_AGAIN) {
+                self.request(HELLO)?;
                 asked = Some(Instant::now());
             }
-            self.next()?;
+            let heard = self.next()?;
+            is_loading &= heard.lines.is_empty();
+            for packet in heard.packets {
+                match packet {
+                    Packet::Answer(Answer {
+                        tag: TAG,
+                        status: CommandStatus::Done,
+                        values: [tick_hz @ 1..=i32::MAX, _],
+                        ..
+                    }) => self.tick_hz = Some(tick_hz.cast_unsigned()),
+                    Packet::Answer(Answer { tag: TAG, .. }) => is_loading = true,
+                    _ => {}
+                }
+            }
             if begun.elapsed() > SILENCE {
                 let fault = format!("{}: `hello` is not answered", self.name);
                 return Err(Error::Work(fault));
@@ -110,20 +132,19 @@ impl Port {
         written.map_err(|error| Error::Work(format!("{}: {error}", self.name)))
     }
 
-    /// Takes a line; what a log has of it.
-    fn take(&mut self, line: &[u8]) -> Option<String> {
-        let line = String::from_utf8_lossy(line);
-        match logged(&line) {
-            Said::Hello { tick_hz } => {
-                self.tick_hz = Some(tick_hz);
-                None
+    /// The board's time by something that has come, s since its start.
+    fn time_s(&self, received: &Received) -> Option<f64> {
+        let sequence = match received {
+            Received::Line(line) => {
+                let (time, _) = line.split_once(' ')?;
+                return time.parse().ok().filter(|t_s: &f64| t_s.is_finite());
             }
-            Said::Logged { t_s, text } => {
-                self.time.is(t_s);
-                Some(text)
-            }
-            Said::Other => Some(line.into_owned()),
-        }
+            Received::Packet(Packet::Record(record)) => record.sequence,
+            Received::Packet(Packet::Answer(answer)) => answer.sequence,
+            Received::Packet(Packet::Event(event)) => event.sequence,
+            Received::Garbled => return None,
+        };
+        Some(f64::from(sequence) / f64::from(self.tick_hz?))
     }
 }
 
@@ -146,33 +167,22 @@ impl Source for Port {
                 SILENCE.as_secs()
             )));
         }
-        for byte in bytes.iter().take(count) {
-            let line = match self.splitter.push(*byte) {
-                Some(Piece::Frame(frame)) => {
-                    if let Ok(packet) = frame.try_into().map(Packet::from_bytes) {
-                        heard.packets.push(packet);
-                    }
-                    continue;
-                }
-                Some(Piece::Line(line)) => line.to_vec(),
+        for received in self.receiver.take(bytes.get(..count).unwrap_or_default()) {
+            if let Some(t_s) = self.time_s(&received) {
+                self.time.is(t_s);
+            }
+            match received {
+                Received::Line(line) => heard.lines.push(line),
+                Received::Packet(packet) => heard.packets.push(packet),
                 // Of the first line, which was under way as the port was opened, or lost.
-                Some(Piece::Garbled(_)) | None => continue,
-            };
-            heard.lines.extend(self.take(&line));
-        }
-        if let (Some(tick_hz), Some(last)) = (self.tick_hz, heard.packets.last()) {
-            let sequence = match last {
-                Packet::Record(record) => record.sequence,
-                Packet::Answer(answer) => answer.sequence,
-            };
-            self.time
-                .is(f64::from(sequence) / f64::from(tick_hz.max(1)));
+                Received::Garbled => {}
+            }
         }
         Ok(heard)
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.write(Framed::request(&request).bytes())
+        self.write(&wire::frame(&request))
     }
 
     fn laying(&mut self) -> Option<&mut Laying> {

@@ -1,8 +1,9 @@
 //! A module for tests, which answers as it is told to.
 
+use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::{Answer, Command, CommandStatus, Packet, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use super::{Heard, Source};
 use crate::deployment::Deployment;

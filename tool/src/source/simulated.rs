@@ -1,19 +1,20 @@
 //! A module that is simulated: `host-sim`'s.
 
 use firmware::boards::NUCLEO_F446RE;
-use firmware::faults::{self, number};
-use firmware::{Event, Place, Refusal};
-use host_sim::Error;
+use firmware::faults::number;
+use firmware::{Event, Refusal};
 use host_sim::classifier::deployed;
 use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
+use host_sim::{Error, report};
 use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
 use super::{Heard, Source};
+use crate::decides::Decides;
 use crate::deployment::Deployment;
 
 /// A scene's module on this PC.
@@ -48,17 +49,9 @@ impl Simulated {
     /// What a board would log of the last tick.
     fn lines(&self) -> Vec<String> {
         let t_s = self.now();
-        let events = self.run.events().iter().filter_map(line);
-        let mut lines: Vec<_> = events.map(|line| format!("{t_s:.3} {line}")).collect();
-        lines.extend(self.run.decisions().map(|decided| {
-            format!(
-                "{t_s:.3} INFO  decision: {}, posterior {:.4} %, {} samples",
-                decided.decision,
-                100.0 * decided.posterior,
-                decided.samples
-            )
-        }));
-        lines
+        let events = self.run.events().iter();
+        let lines = events.filter_map(|event| line(t_s, event, self.run.classes()));
+        lines.collect()
     }
 
     fn now(&self) -> f64 {
@@ -66,49 +59,27 @@ impl Simulated {
     }
 }
 
-/// What a board would log of the model that it has found.
-fn told(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
-    let at_start = |line: String| format!("0.000 {line}");
-    let lines = match found {
-        Ok(model) => vec![format!(
-            "INFO  decides by model {:08x}, {} classes",
-            model.crc(),
-            model.classes()
-        )],
-        Err(refusal) => vec![
-            format!(
-                "WARN  limit {}, {}",
-                number::NO_MODEL,
-                faults::name(number::NO_MODEL)
-            ),
-            format!("WARN  - {}", refusal.text()),
-        ],
-    };
-    lines.into_iter().map(at_start).collect()
+/// What a board would log of an event.
+fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
+    let (level, said) = report::said(event, classes)?;
+    // As defmt pads it.
+    let level = level.to_uppercase();
+    Some(format!("{t_s:.3} {level:<5} {said}"))
 }
 
-/// A line of the log about an event; decisions have names, which it does not know.
-fn line(event: &Event) -> Option<String> {
-    let of = |place: Place| format!("{} {}", place.side_name(), place.whisker);
-    let fault = |place, number| {
-        let name = faults::name(number);
-        format!("ERROR {}: fault {number}, {name}", of(place))
-    };
-    Some(match *event {
-        Event::Touch { number, .. } => format!("INFO  touch {number}"),
-        Event::TouchEnd { number, .. } => format!("INFO  touch {number} has ended"),
-        Event::SensorLost(place, why) => fault(place, why.code()),
-        Event::MotorFault(place, why) => fault(place, why.code()),
-        Event::ZeroMoved(place, [x, y]) => {
-            format!("INFO  {}: zero moved to x {x}, y {y} codes", of(place))
+/// What a board would log of the model that it has found.
+fn told(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
+    match found {
+        Ok(model) => {
+            let decides = Decides::By(model.crc(), model.classes() as u32);
+            vec![format!("0.000 INFO  {decides}")]
         }
-        Event::SensorBack(place) => format!("INFO  {}: sensor is back", of(place)),
-        Event::MotorRetry(place) => format!("INFO  {}: motor is tried again", of(place)),
-        Event::MotorGivenUp(place) => {
-            format!("ERROR {}: motor off until armed", of(place))
+        Err(refusal) => {
+            let limit = line(0.0, &Event::Limit(number::NO_MODEL), &[]);
+            let why = format!("0.000 WARN  - {}", refusal.text());
+            limit.into_iter().chain([why]).collect()
         }
-        Event::Decision(..) => return None,
-    })
+    }
 }
 
 impl Source for Simulated {

@@ -20,11 +20,8 @@ fn it_tells_touches_and_decisions_in_their_time() {
     );
     let has = |what: &str| lines.iter().filter(|line| line.contains(what)).count();
     // Whisking at 2 Hz, after a second in which touches are not told yet.
-    assert_eq!(has("has ended"), 3, "{lines:?}");
-    assert!(
-        has("INFO  decision: smooth, posterior 99.") >= 3,
-        "{lines:?}"
-    );
+    assert_eq!(has("INFO  end left "), 3, "{lines:?}");
+    assert!(has("INFO  decision left smooth 99.") >= 3, "{lines:?}");
 }
 
 #[test]

@@ -101,15 +101,24 @@ fn messages_are_the_table_and_the_log() {
         .collect();
     assert!(lines.len() >= 3 && lines.len() == decisions.len(), "{log}");
     for (line, (_, decision)) in lines.iter().zip(decisions) {
-        let posterior = 100.0 * decision["posterior"].as_f64().unwrap();
+        // The line cuts it.
+        let percent = (1e6 * decision["posterior"].as_f64().unwrap()).floor() / 1e4;
         let again = format!(
-            "{:.3} INFO  decision: {}, posterior {posterior:.4} %, {} samples",
+            "{:.3} INFO  decision {} {} {percent:.4} {}",
             decision["t_s"].as_f64().unwrap(),
+            decision["side"].as_str().unwrap(),
             decision["decision"].as_str().unwrap(),
             decision["samples"]
         );
         assert_eq!(again, *line);
     }
+    let events = channels["/events"].iter().map(|(_, event)| {
+        assert_eq!(event["fault"], 0);
+        let said = event["said"].as_str().unwrap();
+        format!("{:.3} INFO  {said}", event["t_s"].as_f64().unwrap())
+    });
+    let touches = log.lines().filter(|line| !line.contains("decision"));
+    assert!(events.eq(touches), "{log}");
 }
 
 #[test]

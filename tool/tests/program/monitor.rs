@@ -20,7 +20,7 @@ fn recorded(place: &Place, name: &str) -> (Vec<Value>, bool) {
     let answers = channels.remove("/answers").unwrap_or_default();
     let is_stopped = answers
         .iter()
-        .any(|(_, answer)| answer["command"] == 6 && answer["status"] == 0);
+        .any(|(_, answer)| answer["command"] == 5 && answer["status"] == 0);
     (
         records.into_iter().map(|(_, record)| record).collect(),
         is_stopped,

@@ -7,7 +7,7 @@ use clap::Parser;
 use host_sim::files::read_recording;
 use host_sim::origin::Origin;
 use host_sim::recording::{CHANNELS, GATE, Stream};
-use wire::{Flags, Packet, TaggedCommand};
+use wire::{Flags, TaggedCommand};
 
 use super::*;
 use crate::source::Heard;
@@ -52,7 +52,7 @@ impl Source for Bad {
         }
         heard.packets.retain_mut(|packet| match packet {
             Packet::Record(record) => (self.spoils)(record),
-            Packet::Answer(_) => true,
+            Packet::Answer(_) | Packet::Event(_) => true,
         });
         Ok(heard)
     }

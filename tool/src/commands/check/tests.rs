@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::Parser;
-use wire::{Flags, Packet, TaggedCommand, TickRecord};
+use firmware::Packet;
+use wire::{Flags, TaggedCommand, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
@@ -28,7 +29,7 @@ impl Source for Spoilt {
         let t_s = self.module.now_s();
         heard.packets.retain_mut(|packet| match packet {
             Packet::Record(record) => (self.spoils)(record, t_s),
-            Packet::Answer(_) => true,
+            Packet::Answer(_) | Packet::Event(_) => true,
         });
         Ok(heard)
     }

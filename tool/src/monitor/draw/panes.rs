@@ -163,7 +163,6 @@ fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
     for fault in &shown.faults {
         let style = theme.style(Color::Red).add_modifier(Modifier::BOLD);
         lines.push(Line::from(fault.what.as_str()).style(style));
-        lines.push(Line::from(format!("cause? {}", fault.cause)));
         lines.push(Line::from(format!("check: {}", fault.remedy)));
     }
     if lines.is_empty() {

@@ -1,9 +1,12 @@
 //! The window at all sizes, without a terminal.
 
+use firmware::{Event, EventRecord, Health, Packet, Place};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::style::Color;
-use wire::{Flags, Packet, TickRecord};
+use tactile::Decision;
+use whisking::motor;
+use wire::{Flags, TickRecord};
 
 use super::{Theme, draw};
 use crate::monitor::history::History;
@@ -34,16 +37,25 @@ fn history() -> History {
             });
         }
     }
+    history.module_classes = vec!["carpet".to_owned()];
+    let place = Place::new(0, 0);
+    // At odds of 165 to 2^15 against it.
+    let decision = Decision::from_memory(640, 165, 0).unwrap();
+    let health = Health {
+        worst_tenths: 435,
+        ..Health::default()
+    };
+    let events = [
+        (5_500, Event::Touch { place, number: 3 }),
+        (5_900, Event::Decision(place, decision)),
+        (5_950, Event::MotorFault(place, motor::Fault::Stall)),
+        (6_000, Event::Health(health)),
+    ];
     history.take(&Heard {
-        packets: Vec::new(),
-        lines: [
-            "5.500 INFO  touch 3",
-            "5.900 INFO  decision: carpet, posterior 99.5000 %, 640 samples",
-            "5.950 ERROR left 0: fault 6, driven but not moving (blocked?)",
-            "6.000 INFO  longest tick 43.5 us of 500; missed 0, events dropped 0",
-        ]
-        .map(str::to_owned)
-        .into(),
+        packets: events
+            .map(|(sequence, event)| Packet::Event(EventRecord { sequence, event }))
+            .into(),
+        lines: Vec::new(),
     });
     history
 }
@@ -72,8 +84,8 @@ fn all_is_there_in_the_smallest_usual_window() {
         "no model: --model",
         "touch 3",
         "carpet 99.50 % 640",
-        "fault 6: driven",
-        "longest tick 43.5 us (9 %)",
+        "fault left 6 driven",
+        "longest tick 43.5 us (4 %)",
         "lost 0",
         "x stop",
         "q end",

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Parser;
-use wire::{Command, Packet, TickRecord};
+use firmware::{Event, EventRecord, Packet};
+use host_sim::decisions;
+use wire::{Command, TickRecord};
 
 use super::{Decided, Listener};
 use crate::conversation::Conversation;
-use crate::log_line::{LogLine, News};
 use crate::monitor::known::Known;
 use crate::source::SourceChoice;
 use crate::tally::Tally;
@@ -22,7 +23,7 @@ struct Line {
 type Told = (u32, usize, String, i64, u32);
 
 /// Listens so long to a module that is told as `how` says; `drops` says which records get lost.
-/// Returns what the PC decided, and what the module logged.
+/// Returns what the PC decided, and what the module did.
 fn listened(
     how: &str,
     scene: &Path,
@@ -36,17 +37,27 @@ fn listened(
     let mut module = Conversation::new(source.open(0).unwrap());
     module.ask(Command::Stream(true)).unwrap();
     let [tick_hz, whiskers] = module.ask(Command::Hello).unwrap().values;
+    let classes = module.classes().unwrap();
     let mut listener = Listener::new(known, tick_hz as u32, whiskers as usize).unwrap();
     let mut tally = Tally::default();
     let (mut own, mut told) = (Vec::new(), Vec::new());
-    let mut last = 0;
     while module.source().now_s() < seconds {
         let heard = module.hear().unwrap();
         for packet in &heard.packets {
-            let Packet::Record(record) = packet else {
-                continue;
+            let record = match packet {
+                Packet::Record(record) => record,
+                Packet::Event(EventRecord {
+                    sequence,
+                    event: Event::Decision(place, decision),
+                }) => {
+                    let class = decisions::name(*decision, &classes).to_owned();
+                    let millionths = (1e6 * decision.posterior().to_f64()).floor() as i64;
+                    let side = usize::from(place.side);
+                    told.push((*sequence, side, class, millionths, decision.samples()));
+                    continue;
+                }
+                _ => continue,
             };
-            last = record.sequence;
             if drops(record) {
                 continue;
             }
@@ -59,20 +70,7 @@ fn listened(
                     samples,
                 } = decided;
                 let millionths = (1e6 * posterior).floor() as i64;
-                own.push((last, side, class, millionths, samples));
-            }
-        }
-        for line in &heard.lines {
-            let line = LogLine::of(line);
-            if let News::Decision {
-                class,
-                posterior,
-                samples,
-            } = line.news
-            {
-                let side = usize::from(line.side.unwrap_or(0));
-                let millionths = (1e6 * posterior).round() as i64;
-                told.push((last, side, class.to_owned(), millionths, samples));
+                own.push((record.sequence, side, class, millionths, samples));
             }
         }
     }
@@ -83,8 +81,7 @@ fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"))
 }
 
-/// Ticks and sides apart, in which the log may differ, both say the same: to the last figure
-/// that the log has, which one rounds and the other cuts.
+/// Ticks and sides apart both say the same, to a millionth.
 fn assert_same(own: &[Told], told: &[Told]) {
     for (own, told) in own.iter().zip(told) {
         assert_eq!((&own.2, own.4), (&told.2, told.4), "{own:?} {told:?}");

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use wire::{Flags, Packet, TickRecord};
+use firmware::{Event, EventRecord, Packet, Place};
+use whisking::motor;
+use wire::{Flags, TickRecord};
 
 use super::{Fault, signals};
 use crate::monitor::history::History;
@@ -27,7 +29,7 @@ fn signals_have_their_units() {
     assert_eq!(signals(&record), expected);
 }
 
-/// Records of four seconds at 1 kHz, a peak of one tick in the third, with a line of the log.
+/// Records of four seconds at 1 kHz, a peak of one tick in the third, with a fault.
 fn history() -> History {
     let mut history = History::new(1000, 1, None);
     for sequence in 1..=4000 {
@@ -37,13 +39,13 @@ fn history() -> History {
             measured,
             ..TickRecord::default()
         };
-        let line = "2.000 ERROR left 0: fault 8, runs away (motor or encoder wired wrong?)";
+        let fault = (sequence == 2000).then_some(Packet::Event(EventRecord {
+            sequence,
+            event: Event::MotorFault(Place::new(0, 0), motor::Fault::Runaway),
+        }));
         history.take(&Heard {
-            packets: vec![Packet::Record(record)],
-            lines: (sequence == 2000)
-                .then(|| line.to_owned())
-                .into_iter()
-                .collect(),
+            packets: [Packet::Record(record)].into_iter().chain(fault).collect(),
+            lines: Vec::new(),
         });
     }
     history
@@ -82,8 +84,9 @@ fn a_held_picture_ends_where_it_was_held() {
 fn faults_come_with_cause_and_remedy() {
     let shown = history().shown(&View::new(), "t", String::new());
     let expected = Fault {
-        what: "2.000 left fault 8: runs away".to_owned(),
-        cause: "motor or encoder wired the wrong way round; noise on the encoder's lines",
+        what: "2.000 fault left 8 runs away (motor or encoder wired the wrong way round; noise on \
+               the encoder's lines?)"
+            .to_owned(),
         remedy: "exchange the motor's two wires, or A and B; top_speed_deg_s".to_owned(),
     };
     assert_eq!(shown.faults, [expected]);
