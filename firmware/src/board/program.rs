@@ -313,12 +313,11 @@ impl Idle {
             self.logged = now;
             self.health();
         }
+        // Before the answer that may end them.
+        self.exchange.send_records();
         self.exchange.answer_probe();
         if let Some(serial) = &mut self.serial {
             serial.serve(now, &self.about, (&mut self.exchange, &self.names));
-        }
-        self.exchange.send_records();
-        if let Some(serial) = &mut self.serial {
             serial.send();
         }
     }
