@@ -123,7 +123,7 @@ impl Link {
             }
             Said::Stream(on) => {
                 self.streams = on;
-                self.gap = Flags::NONE;
+                (self.said, self.gap) = (Flags::NONE, Flags::NONE);
                 Ok(())
             }
             Said::Arm | Said::Stop => {
