@@ -7,7 +7,7 @@ use host_sim::Error;
 use host_sim::origin::Origin;
 use wire::{Answer, Command, CommandStatus, TaggedCommand, WhiskerId};
 
-use crate::source::{Heard, Source};
+use crate::source::{Incoming, Source};
 
 /// How long an answer may take, s.
 const PATIENCE_S: f64 = 2.0;
@@ -26,7 +26,7 @@ pub(crate) struct Conversation {
     source: Box<dyn Source>,
     tag: u16,
     /// What has come while an answer was waited for.
-    kept: VecDeque<Heard>,
+    kept: VecDeque<Incoming>,
 }
 
 impl Conversation {
@@ -43,15 +43,15 @@ impl Conversation {
     }
 
     /// What comes next; what came while an answer was waited for comes first.
-    pub(crate) fn hear(&mut self) -> Result<Heard, Error> {
+    pub(crate) fn receive(&mut self) -> Result<Incoming, Error> {
         match self.kept.pop_front() {
-            Some(heard) => Ok(heard),
+            Some(incoming) => Ok(incoming),
             None => self.source.next(),
         }
     }
 
-    /// What came while answers were waited for, and was not heard yet.
-    pub(crate) fn take_kept(&mut self) -> VecDeque<Heard> {
+    /// What came while answers were waited for, and was not received yet.
+    pub(crate) fn take_kept(&mut self) -> VecDeque<Incoming> {
         std::mem::take(&mut self.kept)
     }
 
@@ -77,12 +77,12 @@ impl Conversation {
         let tag = self.send(command)?;
         let begun = self.source.now_s();
         while self.source.now_s() - begun < PATIENCE_S {
-            let mut heard = self.source.next()?;
+            let mut incoming = self.source.next()?;
             let is_it =
                 |packet: &Packet| matches!(packet, Packet::Answer(answer) if answer.tag == tag);
-            let found = heard.packets.iter().position(is_it);
-            let found = found.map(|at| heard.packets.remove(at));
-            self.kept.push_back(heard);
+            let found = incoming.packets.iter().position(is_it);
+            let found = found.map(|at| incoming.packets.remove(at));
+            self.kept.push_back(incoming);
             if let Some(Packet::Answer(answer)) = found {
                 return Ok(answer);
             }

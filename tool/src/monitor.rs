@@ -2,7 +2,6 @@
 
 mod draw;
 mod faults;
-mod hearing;
 mod history;
 mod known;
 mod listener;
@@ -12,12 +11,13 @@ mod shown;
 mod snapshot;
 mod svg;
 mod view;
+mod watching;
 mod window;
 
 pub(crate) use faults::number;
-pub(crate) use hearing::{Hearing, Shared, Wish};
 pub(crate) use history::History;
 pub(crate) use known::Known;
 pub(crate) use listener::Listener;
 pub(crate) use snapshot::{Size, Snapshot, size};
+pub(crate) use watching::{Shared, Watching, Wish};
 pub(crate) use window::{About, open};

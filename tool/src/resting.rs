@@ -63,9 +63,9 @@ fn until(
     let mut such = [false; 2];
     let begun = module.source().now_s();
     while module.source().now_s() - begun < PATIENCE_S {
-        let heard = module.hear()?;
-        lines.extend(heard.lines);
-        for packet in &heard.packets {
+        let incoming = module.receive()?;
+        lines.extend(incoming.lines);
+        for packet in &incoming.packets {
             if let Packet::Record(record) = packet {
                 let side = usize::from(record.flags.contains(Flags::RIGHT));
                 let now = record.sequence;

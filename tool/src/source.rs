@@ -32,7 +32,7 @@ use crate::deployment::Deployment;
 
 /// What has come from a module.
 #[derive(Debug, Default)]
-pub(crate) struct Heard {
+pub(crate) struct Incoming {
     /// Records, answers and events, in their order.
     pub(crate) packets: Vec<Packet>,
     /// Whole lines of its log.
@@ -42,7 +42,7 @@ pub(crate) struct Heard {
 /// A module that can be talked with.
 pub(crate) trait Source {
     /// Waits for what comes next, and takes it. Nothing may have come after a while.
-    fn next(&mut self) -> Result<Heard, Error>;
+    fn next(&mut self) -> Result<Incoming, Error>;
 
     /// Sends a request, whose answer is among what comes next.
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error>;
@@ -92,7 +92,7 @@ pub(crate) trait Source {
     fn origin(&self) -> Origin;
 
     /// Whether it could be talked with as here by a scene with these links; what would help.
-    fn would_hear(&self, _: Links) -> Result<(), Error> {
+    fn would_answer(&self, _: Links) -> Result<(), Error> {
         Ok(())
     }
 
@@ -110,6 +110,6 @@ pub(crate) trait Source {
 pub(crate) fn by_probe(links: Links) -> Result<(), Error> {
     let fault = "telemetry.rtt: found false; the module could not be asked any more by what is \
                  asked here: take that line out";
-    let heard = links.has_rtt.then_some(());
-    heard.ok_or_else(|| Error::Input(fault.to_owned()))
+    let can = links.has_rtt.then_some(());
+    can.ok_or_else(|| Error::Input(fault.to_owned()))
 }

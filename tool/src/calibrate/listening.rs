@@ -144,7 +144,7 @@ impl Listening {
     pub(crate) fn go_on(&mut self) -> Result<(), Error> {
         let kept = self.module.take_kept();
         self.log
-            .extend(kept.into_iter().flat_map(|heard| heard.lines));
+            .extend(kept.into_iter().flat_map(|incoming| incoming.lines));
         self.tally.skip();
         self.module.ask(Command::Stream(true)).map(drop)
     }
@@ -189,10 +189,10 @@ impl Listening {
                     "interrupted; the motors were stopped".to_owned(),
                 ));
             }
-            let heard = self.module.hear()?;
-            self.log.extend(heard.lines);
+            let incoming = self.module.receive()?;
+            self.log.extend(incoming.lines);
             let now_s = self.module.source().now_s();
-            for packet in &heard.packets {
+            for packet in &incoming.packets {
                 let Packet::Record(record) = packet else {
                     continue;
                 };

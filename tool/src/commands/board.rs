@@ -91,10 +91,10 @@ impl Terminal {
 
     /// What somebody has written; what the board says is theirs, or nobody's.
     fn exchange(&mut self, said: &[u8]) -> Result<Vec<u8>, Error> {
-        let mut heard = vec![0; 1024];
-        match rustix::io::read(&self.master, &mut heard) {
-            Ok(count) => heard.truncate(count),
-            Err(Errno::AGAIN) => heard.clear(),
+        let mut received = vec![0; 1024];
+        match rustix::io::read(&self.master, &mut received) {
+            Ok(count) => received.truncate(count),
+            Err(Errno::AGAIN) => received.clear(),
             // Nobody has it open.
             Err(Errno::IO) => {
                 self.waiting.clear();
@@ -112,7 +112,7 @@ impl Terminal {
             Err(Errno::AGAIN | Errno::IO) => {}
             Err(error) => return Err(wrong(error)),
         }
-        Ok(heard)
+        Ok(received)
     }
 }
 
@@ -166,9 +166,9 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
             flash.store(&session.flash()?)?;
         }
         let said = session.serial_read();
-        let heard = terminal.exchange(&said)?;
-        if !heard.is_empty() {
-            session.serial_write(&heard);
+        let received = terminal.exchange(&said)?;
+        if !received.is_empty() {
+            session.serial_write(&received);
         }
         for line in commands.try_iter() {
             let laid = match line.split_whitespace().collect::<Vec<_>>()[..] {

@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// How many touches of each
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     touches: u32,
-    /// The side whose whisker is heard
+    /// The side whose whisker is captured
     #[arg(long, value_enum, default_value = "left")]
     side: SideName,
     /// Goes on with a recording: captures what is missing of each label. Simulated worlds get
@@ -220,14 +220,14 @@ impl Capture {
         let has_clock = self.module.source().has_clock();
         let mut counts = false;
         while touches.felt.len() < most {
-            let heard = self.module.hear()?;
+            let incoming = self.module.receive()?;
             let now_s = self.module.source().now_s();
             let is_laid = self.module.source().is_laid()?;
             if is_by_hand && !is_laid {
                 // A person takes their time.
                 touched_s = now_s;
             }
-            for packet in heard.packets {
+            for packet in incoming.packets {
                 let Packet::Record(record) = packet else {
                     continue;
                 };
@@ -255,7 +255,7 @@ impl Capture {
                         self.progress.pause(|| report::warn(told));
                     }
                 }
-                // What has come with the last touch is heard too, lest it counts as lost.
+                // What has come with the last touch is taken too, lest it counts as lost.
                 if !counts || touches.felt.len() >= most {
                     continue;
                 }

@@ -85,7 +85,7 @@ impl Arguments {
             (_, Some((_, model))) => Deployment::again(&Running::ask(module)?, model.clone()),
             (_, None) => Err(Error::Input("--scene or --model is missing".to_owned())),
         }?;
-        module.source().would_hear(what.config.links)?;
+        module.source().would_answer(what.config.links)?;
         Ok(what)
     }
 }
@@ -146,7 +146,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     };
     let begun = module.source().now_s();
     while module.source().now_s() - begun < seconds {
-        module.hear()?.lines.iter().for_each(report::say);
+        module.receive()?.lines.iter().for_each(report::say);
     }
     Ok(())
 }

@@ -45,10 +45,10 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
             lines += 1;
             report::say(line);
         }
-        let heard = module.hear()?;
-        let answers = heard.packets.iter();
+        let incoming = module.receive()?;
+        let answers = incoming.packets.iter();
         let answers = answers.filter_map(|packet| script.answered(packet, tick_hz));
-        for line in answers.chain(heard.lines) {
+        for line in answers.chain(incoming.lines) {
             lines += 1;
             report::say(line);
         }
@@ -65,6 +65,6 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
 /// Prints lines as they come, until interrupted.
 pub(crate) fn stream(mut module: Conversation) -> Result<(), Error> {
     loop {
-        module.hear()?.lines.into_iter().for_each(report::say);
+        module.receive()?.lines.into_iter().for_each(report::say);
     }
 }

@@ -13,7 +13,7 @@ use wire::Command;
 
 use crate::conversation::Conversation;
 use crate::monitor::{
-    About, Hearing, History, Known, Listener, Shared, Size, Snapshot, Wish, open, size,
+    About, History, Known, Listener, Shared, Size, Snapshot, Watching, Wish, open, size,
 };
 use crate::record_file::{self, RecordFile};
 use crate::source::{SourceChoice, seconds};
@@ -87,9 +87,9 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     if is_window {
         return open(&shared, about, listener, &wish);
     }
-    let heard = listener.join();
+    let ended = listener.join();
     drop(wish);
-    heard.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())))?;
+    ended.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())))?;
     let snapshot = Snapshot::of(&shared, &about, arguments.size)?;
     if let Some(path) = &arguments.snapshot {
         return output::write_whole(path, snapshot.svg().as_bytes());
@@ -111,17 +111,17 @@ fn listen(
     ready: Sender<Ready>,
 ) -> Result<JoinHandle<Result<(), Error>>, Error> {
     let work = move || {
-        let (hearing, is_ready) = begin(&arguments, wishes)?;
+        let (watching, is_ready) = begin(&arguments, wishes)?;
         // Whoever asked for it waits.
         let _ = ready.send(is_ready);
-        hearing.run()
+        watching.run()
     };
     let thread = thread::Builder::new().name("listening".to_owned());
     let started = thread.spawn(work);
     started.map_err(|error| Error::Work(format!("thread: {error}")))
 }
 
-fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Ready), Error> {
+fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Ready), Error> {
     let scene = arguments.source.scene();
     let known = Known::of(scene, arguments.model.as_deref())?;
     let mut module = Conversation::new(arguments.source.open(0)?);
@@ -152,7 +152,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Read
     let pictures = arguments
         .frames
         .map(|frames| f64::from(frames) / PICTURES_HZ);
-    let hearing = Hearing {
+    let watching = Watching {
         module,
         files,
         shared: shared.clone(),
@@ -169,5 +169,5 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Hearing, Read
         origin,
         save: arguments.save.clone(),
     };
-    Ok((hearing, Ready { shared, about }))
+    Ok((watching, Ready { shared, about }))
 }

@@ -88,12 +88,12 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let mut summary = Summary::default();
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
     let mut first = None;
-    'heard: loop {
+    'incoming: loop {
         if let Some(line) = script.play(&mut module)? {
             progress.pause(|| say(line));
         }
-        let heard = module.hear()?;
-        for packet in &heard.packets {
+        let incoming = module.receive()?;
+        for packet in &incoming.packets {
             if let Some(line) = script.answered(packet, about.tick_hz) {
                 progress.pause(|| say(line));
             }
@@ -101,14 +101,14 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
                 let first = *first.get_or_insert(record.sequence);
                 let ticks = record.sequence.wrapping_sub(first);
                 if most.is_some_and(|most| ticks >= most) {
-                    break 'heard;
+                    break 'incoming;
                 }
                 summary.take(record);
                 progress.tick(ticks.into());
             }
             kept.packets(std::slice::from_ref(packet))?;
         }
-        for line in &heard.lines {
+        for line in &incoming.lines {
             kept.line(line)?;
         }
     }

@@ -38,7 +38,7 @@ pub(crate) fn set(arguments: &Arguments) -> Result<(), Error> {
     };
     let begun = module.source().now_s();
     while module.source().now_s() - begun < seconds {
-        module.hear()?.lines.into_iter().for_each(report::say);
+        module.receive()?.lines.into_iter().for_each(report::say);
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Faults that a module tells of, with their cause and remedy.
+//! Faults of a module, with their cause and remedy.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use firmware::faults::TABLE;
 use firmware::{Event, EventRecord};
 use host_sim::report;
 
-/// A fault that was told of.
+/// A fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     /// When, where and which, and its likely causes.

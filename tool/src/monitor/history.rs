@@ -1,4 +1,4 @@
-//! What a module has told in the last minutes.
+//! What a module has said in the last minutes.
 
 use std::collections::{VecDeque, vec_deque};
 
@@ -6,7 +6,7 @@ use firmware::{Event, EventRecord, Health, Packet};
 use wire::{Answer, Flags, TickRecord};
 
 use super::listener::{Decided, Listener};
-use crate::source::Heard;
+use crate::source::Incoming;
 use crate::tally::{Before, Tally, TickCount, side};
 
 /// For how long records are held, s.
@@ -61,7 +61,7 @@ pub(crate) struct History {
     pub(crate) anew: Option<Said<&'static str>>,
     listener: Option<Listener>,
     ticks: TickCount,
-    /// Whether module and PC have decided in the tick that is being heard of.
+    /// Whether module and PC have decided in the tick that is under way.
     deciding: [bool; 2],
     last_belief: u64,
 }
@@ -89,7 +89,7 @@ impl History {
         }
     }
 
-    /// The last tick that was heard of.
+    /// The last tick of which something has come.
     pub(crate) const fn now(&self) -> u64 {
         self.ticks.now()
     }
@@ -111,9 +111,9 @@ impl History {
     }
 
     /// Takes what has come; returns the answers among it.
-    pub(crate) fn take(&mut self, heard: &Heard) -> Vec<Answer> {
+    pub(crate) fn take(&mut self, incoming: &Incoming) -> Vec<Answer> {
         let mut answers = Vec::new();
-        for packet in &heard.packets {
+        for packet in &incoming.packets {
             match packet {
                 Packet::Record(record) => self.record(record),
                 Packet::Answer(answer) => answers.push(*answer),
@@ -124,7 +124,7 @@ impl History {
                 Packet::Event(event) => say(&mut self.events, self.ticks.now(), *event),
             }
         }
-        for line in &heard.lines {
+        for line in &incoming.lines {
             say(&mut self.lines, self.ticks.now(), line.clone());
         }
         answers
@@ -226,15 +226,15 @@ mod tests {
     use wire::{Flags, TickRecord};
 
     use super::{HELD_S, History, by};
-    use crate::source::Heard;
+    use crate::source::Incoming;
 
-    fn heard(sequence: u32, flags: Flags) -> Heard {
+    fn record(sequence: u32, flags: Flags) -> Incoming {
         let record = TickRecord {
             sequence,
             flags,
             ..TickRecord::default()
         };
-        Heard {
+        Incoming {
             packets: vec![Packet::Record(record)],
             lines: Vec::new(),
         }
@@ -245,8 +245,8 @@ mod tests {
         let mut history = History::new(10, 2, None);
         let last = 2 * HELD_S * 10;
         for sequence in 1..=last {
-            history.take(&heard(sequence, Flags::default()));
-            history.take(&heard(sequence, Flags::RIGHT));
+            history.take(&record(sequence, Flags::default()));
+            history.take(&record(sequence, Flags::RIGHT));
         }
         assert_eq!(history.now(), u64::from(last));
         assert_eq!(history.oldest(), u64::from(last - 10 * HELD_S));
@@ -259,7 +259,7 @@ mod tests {
     #[test]
     fn lines_have_the_tick_by_which_they_came() {
         let mut history = History::new(1000, 1, None);
-        let mut next = heard(40, Flags::default());
+        let mut next = record(40, Flags::default());
         next.lines = vec!["0.040 INFO  health 10.0 1000 3 0 0".into()];
         let missed = Health {
             missed: 3,
@@ -270,7 +270,7 @@ mod tests {
             event: Event::Health(missed),
         }));
         history.take(&next);
-        history.take(&heard(50, Flags::default()));
+        history.take(&record(50, Flags::default()));
         assert_eq!(history.health.unwrap().missed, 3);
         assert_eq!(history.tally.lost, 9);
         assert!(by(&history.lines, 39).is_none());

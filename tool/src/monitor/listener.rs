@@ -18,7 +18,7 @@ use super::known::Known;
 use crate::tally::{Before, SIDES, side};
 
 /// Ticks at a module's start by which a record is asked for, where one listens from the start.
-const UNHEARD: u32 = 100;
+const UNSEEN: u32 = 100;
 
 /// A decision that fell here.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,18 +34,18 @@ pub(crate) struct Decided {
 
 /// What is known of one whisker from its records.
 #[derive(Debug, Clone, Copy, Default)]
-struct Ear {
+struct Track {
     filter: filter::State<f32>,
     words: [u16; 2],
     /// Frames that have repeated these words in succession.
     repeats: u16,
     /// Its motor rested or was homed after the last tick.
-    is_deaf: bool,
+    rests: bool,
 }
 
-impl Ear {
+impl Track {
     /// Contact and reading of a tick, as the module has them.
-    fn hear(
+    fn follow(
         &mut self,
         record: &TickRecord,
         h50: &filter::Config<f32>,
@@ -61,15 +61,15 @@ impl Ear {
                 0
             };
         }
-        let was_deaf =
-            std::mem::replace(&mut self.is_deaf, has(Flags::RESTING) || has(Flags::HOMING));
+        let has_rested =
+            std::mem::replace(&mut self.rests, has(Flags::RESTING) || has(Flags::HOMING));
         let [x, y] = words.map(Word::new);
         let reading = Reading {
             x,
             y,
             fresh: has(Flags::FRESH),
             current: self.repeats <= limits.stale,
-            valid: has(Flags::VALID) && !was_deaf,
+            valid: has(Flags::VALID) && !has_rested,
         };
         if !reading.valid {
             self.filter = filter::State::default();
@@ -87,7 +87,7 @@ pub(crate) struct Listener {
     least: Option<f32>,
     h50: filter::Config<f32>,
     limits: SensorLimits,
-    ears: [Ear; 2],
+    tracks: [Track; 2],
     /// How many whiskers a tick has records of, and those of the tick that have come.
     whiskers: usize,
     pending: [Option<TickRecord>; 2],
@@ -109,7 +109,7 @@ impl Listener {
             least: known.contact_min.map(|least| least as f32),
             h50,
             limits: sensor_limits(tick_hz, plausible),
-            ears: [Ear::default(); 2],
+            tracks: [Track::default(); 2],
             whiskers: whiskers.clamp(1, 2),
             pending: [None; 2],
             decided: Vec::new(),
@@ -138,14 +138,14 @@ impl Listener {
         if before != Before::Nothing {
             self.perception = self.perception.take().map(Perception::restarted);
             self.pending = [None; 2];
-            self.ears = [Ear::default(); 2];
+            self.tracks = [Track::default(); 2];
         }
-        if !std::mem::replace(&mut self.has_begun, true) && record.sequence <= UNHEARD {
+        if !std::mem::replace(&mut self.has_begun, true) && record.sequence <= UNSEEN {
             self.catch_up(record.sequence);
         }
         let other = self.pending[1 - side(record)];
         if other.is_some_and(|other| other.sequence != record.sequence) {
-            // The first tick that is heard may be heard of in part.
+            // The first tick may come in part.
             self.pending = [None; 2];
         }
         self.pending[side(record)] = Some(*record);
@@ -187,28 +187,28 @@ impl Listener {
             return;
         };
         let mut fell = Vec::new();
-        for (n, (ear, record)) in self.ears.iter_mut().zip(records).enumerate() {
-            let (contact, reading) = ear.hear(record, &self.h50, self.limits);
-            let heard = Sensed {
+        for (n, (track, record)) in self.tracks.iter_mut().zip(records).enumerate() {
+            let (contact, reading) = track.follow(record, &self.h50, self.limits);
+            let sensed = Sensed {
                 place: Place::new(n as u8, 0),
                 reading,
                 contact,
                 least: self.least,
             };
-            perception.step(n, heard, &mut |event| {
+            perception.step(n, sensed, &mut |event| {
                 if let Event::Decision(place, decision) = event {
                     fell.push((place, decision));
                 }
             });
         }
         let classes = perception.classifier().classes();
-        let heard = fell.into_iter().map(|(place, decision)| Decided {
+        let decided = fell.into_iter().map(|(place, decision)| Decided {
             side: usize::from(place.side),
             class: decisions::name(decision, classes).to_owned(),
             posterior: decision.posterior().to_f64(),
             samples: decision.samples(),
         });
-        self.decided.extend(heard);
+        self.decided.extend(decided);
     }
 }
 

@@ -76,7 +76,7 @@ mod tests {
 
     use super::Held;
     use crate::monitor::history::History;
-    use crate::source::Heard;
+    use crate::source::Incoming;
     use crate::table;
 
     #[test]
@@ -95,7 +95,7 @@ mod tests {
             }
         }
         for record in &records {
-            history.take(&Heard {
+            history.take(&Incoming {
                 packets: vec![Packet::Record(*record)],
                 lines: Vec::new(),
             });

@@ -9,9 +9,9 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 
 use super::draw::{Theme, draw};
-use super::hearing::{Shared, lock};
 use super::svg;
 use super::view::View;
+use super::watching::{Shared, lock};
 use super::window::About;
 
 /// Columns and rows.

@@ -13,10 +13,10 @@ use host_sim::Error;
 use host_sim::origin::Origin;
 
 use super::draw::{Theme, draw};
-use super::hearing::{Shared, Wish, lock};
 use super::save::Held;
 use super::screen::{self, Screen, Window};
 use super::view::{Deed, Key, View, deed};
+use super::watching::{Shared, Wish, lock};
 
 /// From one picture to the next.
 const PICTURE: Duration = Duration::from_millis(50);
@@ -84,8 +84,8 @@ pub(crate) fn open(
         let _ = wishes.send(Wish::StopAndEnd);
     }
 
-    let heard = listener.join();
-    let heard = heard.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+    let ended = listener.join();
+    let ended = ended.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
     lock(shared).has_ended = true;
     let drawn = match drawing_ends.recv_timeout(LAST) {
         Ok(done) => done.map_err(failed),
@@ -97,7 +97,7 @@ pub(crate) fn open(
         }
     };
     drop(screen);
-    heard
+    ended
         .and(signal?.told())
         .and(drawn)
         .and(watched.map(drop))

@@ -15,7 +15,7 @@ use super::find;
 use super::memory::MemoryPort;
 use crate::deployment::Deployment;
 use crate::loading::load;
-use crate::source::{BoardName, Heard, Laying, Source, by_probe};
+use crate::source::{BoardName, Incoming, Laying, Source, by_probe};
 
 /// Between two looks where nothing has come: a quarter of the time in which the ring of packets
 /// fills.
@@ -109,7 +109,7 @@ fn find_block(memory: &mut MemoryPort, board: BoardName) -> Result<Rtt, Error> {
 }
 
 impl Source for Behind {
-    fn next(&mut self) -> Result<Heard, Error> {
+    fn next(&mut self) -> Result<Incoming, Error> {
         let bytes = match self.rings {
             Some([packets, _]) => packets.drain(&mut self.memory)?,
             None => Vec::new(),
@@ -119,7 +119,7 @@ impl Source for Behind {
         if bytes.is_empty() && log.is_empty() {
             sleep(PAUSE);
         }
-        Ok(Heard {
+        Ok(Incoming {
             packets: self.receiver.packets(&bytes),
             lines: lines.unwrap_or_default(),
         })
@@ -160,7 +160,7 @@ impl Source for Behind {
         None
     }
 
-    fn would_hear(&self, links: Links) -> Result<(), Error> {
+    fn would_answer(&self, links: Links) -> Result<(), Error> {
         by_probe(links)
     }
 

@@ -11,7 +11,7 @@ use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Heard, Source, by_probe};
+use super::{Incoming, Source, by_probe};
 use crate::deployment::Deployment;
 use crate::loading::load;
 
@@ -38,9 +38,9 @@ impl Emulated {
 }
 
 impl Source for Emulated {
-    fn next(&mut self) -> Result<Heard, Error> {
+    fn next(&mut self) -> Result<Incoming, Error> {
         self.session.tick()?;
-        Ok(Heard {
+        Ok(Incoming {
             packets: self.session.packets()?,
             lines: self.session.log(),
         })
@@ -80,7 +80,7 @@ impl Source for Emulated {
         Origin::default().with("board", format_args!("{board} (emulated)"))
     }
 
-    fn would_hear(&self, links: Links) -> Result<(), Error> {
+    fn would_answer(&self, links: Links) -> Result<(), Error> {
         by_probe(links)
     }
 

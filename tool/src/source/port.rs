@@ -12,7 +12,7 @@ use serial2::SerialPort;
 use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use super::laying::Laying;
-use super::{Heard, Source};
+use super::{Incoming, Source};
 use crate::deployment::Deployment;
 use crate::loading::load;
 
@@ -38,7 +38,7 @@ const TAG: u16 = 0;
 /// Most that a line comes behind its time, s.
 const LATE_S: f64 = 1.0;
 
-/// The board's time, from when it was heard first.
+/// The board's time, from when something has come first.
 #[derive(Debug, Clone, Copy, Default)]
 struct BoardTime {
     elapsed_s: f64,
@@ -65,7 +65,7 @@ pub(super) struct Port {
     receiver: Receiver,
     laying: Laying,
     /// When something has come last.
-    heard: Instant,
+    last: Instant,
     time: BoardTime,
     tick_hz: Option<u32>,
 }
@@ -82,7 +82,7 @@ impl Port {
             name: path.display().to_string(),
             receiver: Receiver::default(),
             laying,
-            heard: Instant::now(),
+            last: Instant::now(),
             time: BoardTime::default(),
             tick_hz: None,
         };
@@ -105,9 +105,9 @@ impl Port {
                 self.request(HELLO)?;
                 asked = Some(Instant::now());
             }
-            let heard = self.next()?;
-            is_loading &= heard.lines.is_empty();
-            for packet in heard.packets {
+            let incoming = self.next()?;
+            is_loading &= incoming.lines.is_empty();
+            for packet in incoming.packets {
                 match packet {
                     Packet::Answer(Answer {
                         tag: TAG,
@@ -149,8 +149,8 @@ impl Port {
 }
 
 impl Source for Port {
-    fn next(&mut self) -> Result<Heard, Error> {
-        let mut heard = Heard::default();
+    fn next(&mut self) -> Result<Incoming, Error> {
+        let mut incoming = Incoming::default();
         let mut bytes = [0; 4096];
         let count = match self.line.read(&mut bytes) {
             Ok(count) => count,
@@ -159,8 +159,8 @@ impl Source for Port {
         };
         let now = Instant::now();
         if count > 0 {
-            self.heard = now;
-        } else if now - self.heard > SILENCE {
+            self.last = now;
+        } else if now - self.last > SILENCE {
             return Err(Error::Work(format!(
                 "{}: nothing has come for {} s",
                 self.name,
@@ -172,13 +172,13 @@ impl Source for Port {
                 self.time.is(t_s);
             }
             match received {
-                Received::Line(line) => heard.lines.push(line),
-                Received::Packet(packet) => heard.packets.push(packet),
+                Received::Line(line) => incoming.lines.push(line),
+                Received::Packet(packet) => incoming.packets.push(packet),
                 // Of the first line, which was under way as the port was opened, or lost.
                 Received::Garbled => {}
             }
         }
-        Ok(heard)
+        Ok(incoming)
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
@@ -202,11 +202,11 @@ impl Source for Port {
         None
     }
 
-    fn would_hear(&self, links: Links) -> Result<(), Error> {
+    fn would_answer(&self, links: Links) -> Result<(), Error> {
         let fault = "telemetry.serial_baud: found none; allowed for a scene that is deployed by \
                      the serial port: a baud, or else the board could not be asked any more";
-        let heard = links.serial_baud.map(drop);
-        heard.ok_or_else(|| Error::Input(fault.to_owned()))
+        let can = links.serial_baud.map(drop);
+        can.ok_or_else(|| Error::Input(fault.to_owned()))
     }
 
     fn speaks(&mut self, links: Links) -> Result<(), Error> {

@@ -1,11 +1,11 @@
-//! A module for tests, which answers as it is told to.
+//! A module for tests, which answers as a script says.
 
 use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
 use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
-use super::{Heard, Source};
+use super::{Incoming, Source};
 use crate::deployment::Deployment;
 
 /// What becomes of a request; `None`: its answer is lost.
@@ -31,9 +31,9 @@ impl Scripted {
 }
 
 impl Source for Scripted {
-    fn next(&mut self) -> Result<Heard, Error> {
+    fn next(&mut self) -> Result<Incoming, Error> {
         self.now_s += 0.1;
-        Ok(Heard {
+        Ok(Incoming {
             packets: std::mem::take(&mut self.waiting),
             lines: Vec::new(),
         })

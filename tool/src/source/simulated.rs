@@ -13,7 +13,7 @@ use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Heard, Source};
+use super::{Incoming, Source};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
@@ -35,7 +35,7 @@ impl Simulated {
         let mut first = Vec::new();
         if loaded.scene.awaits_model() {
             let found = deployed(flash.contents(), &loaded.scene, NUCLEO_F446RE.max_classes)?;
-            first = told(&found);
+            first = of_model(&found);
             loaded = loaded.with_deployed(flash.name(), found.ok());
         }
         Ok(Self {
@@ -68,7 +68,7 @@ fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
 }
 
 /// What a board would log of the model that it has found.
-fn told(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
+fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
     match found {
         Ok(model) => {
             let decides = Decides::By(model.crc(), model.classes() as u32);
@@ -83,11 +83,11 @@ fn told(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
 }
 
 impl Source for Simulated {
-    fn next(&mut self) -> Result<Heard, Error> {
+    fn next(&mut self) -> Result<Incoming, Error> {
         self.run.tick();
         let mut lines = std::mem::take(&mut self.first);
         lines.extend(self.lines());
-        Ok(Heard {
+        Ok(Incoming {
             packets: self.run.module_mut().take_packets(),
             lines,
         })
@@ -139,8 +139,8 @@ impl Source for Simulated {
             .program(model.map_or(&[], |model| model.as_bytes()))?;
         self.first = match model {
             _ if loaded.scene.classifier.is_none() => Vec::new(),
-            Some(model) => told(&Ok(model.clone())),
-            None => told(&Err(Refusal::Absent)),
+            Some(model) => of_model(&Ok(model.clone())),
+            None => of_model(&Err(Refusal::Absent)),
         };
         self.loaded = loaded.clone();
         self.run = run;

@@ -8,7 +8,7 @@ use host_sim::run::Run;
 use wire::{TaggedCommand, WhiskerId};
 
 use super::*;
-use crate::source::{Heard, Source, SourceChoice};
+use crate::source::{Incoming, Source, SourceChoice};
 
 /// A whisker in free air; a motor is added where there is one.
 pub(in crate::commands) const SCENE: &str = r#"name = "free"
@@ -37,9 +37,9 @@ struct Line {
 struct Wired(Run);
 
 impl Source for Wired {
-    fn next(&mut self) -> Result<Heard, Error> {
+    fn next(&mut self) -> Result<Incoming, Error> {
         self.0.tick();
-        Ok(Heard {
+        Ok(Incoming {
             packets: self.0.module_mut().take_packets(),
             lines: Vec::new(),
         })

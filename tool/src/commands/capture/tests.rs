@@ -10,7 +10,7 @@ use host_sim::recording::{CHANNELS, GATE, Stream};
 use wire::{Flags, TaggedCommand};
 
 use super::*;
-use crate::source::Heard;
+use crate::source::Incoming;
 
 #[derive(Parser)]
 struct Line {
@@ -18,7 +18,7 @@ struct Line {
     arguments: Arguments,
 }
 
-/// What a module is heard with.
+/// What comes between a module and who captures.
 #[derive(Clone, Copy)]
 struct Around {
     /// How fast the clock beside it runs.
@@ -45,16 +45,16 @@ struct Bad {
 }
 
 impl Source for Bad {
-    fn next(&mut self) -> Result<Heard, Error> {
-        let mut heard = Heard::default();
+    fn next(&mut self) -> Result<Incoming, Error> {
+        let mut incoming = Incoming::default();
         for _ in 0..self.around.at_once {
-            heard.packets.extend(self.module.next()?.packets);
+            incoming.packets.extend(self.module.next()?.packets);
         }
-        heard.packets.retain_mut(|packet| match packet {
+        incoming.packets.retain_mut(|packet| match packet {
             Packet::Record(record) => (self.spoils)(record),
             Packet::Answer(_) | Packet::Event(_) => true,
         });
-        Ok(heard)
+        Ok(incoming)
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {

@@ -9,7 +9,7 @@ use wire::{Flags, TaggedCommand, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
-use crate::source::Heard;
+use crate::source::Incoming;
 
 #[derive(Parser)]
 struct Line {
@@ -24,14 +24,14 @@ struct Spoilt {
 }
 
 impl Source for Spoilt {
-    fn next(&mut self) -> Result<Heard, Error> {
-        let mut heard = self.module.next()?;
+    fn next(&mut self) -> Result<Incoming, Error> {
+        let mut incoming = self.module.next()?;
         let t_s = self.module.now_s();
-        heard.packets.retain_mut(|packet| match packet {
+        incoming.packets.retain_mut(|packet| match packet {
             Packet::Record(record) => (self.spoils)(record, t_s),
             Packet::Answer(_) | Packet::Event(_) => true,
         });
-        Ok(heard)
+        Ok(incoming)
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {

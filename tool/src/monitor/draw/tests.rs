@@ -13,7 +13,7 @@ use crate::monitor::history::History;
 use crate::monitor::shown::Shown;
 use crate::monitor::svg::{svg, text};
 use crate::monitor::view::{Key, View};
-use crate::source::Heard;
+use crate::source::Incoming;
 
 const PLAIN: Theme = Theme { colours: false };
 
@@ -31,7 +31,7 @@ fn history() -> History {
                 measured: (3900.0 * wave) as i16,
                 ..TickRecord::default()
             };
-            history.take(&Heard {
+            history.take(&Incoming {
                 packets: vec![Packet::Record(record)],
                 lines: Vec::new(),
             });
@@ -51,7 +51,7 @@ fn history() -> History {
         (5_950, Event::MotorFault(place, motor::Fault::Stall)),
         (6_000, Event::Health(health)),
     ];
-    history.take(&Heard {
+    history.take(&Incoming {
         packets: events
             .map(|(sequence, event)| Packet::Event(EventRecord { sequence, event }))
             .into(),

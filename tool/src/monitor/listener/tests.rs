@@ -42,8 +42,8 @@ fn listened(
     let mut tally = Tally::default();
     let (mut own, mut told) = (Vec::new(), Vec::new());
     while module.source().now_s() < seconds {
-        let heard = module.hear().unwrap();
-        for packet in &heard.packets {
+        let incoming = module.receive().unwrap();
+        for packet in &incoming.packets {
             let record = match packet {
                 Packet::Record(record) => record,
                 Packet::Event(EventRecord {

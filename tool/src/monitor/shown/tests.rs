@@ -11,7 +11,7 @@ use crate::monitor::history::History;
 use crate::monitor::known::Known;
 use crate::monitor::listener::Listener;
 use crate::monitor::view::View;
-use crate::source::Heard;
+use crate::source::Incoming;
 
 #[test]
 fn signals_have_their_units() {
@@ -43,7 +43,7 @@ fn history() -> History {
             sequence,
             event: Event::MotorFault(Place::new(0, 0), motor::Fault::Runaway),
         }));
-        history.take(&Heard {
+        history.take(&Incoming {
             packets: [Packet::Record(record)].into_iter().chain(fault).collect(),
             lines: Vec::new(),
         });
@@ -98,20 +98,20 @@ fn it_is_said_that_the_classifier_has_started_anew() {
     let known = Known::of(Some(&scene), None).unwrap().unwrap();
     let listener = Listener::new(known, 2000, 1).unwrap();
     let mut history = History::new(2000, 1, Some(listener));
-    let mut hear = |sequence| {
+    let mut take = |sequence| {
         let record = TickRecord {
             sequence,
             flags: Flags::VALID,
             ..TickRecord::default()
         };
-        history.take(&Heard {
+        history.take(&Incoming {
             packets: vec![Packet::Record(record)],
             lines: Vec::new(),
         });
         let shown = history.shown(&View::new(), "t", String::new());
         shown.classifying.join("\n")
     };
-    let said = [1, 2, 3001, 3002, 1].map(&mut hear);
+    let said = [1, 2, 3001, 3002, 1].map(&mut take);
     assert!(said[1].starts_with("computed on the PC from records"));
     assert!(!said[1].contains("anew"));
     for said in &said[2..4] {

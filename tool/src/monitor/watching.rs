@@ -12,9 +12,9 @@ use wire::{Answer, Command, CommandStatus, Flags};
 use super::history::History;
 use crate::conversation::Conversation;
 use crate::record_file::RecordFile;
-use crate::source::Heard;
+use crate::source::Incoming;
 
-/// After how long without an answer the motors are told to stop again, s.
+/// After how long without an answer the motors are asked to stop again, s.
 const AGAIN_S: f64 = 0.1;
 
 /// For how long that is tried, s.
@@ -30,7 +30,7 @@ const AHEAD: Duration = Duration::from_millis(4);
 /// What listening and drawing share.
 pub(crate) struct Shared {
     pub(crate) history: History,
-    /// What is to be told at the bottom, and the tick by then.
+    /// What is said at the bottom, and the tick by then.
     pub(crate) message: Option<(u64, String)>,
     pub(crate) has_ended: bool,
 }
@@ -52,7 +52,7 @@ pub(crate) enum Wish {
 }
 
 /// Someone who listens.
-pub(crate) struct Hearing {
+pub(crate) struct Watching {
     pub(crate) module: Conversation,
     pub(crate) files: Vec<RecordFile>,
     pub(crate) shared: Arc<Mutex<Shared>>,
@@ -76,16 +76,16 @@ struct Stopping {
     is_answered: bool,
 }
 
-impl Hearing {
+impl Watching {
     /// Listens until it is ended. Whatever ends it but [`Wish::End`] and time stops the motors
     /// first, and what was recorded until then is kept.
     pub(crate) fn run(mut self) -> Result<(), Error> {
-        let heard = self.hear();
-        if heard.is_err() {
+        let ended = self.watch();
+        if ended.is_err() {
             // It may still take a request.
             let _ = self.module.send(Command::Stop);
         }
-        let mut done = heard;
+        let mut done = ended;
         for file in std::mem::take(&mut self.files) {
             let finished = file.finish();
             done = done.and(finished);
@@ -94,7 +94,7 @@ impl Hearing {
         done
     }
 
-    fn hear(&mut self) -> Result<(), Error> {
+    fn watch(&mut self) -> Result<(), Error> {
         let mut pace = Pace::new(self.speed, self.module.source().now_s());
         let mut stopping: Option<Stopping> = None;
         let mut ends_at_s: Option<f64> = None;
@@ -131,8 +131,8 @@ impl Hearing {
                 self.stop(stopping, now_s)?;
             }
 
-            let heard = self.module.hear()?;
-            let answers = self.take(&heard)?;
+            let incoming = self.module.receive()?;
+            let answers = self.take(&incoming)?;
             for answer in &answers {
                 self.tell(answer);
                 if let Some(stopping) = &mut stopping {
@@ -149,7 +149,7 @@ impl Hearing {
                     ends_at_s = Some(now_s + AFTER_S);
                 }
             }
-            let is_off = ends_at_s.is_some() && is_unarmed(&heard);
+            let is_off = ends_at_s.is_some() && is_unarmed(&incoming);
             if is_off || ends_at_s.is_some_and(|end_s| now_s >= end_s) {
                 return Ok(());
             }
@@ -185,11 +185,11 @@ impl Hearing {
         }
     }
 
-    fn take(&mut self, heard: &Heard) -> Result<Vec<Answer>, Error> {
-        let answers = lock(&self.shared).history.take(heard);
+    fn take(&mut self, incoming: &Incoming) -> Result<Vec<Answer>, Error> {
+        let answers = lock(&self.shared).history.take(incoming);
         for file in &mut self.files {
-            file.packets(&heard.packets)?;
-            for line in &heard.lines {
+            file.packets(&incoming.packets)?;
+            for line in &incoming.lines {
                 file.line(line)?;
             }
         }
@@ -213,8 +213,8 @@ impl Hearing {
 }
 
 /// Whether records have come, none of which is of an armed module.
-fn is_unarmed(heard: &Heard) -> bool {
-    let mut flags = heard.packets.iter().filter_map(|packet| match packet {
+fn is_unarmed(incoming: &Incoming) -> bool {
+    let mut flags = incoming.packets.iter().filter_map(|packet| match packet {
         Packet::Record(record) => Some(record.flags),
         Packet::Answer(_) | Packet::Event(_) => None,
     });
