@@ -23,6 +23,10 @@ mod request;
 mod splitter;
 pub mod text;
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub use answer::{Answer, CommandStatus};
 pub use flags::Flags;
 pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, open};
