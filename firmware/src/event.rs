@@ -59,6 +59,8 @@ pub enum SensorFault {
 
 impl SensorFault {
     /// Its number in the [table](crate::faults).
+    // Apart: together with another match the compiler makes a jump that traps where it cannot come.
+    #[inline(never)]
     pub const fn code(self) -> u8 {
         match self {
             Self::NoFrame => number::NO_FRAME,
