@@ -38,12 +38,8 @@ mod variants;
 mod verdicts;
 mod whole;
 
-pub use dataset::{Dataset, Job};
-pub use protocol::{Files, Protocol};
-pub use record::{jobs, record};
-pub use recording::{Recording, Recordings};
-pub use request::{Extent, Name, Request};
-pub use runs::run;
+pub(crate) use protocol::Protocol;
+pub(crate) use runs::run;
 
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,9 @@ use tactile::score::Confusion;
 use crate::chart::{Panel, draw};
 pub(crate) use figure::{figure, joined};
 
+/// Files by their paths.
+pub(crate) type Files = Vec<(String, String)>;
+
 /// How well classes are told apart, and how well chance does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Told {
@@ -97,7 +100,7 @@ pub(crate) struct Page {
     /// Where pictures are, beside the page.
     pub(crate) folder: &'static str,
     pub(crate) text: String,
-    pub(crate) files: Vec<(String, String)>,
+    pub(crate) files: Files,
     pub(crate) claims: Vec<Claim>,
     pub(crate) scores: Vec<Score>,
     pub(crate) shown: Vec<Shown>,

@@ -8,7 +8,8 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{fs, io};
 
-use crate::run::{Fault, built, listing, read, read_bytes, top, write};
+use crate::run::{Fault, built, listing, read, read_bytes, target, top, write};
+use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
 /// Pages with commands that are not in the book.
@@ -152,14 +153,22 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
 /// run has a debug probe.
 fn as_built(commands: &str) -> String {
     let mut commands = commands.to_owned();
-    for package in ["host-sim", "studies", "whisker"] {
+    for package in ["host-sim", "whisker"] {
         if let Some(program) = built(package) {
             let run = format!("cargo run -p {package} -- ");
             commands = commands.replace(&run, &format!("'{}' ", program.display()));
         }
     }
     let tool = "-p whisker ";
-    commands.replace(tool, &format!("{tool}--no-default-features "))
+    let commands = commands.replace(tool, &format!("{tool}--no-default-features "));
+    // A page's folder is not at the top.
+    let (manifest, target) = (top().join(studies::MANIFEST), target());
+    let found = format!(
+        "'{}' --target-dir '{}'",
+        manifest.display(),
+        target.display()
+    );
+    commands.replace(studies::MANIFEST, &found)
 }
 
 /// Runs a block as its reader does, in a shell that stops at the first failure.

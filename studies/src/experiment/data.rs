@@ -7,10 +7,11 @@ use host_sim::origin::Origin;
 
 use super::bodies::Bodies;
 use super::dataset::{Dataset, Job};
-use super::protocol::{Files, Protocol};
+use super::protocol::Protocol;
 use super::record::corridor::FELT;
 use super::record::pads::INPUTS;
 use super::recording::{Recording, Recordings};
+use crate::page::Files;
 use crate::refused::refused;
 use crate::rigs::CHANNELS;
 
@@ -21,7 +22,7 @@ fn origin(protocol: &Protocol, seeds: impl Display) -> Origin {
         .with("seed", seeds);
     let folder = protocol.rigs.iter();
     let said = folder.fold(said, |said, folder| said.with("rigs", folder.display()));
-    let settings = protocol.settings.iter();
+    let settings = protocol.set.iter();
     settings.fold(said, |said, setting| said.with("set", setting))
 }
 

@@ -2,7 +2,7 @@
 
 /// A set of recordings on one rig. Their order is in the seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Dataset {
+pub(crate) enum Dataset {
     /// The floor robot.
     Floor,
     /// The whisking head.
@@ -19,7 +19,7 @@ pub enum Dataset {
 
 impl Dataset {
     /// Its name.
-    pub const fn text(self) -> &'static str {
+    pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Floor => "floor",
             Self::Head => "head",
@@ -41,9 +41,9 @@ impl Dataset {
 
 /// A job of a data set: what one recording comes of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Job {
+pub(crate) struct Job {
     /// Of which set.
-    pub dataset: Dataset,
+    pub(crate) dataset: Dataset,
     /// Which of its jobs, from 0.
-    pub number: usize,
+    pub(crate) number: usize,
 }

@@ -1,7 +1,6 @@
 //! The floor robot's recordings as LEP10 and LEP12 use them: the first half of
 //! every trial to train on, the second to validate with.
 
-use classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use rayon::prelude::*;
 use tactile::ModelBuf;
 use tactile::score::Confusion;
@@ -11,6 +10,7 @@ use super::dataset::Dataset;
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Recording, Recordings, of_set};
 use super::request::{Extent, Request};
+use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
@@ -201,7 +201,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::{Stream, Tally, train};
-    use classifiers::recogniser::Bayes;
+    use crate::classifiers::recogniser::{Bayes, Picked};
     use host_sim::Error;
     use tactile::WindowRule;
 
@@ -226,7 +226,7 @@ mod tests {
             let tally = Tally::of(&streams, || {
                 let bayes = Bayes::<WindowRule>::new(model, 100);
                 let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
-                Ok(classifiers::recogniser::Picked::new(bayes, &picked))
+                Ok(Picked::new(bayes, &picked))
             });
             let tally = tally.unwrap();
             assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");

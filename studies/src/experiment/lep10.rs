@@ -5,11 +5,11 @@ use super::floors::{Floors, Half, Stream, Tally, train};
 use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
+use crate::classifiers::recogniser::{Bayes, Picked};
 use crate::page::{Claim, Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::refused::refused;
 use crate::rigs::RobotMotion;
-use classifiers::recogniser::{Bayes, Picked};
 use host_sim::Error;
 use tactile::{ModelBuf, WindowRule};
 

@@ -31,7 +31,7 @@ fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
 }
 
 /// The jobs of all data sets that the experiments of a request need, each once.
-pub fn jobs(request: &Request) -> Vec<Job> {
+pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     let names = request.names.iter();
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
     datasets.sort_unstable();
@@ -61,7 +61,11 @@ fn one(request: &Request, job: Job) -> Result<Recording, Error> {
 ///
 /// # Errors
 /// [`Error::Work`] if the simulation refuses a setting of a rig.
-pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings, Error> {
+pub(crate) fn record(
+    request: &Request,
+    jobs: &[Job],
+    verbosity: Verbosity,
+) -> Result<Recordings, Error> {
     each(verbosity, "recording", jobs, |job| {
         Ok((*job, one(request, *job)?))
     })

@@ -7,21 +7,21 @@ use super::dataset::{Dataset, Job};
 /// What one job of a data set recorded: samples of some channels, one after
 /// another. Sensor codes of 14 bits are exact in single precision.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Recording {
+pub(crate) struct Recording {
     /// Numbers of a sample.
-    pub channels: usize,
+    pub(crate) channels: usize,
     /// The samples.
-    pub values: Vec<f32>,
+    pub(crate) values: Vec<f32>,
 }
 
 impl Recording {
     /// Of `channels` numbers a sample.
-    pub fn new(channels: usize, values: Vec<f32>) -> Self {
+    pub(crate) fn new(channels: usize, values: Vec<f32>) -> Self {
         Self { channels, values }
     }
 
     /// From sensor codes.
-    pub fn from_codes(channels: usize, codes: &[i16]) -> Self {
+    pub(crate) fn from_codes(channels: usize, codes: &[i16]) -> Self {
         Self::new(
             channels,
             codes.iter().map(|code| f32::from(*code)).collect(),
@@ -29,30 +29,25 @@ impl Recording {
     }
 
     /// Samples.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.values.len() / self.channels.max(1)
     }
 
-    /// Whether there is no sample.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The samples from `from` up to `to` (not included), as far as there are.
-    pub fn part(&self, from: usize, to: usize) -> &[f32] {
+    pub(crate) fn part(&self, from: usize, to: usize) -> &[f32] {
         let end = (to * self.channels).min(self.values.len());
         let start = (from * self.channels).min(end);
         self.values.get(start..end).unwrap_or(&[])
     }
 
     /// The same in double precision.
-    pub fn segment(&self, from: usize, to: usize) -> Vec<f64> {
+    pub(crate) fn segment(&self, from: usize, to: usize) -> Vec<f64> {
         self.part(from, to).iter().map(|x| f64::from(*x)).collect()
     }
 }
 
 /// All recordings of a request.
-pub type Recordings = BTreeMap<Job, Recording>;
+pub(crate) type Recordings = BTreeMap<Job, Recording>;
 
 /// The recordings of a set in the order of its jobs.
 pub(crate) fn of_set(all: &Recordings, dataset: Dataset) -> Vec<&Recording> {

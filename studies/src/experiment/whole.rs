@@ -6,12 +6,12 @@ use host_sim::Error;
 
 use super::bodies::Bodies;
 use super::changes::{self, Changed};
-use super::protocol::{Files, Protocol};
+use super::protocol::Protocol;
 use super::recording::Recordings;
-use super::request::{Extent, Name, Request};
+use super::request::{Name, Request};
 use super::verdicts::{Judged, Verdict, judged};
 use super::{biotact, costs, lep10, lep12, pose, psik};
-use crate::page::{Page, joined};
+use crate::page::{Files, Page, joined};
 use crate::refused::{refused, within};
 
 /// The name of the page.
@@ -58,22 +58,23 @@ pub(super) fn report(
 
 /// The command that makes the page again.
 fn command(protocol: &Protocol) -> String {
-    let name = if protocol.names == Name::ALL {
+    let name = if protocol.names() == Name::ALL {
         "all".to_owned()
     } else {
-        let names = protocol.names.iter().map(|name| name.text());
+        let names = protocol.names();
+        let names = names.iter().map(|name| name.text());
         names.collect::<Vec<_>>().join(" ")
     };
-    let (first, count) = protocol.seeds;
-    let mut said = format!("studies experiment {name} --seed {first} --seeds {count}");
-    if protocol.extent == Extent::Quick {
+    let Protocol { seed, seeds, .. } = protocol;
+    let mut said = format!("studies experiment {name} --seed {seed} --seeds {seeds}");
+    if protocol.quick {
         said.push_str(" --quick");
     }
     // Writing to a string does not fail.
     if let Some(folder) = &protocol.rigs {
         let _ = write!(said, " --rigs '{}'", folder.display());
     }
-    for setting in &protocol.settings {
+    for setting in &protocol.set {
         let _ = write!(said, " --set '{setting}'");
     }
     said
@@ -91,13 +92,13 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
          source, or says that it was chosen.",
         command(protocol)
     ));
-    if protocol.extent == Extent::Quick {
+    if protocol.quick {
         page.say(
             "This is a quick run: fewer trials, whisks, contacts, sweeps and runs than the \
              papers', on the same physics. Its hit rates are rough, and no change is tried.",
         );
     }
-    let is_left_out = |name: &&Name| !protocol.names.contains(name);
+    let is_left_out = |name: &&Name| !protocol.names().contains(name);
     let left_out: Vec<&str> = Name::ALL
         .iter()
         .filter(is_left_out)

@@ -38,7 +38,7 @@ keys! {
 
 impl PositionControl {
     /// How far a whisker may be off where friction holds it, degrees: τ_c over k_p k U/R.
-    pub fn dead_band_deg(&self) -> f64 {
+    pub(crate) fn dead_band_deg(&self) -> f64 {
         let motor = MotorSettings::DEFAULT;
         let full_nm = motor.torque_nm_per_a * motor.supply_v / motor.resistance_ohm;
         motor.coulomb_nm / (self.kp * full_nm)
@@ -226,7 +226,7 @@ impl HeadModule {
 #[cfg(test)]
 mod tests {
     use super::{EACH, HeadModule, PositionControl, SIDES};
-    use crate::rigs::Keys;
+    use crate::rigs::read::Keys;
     use firmware::{Command, Place};
     use whisking::{Integrator, Settings, protraction};
 

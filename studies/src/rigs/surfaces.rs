@@ -23,7 +23,7 @@ keys! {
 /// The surfaces of all rigs, by name.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]
-pub struct Surfaces(BTreeMap<String, Properties>);
+pub(crate) struct Surfaces(BTreeMap<String, Properties>);
 
 /// What is presented by a rig.
 const ALL: [Material; 21] = [
@@ -67,7 +67,7 @@ fn name(material: Material) -> String {
 
 impl Surfaces {
     /// The surface of a material, with what is said of it.
-    pub fn of(&self, material: Material) -> Surface {
+    pub(crate) fn of(&self, material: Material) -> Surface {
         let usual = Surface::of(material);
         let said = self.0.get(&name(material));
         said.map_or(usual, |said| Surface {

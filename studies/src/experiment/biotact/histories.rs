@@ -1,7 +1,7 @@
 //! One whisk against smooth plastic and against abrasive, with and without RCP:
 //! x over time, and its spectrum over time (BIOTACT Fig. 12).
 
-use classifiers::spectrum::{Bins, Measure, Spectrum};
+use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
 
 use super::movement::column;
 use crate::chart::{Mark, linear};
@@ -13,7 +13,6 @@ use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
-use crate::refused::refused;
 use host_sim::Error;
 
 /// The distance of the figure: the middle one.
@@ -95,12 +94,11 @@ fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
     let block = 2 * reach + 1;
     let points = (rate_hz * FREQUENCIES as f64 / HIGHEST_HZ).round() as usize;
     let bins = Bins {
-        points: points.max(block) as u32,
+        points: points.max(block),
         first: 0,
-        step: 1,
         count: FREQUENCIES,
     };
-    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let spectrum = Spectrum::new(bins);
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
     let mut all = Vec::with_capacity(TIMES);
     for time in 0..TIMES {
@@ -110,8 +108,7 @@ fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
             let away = (n as f64 - reach as f64) / (WINDOW_S * rate_hz);
             at.map_or(0.0, |x| (x - mean) * libm::exp(-0.5 * away * away))
         });
-        let power = spectrum.of(block, Measure::Power);
-        all.push(power.map_err(refused)?);
+        all.push(spectrum.of(block, Measure::Power)?);
     }
     Ok(all)
 }

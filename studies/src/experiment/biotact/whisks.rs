@@ -1,10 +1,10 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
-use classifiers::StationaryRule;
-use classifiers::recogniser::{Bayes, Recogniser, first_outcome};
-use classifiers::template_train::TemplateTrainer;
 use tactile::train::{Options, Trainer};
 
+use crate::classifiers::recogniser::{Bayes, outcomes};
+use crate::classifiers::stationary::StationaryRule;
+use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::{Recordings, of_set};
@@ -159,14 +159,16 @@ impl Visits {
 
     fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {
         let (training, validation) = split;
-        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks).map_err(refused)?;
+        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks);
         for (texture, distance, samples) in self.some(strategy, training) {
             let class = task.class(*texture, *distance);
-            trainer.add(class, samples).map_err(refused)?;
+            trainer.add(class, samples)?;
         }
-        let templates = trainer.train().map_err(refused)?;
+        let templates = trainer.train().in_codes();
         let validation = self.some(strategy, validation);
-        Ok(share(&mut templates.recogniser(), task, validation))
+        Ok(share(task, validation, |whisk| {
+            Some(templates.classify(whisk))
+        }))
     }
 
     fn bayes(
@@ -189,20 +191,23 @@ impl Visits {
         let model = buf.view();
         let mut bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
         let validation = self.some(strategy, validation);
-        Ok(share(&mut bayes, task, validation))
+        Ok(share(task, validation, |whisk| {
+            let found = outcomes(&mut bayes, whisk, CHANNELS);
+            found.first().map(|outcome| outcome.class)
+        }))
     }
 }
 
+/// The share of whisks that are named rightly.
 fn share<'w>(
-    recogniser: &mut impl Recogniser,
     task: Task,
     validation: impl Iterator<Item = &'w Whisk>,
+    mut named: impl FnMut(&[f64]) -> Option<usize>,
 ) -> f64 {
     let (mut hits, mut count) = (0_u32, 0_u32);
     for (texture, distance, samples) in validation {
-        let outcome = first_outcome(recogniser, samples, CHANNELS);
         let class = task.class(*texture, *distance);
-        hits += u32::from(outcome.is_some_and(|outcome| outcome.class == class));
+        hits += u32::from(named(samples) == Some(class));
         count += 1;
     }
     f64::from(hits) / f64::from(count.max(1))

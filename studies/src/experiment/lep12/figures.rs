@@ -2,11 +2,11 @@
 
 mod spectra;
 
-use classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use tactile::{SequentialRule, Threshold};
 
 use super::groups::{BLOCK, Curves, Group, Point};
 use crate::chart::{Axis, Mark, Panel, linear};
+use crate::classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::picture::{Curve, panel, percent, top};
 use crate::page::{Page, figure};

@@ -1,9 +1,9 @@
 //! Groups of trials that are trained on and validated by themselves, and their
 //! curves of hit rate against time.
 
-use classifiers::recogniser::Bayes;
 use tactile::{ModelBuf, SequentialRule, Threshold, WindowRule};
 
+use crate::classifiers::recogniser::Bayes;
 use crate::experiment::floors::{Floors, Half, Stream, Tally, train};
 use crate::paper::lep12::{MOTIONS, TIME_S};
 use crate::refused::refused;

@@ -1,12 +1,12 @@
 //! Two floors at a time by the sequential probability ratio test, with a prior ratio (LEP12 eqs.
 //! 1 and 2).
 
-use classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
-use classifiers::sprt::Sprt;
 use rayon::prelude::*;
 use tactile::{ModelBuf, SequentialRule, Threshold};
 
 use super::groups::{BLOCK, BOTH, Group};
+use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
+use crate::classifiers::sprt::Sprt;
 use crate::experiment::floors::{CHANNELS, Stream, train};
 use crate::page::{Claim, Page, figure, row};
 use crate::paper::lep10::FLOORS;

@@ -4,7 +4,8 @@
 use tactile::score::Confusion;
 
 use super::maze;
-use super::sweeps::{PENALTIES, Row, mean_hit, train};
+use super::sweeps::{PENALTIES, mean_hit, train};
+use crate::classifiers::network::Row;
 use crate::experiment::dataset::Dataset;
 use crate::experiment::record::corridor::{COLUMNS, place};
 use crate::experiment::record::pads::INPUTS;
@@ -55,7 +56,7 @@ pub(super) fn section(
         let (case, number) = place(request.extent, job);
         let mut votes = [0_u32; 4];
         for row in steps(run) {
-            let named = network.classify(&row).map_err(refused)?;
+            let named = network.classify(&row)?;
             if let Some(votes) = votes.get_mut(named) {
                 *votes += 1;
             }

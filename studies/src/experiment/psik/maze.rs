@@ -2,19 +2,18 @@
 //! notices corridors by their aperture, tells them by their walls, and turns at their ends as
 //! they say.
 
-use classifiers::mlp::Network;
 use host_sim::Error;
 use physics::{Material, Plate, Pose};
 use rayon::prelude::*;
 
 use crate::chart::{Mark, linear};
+use crate::classifiers::network::Network;
 use crate::experiment::picture::{Curve, panel};
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
 use crate::experiment::request::Request;
 use crate::page::{Claim, Page, figure, row};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
-use crate::refused::refused;
 use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
 
 /// A case's chance of the right turn, percent: two of four say right.
@@ -138,7 +137,7 @@ impl Behaviour<'_> {
                 self.inside_s += dt_s;
                 if let Some(window) = &felt.window {
                     let row: Vec<f64> = window.iter().map(|x| f64::from(*x)).collect();
-                    let named = self.network.classify(&row).map_err(refused)?;
+                    let named = self.network.classify(&row)?;
                     if let Some(votes) = votes.get_mut(named) {
                         *votes += 1;
                     }
@@ -204,9 +203,7 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour,
     let body_m = rig.width_m / 2.0 - rig.slack_m;
     let mut turned_rad = 0.0;
     for tick in 0..(maze.tour_s * RATE_HZ) as usize {
-        let felt = pads.step(rig, &robot, |_, pose, length_m| {
-            walls.before(pose, length_m)
-        });
+        let felt = pads.step(&robot, |_, pose, length_m| walls.before(pose, length_m));
         if let Some(decided) = behaviour.tick(&felt, turned_rad, dt_s)? {
             match case_at(request, &robot) {
                 Some(case) => {

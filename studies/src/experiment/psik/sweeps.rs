@@ -1,9 +1,8 @@
 //! The sweeps over the sandpapers, and the networks that are trained on them.
 
-use classifiers::mlp::Network;
-use classifiers::mlp::train::{NetworkTrainer, Options};
 use tactile::score::Confusion;
 
+use crate::classifiers::network::{self, Network, Options, Row};
 use crate::experiment::record::pad::{PAPERS, place};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::Request;
@@ -14,9 +13,6 @@ use host_sim::Error;
 pub(super) const NAMES: [&str; PAPERS] =
     ["P40", "P50", "P60", "P80", "P100", "P120", "P150", "P180"];
 
-/// A row of the network's inputs, and its class.
-pub(super) type Row = (usize, Vec<f64>);
-
 /// Penalties λ on weights that are tried; the paper names none. Trained to the
 /// end with hardly any, 1400 weights fit the scatter of a few hundred sweeps.
 pub(super) const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
@@ -25,7 +21,7 @@ pub(super) const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 const HELD_OUT: usize = 5;
 
 /// Trains a network with the penalty that does best on sweeps that are held out
-/// of the training ones, the smallest of equals; classes must come in order.
+/// of the training ones, the smallest of equals.
 fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
     let mut best = (0, Options::imp(seed).decay);
     let places = || rows.iter().enumerate();
@@ -35,7 +31,7 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
         let network = train(&kept, seed, penalty)?;
         let mut hits = 0;
         for (_, (class, row)) in places().filter(|(n, _)| n % HELD_OUT == 0) {
-            hits += usize::from(network.classify(row).map_err(refused)? == *class);
+            hits += usize::from(network.classify(row)? == *class);
         }
         if hits > best.0 {
             best = (hits, penalty);
@@ -44,21 +40,15 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
     train(rows, seed, best.1)
 }
 
-/// Trains a network with a penalty on its weights; classes must come in order.
+/// Trains a network with a penalty on its weights.
 pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Error> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
-    let mut options = Options::imp(seed);
-    options.decay = penalty;
-    options.hidden = inputs.max(1);
-    // The paper sets no bar, and few vibrissae cannot tell every paper.
-    options.reliable = 0.0;
-    let mut trainer = NetworkTrainer::new(inputs, options).map_err(refused)?;
-    for (class, row) in rows {
-        trainer
-            .add(&format!("class {class}"), row)
-            .map_err(refused)?;
-    }
-    Ok(trainer.train().map_err(refused)?.network)
+    let options = Options {
+        decay: penalty,
+        hidden: inputs,
+        ..Options::imp(seed)
+    };
+    network::train(rows, &options)
 }
 
 /// The sweeps, to train on and to test with.
@@ -96,7 +86,7 @@ impl Sweeps {
         let network = train_choosing(&cut(&self.training), seed)?;
         let mut score = Confusion::new(PAPERS);
         for (class, row) in cut(&self.testing) {
-            let named = network.classify(&row).map_err(refused)?;
+            let named = network.classify(&row)?;
             score.add(class, Some(named)).map_err(refused)?;
         }
         Ok(score)

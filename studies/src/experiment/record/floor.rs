@@ -81,7 +81,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
 #[cfg(test)]
 mod tests {
     use super::{MOTIONS, jobs, number, place};
-    use crate::experiment::Extent;
+    use crate::experiment::request::Extent;
     use crate::rigs::RobotMotion;
 
     #[test]

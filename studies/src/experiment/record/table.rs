@@ -161,7 +161,7 @@ fn approach(
 #[cfg(test)]
 mod tests {
     use super::{Contact, contacts, speeds};
-    use crate::experiment::Extent;
+    use crate::experiment::request::Extent;
 
     #[test]
     fn there_are_352_contacts_twice_and_eleven_speeds_from_6_to_106() {

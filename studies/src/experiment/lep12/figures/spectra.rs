@@ -1,8 +1,7 @@
 //! Fig. 9 of LEP12: the power spectra of the whisker on each floor.
 
-use classifiers::spectrum::{Bins, Spectrum};
-
 use crate::chart::{Mark, linear};
+use crate::classifiers::spectrum::{Bins, Spectrum};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::lep12::groups::Group;
 use crate::experiment::lep12::spectral::power;
@@ -10,14 +9,13 @@ use crate::experiment::picture::{Curve, panel, top};
 use crate::page::{Page, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
-use crate::refused::refused;
 use host_sim::Error;
 
 /// Fig. 9: mean power spectra of anticlockwise motion.
 pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let bins = Bins::between(block as u32, rate_hz, 0.0, 120.0).map_err(refused)?;
-    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let bins = Bins::between(block, rate_hz, 0.0, 120.0)?;
+    let spectrum = Spectrum::new(bins);
     let mut panels = Vec::new();
     let mut peaks = Vec::new();
     for (channel, axis) in ["x", "y"].into_iter().enumerate() {
@@ -27,7 +25,7 @@ pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(
             let mut count = 0.0;
             for stream in group.training.iter().filter(|stream| stream.floor == floor) {
                 for segment in stream.samples.chunks_exact(block * CHANNELS) {
-                    let power = power(&mut spectrum, segment, channel)?;
+                    let power = power(&spectrum, segment, channel)?;
                     for (sum, power) in sum.iter_mut().zip(power) {
                         *sum += power;
                     }
