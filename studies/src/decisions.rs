@@ -31,7 +31,8 @@ mod unknown;
 
 use std::path::Path;
 
-use host_sim::Error;
+use anyhow::Result;
+
 use host_sim::progress::Verbosity;
 
 use crate::accuracy::counts::Counts;
@@ -50,16 +51,8 @@ pub(crate) struct Folders<'p> {
 }
 
 /// Measures everything.
-///
-/// # Errors
-/// [`Error::Input`] if a recording is missing or broken, [`Error::Work`] if a training or
-/// a picture fails.
-pub(crate) fn page(
-    folders: Folders<'_>,
-    extent: &Extent,
-    verbosity: Verbosity,
-) -> Result<Files, Error> {
-    let counts = Counts::read(&folders.docs.join("instructions.csv"));
+pub(crate) fn page(folders: Folders<'_>, extent: &Extent, verbosity: Verbosity) -> Result<Files> {
+    let counts = Counts::read(&folders.docs.join("instructions.csv"))?;
     let mut page = Page::new("decisions");
     let mut table = Table::new();
     introduction(&mut page, extent);

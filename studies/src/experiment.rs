@@ -24,7 +24,6 @@ mod floors;
 mod lep10;
 mod lep12;
 mod matrix;
-mod picture;
 mod pose;
 mod product;
 mod protocol;

@@ -11,12 +11,12 @@ mod experiment;
 mod moments;
 mod page;
 mod paper;
-mod refused;
 mod rigs;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use host_sim::Error;
 use host_sim::output::write_whole;
@@ -27,7 +27,6 @@ use accuracy::LongRun;
 use decisions::Folders;
 use experiment::Protocol;
 use page::Files;
-use refused::within;
 
 /// The laboratory: the papers' experiments on simulated rigs, the accuracy report, and
 /// what decisions are worth.
@@ -85,10 +84,10 @@ enum Command {
 
 /// Runs experiments. Writes the page, its pictures and, where asked for, their data. Returns what
 /// was done.
-fn experiments(protocol: &Protocol, verbosity: Verbosity) -> Result<String, Error> {
+fn experiments(protocol: &Protocol, verbosity: Verbosity) -> Result<String> {
     let write = |folder: &Path, files: &Files| {
         let mut all = files.iter();
-        all.try_for_each(|(name, text)| write_whole(&folder.join(name), text.as_bytes()))
+        all.try_for_each(|(name, text)| Ok(write_whole(&folder.join(name), text.as_bytes())?))
     };
     let files = experiment::run(protocol, verbosity, &mut |data| match &protocol.data {
         Some(folder) => write(folder, data),
@@ -101,13 +100,7 @@ fn experiments(protocol: &Protocol, verbosity: Verbosity) -> Result<String, Erro
 
 /// Writes generated files into the folder `out`, or with `check` says whether those that are there
 /// are the same. `command` makes `what`. Returns what was done.
-fn keep(
-    out: &Path,
-    files: &Files,
-    check: bool,
-    what: &str,
-    command: &str,
-) -> Result<String, Error> {
+fn keep(out: &Path, files: &Files, check: bool, what: &str, command: &str) -> Result<String> {
     let folder = out.display();
     if !check {
         for (name, text) in files {
@@ -126,11 +119,11 @@ fn keep(
         Ok(format!("{folder}: {what} is up to date"))
     } else {
         let stale = stale.join(", ");
-        Err(Error::Work(format!("out of date: {stale}: run {command}")))
+        bail!("out of date: {stale}: run {command}")
     }
 }
 
-fn work(arguments: Arguments) -> Result<(), Error> {
+fn work(arguments: Arguments) -> Result<()> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
         Command::Experiment(protocol) => experiments(&protocol, verbosity)?,
@@ -147,7 +140,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             };
             let what = "the accuracy report";
             let files = accuracy::report(&out, long_run, verbosity);
-            let files = files.map_err(|error| within(what, error))?;
+            let files = files.context(what)?;
             keep(&out, &files, check, what, "studies report")?
         }
         Command::Decisions {
@@ -167,13 +160,22 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 terrain: &terrain,
             };
             let files = decisions::page(folders, &extent, verbosity);
-            let files = files.map_err(|error| within(what, error))?;
+            let files = files.context(what)?;
             keep(&out, &files, check, what, "studies decisions")?
         }
     });
     Ok(())
 }
 
+/// The fault as the exit status needs it: wrong arguments and files stay what they are.
+fn fault(error: anyhow::Error) -> Error {
+    let text = format!("{error:#}");
+    match error.downcast() {
+        Ok(input @ Error::Input(_)) => input,
+        _ => Error::Work(text),
+    }
+}
+
 fn main() -> ExitCode {
-    program("studies", || work(Arguments::parse()))
+    program("studies", || work(Arguments::parse()).map_err(fault))
 }

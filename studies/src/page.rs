@@ -3,9 +3,9 @@
 
 mod figure;
 
+use anyhow::Result;
 use std::fmt::{Display, Write};
 
-use host_sim::Error;
 use tactile::score::Confusion;
 
 use crate::chart::{Panel, draw};
@@ -145,7 +145,7 @@ impl Page {
     }
 
     /// Diagrams as a picture.
-    pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
+    pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<()> {
         self.picture(name, what, draw(panels)?);
         self.shown.push(Shown {
             name: name.trim_end_matches(".svg").to_owned(),
@@ -217,16 +217,4 @@ pub(crate) fn confusion(
     });
     let header = format!("true \\ decided | {}", names.join(" | "));
     page.table(&header, rows);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Page, short};
-
-    #[test]
-    fn a_table_has_a_rule_of_its_width() {
-        let mut page = Page::default();
-        page.table("a | b", [vec!["1".to_owned(), short(2.5e-4)]]);
-        assert_eq!(page.text, "| a | b |\n|---|---|\n| 1 | 2.5e-4 |\n\n");
-    }
 }

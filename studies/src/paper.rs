@@ -9,6 +9,7 @@ pub(crate) mod lep12;
 pub(crate) mod pose;
 pub(crate) mod psik;
 
+use anyhow::Result;
 use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;

@@ -66,9 +66,6 @@ fn names_in(folder: &Path) -> Result<Vec<String>, Error> {
 
 impl Rigs {
     /// The rigs that are built in, with what files in `folder` say, and `settings` after them.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the file, the line and the key, or the setting.
     pub(crate) fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
         /// As settings name them.
         const NAMES: [&str; 7] = [

@@ -14,7 +14,7 @@
 
 use super::means::check_segment;
 use super::spectrum::{Bins, Measure, Spectrum};
-use host_sim::Error;
+use anyhow::Result;
 
 /// Places among the five.
 pub(crate) const PEAK: usize = 0;
@@ -35,10 +35,7 @@ pub(crate) struct Extractor {
 
 impl Extractor {
     /// For blocks of so many samples.
-    ///
-    /// # Errors
-    /// The rate is below 2 kHz.
-    pub(crate) fn new(onset: f64, rate_hz: f64, block: usize) -> Result<Self, Error> {
+    pub(crate) fn new(onset: f64, rate_hz: f64, block: usize) -> Result<Self> {
         let bins = Bins::between(block, rate_hz, 6.0, 1000.0)?;
         Ok(Self {
             onset,
@@ -49,10 +46,7 @@ impl Extractor {
     }
 
     /// f1 to f5 of a block; more samples are left out.
-    ///
-    /// # Errors
-    /// It is too short.
-    pub(crate) fn features(&self, segment: &[f64]) -> Result<[f64; 5], Error> {
+    pub(crate) fn features(&self, segment: &[f64]) -> Result<[f64; 5]> {
         check_segment(segment, 1, self.block)?;
         let deflection = &segment[..self.block];
         let f1 = deflection.iter().copied().fold(f64::NEG_INFINITY, f64::max);

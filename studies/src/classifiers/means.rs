@@ -1,7 +1,6 @@
 //! Mean vectors of classes: what both kinds of template are trained as.
 
-use crate::refused::refused;
-use host_sim::Error;
+use anyhow::{Result, bail};
 
 /// Sums of vectors of one length, a class each.
 #[derive(Debug, Clone, Default)]
@@ -49,12 +48,10 @@ pub(crate) fn least<T: PartialOrd>(errors: &[T]) -> usize {
 }
 
 /// Refuses a segment that has not whole samples, or fewer than are needed.
-pub(crate) fn check_segment(segment: &[f64], channels: usize, needed: usize) -> Result<(), Error> {
+pub(crate) fn check_segment(segment: &[f64], channels: usize, needed: usize) -> Result<()> {
     let values = segment.len();
     if needed == 0 || !values.is_multiple_of(channels) || values / channels < needed {
-        return Err(refused(format!(
-            "a segment of {values} values; {needed} samples of {channels} channels are needed"
-        )));
+        bail!("a segment of {values} values; {needed} samples of {channels} channels are needed");
     }
     Ok(())
 }

@@ -15,12 +15,10 @@
 //! h_j = σ(b_j + Σ_i W_ij z_i) for the H hidden units, y_k = σ(c_k + Σ_j V_kj h_j) for the O
 //! outputs, and the class is the k of the largest y_k, the first of equals.
 
+use anyhow::{Result, bail};
 mod gradient;
 mod session;
 mod train;
-
-use crate::refused::refused;
-use host_sim::Error;
 
 pub(crate) use train::{Options, Row, train};
 
@@ -62,16 +60,13 @@ pub(crate) struct Network {
 
 impl Network {
     /// The outputs y, each between nought and one.
-    ///
-    /// # Errors
-    /// There are more or fewer inputs than the network has.
-    fn outputs(&self, inputs: &[f64]) -> Result<Vec<f64>, Error> {
+    fn outputs(&self, inputs: &[f64]) -> Result<Vec<f64>> {
         if inputs.len() != self.shape.inputs {
-            return Err(refused(format!(
+            bail!(
                 "{} inputs for a network of {}",
                 inputs.len(),
                 self.shape.inputs
-            )));
+            );
         }
         let mut hidden = vec![0.0; self.shape.hidden];
         let mut outputs = vec![0.0; self.shape.outputs];
@@ -87,10 +82,7 @@ impl Network {
     }
 
     /// The class: the output that is largest, the first of equals.
-    ///
-    /// # Errors
-    /// There are more or fewer inputs than the network has.
-    pub(crate) fn classify(&self, inputs: &[f64]) -> Result<usize, Error> {
+    pub(crate) fn classify(&self, inputs: &[f64]) -> Result<usize> {
         let outputs = self.outputs(inputs)?;
         let places = 1..outputs.len();
         let larger = |best: usize, k: usize| if outputs[k] > outputs[best] { k } else { best };

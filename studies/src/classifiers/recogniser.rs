@@ -10,6 +10,7 @@
 //! [`Bayes`] wraps naive Bayes under any rule; [`Picked`] lets a recogniser
 //! take only some channels (x alone, y alone, one whisker).
 
+use anyhow::Result;
 use tactile::{Decision, DecisionRule, Model, NaiveBayes, Posteriors, Quantiser, SetupError};
 
 /// What a recogniser found.

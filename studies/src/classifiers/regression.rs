@@ -4,10 +4,8 @@
 //! Features differ in size by orders of magnitude (volts, hertz), so they are centred and scaled
 //! first, u_f = (x_f − centre_f) · scale_f; powers of them then keep their precision.
 
+use anyhow::{Context, Result, bail};
 use nalgebra::{DMatrix, DVector, SVD};
-
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Singular values below this share of the largest count as zero: products
 /// that the data cannot tell apart share their coefficient.
@@ -56,11 +54,8 @@ fn product(powers: &[u8], scaled: &[f64]) -> f64 {
 impl Regression {
     /// Fits to examples: the features of each, and the value to be estimated. Where the examples
     /// do not determine a coefficient, the smallest is taken.
-    ///
-    /// # Errors
-    /// No examples, or a number that is not finite.
-    pub(crate) fn fit(degree: u8, examples: &[(Vec<f64>, f64)]) -> Result<Self, Error> {
-        let (first, _) = examples.first().ok_or_else(|| refused("nothing to fit to"))?;
+    pub(crate) fn fit(degree: u8, examples: &[(Vec<f64>, f64)]) -> Result<Self> {
+        let (first, _) = examples.first().context("nothing to fit to")?;
         let features = first.len();
         let powers = powers(features, degree);
         let n = examples.len() as f64;
@@ -89,13 +84,15 @@ impl Regression {
             }
         }
         let targets = DVector::from_iterator(examples.len(), examples.iter().map(|(_, y)| *y));
-        let singular = || refused("the least squares of a polynomial have no solution");
+        let singular = "the least squares of a polynomial have no solution";
         let svd = SVD::try_new(design, true, true, f64::EPSILON, MAX_STEPS);
-        let svd = svd.ok_or_else(singular)?;
+        let svd = svd.context(singular)?;
         let most = svd.singular_values.iter().copied().fold(0.0, f64::max);
-        let coefficients = svd.solve(&targets, RANK * most).map_err(refused)?;
+        let coefficients = svd
+            .solve(&targets, RANK * most)
+            .map_err(anyhow::Error::msg)?;
         if !coefficients.iter().all(|x| x.is_finite()) {
-            return Err(singular());
+            bail!(singular);
         }
         fitted.terms = powers
             .into_iter()

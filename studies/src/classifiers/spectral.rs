@@ -5,7 +5,7 @@
 
 use super::means::{Means, check_segment, squared_errors};
 use super::spectrum::{Bins, Measure, Spectrum};
-use host_sim::Error;
+use anyhow::Result;
 
 /// How blocks of some channels become spectra.
 #[derive(Clone)]
@@ -18,7 +18,7 @@ struct Spectra {
 
 impl Spectra {
     /// The spectra of a block, channel by channel.
-    fn of(&self, block: &[f64]) -> Result<Vec<f64>, Error> {
+    fn of(&self, block: &[f64]) -> Result<Vec<f64>> {
         let mut all = Vec::with_capacity(self.channels * self.spectrum.bins.count);
         for channel in 0..self.channels {
             let samples = block.iter().skip(channel).step_by(self.channels).copied();
@@ -51,10 +51,7 @@ impl SpectralTrainer {
     }
 
     /// Adds a signal of a class, sample by sample: every whole block of it.
-    ///
-    /// # Errors
-    /// It is shorter than a block.
-    pub(crate) fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, class: usize, segment: &[f64]) -> Result<()> {
         let Spectra {
             channels, block, ..
         } = self.spectra;
@@ -83,10 +80,7 @@ pub(crate) struct SpectralTemplates {
 
 impl SpectralTemplates {
     /// The sum of squared errors of a block under each class.
-    ///
-    /// # Errors
-    /// It is no block.
-    pub(crate) fn errors(&self, block: &[f64]) -> Result<Vec<f64>, Error> {
+    pub(crate) fn errors(&self, block: &[f64]) -> Result<Vec<f64>> {
         check_segment(block, self.spectra.channels, self.spectra.block)?;
         Ok(squared_errors(&self.means, &self.spectra.of(block)?))
     }

@@ -7,13 +7,11 @@
 //! - **bin**: one frequency, k · rate / N in Hz: X(k) = Σ_j x(j) exp(−2πi j k / N) (POSE eq. 2,
 //!   which counts from one).
 
+use anyhow::{Result, bail};
 use std::sync::Arc;
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
-
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Which bins of which transform: k = first, first + 1, …, `count` of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,23 +42,13 @@ impl Bins {
 
     /// The bins whose frequencies lie from `low_hz` to `high_hz` (both included, to a millionth
     /// of a bin), at a sample rate of `rate_hz`.
-    ///
-    /// # Errors
-    /// There are none, or they lie above half the rate.
-    pub(crate) fn between(
-        points: usize,
-        rate_hz: f64,
-        low_hz: f64,
-        high_hz: f64,
-    ) -> Result<Self, Error> {
+    pub(crate) fn between(points: usize, rate_hz: f64, low_hz: f64, high_hz: f64) -> Result<Self> {
         let k = |hz: f64| hz * points as f64 / rate_hz;
         let first = libm::ceil(k(low_hz) - 1e-6);
         let last = libm::floor(k(high_hz) + 1e-6);
         // What is not a number is in no range.
         if !(first >= 0.0 && last >= first && last <= points as f64 / 2.0) {
-            return Err(refused(format!(
-                "no bins from {low_hz} to {high_hz} Hz at {rate_hz} samples a second"
-            )));
+            bail!("no bins from {low_hz} to {high_hz} Hz at {rate_hz} samples a second");
         }
         let count = (last - first) as usize + 1;
         Ok(Self {
@@ -91,23 +79,18 @@ impl Spectrum {
     }
 
     /// The bins of a block, in order.
-    ///
-    /// # Errors
-    /// It is longer than the transform.
     pub(crate) fn of(
         &self,
         block: impl Iterator<Item = f64>,
         measure: Measure,
-    ) -> Result<Vec<f64>, Error> {
+    ) -> Result<Vec<f64>> {
         let mut input: Vec<f64> = block.collect();
         if input.len() > self.bins.points {
-            return Err(refused("a block longer than its transform"));
+            bail!("a block longer than its transform");
         }
         input.resize(self.bins.points, 0.0);
         let mut output = self.plan.make_output_vec();
-        self.plan
-            .process(&mut input, &mut output)
-            .map_err(refused)?;
+        self.plan.process(&mut input, &mut output)?;
         let measured = |x: &Complex<f64>| match measure {
             Measure::Magnitude => x.norm(),
             Measure::Power => x.norm_sqr(),

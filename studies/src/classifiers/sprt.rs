@@ -5,6 +5,7 @@
 //! of each block, the mean over its samples as in LEP12 eq. 6. H₁ is decided where log PR is
 //! log(θ/(1 − θ)) or more, H₂ where −log PR is.
 
+use anyhow::Result;
 use tactile::{Binner, Model, Quantiser, SetupError};
 
 use super::recogniser::{Outcome, Recogniser};
@@ -37,10 +38,6 @@ pub(crate) struct Sprt {
 impl Sprt {
     /// The test with a threshold θ on the probability, above 0.5 and below 1, and the prior ratio
     /// HR, above 0 and finite.
-    ///
-    /// # Errors
-    /// [`SetupError::Threshold`] if one of them is not in its range, or the model has no two
-    /// classes.
     pub(crate) fn new(
         model: Model<&[u32]>,
         theta: f64,

@@ -5,6 +5,7 @@
 //! A whisk may have any length: push its samples, then call
 //! [`NaiveBayes::finish`] at its end for the decision.
 
+use anyhow::Result;
 use tactile::{
     Decision, DecisionRule, EvidenceScale, MAX_SAMPLES_TIMES_CHANNELS, Model, NaiveBayes,
     SetupError, Totals,

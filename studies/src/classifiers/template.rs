@@ -2,10 +2,10 @@
 //! an aligned window (BIOTACT eq. 17, POSE eq. 1):
 //! e(T_k) = Σ_t Σ_c (I_c(t) − T_k,c(t))², and the least wins.
 
+use anyhow::Result;
 use tactile::Quantiser;
 
 use super::means::{Means, check_segment, least, squared_errors};
-use host_sim::Error;
 
 /// Adds up the training signals.
 #[derive(Debug, Clone)]
@@ -29,10 +29,7 @@ impl TemplateTrainer {
     }
 
     /// Adds a signal of a class, sample by sample. What is beyond the window is left out.
-    ///
-    /// # Errors
-    /// It is shorter than the window.
-    pub(crate) fn add(&mut self, class: usize, segment: &[f64]) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, class: usize, segment: &[f64]) -> Result<()> {
         check_segment(segment, self.channels, self.window)?;
         let signal = || segment.iter().copied().take(self.channels * self.window);
         self.largest = signal().map(f64::abs).fold(self.largest, f64::max);

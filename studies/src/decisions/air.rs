@@ -1,7 +1,7 @@
 //! Decisions of a whisker that touches nothing.
 
+use anyhow::Result;
 use firmware::Event;
-use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
@@ -12,7 +12,6 @@ use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, verdict};
-use crate::refused::refused;
 
 /// Whisking frequencies tried, Hz.
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
@@ -28,7 +27,7 @@ pub(super) fn section(
     trained: &[Vec<Trained>],
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     let shipped = || trained.iter().filter_map(|trained| trained.first());
     let jobs: Vec<(&Ground, &Trained, f64)> = grounds
         .iter()
@@ -48,7 +47,7 @@ pub(super) fn section(
             obstacle.obstacle_deg.fill(OUT_OF_REACH_DEG);
         }
         let rule = Rule::Sequential { threshold: 0.99 };
-        let classifier = Classifier::new(trained.model.clone(), rule).map_err(refused)?;
+        let classifier = Classifier::new(trained.model.clone(), rule)?;
         let mut run = Run::new(&scene, Some(classifier))?;
         let (mut decisions, mut touches) = (0_u32, 0_u32);
         for _ in 0..run.ticks() {

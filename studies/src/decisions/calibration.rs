@@ -1,6 +1,6 @@
 //! Stated against found, as a picture and a table.
 
-use host_sim::Error;
+use anyhow::Result;
 use tactile::score::{CalibrationBin, Interval};
 
 use super::figures::percent;
@@ -15,11 +15,7 @@ const FOUND: f64 = 1e-4;
 const HIGH: f64 = 0.1;
 
 /// The decisions of all trainings, by what they state.
-pub(super) fn section(
-    page: &mut Page,
-    grounds: &[Ground],
-    trained: &[Vec<Trained>],
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, grounds: &[Ground], trained: &[Vec<Trained>]) -> Result<()> {
     page.heading(2, "Stated against found");
     page.say(
         "Decisions of all trainings by their posterior, at three thresholds. The picture shows \

@@ -1,6 +1,6 @@
 //! Each figure of the two scenes beside its goal.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::ModelBuf;
 use tactile::train::joint::JointModel;
@@ -9,7 +9,6 @@ use super::figures::{Figures, Goal, Table, mean_of, number, percent, plus_minus}
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::Page;
-use crate::refused::refused;
 
 /// Thresholds, with how many points stated and found may lie apart.
 pub(super) const THRESHOLDS: [(f64, f64); 3] = [(0.95, 1.5), (0.99, 1.0), (0.999, 1.5)];
@@ -32,15 +31,12 @@ impl Trained {
 }
 
 /// Of each scene a model a training.
-pub(super) fn measure(
-    grounds: &[Ground],
-    verbosity: Verbosity,
-) -> Result<Vec<Vec<Trained>>, Error> {
+pub(super) fn measure(grounds: &[Ground], verbosity: Verbosity) -> Result<Vec<Vec<Trained>>> {
     let of_ground = |ground: &Ground| {
         let seeds: Vec<u64> = ground.seeds().collect();
         each(verbosity, "trainings", &seeds, |&seed| {
             let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
-            let model = joint.model().map_err(refused)?;
+            let model = joint.model()?;
             let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
             Ok(Trained {
                 seed,

@@ -1,6 +1,6 @@
 //! The scenes that are scored, with their runs.
 
-use host_sim::Error;
+use anyhow::{Context, Result};
 use host_sim::classifier::Classifier;
 use host_sim::commands::record;
 use host_sim::progress::Verbosity;
@@ -15,7 +15,6 @@ use tactile::train::joint::{JointModel, Options};
 use super::extent::Extent;
 use super::figures::Figures;
 use crate::cores::each;
-use crate::refused::refused;
 
 /// Longest run that is trained on, s.
 pub(super) const LONGEST_S: f64 = 80.0;
@@ -68,7 +67,7 @@ pub(super) struct Ground {
 
 impl Ground {
     /// All scenes with their runs.
-    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>, Error> {
+    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>> {
         SCENES
             .into_iter()
             .map(|(name, text, goals)| {
@@ -116,9 +115,9 @@ impl Ground {
     }
 
     /// A joint model with the settings that `host-sim train` has by default.
-    pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel, Error> {
+    pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel> {
         let joint = self.train_tables(streams, Tables::Joint)?.joint;
-        joint.ok_or_else(|| Error::Work("training made no joint model".to_owned()))
+        joint.context("training made no joint model")
     }
 
     /// A model of any tables with the settings that `host-sim train` has by default.
@@ -126,25 +125,21 @@ impl Ground {
         &self,
         streams: Vec<Stream>,
         tables: Tables,
-    ) -> Result<TrainedModel, Error> {
+    ) -> Result<TrainedModel> {
         let recordings = [(self.scene.name.clone(), streams)];
         let contact_min = self.scene.classifier.as_ref().and_then(|c| c.contact_min);
         let how = How::of(tables).gated(contact_min);
         let trained = how.train(&recordings, self.scene.tick_hz);
-        trained.map_err(refused)
+        trained.map_err(anyhow::Error::new)
     }
 
     /// A model with other settings.
-    pub(super) fn train_by(
-        &self,
-        streams: Vec<Stream>,
-        options: &Options,
-    ) -> Result<JointModel, Error> {
-        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(refused)
+    pub(super) fn train_by(&self, streams: Vec<Stream>, options: &Options) -> Result<JointModel> {
+        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(anyhow::Error::new)
     }
 
     /// A model on the runs that are scored.
-    pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures, Error> {
+    pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures> {
         self.score_on(&self.heard, model, threshold)
     }
 
@@ -154,9 +149,9 @@ impl Ground {
         heard: &[Heard],
         model: &ModelBuf,
         threshold: f64,
-    ) -> Result<Figures, Error> {
+    ) -> Result<Figures> {
         let rule = Rule::Sequential { threshold };
-        let classifier = Classifier::new(model.clone(), rule).map_err(refused)?;
+        let classifier = Classifier::new(model.clone(), rule)?;
         let runs = heard.iter().map(|run| run.score(classifier.clone()));
         Ok(Figures::of(
             runs.collect(),
@@ -167,15 +162,12 @@ impl Ground {
 }
 
 /// Runs of a scene with these seeds, as a classifier hears them.
-pub(super) fn heard(
-    scene: &Scene,
-    seeds: &[u64],
-    verbosity: Verbosity,
-) -> Result<Vec<Heard>, Error> {
+pub(super) fn heard(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
     each(verbosity, "scored runs", seeds, |&seed| {
-        Heard::record(&Scene {
+        let scene = Scene {
             seed,
             ..scene.clone()
-        })
+        };
+        Ok(Heard::record(&scene)?)
     })
 }

@@ -1,6 +1,6 @@
 //! What was chosen after results had been seen, and what would have come of it otherwise.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
@@ -9,7 +9,6 @@ use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, row};
-use crate::refused::refused;
 
 /// Where such choices are noted, each with the way there from the page.
 const NOTES: [(&str, &str, &str); 3] = [
@@ -79,7 +78,7 @@ pub(super) fn section(
     grounds: &[Ground],
     trained: &[Vec<Trained>],
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.heading(2, "Chosen after results were seen");
     page.say("Values that were chosen with results before the eyes, as their sources tell them:");
     for (name, way, text) in NOTES {
@@ -112,7 +111,7 @@ pub(super) fn section(
                 let options = without.options(&one.joint.options);
                 let streams = ground.recording(one.seed, ground.scene.duration_s);
                 let joint = ground.train_by(streams, &options)?;
-                ground.score(&joint.model().map_err(refused)?, 0.99)
+                ground.score(&joint.model()?, 0.99)
             })?;
             let name = without.name();
             for (one, figures) in trained.iter().zip(&found) {

@@ -1,6 +1,6 @@
 //! The main job over many runs.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 
 use super::extent::Extent;
@@ -17,7 +17,7 @@ pub(super) fn section(
     trained: &[Vec<Trained>],
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     let (Some(ground), Some([shipped, ..])) = (grounds.first(), trained.first().map(Vec::as_slice))
     else {
         return Ok(());

@@ -1,6 +1,6 @@
 //! What is told where there is nothing to tell: labels that mean nothing.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use host_sim::training::Tables;
 
@@ -24,7 +24,7 @@ pub(super) fn section(
     grounds: &[Ground],
     trained: &[Vec<Trained>],
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.heading(2, "A placebo");
     page.say(
         "The same runs with labels that mean nothing: trial n of texture m is called by name \

@@ -3,7 +3,7 @@
 mod picture;
 mod settings;
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
@@ -26,7 +26,7 @@ pub(super) fn section(
     counts: &Counts,
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     let mut jobs = Vec::new();
     for setting in Setting::ALL {
         for &value in setting.values().iter().take(extent.values) {
@@ -220,7 +220,7 @@ mod tests {
         // 100 a sample and 200 for the end, counted with blocks of 40.
         let table = b"kernel,format,target,mean,worst\n\
             joint classifier push K=4,integer,cortex-m4f,105,300\n";
-        let counts = Counts::parse(table);
+        let counts = Counts::parse(table).unwrap();
         assert_eq!(instructions(&counts, 40), "105; not counted");
         assert_eq!(instructions(&counts, 20), "110; not counted");
         assert_eq!(instructions(&counts, 5), "140; not counted");

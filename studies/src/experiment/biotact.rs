@@ -10,18 +10,17 @@ mod own;
 mod patterns;
 mod whisks;
 
+use anyhow::Result;
 use rayon::prelude::*;
 
-use super::picture::{Curve, panel, percent};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::chart::{Mark, linear};
+use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Claim, Page, figure, row};
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
 use crate::rigs::{Chance, seed_of};
-use host_sim::Error;
 use whisks::{Method, Task, Visits};
 
 /// Random choices of training whisks that a hit rate is the mean of.
@@ -38,7 +37,7 @@ type HitCurve = Vec<f64>;
 struct Hits(Vec<HitCurve>);
 
 impl Hits {
-    fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self, Error> {
+    fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self> {
         let whisks = request.extent.whisks();
         let mut cases = Vec::new();
         for method in Method::ALL {
@@ -48,7 +47,7 @@ impl Hits {
                 }
             }
         }
-        let rates: Result<Vec<f64>, Error> = cases
+        let rates: Result<Vec<f64>> = cases
             .into_par_iter()
             .map(|(method, task, strategy, count)| {
                 let mut sum = 0.0;
@@ -82,11 +81,7 @@ impl Hits {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let visits = Visits::new(request, recordings);
     let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));
     let hits = Hits::measure(request, &visits, most)?;
@@ -109,13 +104,13 @@ pub(super) fn evaluate(
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {
-            let curves: Vec<Curve> = STRATEGIES
+            let curves: Vec<Series> = STRATEGIES
                 .iter()
                 .enumerate()
                 .map(|(strategy, (name, _))| {
                     let points = hits.curve(method, task, strategy).iter().enumerate();
                     let points = points.map(|(n, hit)| ((n + 1) as f64, *hit));
-                    Curve::new(name, points.collect())
+                    Series::curve(name, points.collect())
                 })
                 .collect();
             let x = linear("training whisks", 0.0, most as f64 + 1.0);

@@ -1,11 +1,10 @@
 //! What changes of rigs do to claims: margins beside each other, and the reasons that follow.
 
-use host_sim::Error;
-
 use super::bodies::Bodies;
 use super::variants::{Kind, Variant};
 use super::verdicts::{Judged, Verdict, judged};
 use crate::page::Page;
+use anyhow::Result;
 
 /// What came of a change.
 #[derive(Debug)]
@@ -26,11 +25,7 @@ fn cell(claim: &Judged) -> String {
 }
 
 /// What each change of a rig does to the claims that rest on it.
-pub(super) fn section(
-    page: &mut Page,
-    claims: &[Judged],
-    changed: &[Changed],
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, claims: &[Judged], changed: &[Changed]) -> Result<()> {
     if changed.is_empty() {
         return Ok(());
     }

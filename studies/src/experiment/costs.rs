@@ -141,18 +141,3 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
         rows,
     );
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{FORMS, counted};
-
-    #[test]
-    fn every_kernel_is_counted() {
-        for form in FORMS.iter() {
-            for (kernel, ..) in &form.kernels {
-                assert!(counted(kernel).is_some_and(|n| n > 1.0), "{kernel}");
-            }
-            assert!(form.instructions().is_some());
-        }
-    }
-}

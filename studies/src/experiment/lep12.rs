@@ -13,19 +13,14 @@ use super::request::Request;
 use crate::page::{Claim, Page, beside, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
-use crate::refused::refused;
+use anyhow::{Context, Result};
 use groups::{Curves, Group, interpolate};
-use host_sim::Error;
 
 /// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::new(request, recordings);
     let rate_hz = floors.rate_hz;
     let groups = Group::all(&floors)?;
@@ -43,7 +38,7 @@ pub(super) fn evaluate(
     for group in &groups {
         let both = Curves::of(group, rate_hz)?;
         let window = group.window(floors.samples(TIME_S) as u32, rate_hz)?;
-        let nearest = both.nearest().ok_or_else(|| refused("no threshold"))?;
+        let nearest = both.nearest().context("no threshold")?;
         times.push((nearest.parameter, nearest.time_s));
         rows[0].push(with_mean(window.tally.hits()));
         rows[1].push(with_mean(nearest.tally.hits()));
@@ -78,8 +73,8 @@ pub(super) fn evaluate(
 }
 
 /// The product's own rule, on each group of trials.
-fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<(), Error> {
-    let streams = |streams: &[Stream]| -> Result<Vec<_>, Error> {
+fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<()> {
+    let streams = |streams: &[Stream]| -> Result<Vec<_>> {
         let all = streams.iter().enumerate();
         let one = |(n, stream): (usize, &Stream)| {
             let pairs = stream.samples.as_chunks().0.to_vec();

@@ -14,17 +14,13 @@ use super::recording::Recordings;
 use super::request::Request;
 use crate::page::{Claim, Page, figure};
 use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
-use host_sim::Error;
+use anyhow::Result;
 use rules::{features, spectral, template};
 use scores::Scores;
 use sets::Sets;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sets = Sets::new(request, recordings);
     let by_template = template(&sets)?;
     let by_spectrum = spectral(&sets)?;
@@ -75,8 +71,8 @@ pub(super) fn evaluate(
 }
 
 /// The product's own rule on textures, whatever the pose.
-fn product(page: &mut Page, sets: &Sets) -> Result<(), Error> {
-    let streams = |set: usize| -> Result<Vec<_>, Error> {
+fn product(page: &mut Page, sets: &Sets) -> Result<()> {
+    let streams = |set: usize| -> Result<Vec<_>> {
         let all = sets.pairs[set].iter().enumerate();
         let one = |(n, (contact, pairs)): (usize, &(Contact, Vec<[f64; 2]>))| {
             let name = TEXTURES[contact.texture];

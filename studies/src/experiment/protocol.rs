@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use host_sim::Error;
-
 use super::request::{Extent, Name, Request};
 use crate::rigs::{Rigs, Setting};
 
@@ -78,7 +76,7 @@ impl Protocol {
         seed: u64,
         more: &[Setting],
         is_placebo: bool,
-    ) -> Result<Request, Error> {
+    ) -> anyhow::Result<Request> {
         let settings = [&self.set[..], more].concat();
         Ok(Request {
             names: self.names(),

@@ -6,20 +6,18 @@ mod maze;
 mod own;
 mod sweeps;
 
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
 use super::dataset::Dataset;
-use super::picture::{Curve, panel, percent};
 use super::record::pad::PAPERS;
 use super::recording::{Recordings, of_set};
 use super::request::Request;
-use crate::chart::{Mark, linear};
+use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Claim, Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
-use crate::refused::refused;
 use crate::rigs::seed_of;
-use host_sim::Error;
 use sweeps::{NAMES, Sweeps, hit, mean_hit};
 
 /// Chance of naming a sandpaper, percent.
@@ -37,11 +35,7 @@ fn borders() -> Vec<usize> {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sweeps = Sweeps::new(request, &of_set(recordings, Dataset::Pad));
     let (training, testing) = request.extent.sweeps();
     page.heading(2, "PSIK: many vibrissae");
@@ -59,12 +53,12 @@ pub(super) fn evaluate(
     let more = (1..=ARCS.len())
         .into_par_iter()
         .map(|arcs| sweeps.score(0, borders[arcs], seed(arcs)))
-        .collect::<Result<Vec<Confusion>, Error>>()?;
+        .collect::<Result<Vec<Confusion>>>()?;
     let single = (0..5)
         .into_par_iter()
         .map(|arc| sweeps.score(borders[arc], borders[arc + 1], seed(100 + arc)))
-        .collect::<Result<Vec<Confusion>, Error>>()?;
-    let all = more.last().ok_or_else(|| refused("no arcs"))?;
+        .collect::<Result<Vec<Confusion>>>()?;
+    let all = more.last().context("no arcs")?;
 
     let mean = mean_hit(&TABLE_2);
     page.say(format_args!(
@@ -87,10 +81,10 @@ fn figures(
     more: &[Confusion],
     single: &[Confusion],
     borders: &[usize],
-) -> Result<(), Error> {
+) -> Result<()> {
     let points = more.iter().zip(borders.iter().skip(1));
     let points = points.map(|(score, count)| (*count as f64, hit(score)));
-    let curve = Curve::new("mean performance", points.collect());
+    let curve = Series::curve("mean performance", points.collect());
     let x = linear(
         "vibrissae, from the longest arc on",
         0.0,

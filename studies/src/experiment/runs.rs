@@ -1,7 +1,7 @@
 //! The runs of a protocol: each seed once as it is and once as a placebo, and some seeds of
 //! every change of a rig.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::{Progress, Verbosity};
 
 use super::bodies::Bodies;
@@ -37,15 +37,11 @@ fn changes(protocol: &Protocol) -> Vec<&'static Variant> {
 
 /// Runs all of it; the page comes last. `keep` takes the data of its figures, and recordings
 /// where those are kept.
-///
-/// # Errors
-/// [`Error::Input`] for a bad rig, [`Error::Work`] if the simulation or a classifier refuses
-/// something, and what `keep` gives.
 pub(crate) fn run(
     protocol: &Protocol,
     verbosity: Verbosity,
-    keep: &mut dyn FnMut(&Files) -> Result<(), Error>,
-) -> Result<Files, Error> {
+    keep: &mut dyn FnMut(&Files) -> Result<()>,
+) -> Result<Files> {
     let changes = changes(protocol);
     let (first, count) = (protocol.seed, protocol.seeds);
     let of_changes = count.min(SEEDS_OF_CHANGES);
@@ -63,7 +59,7 @@ pub(crate) fn run(
         let page = evaluate(request, &recordings)?;
         done += 1;
         bar.set(done);
-        Ok::<_, Error>(page)
+        anyhow::Ok(page)
     };
     let mut both = |seeds: u64, more: &[Setting], only: Option<&Variant>| {
         let mut bodies = Bodies::default();
@@ -88,7 +84,7 @@ pub(crate) fn run(
                 bodies.of(is_placebo).push(page);
             }
         }
-        Ok::<_, Error>(bodies)
+        anyhow::Ok(bodies)
     };
     let plain = both(count, &[], None)?;
     let mut changed = Vec::new();

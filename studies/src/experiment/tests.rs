@@ -7,7 +7,7 @@ use super::recording::Recording;
 use super::request::{Name, Request};
 use super::whole::evaluate;
 use crate::rigs::RobotMotion;
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 
 fn on_cores<T: Send>(cores: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -43,7 +43,7 @@ fn the_same_recordings_give_the_same_pages_on_one_core_or_several() {
 }
 
 /// What records a job from a seed.
-type Record = fn(&Request, usize, u64) -> Result<Recording, Error>;
+type Record = fn(&Request, usize, u64) -> Result<Recording>;
 
 /// Of two jobs that differ in their classes alone, from one seed: recordings differ, and in a
 /// placebo they are the same to the last bit, so that nothing is left that tells classes apart.

@@ -2,8 +2,7 @@
 
 use crate::moments::{SURE, Summary, VERY_SURE};
 use crate::page::{Claim, Page, Told, joined};
-use crate::refused::refused;
-use host_sim::Error;
+use anyhow::{Context, Result, bail};
 
 /// What is to be said of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,24 +127,20 @@ fn of_all(pages: &[Page], n: usize) -> impl Iterator<Item = &Claim> {
 }
 
 /// The claims of some seeds, beside those of placebos.
-///
-/// # Errors
-/// [`Error::Work`] if the seeds claim different things.
-pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>, Error> {
+pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>> {
     let claims = pages.first().map_or(&[][..], |page| &page.claims);
     let one = |(n, claim): (usize, &Claim)| {
         let ours: Vec<&str> = of_all(pages, n).map(|claim| &*claim.ours).collect();
         let same = of_all(pages, n).filter(|other| other.what == claim.what);
         let margins: Vec<f64> = same.map(|claim| claim.margin).collect();
         if margins.len() != pages.len() {
-            return Err(refused(format!("seeds differ in {:?}", claim.what)));
+            bail!("seeds differ in {:?}", claim.what);
         }
         let told: Vec<Told> = of_all(placebos, n).filter_map(|claim| claim.told).collect();
         Ok(Judged {
             what: claim.what.clone(),
             paper: claim.paper.clone(),
-            ours: joined(&ours)
-                .ok_or_else(|| refused(format!("seeds differ in words: {ours:?}")))?,
+            ours: joined(&ours).with_context(|| format!("seeds differ in words: {ours:?}"))?,
             margin: Summary::of(&margins),
             unit: claim.unit,
             placebo: Placebo::of(&told),

@@ -1,8 +1,7 @@
 //! The page of all experiments: claims first, what was chosen, then each experiment.
 
+use anyhow::{Context, Result};
 use std::fmt::Write;
-
-use host_sim::Error;
 
 use super::bodies::Bodies;
 use super::changes::{self, Changed};
@@ -12,16 +11,12 @@ use super::request::{Name, Request};
 use super::verdicts::{Judged, Verdict, judged};
 use super::{biotact, costs, lep10, lep12, pose, psik};
 use crate::page::{Files, Page, joined};
-use crate::refused::{refused, within};
 
 /// The name of the page.
 const PAGE: &str = "experiments.md";
 
 /// Evaluates the recordings of one seed.
-///
-/// # Errors
-/// [`Error::Work`] if a classifier cannot be trained or a picture fails.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Page, Error> {
+pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Page> {
     let mut body = Page::new("experiments");
     for name in &request.names {
         let evaluate = match name {
@@ -31,24 +26,20 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Pag
             Name::Pose => pose::evaluate,
             Name::Psikharpax => psik::evaluate,
         };
-        evaluate(&mut body, request, recordings).map_err(|error| within(name.text(), error))?;
+        evaluate(&mut body, request, recordings).context(name.text())?;
     }
     Ok(body)
 }
 
 /// The page of all seeds, and before it the pictures of the first.
-pub(super) fn report(
-    protocol: &Protocol,
-    plain: Bodies,
-    changed: &[Changed],
-) -> Result<Files, Error> {
+pub(super) fn report(protocol: &Protocol, plain: Bodies, changed: &[Changed]) -> Result<Files> {
     let claims = judged(&plain.pages, &plain.placebos)?;
     let mut page = Page::default();
     introduction(&mut page, protocol, &claims);
     changes::section(&mut page, &claims, changed)?;
     costs::section(&mut page, &plain);
     let texts: Vec<&str> = plain.pages.iter().map(|page| &*page.text).collect();
-    let body = joined(&texts).ok_or_else(|| refused("the pages of two seeds differ in words"))?;
+    let body = joined(&texts).context("the pages of two seeds differ in words")?;
     let text = format!("{}{}\n", page.text, body.trim_end());
     let first = plain.pages.into_iter().next();
     let mut files = first.map_or_else(Vec::new, |page| page.files);

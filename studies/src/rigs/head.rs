@@ -7,13 +7,12 @@
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A
 //! whisker at θ' = 90 degrees points sideways, beyond that forward.
 
+use anyhow::Result;
 use whisking::{GateSettings, Integrator, Settings};
 
 use super::chance::{Chance, seed_of};
 use super::module::{EACH, HeadModule, PositionControl, SIDES};
 use super::read::keys;
-use crate::refused::refused;
-use host_sim::Error;
 use physics::vector::add;
 use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
@@ -105,15 +104,12 @@ impl WhiskingHead {
     }
 
     /// Whisks against a surface.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if a setting is refused.
     pub(crate) fn visit(
         &self,
         shafts: &[Shaft; EACH],
         sensor: &SensorSettings,
         visit: &Visit<'_>,
-    ) -> Result<Felt, Error> {
+    ) -> Result<Felt> {
         let settings = Settings {
             tick_hz: self.tick_hz,
             frequency_hz: self.whisk_hz,
@@ -133,7 +129,7 @@ impl WhiskingHead {
         for n in 0..SIDES * EACH {
             let seed = seed_of(visit.seed, &[2, n as u64]);
             let whisker = TouchingWhisker::new(&shafts[n % EACH], sensor, seed);
-            whiskers.push(whisker.map_err(refused)?);
+            whiskers.push(whisker?);
         }
         let dt_s = 1.0 / self.tick_hz;
 

@@ -18,9 +18,6 @@ pub(crate) type OutOfRange = (&'static str, String);
 /// Keys of a file that can say whether their numbers are in range.
 pub(crate) trait Keys: DeserializeOwned {
     /// Checks every number.
-    ///
-    /// # Errors
-    /// The first that is out of range.
     fn check(&self) -> Result<(), OutOfRange>;
 }
 
@@ -117,9 +114,6 @@ pub(super) use keys;
 
 /// The rig that is built in, with what the file in `folder` says, if there is one, and with
 /// those of `settings` that are its keys.
-///
-/// # Errors
-/// [`Error::Input`].
 pub(crate) fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Error> {
     let path = folder.map(|folder| folder.join(R::FILE));
     let there = path.filter(|path| path.exists());
@@ -133,9 +127,6 @@ pub(crate) fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Resul
 
 /// A rig from the text of its file, which has what differs, and from settings; `path` is for
 /// the messages.
-///
-/// # Errors
-/// [`Error::Input`].
 pub(crate) fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R, Error> {
     let at = |line: usize, fault: String| Error::file(path, format_args!("line {line}: {fault}"));
     let mut keys: Table =

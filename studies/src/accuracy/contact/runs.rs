@@ -1,9 +1,8 @@
 //! Whisks against plates, as a reference has them and as ticks do.
 
+use anyhow::Result;
 use core::f64::consts::TAU;
 
-use crate::refused::refused;
-use host_sim::Error;
 use physics::{
     Biotact, Facing, Grit, Material, Modes, Plate, Pose, SensorSettings, Shaft, Surface,
     TouchingWhisker,
@@ -63,17 +62,17 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    pub(super) fn new() -> Result<Self, Error> {
+    pub(super) fn new() -> Result<Self> {
         let shaft = Shaft::biotact(Biotact::Middle);
-        let modes = shaft.modes(8).map_err(refused)?;
+        let modes = shaft.modes(8)?;
         Ok(Self { shaft, modes })
     }
 
     /// Straight and at rest.
-    pub(super) fn whisker(&self, finer: u32) -> Result<TouchingWhisker, Error> {
+    pub(super) fn whisker(&self, finer: u32) -> Result<TouchingWhisker> {
         let sensor = SensorSettings::default();
         let whisker = TouchingWhisker::with_modes(&self.shaft, &self.modes, &sensor, 1);
-        Ok(whisker.map_err(refused)?.finer(finer))
+        Ok(whisker?.finer(finer))
     }
 
     /// A plate that it touches at [`TOUCH_RAD`].
@@ -102,7 +101,7 @@ struct Heard {
     lowered_m: f64,
 }
 
-fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Heard, Error> {
+fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Heard> {
     let mut whisker = subject.whisker(finer)?;
     let plate = subject.plate(surface);
     let ticks = SECONDS * hz;
@@ -203,11 +202,11 @@ pub(in crate::accuracy) struct Against {
 }
 
 /// Measures against every surface.
-pub(in crate::accuracy) fn measure() -> Result<Vec<Against>, Error> {
+pub(in crate::accuracy) fn measure() -> Result<Vec<Against>> {
     let subject = Subject::new()?;
     let against = |(name, surface): Named| {
         let truth = whisk(&subject, surface, REFERENCE)?;
-        let of = |hz, finer| -> Result<Measured, Error> {
+        let of = |hz, finer| -> Result<Measured> {
             let heard = whisk(&subject, surface, (hz, finer))?;
             Ok(Measured::new(&heard, &truth))
         };

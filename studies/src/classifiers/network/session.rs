@@ -1,10 +1,11 @@
 //! One start of training: from first weights to the best ones on the way.
 
+use anyhow::Result;
 use std::cell::RefCell;
 
 use argmin::core::{
-    CostFunction, Error, Executor, Gradient, IterState, KV, Problem, Solver, State,
-    TerminationReason, TerminationStatus,
+    CostFunction, Executor, Gradient, IterState, KV, Problem, Solver, State, TerminationReason,
+    TerminationStatus,
 };
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
@@ -90,7 +91,7 @@ impl CostFunction for Batch<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
-    fn cost(&self, weights: &Vec<f64>) -> Result<f64, Error> {
+    fn cost(&self, weights: &Vec<f64>) -> Result<f64> {
         Ok(self.at(weights, |last| last.cost))
     }
 }
@@ -99,7 +100,7 @@ impl Gradient for Batch<'_> {
     type Param = Vec<f64>;
     type Gradient = Vec<f64>;
 
-    fn gradient(&self, weights: &Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn gradient(&self, weights: &Vec<f64>) -> Result<Vec<f64>> {
         Ok(self.at(weights, |last| last.gradient.clone()))
     }
 }
@@ -115,7 +116,7 @@ struct Best {
 type Search = MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>;
 type Inner = LBFGS<Search, Vec<f64>, Vec<f64>, f64>;
 type Weights = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
-type Stepped = Result<(Weights, Option<KV>), Error>;
+type Stepped = Result<(Weights, Option<KV>)>;
 
 /// L-BFGS that keeps the best weights, and ends when the samples held out are named no better any
 /// more.

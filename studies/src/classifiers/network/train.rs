@@ -13,9 +13,8 @@
 use super::gradient::Samples;
 use super::session::session;
 use super::{Network, Shape, scaled};
-use crate::refused::refused;
 use crate::rigs::Chance;
-use host_sim::Error;
+use anyhow::{Result, bail};
 
 /// Starts until one is reliable.
 const ATTEMPTS: usize = 10;
@@ -80,15 +79,11 @@ impl Options {
 }
 
 /// Trains a network; there must be rows of every class from 0 on.
-///
-/// # Errors
-/// Fewer than two classes, unlike rows, an input that spans too much or too little to be scaled,
-/// or no start that was reliable.
-pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network, Error> {
+pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network> {
     let classes = rows.iter().map(|(class, _)| class + 1).max().unwrap_or(0);
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
     if classes < 2 || inputs == 0 || rows.iter().any(|(_, row)| row.len() != inputs) {
-        return Err(refused("rows that no network can be trained on"));
+        bail!("rows that no network can be trained on");
     }
     let shape = Shape {
         inputs,
@@ -115,13 +110,11 @@ pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network, Error> {
             return Ok(network);
         }
     }
-    Err(refused(
-        "no start of a network named every class well enough",
-    ))
+    bail!("no start of a network named every class well enough")
 }
 
 /// Mean and one over the standard deviation of an input.
-fn scale(rows: &[Row], input: usize) -> Result<(f64, f64), Error> {
+fn scale(rows: &[Row], input: usize) -> Result<(f64, f64)> {
     let count = rows.len() as f64;
     let values = || rows.iter().map(|(_, row)| row[input]);
     let mean = values().sum::<f64>() / count;
@@ -133,7 +126,7 @@ fn scale(rows: &[Row], input: usize) -> Result<(f64, f64), Error> {
     if mean.is_finite() && gain.is_finite() {
         Ok((mean, gain))
     } else {
-        Err(refused(format!("input {input} cannot be scaled")))
+        bail!("input {input} cannot be scaled")
     }
 }
 
@@ -177,7 +170,7 @@ fn start(shape: Shape, chance: &mut Chance) -> Vec<f64> {
 }
 
 /// The hit rate of the class that is named worst.
-fn least_hit_rate(rows: &[Row], network: &Network) -> Result<f64, Error> {
+fn least_hit_rate(rows: &[Row], network: &Network) -> Result<f64> {
     let mut counts = vec![(0_u32, 0_u32); network.shape.outputs];
     for (class, row) in rows {
         let (hits, trials) = &mut counts[*class];

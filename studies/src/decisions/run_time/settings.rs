@@ -1,6 +1,6 @@
 //! What is varied, and what came of it.
 
-use host_sim::Error;
+use anyhow::Result;
 use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, Options};
 
@@ -8,7 +8,6 @@ use crate::decisions::figures::{Figures, over};
 use crate::decisions::goals::Trained;
 use crate::decisions::ground::{Ground, LONGEST_S};
 use crate::moments::range;
-use crate::refused::refused;
 
 /// What is varied, all else by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,12 +55,7 @@ impl Setting {
     }
 
     /// A training with it.
-    pub(super) fn model(
-        self,
-        value: u32,
-        ground: &Ground,
-        trained: &Trained,
-    ) -> Result<ModelBuf, Error> {
+    pub(super) fn model(self, value: u32, ground: &Ground, trained: &Trained) -> Result<ModelBuf> {
         let options = trained.joint.options.clone();
         let seconds = match self {
             Self::Training => f64::from(value),
@@ -84,7 +78,7 @@ impl Setting {
                 ground.train_by(ground.recording(trained.seed, seconds), &options)?
             }
         };
-        joint.model().map_err(refused)
+        joint.model().map_err(anyhow::Error::new)
     }
 }
 

@@ -2,18 +2,17 @@
 //! x over time, and its spectrum over time (BIOTACT Fig. 12).
 
 use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
+use anyhow::Result;
 
 use super::movement::column;
-use crate::chart::{Mark, linear};
+use crate::chart::{Mark, Series, linear, panel};
 use crate::experiment::dataset::Dataset;
-use crate::experiment::picture::{Curve, panel};
 use crate::experiment::record::head::number;
 use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
-use host_sim::Error;
 
 /// The distance of the figure: the middle one.
 const DISTANCE: usize = 1;
@@ -34,11 +33,7 @@ fn whisk(all: &[&Recording], ticks: usize, strategy: usize, texture: usize) -> O
     Some(column(visit, ticks, 2 * ticks, 0))
 }
 
-pub(super) fn section(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let rate_hz = request.rigs.head.tick_hz;
@@ -57,7 +52,7 @@ pub(super) fn section(
                 power: gabor(&x, rate_hz)?,
             });
             let points = x.iter().enumerate().map(|(n, x)| (n as f64 / rate_hz, *x));
-            curves.push(Curve::new(name, points.collect()));
+            curves.push(Series::curve(name, points.collect()));
         }
         let ends = curves.iter().flat_map(|curve| &curve.points);
         let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), point| {
@@ -88,7 +83,7 @@ pub(super) fn section(
 
 /// Power by times and frequencies of a signal without its mean: |∫ x(t) w(t − t₀)
 /// exp(−iωt) dt|² with a Gaussian w.
-fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
+fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>> {
     // Four standard deviations either way.
     let reach = (4.0 * WINDOW_S * rate_hz).ceil() as usize;
     let block = 2 * reach + 1;

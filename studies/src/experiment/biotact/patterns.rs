@@ -2,12 +2,11 @@
 //! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
 
 use super::figures::{FREQUENCY_HZ, TICK_HZ, run};
-use crate::chart::{Mark, linear};
-use crate::experiment::picture::{Curve, panel};
+use crate::chart::{Mark, Series, linear, panel};
 use crate::moments::range;
 use crate::page::{Claim, Page};
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
-use host_sim::Error;
+use anyhow::Result;
 
 /// Ticks of a whisk.
 const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
@@ -20,7 +19,7 @@ pub(super) const RIGHT: usize = 1;
 pub(super) type Row = [f64; 2];
 
 /// The last whisks of a run.
-fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
+fn tail(figure: &Figure) -> Result<Vec<Row>> {
     let rows = run(figure)?;
     let from = rows.len().saturating_sub(WHISKS * WHISK);
     Ok(rows.into_iter().skip(from).collect())
@@ -39,20 +38,20 @@ pub(super) fn contacts(rows: &[Row], side: usize, whisks: usize) -> f64 {
     count as f64 / whisks as f64
 }
 
-fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
+fn curve(name: &str, rows: &[Row], side: usize) -> Series {
     // Every tenth tick is plenty for a picture.
     let points = rows.iter().enumerate().step_by(10);
     let points = points.map(|(n, row)| (n as f64 / TICK_HZ, row[side]));
-    Curve::new(name, points.collect())
+    Series::curve(name, points.collect())
 }
 
-pub(super) fn section(page: &mut Page) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page) -> Result<()> {
     gains(page)?;
     obstacles(page)
 }
 
 /// Fig. 6.
-fn gains(page: &mut Page) -> Result<(), Error> {
+fn gains(page: &mut Page) -> Result<()> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
         let rows = tail(&Figure { gain, ..FIG6 })?;
@@ -84,7 +83,7 @@ fn gains(page: &mut Page) -> Result<(), Error> {
 }
 
 /// Figs. 7 to 9.
-fn obstacles(page: &mut Page) -> Result<(), Error> {
+fn obstacles(page: &mut Page) -> Result<()> {
     let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;
     let mut panels = Vec::new();
@@ -97,7 +96,7 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
         let rows = tail(&figure)?;
         let level = |name: &str, side: usize| {
             let at = OBSTACLES_DEG[side];
-            Curve::new(name, vec![(0.0, at), (end, at)])
+            Series::curve(name, vec![(0.0, at), (end, at)])
         };
         let curves = [
             curve("left", &rows, LEFT),

@@ -1,5 +1,6 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
+use anyhow::Result;
 use tactile::train::{Options, Trainer};
 
 use crate::classifiers::recogniser::{Bayes, outcomes};
@@ -10,9 +11,7 @@ use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
-use crate::refused::refused;
 use crate::rigs::CHANNELS;
-use host_sim::Error;
 
 /// A classifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,14 +149,14 @@ impl Visits {
         task: Task,
         strategy: usize,
         split: Split<'_>,
-    ) -> Result<f64, Error> {
+    ) -> Result<f64> {
         match method {
             Method::Bayes => self.bayes(task, strategy, split),
             Method::Template => self.template(task, strategy, split),
         }
     }
 
-    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {
+    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64> {
         let (training, validation) = split;
         let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks);
         for (texture, distance, samples) in self.some(strategy, training) {
@@ -171,25 +170,20 @@ impl Visits {
         }))
     }
 
-    fn bayes(
-        &self,
-        task: Task,
-        strategy: usize,
-        (training, validation): Split<'_>,
-    ) -> Result<f64, Error> {
-        let mut trainer = Trainer::new(CHANNELS, self.options).map_err(refused)?;
+    fn bayes(&self, task: Task, strategy: usize, (training, validation): Split<'_>) -> Result<f64> {
+        let mut trainer = Trainer::new(CHANNELS, self.options)?;
         // Classes are numbered as they first appear: put them in order.
         let mut sorted: Vec<&Whisk> = self.some(strategy, training).collect();
         sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
         for (texture, distance, samples) in sorted {
             let name = format!("class {}", task.class(*texture, *distance));
             for sample in samples.chunks_exact(CHANNELS) {
-                trainer.add(&name, sample).map_err(refused)?;
+                trainer.add(&name, sample)?;
             }
         }
-        let buf = trainer.train().map_err(refused)?;
+        let buf = trainer.train()?;
         let model = buf.view();
-        let mut bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
+        let mut bayes = Bayes::<StationaryRule>::new(model, ())?;
         let validation = self.some(strategy, validation);
         Ok(share(task, validation, |whisk| {
             let found = outcomes(&mut bayes, whisk, CHANNELS);

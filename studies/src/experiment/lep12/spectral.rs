@@ -8,6 +8,7 @@
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).
 
+use anyhow::Result;
 use rayon::prelude::*;
 
 use super::groups::Group;
@@ -18,7 +19,6 @@ use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
 use crate::experiment::floors::{CHANNELS, Stream, Tally};
 use crate::paper::lep12::SEGMENT_S;
 use crate::rigs::seed_of;
-use host_sim::Error;
 
 /// Highest frequency, Hz.
 const HIGHEST_HZ: f64 = 120.0;
@@ -26,7 +26,7 @@ const HIGHEST_HZ: f64 = 120.0;
 const TRANSFORM_S: f64 = 0.5;
 
 /// Hit rates of the template, percent.
-pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
+pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4]> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
     let bins = Bins::between(block, rate_hz, 1.0, HIGHEST_HZ)?;
     let mut trainer = SpectralTrainer::new(CHANNELS, bins, block, Measure::Power);
@@ -45,18 +45,14 @@ pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
 }
 
 /// The power spectrum of a channel of a segment, without its mean.
-pub(super) fn power(
-    spectrum: &Spectrum,
-    segment: &[f64],
-    channel: usize,
-) -> Result<Vec<f64>, Error> {
+pub(super) fn power(spectrum: &Spectrum, segment: &[f64], channel: usize) -> Result<Vec<f64>> {
     let line = || segment.iter().skip(channel).step_by(CHANNELS);
     let mean = line().sum::<f64>() / (segment.len() / CHANNELS) as f64;
     spectrum.of(line().map(|x| x - mean), Measure::Power)
 }
 
 /// The inputs of the network for every segment of a stream, with its floor.
-fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>, Error> {
+fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
     let points = (TRANSFORM_S * rate_hz).round() as usize;
     let bins = Bins::between(points, rate_hz, 1.0, HIGHEST_HZ)?;
@@ -73,14 +69,14 @@ fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>, Error> {
 }
 
 /// Hit rates of the network, percent: the mean of ten trainings.
-pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4], Error> {
+pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]> {
     const SESSIONS: u64 = 10;
-    let all = |streams: &[Stream]| -> Result<Vec<Row>, Error> {
-        let rows: Result<Vec<_>, Error> = streams.iter().map(|s| rows(s, rate_hz)).collect();
+    let all = |streams: &[Stream]| -> Result<Vec<Row>> {
+        let rows: Result<Vec<_>> = streams.iter().map(|s| rows(s, rate_hz)).collect();
         Ok(rows?.into_iter().flatten().collect())
     };
     let (training, validation) = (all(&group.training)?, all(&group.validation)?);
-    let sessions: Result<Vec<[f64; 4]>, Error> = (0..SESSIONS)
+    let sessions: Result<Vec<[f64; 4]>> = (0..SESSIONS)
         .into_par_iter()
         .map(|session| {
             let options = Options::spectrum(seed_of(seed, &[12, session]));

@@ -6,10 +6,10 @@ use crate::experiment::matrix::{Matrix, draw};
 use crate::experiment::record::table::speeds;
 use crate::page::Page;
 use crate::paper::pose::{ANGLES_DEG, ROWS, TEXTURES};
-use host_sim::Error;
+use anyhow::Result;
 
 /// The picture; classifiers one below the other.
-pub(super) fn section(page: &mut Page, rows: &[&Scores; 3]) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, rows: &[&Scores; 3]) -> Result<()> {
     let numbers = |values: &[f64]| values.iter().map(|value| format!("{value:.0}")).collect();
     let classes: [(&str, Vec<String>); 3] = [
         ("angle, degrees", numbers(&ANGLES_DEG)),

@@ -1,5 +1,6 @@
 //! The classifiers of POSE section II-C.
 
+use anyhow::Result;
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
@@ -16,8 +17,6 @@ use crate::classifiers::spectrum::{Bins, Measure};
 use crate::classifiers::template::{TemplateTrainer, Templates};
 use crate::experiment::record::table::Contact;
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Contact counts from this deflection on, sensor codes: above the noise.
 const ONSET_CODES: f64 = 40.0;
@@ -28,11 +27,8 @@ fn length(sets: &Sets) -> usize {
 
 /// The nearest of all training contacts, by the errors that `errors` gives;
 /// class n is the n-th training contact.
-fn nearest(
-    sets: &Sets,
-    errors: impl Fn(&[f64]) -> Result<Vec<f64>, Error> + Sync,
-) -> Result<Scores, Error> {
-    let found: Result<Vec<usize>, Error> = sets
+fn nearest(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>> + Sync) -> Result<Scores> {
+    let found: Result<Vec<usize>> = sets
         .testing
         .par_iter()
         .map(|(_, x)| Ok(least(&errors(x)?)))
@@ -47,7 +43,7 @@ fn nearest(
 }
 
 /// Templates of the training contacts, each of the class that `class` gives it.
-fn templates(sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Templates, Error> {
+fn templates(sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Templates> {
     let mut trainer = TemplateTrainer::new(1, length(sets));
     for (n, (contact, x)) in sets.training.iter().enumerate() {
         trainer.add(class(n, contact), x)?;
@@ -59,7 +55,7 @@ fn templates(sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Te
 fn spectral_templates(
     sets: &Sets,
     class: impl Fn(usize, &Contact) -> usize,
-) -> Result<SpectralTemplates, Error> {
+) -> Result<SpectralTemplates> {
     let block = length(sets);
     let mut trainer = SpectralTrainer::new(1, Bins::all(block), block, Measure::Magnitude);
     for (n, (contact, x)) in sets.training.iter().enumerate() {
@@ -69,34 +65,34 @@ fn spectral_templates(
 }
 
 /// Sum of squared errors (eq. 1) against every training contact.
-pub(super) fn template(sets: &Sets) -> Result<Scores, Error> {
+pub(super) fn template(sets: &Sets) -> Result<Scores> {
     let templates = templates(sets, |n, _| n)?;
     nearest(sets, |x| Ok(templates.errors(x)))
 }
 
 /// The same on |DFT|.
-pub(super) fn spectral(sets: &Sets) -> Result<Scores, Error> {
+pub(super) fn spectral(sets: &Sets) -> Result<Scores> {
     let templates = spectral_templates(sets, |n, _| n)?;
     nearest(sets, |x| templates.errors(x))
 }
 
 /// κ of texture by one template a texture.
-pub(super) fn template_of_textures(sets: &Sets) -> Result<f64, Error> {
+pub(super) fn template_of_textures(sets: &Sets) -> Result<f64> {
     let templates = templates(sets, |_, contact| contact.texture)?;
     textures(sets, |x| Ok(templates.errors(x)))
 }
 
 /// The same on |DFT|.
-pub(super) fn spectral_of_textures(sets: &Sets) -> Result<f64, Error> {
+pub(super) fn spectral_of_textures(sets: &Sets) -> Result<f64> {
     let templates = spectral_templates(sets, |_, contact| contact.texture)?;
     textures(sets, |x| templates.errors(x))
 }
 
-fn textures(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>, Error>) -> Result<f64, Error> {
+fn textures(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>>) -> Result<f64> {
     let mut score = Confusion::new(TEXTURES.len());
     for (contact, x) in &sets.testing {
         let named = least(&errors(x)?);
-        score.add(contact.texture, Some(named)).map_err(refused)?;
+        score.add(contact.texture, Some(named))?;
     }
     Ok(score.kappa().unwrap_or(0.0))
 }
@@ -111,8 +107,8 @@ pub(super) struct ByFeatures {
 
 /// Features f1 to f5 (eq. 3–7) with polynomial regression, rounded to the
 /// nearest class; those of texture behind a notch at the whisker's resonance.
-pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
-    let extract = |signals: &[Signal]| -> Result<Vec<[f64; 5]>, Error> {
+pub(super) fn features(sets: &Sets) -> Result<ByFeatures> {
+    let extract = |signals: &[Signal]| -> Result<Vec<[f64; 5]>> {
         let extractor = Extractor::new(ONSET_CODES, sets.rate_hz, length(sets))?;
         let resonance_hz = resonance_hz()?;
         let features = signals.iter().map(|(_, x)| {
@@ -144,7 +140,7 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
             let value = regression.value(&some(features));
             value.round().clamp(0.0, last) as usize
         });
-        Ok::<Vec<usize>, Error>(named.collect())
+        anyhow::Ok(named.collect::<Vec<usize>>())
     };
     let angle = estimate(&[SLOPE], 2, 0, ANGLES_DEG.len())?;
     let speed = estimate(&[PEAK], 2, 1, SPEEDS_MM_S.2)?;
@@ -160,7 +156,7 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures, Error> {
         let named = estimate(chosen, degree, 2, TEXTURES.len())?;
         let mut score = Confusion::new(TEXTURES.len());
         for ((contact, _), named) in sets.testing.iter().zip(&named) {
-            score.add(contact.texture, Some(*named)).map_err(refused)?;
+            score.add(contact.texture, Some(*named))?;
         }
         textures.push(score);
         if n == 2 {

@@ -1,11 +1,10 @@
 //! What a classifier makes of angle, speed and texture.
 
+use anyhow::Result;
 use tactile::score::{Confusion, Statistics};
 
 use crate::experiment::record::table::{Contact, speeds};
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// What a classifier makes of the test set: a matrix a property.
 #[derive(Debug, Clone)]
@@ -17,10 +16,10 @@ impl Scores {
     }
 
     /// Counts a contact: its classes of angle, speed and texture, and those named.
-    pub(super) fn add(&mut self, truth: &Contact, named: [usize; 3]) -> Result<(), Error> {
+    pub(super) fn add(&mut self, truth: &Contact, named: [usize; 3]) -> Result<()> {
         let truth = [truth.angle, truth.speed, truth.texture];
         for ((score, truth), named) in self.0.iter_mut().zip(truth).zip(named) {
-            score.add(truth, Some(named)).map_err(refused)?;
+            score.add(truth, Some(named))?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! The corridors of PSIK section 3.3: a network on the IMP of both pads votes
 //! at every step; the most votes decide where to turn at the end.
 
+use anyhow::Result;
 use tactile::score::Confusion;
 
 use super::maze;
@@ -13,9 +14,7 @@ use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::{Claim, Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
-use crate::refused::refused;
 use crate::rigs::seed_of;
-use host_sim::Error;
 
 /// Chance of naming a corridor and its direction, percent.
 const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
@@ -29,11 +28,7 @@ fn steps(run: &Recording) -> Vec<Vec<f64>> {
         .collect()
 }
 
-pub(super) fn section(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let runs = of_set(recordings, Dataset::Corridor);
     if runs.is_empty() {
         return Ok(());
@@ -61,14 +56,14 @@ pub(super) fn section(
                 *votes += 1;
             }
             if (taught..training).contains(&number) {
-                by_step.add(case, Some(named)).map_err(refused)?;
+                by_step.add(case, Some(named))?;
             }
         }
         if number < training {
             continue;
         }
         let most = (0..4).max_by_key(|k| (votes[*k], 4 - k));
-        by_run.add(case, most).map_err(refused)?;
+        by_run.add(case, most)?;
         finished += 1;
         for row in run.part(0, run.len()).chunks_exact(COLUMNS) {
             let aside = row.get(INPUTS).map_or(0.0, |x| f64::from(*x));

@@ -2,13 +2,12 @@
 //! notices corridors by their aperture, tells them by their walls, and turns at their ends as
 //! they say.
 
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Material, Plate, Pose};
 use rayon::prelude::*;
 
-use crate::chart::{Mark, linear};
+use crate::chart::{Mark, Series, linear, panel};
 use crate::classifiers::network::Network;
-use crate::experiment::picture::{Curve, panel};
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
 use crate::experiment::request::Request;
@@ -110,7 +109,7 @@ struct Behaviour<'r> {
 
 impl Behaviour<'_> {
     /// A tick: the corridor that the robot has just left, as it takes it.
-    fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<usize>, Error> {
+    fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<usize>> {
         let is_narrow = felt.distance_mm.iter().sum::<f64>() < self.maze.aperture_mm;
         let is_inside = matches!(self.doing, Doing::Inside(_));
         self.other_s = if is_narrow == is_inside {
@@ -161,7 +160,7 @@ impl Behaviour<'_> {
 }
 
 /// A tour from the top wall, heading right or left.
-fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour, Error> {
+fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour> {
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     let seed = seed_of(request.seed, &[9, u64::from(heads_right)]);
     let mut chance = Chance::new(seed_of(seed, &[0]));
@@ -236,11 +235,11 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour,
     Ok(tour)
 }
 
-pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<()> {
     let tours = [true, false]
         .into_par_iter()
         .map(|right| tour(request, network, right));
-    let tours = tours.collect::<Result<Vec<Tour>, Error>>()?;
+    let tours = tours.collect::<Result<Vec<Tour>>>()?;
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     page.say(format_args!(
         "**The maze** (`studies/rigs/maze.toml`): {} by {} m, an island in the middle, which leaves \
@@ -274,8 +273,8 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     let mut panels = Vec::new();
     for (name, tour) in names.iter().zip(&tours) {
         let curves = [
-            Curve::new("walls", outline.clone()),
-            Curve::new("neck", tour.path.clone()),
+            Series::curve("walls", outline.clone()),
+            Series::curve("neck", tour.path.clone()),
         ];
         let (x, y) = (linear("m", -a, a), linear("m", -b, b));
         panels.push(panel(&format!("start {name}"), x, y, &curves, Mark::Dot));

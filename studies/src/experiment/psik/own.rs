@@ -1,8 +1,6 @@
 //! The product's own rule on PSIK's papers and corridors, by one vibrissa: the middle one of the
 //! longest arc, of the left pad in corridors.
 
-use host_sim::Error;
-
 use crate::experiment::dataset::Dataset;
 use crate::experiment::product::{Task, section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
@@ -11,6 +9,7 @@ use crate::experiment::recording::{Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
+use anyhow::Result;
 
 use super::sweeps::NAMES;
 
@@ -27,7 +26,7 @@ pub(super) fn of_one_vibrissa(
     page: &mut Page,
     request: &Request,
     recordings: &Recordings,
-) -> Result<(), Error> {
+) -> Result<()> {
     let task = |name, classes| Task {
         name,
         classes,

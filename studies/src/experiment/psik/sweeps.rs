@@ -1,13 +1,12 @@
 //! The sweeps over the sandpapers, and the networks that are trained on them.
 
+use anyhow::Result;
 use tactile::score::Confusion;
 
 use crate::classifiers::network::{self, Network, Options, Row};
 use crate::experiment::record::pad::{PAPERS, place};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::Request;
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Names of the sandpapers, from coarse to fine.
 pub(super) const NAMES: [&str; PAPERS] =
@@ -22,7 +21,7 @@ const HELD_OUT: usize = 5;
 
 /// Trains a network with the penalty that does best on sweeps that are held out
 /// of the training ones, the smallest of equals.
-fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
+fn train_choosing(rows: &[Row], seed: u64) -> Result<Network> {
     let mut best = (0, Options::imp(seed).decay);
     let places = || rows.iter().enumerate();
     let kept = places().filter(|(n, _)| n % HELD_OUT != 0);
@@ -41,7 +40,7 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
 }
 
 /// Trains a network with a penalty on its weights.
-pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Error> {
+pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
     let options = Options {
         decay: penalty,
@@ -76,7 +75,7 @@ impl Sweeps {
     }
 
     /// Trains and tests with the vibrissae from `from` up to `to`.
-    pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion, Error> {
+    pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion> {
         let cut = |rows: &[Row]| -> Vec<Row> {
             let some = |row: &Vec<f64>| row.get(from..to).unwrap_or(&[]).to_vec();
             rows.iter()
@@ -87,7 +86,7 @@ impl Sweeps {
         let mut score = Confusion::new(PAPERS);
         for (class, row) in cut(&self.testing) {
             let named = network.classify(&row)?;
-            score.add(class, Some(named)).map_err(refused)?;
+            score.add(class, Some(named))?;
         }
         Ok(score)
     }

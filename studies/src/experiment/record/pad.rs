@@ -7,7 +7,7 @@ use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
 use crate::rigs::{Chance, panned, seed_of};
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Plate, sensor_code};
 
 /// Sandpapers.
@@ -65,7 +65,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
 }
 
 /// Records what one vibrissa feels in a sweep: x and y.
-pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
@@ -81,7 +81,7 @@ pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Rec
 }
 
 /// Records a sweep: one sample of 33 numbers.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;

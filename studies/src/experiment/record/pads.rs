@@ -1,6 +1,6 @@
 //! Both pads of the mobile robot: deflections, distances and the smoothed IMP.
 
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Plate, Pose, TouchingWhisker};
 
 use super::{pad, whiskers};
@@ -44,9 +44,9 @@ pub(crate) struct Felt {
 
 impl Pads {
     /// The pads of a robot, each side with a seed.
-    pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self, Error> {
+    pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self> {
         let side = |seed| {
-            Ok::<Side, Error>(Side {
+            anyhow::Ok(Side {
                 whiskers: whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?,
                 imp: Imp::new(WINDOW),
                 bent: [0.0; VIBRISSAE],
