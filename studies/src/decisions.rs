@@ -109,7 +109,7 @@ fn introduction(page: &mut Page, extent: &Extent) {
     page.say(
         "Elsewhere: [cost.md](cost.md) has the instructions of a sample and of a tick beside their \
          goals, [the detector's source](../../crates/tactile/src/touch.rs) how soon a touch is \
-         told.",
+         reported.",
     );
     if extent.is_quick {
         page.say("**In short form:** fewer runs, trainings and settings (`--quick`).");

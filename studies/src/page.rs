@@ -14,9 +14,9 @@ pub(crate) use figure::{figure, joined};
 /// Files by their paths.
 pub(crate) type Files = Vec<(String, String)>;
 
-/// How well classes are told apart, and how well chance does.
+/// How well classes are recognised, and how well chance does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct Recognition {
     /// A hit rate in percent, or κ.
     pub(crate) rate: f64,
     pub(crate) chance: f64,
@@ -36,31 +36,13 @@ pub(crate) struct Claim {
     /// Of the margin.
     pub(crate) unit: &'static str,
     /// What it rests on, where it rests on telling classes apart.
-    pub(crate) told: Option<Told>,
+    pub(crate) recognition: Option<Recognition>,
 }
 
 impl Claim {
-    /// One that does not rest on telling classes apart.
-    pub(crate) fn new(
-        what: impl Display,
-        paper: impl Display,
-        ours: impl Display,
-        (margin, unit): (f64, &'static str),
-    ) -> Self {
-        Self {
-            what: what.to_string(),
-            paper: paper.to_string(),
-            ours: ours.to_string(),
-            margin,
-            unit,
-            told: None,
-        }
-    }
-
-    /// The same that rests on such a rate, where chance has that.
-    pub(crate) fn told(self, rate: f64, chance: f64) -> Self {
-        let told = Some(Told { rate, chance });
-        Self { told, ..self }
+    /// Says on which rate it rests, where chance has that.
+    pub(crate) fn rests_on(&mut self, rate: f64, chance: f64) {
+        self.recognition = Some(Recognition { rate, chance });
     }
 }
 
@@ -72,7 +54,7 @@ pub(crate) struct Score {
     /// On what.
     pub(crate) task: String,
     /// Hit rate, percent.
-    pub(crate) told: Told,
+    pub(crate) recognition: Recognition,
     /// Of the product's classifier.
     pub(crate) product: Option<Product>,
 }
@@ -154,6 +136,26 @@ impl Page {
         Ok(())
     }
 
+    /// Adds a claim, which does not rest on telling classes apart unless that is said.
+    pub(crate) fn claim(
+        &mut self,
+        what: impl Display,
+        paper: impl Display,
+        ours: impl Display,
+        (margin, unit): (f64, &'static str),
+    ) -> &mut Claim {
+        self.claims.push(Claim {
+            what: what.to_string(),
+            paper: paper.to_string(),
+            ours: ours.to_string(),
+            margin,
+            unit,
+            recognition: None,
+        });
+        let last = self.claims.len() - 1;
+        &mut self.claims[last]
+    }
+
     /// Adds a classifier's score: its hit rate in percent, and that of chance.
     pub(crate) fn score(
         &mut self,
@@ -165,7 +167,7 @@ impl Page {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
-            told: Told { rate: hit, chance },
+            recognition: Recognition { rate: hit, chance },
             product: None,
         });
     }

@@ -80,7 +80,7 @@ fn lines(ground: &Ground) -> Vec<Line> {
         Goal::AtLeast(_) => Goal::AtLeast(f64::NEG_INFINITY),
         Goal::AtMost(_) => Goal::AtMost(f64::INFINITY),
     };
-    let count = ground.heard.len();
+    let count = ground.runs.len();
     let line = |name: &str, goal, value, text, decimals| Line {
         name: name.to_owned(),
         goal,

@@ -62,7 +62,7 @@ pub(super) struct Ground {
     /// By the seed of each training a run of [`LONGEST_S`].
     recorded: Vec<(u64, Vec<Stream>)>,
     /// The runs that are scored.
-    pub(super) heard: Vec<Heard>,
+    pub(super) runs: Vec<Heard>,
 }
 
 impl Ground {
@@ -85,7 +85,7 @@ impl Ground {
                     name,
                     goals,
                     recorded,
-                    heard: heard(&scene, &seeds, verbosity)?,
+                    runs: record_all(&scene, &seeds, verbosity)?,
                     scene,
                 })
             })
@@ -140,29 +140,29 @@ impl Ground {
 
     /// A model on the runs that are scored.
     pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures> {
-        self.score_on(&self.heard, model, threshold)
+        self.score_on(&self.runs, model, threshold)
     }
 
     /// A model on some runs.
     pub(super) fn score_on(
         &self,
-        heard: &[Heard],
+        runs: &[Heard],
         model: &ModelBuf,
         threshold: f64,
     ) -> Result<Figures> {
         let rule = Rule::Sequential { threshold };
         let classifier = Classifier::new(model.clone(), rule)?;
-        let runs = heard.iter().map(|run| run.score(classifier.clone()));
+        let scored = runs.iter().map(|run| run.score(classifier.clone()));
         Ok(Figures::of(
-            runs.collect(),
+            scored.collect(),
             classifier.classes(),
             self.scene.tick_hz,
         ))
     }
 }
 
-/// Runs of a scene with these seeds, as a classifier hears them.
-pub(super) fn heard(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
+/// Runs of a scene with these seeds, as a classifier takes them.
+pub(super) fn record_all(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
     each(verbosity, "scored runs", seeds, |&seed| {
         let scene = Scene {
             seed,

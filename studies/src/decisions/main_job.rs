@@ -6,7 +6,7 @@ use host_sim::progress::Verbosity;
 use super::extent::Extent;
 use super::figures::{Table, mean_of, percent, plus_minus};
 use super::goals::Trained;
-use super::ground::{Ground, heard};
+use super::ground::{Ground, record_all};
 use crate::page::Page;
 
 /// The first scene with its shipped model: what `docs/textures.md` quotes.
@@ -23,8 +23,8 @@ pub(super) fn section(
         return Ok(());
     };
     let seeds: Vec<u64> = extent.main_job.clone().collect();
-    let heard = heard(&ground.scene, &seeds, verbosity)?;
-    let figures = ground.score_on(&heard, &shipped.model, 0.99)?;
+    let runs = record_all(&ground.scene, &seeds, verbosity)?;
+    let figures = ground.score_on(&runs, &shipped.model, 0.99)?;
     table.add(
         ["main job", ground.name, "as shipped"],
         shipped.seed,

@@ -1,4 +1,4 @@
-//! What is told where there is nothing to tell: labels that mean nothing.
+//! What is decided where there is nothing to decide: labels that mean nothing.
 
 use anyhow::Result;
 use host_sim::progress::Verbosity;
@@ -41,8 +41,8 @@ pub(super) fn section(
         let textured = ground.scene.plant.textured.as_ref();
         let textures = textured.map_or(&[][..], |textured| &textured.textures);
         let names: Vec<&str> = textures.iter().map(|texture| texture.name()).collect();
-        let mut heard = ground.heard.clone();
-        for shown in heard.iter_mut().flat_map(|run| &mut run.presentations) {
+        let mut runs = ground.runs.clone();
+        for shown in runs.iter_mut().flat_map(|run| &mut run.presentations) {
             shown.label = permuted(&names, &shown.label, shown.trial);
         }
         let seeds: Vec<u64> = ground.seeds().collect();
@@ -55,7 +55,7 @@ pub(super) fn section(
                     stream.label = permuted(&names, &stream.label, trial);
                 }
                 let model = ground.train_tables(streams, tables)?.model;
-                ground.score_on(&heard, &model, threshold)
+                ground.score_on(&runs, &model, threshold)
             })?;
             let setting = format!("{name} at {threshold}");
             for (seed, figures) in seeds.iter().zip(&found) {

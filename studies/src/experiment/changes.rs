@@ -33,7 +33,7 @@ pub(super) fn section(page: &mut Page, claims: &[Judged], changed: &[Changed]) -
     let seeds = changed.iter().map(|one| one.bodies.pages.len()).max();
     page.say(format_args!(
         "One thing is changed at a time, {} seeds each: margins of the claims, **bold** where they \
-         are not met, (in brackets) within noise, ~~struck out~~ where a placebo is told apart. \
+         are not met, (in brackets) within noise, ~~struck out~~ where a placebo is recognised. \
          *Without* undoes what was chosen, mostly after a result had been seen; *cause* changes \
          what might be why a claim is not met. Those with (†) have a placebo of their own.",
         seeds.unwrap_or(0)

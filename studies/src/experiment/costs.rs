@@ -82,7 +82,7 @@ impl Form {
 /// The same score of every page, of those in which there is one.
 fn hits(pages: &[Page], n: usize) -> String {
     let scores = || pages.iter().filter_map(|page| page.scores.get(n));
-    let hits = scores().map(|score| score.told.rate);
+    let hits = scores().map(|score| score.recognition.rate);
     let hits: Vec<f64> = hits.filter(|hit| hit.is_finite()).collect();
     let decided = scores().filter_map(|score| score.product);
     let decided: Vec<f64> = decided.map(|product| product.decided).collect();
@@ -118,7 +118,7 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
             score.task.clone(),
             format!("**{}**", hits(&bodies.pages, n)),
             hits(&bodies.placebos, n),
-            format!("{:.1}", score.told.chance),
+            format!("{:.1}", score.recognition.chance),
             cell(instructions.map(|n| format!("{n:.0}"))),
             cell(form.map(|form| form.bytes.0.bytes().to_string())),
             cell(tables(score, form).map(|bytes| bytes.to_string())),
@@ -134,7 +134,7 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
         "Hit rate, instructions a sample on a Cortex-M4F (mean, without reading the sensor; \
          composed of kernels, the product's as `cargo xtask count` counts them, the others of \
          [record 39](../decisions.md#39-what-the-papers-classifiers-would-cost-on-a-board)), bytes of state and of tables. \
-         The placebo is told apart by the same classifier.",
+         The placebo is recognised by the same classifier.",
     );
     page.table(
         "classifier | on | hit rate, % | placebo, % | chance, % | instructions a sample | state, bytes | tables, bytes | ",

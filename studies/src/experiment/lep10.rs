@@ -6,7 +6,7 @@ use super::recording::Recordings;
 use super::request::Request;
 use crate::chart::{Series, over_windows};
 use crate::classifiers::recogniser::{Bayes, Picked};
-use crate::page::{Claim, Page, confusion, figure, row};
+use crate::page::{Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::rigs::RobotMotion;
 use anyhow::Result;
@@ -160,49 +160,43 @@ fn figure_4(
 fn claims(page: &mut Page, means: &[f64; 5], hits: &[[f64; 4]; 5], knee: [f64; 3]) {
     let [x, y, both, transfer, natural] = *means;
     let one = |value: f64| figure(value, 1);
-    page.claims.push(
-        Claim::new(
-            "LEP10: x and y together beat either alone (0.5 s)",
-            "79, 82: 92 %",
-            format_args!("{}, {}: {} %", one(x), one(y), one(both)),
-            (both - x.max(y), "points"),
-        )
-        .told(both, CHANCE),
-    );
+    page.claim(
+        "LEP10: x and y together beat either alone (0.5 s)",
+        "79, 82: 92 %",
+        format_args!("{}, {}: {} %", one(x), one(y), one(both)),
+        (both - x.max(y), "points"),
+    )
+    .rests_on(both, CHANCE);
     let share = 100.0 * (knee[1] - knee[0]) / (knee[2] - knee[0]);
-    page.claims.push(
-        Claim::new(
-            "LEP10: most of the gain comes within 100 ms",
-            "substantial up to 100 ms, modest after",
-            format_args!(
-                "{} % at one sample, {} % at 100 ms, {} % at 1 s: {} % of the gain",
-                one(knee[0]),
-                one(knee[1]),
-                one(knee[2]),
-                figure(share, 0)
-            ),
-            (share - 50.0, "points over half of the gain"),
-        )
-        .told(knee[2], CHANCE),
-    );
+    page.claim(
+        "LEP10: most of the gain comes within 100 ms",
+        "substantial up to 100 ms, modest after",
+        format_args!(
+            "{} % at one sample, {} % at 100 ms, {} % at 1 s: {} % of the gain",
+            one(knee[0]),
+            one(knee[1]),
+            one(knee[2]),
+            figure(share, 0)
+        ),
+        (share - 50.0, "points over half of the gain"),
+    )
+    .rests_on(knee[2], CHANCE);
     let [_, _, artificial, natural_by_artificial, _] = hits;
     let falls: [f64; 4] = core::array::from_fn(|k| artificial[k] - natural_by_artificial[k]);
     let others = falls.iter().take(VINYL).copied().fold(f64::MIN, f64::max);
-    page.claims.push(
-        Claim::new(
-            "LEP10: the hit rate falls from artificial training to natural validation, that of \
+    page.claim(
+        "LEP10: the hit rate falls from artificial training to natural validation, that of \
              vinyl the most",
-            "92 to 68 %, vinyl 98 to 20; natural training 81 %",
-            format_args!(
-                "{} to {} %, vinyl {} to {}; natural training {} %",
-                one(both),
-                one(transfer),
-                figure(artificial[VINYL], 0),
-                figure(natural_by_artificial[VINYL], 0),
-                one(natural)
-            ),
-            ((both - transfer).min(falls[VINYL] - others), "points"),
-        )
-        .told(both, CHANCE),
-    );
+        "92 to 68 %, vinyl 98 to 20; natural training 81 %",
+        format_args!(
+            "{} to {} %, vinyl {} to {}; natural training {} %",
+            one(both),
+            one(transfer),
+            figure(artificial[VINYL], 0),
+            figure(natural_by_artificial[VINYL], 0),
+            one(natural)
+        ),
+        ((both - transfer).min(falls[VINYL] - others), "points"),
+    )
+    .rests_on(both, CHANCE);
 }

@@ -12,7 +12,7 @@ use super::product;
 use super::record::table::Contact;
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::{Claim, Page, figure};
+use crate::page::{Page, figure};
 use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
 use anyhow::Result;
 use rules::{features, spectral, template};
@@ -96,14 +96,12 @@ fn claims(page: &mut Page, rows: &[&Scores; 3]) {
         let others = (0..ours.len()).filter(|row| *row != best);
         let others = others.map(|row| ours[row]).fold(f64::MIN, f64::max);
         let [x, y, z] = ours.map(|kappa| figure(kappa, 2));
-        page.claims.push(
-            Claim::new(
-                format_args!("POSE: best for {name}: {}", ROWS[best].what),
-                format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
-                format_args!("template {x}, spectral {y}, features {z}"),
-                (ours[best] - others, "of κ"),
-            )
-            .told(ours[best], 0.0),
-        );
+        page.claim(
+            format_args!("POSE: best for {name}: {}", ROWS[best].what),
+            format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
+            format_args!("template {x}, spectral {y}, features {z}"),
+            (ours[best] - others, "of κ"),
+        )
+        .rests_on(ours[best], 0.0);
     }
 }

@@ -7,7 +7,7 @@ use host_sim::recording::Stream;
 use host_sim::training::{How, Tables};
 use whisking::filter;
 
-use crate::page::{Page, Product, Score, Told, figure, row};
+use crate::page::{Page, Product, Recognition, Score, figure, row};
 
 /// Decided at this posterior.
 const THRESHOLD: f64 = 0.99;
@@ -15,7 +15,7 @@ const THRESHOLD: f64 = 0.99;
 /// Its name among the scores.
 const NAME: &str = "the product's: joint tables, stated 99 %";
 
-/// A question: what is told apart, and how many there are of it.
+/// A question: what is classified, and how many there are of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Task<'n> {
     pub(super) name: &'n str,
@@ -72,7 +72,7 @@ fn cells(
     page.scores.push(Score {
         classifier: NAME,
         task: task.name.to_owned(),
-        told: Told {
+        recognition: Recognition {
             rate: right,
             chance: 100.0 / task.classes as f64,
         },

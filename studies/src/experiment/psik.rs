@@ -1,5 +1,5 @@
 //! PSIK: eight sandpapers by the IMP of 33 vibrissae and a small network, with
-//! more and more arcs; and two corridors told apart on the way through.
+//! more and more arcs; and two corridors recognised on the way through.
 
 mod corridor;
 mod maze;
@@ -15,7 +15,7 @@ use super::record::pad::PAPERS;
 use super::recording::{Recordings, of_set};
 use super::request::Request;
 use crate::chart::{Mark, Series, linear, panel, percent};
-use crate::page::{Claim, Page, confusion, figure, row};
+use crate::page::{Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::rigs::seed_of;
 use sweeps::{NAMES, Sweeps, hit, mean_hit};
@@ -132,33 +132,29 @@ fn claims(page: &mut Page, more: &[Confusion]) {
     let at = |arcs: usize| rates.get(arcs - 1).copied().unwrap_or(0.0);
     let [one, two, three, all] = [1, 2, 3, 8].map(at);
     let text = |rate: f64| figure(rate, 1);
-    page.claims.push(
-        Claim::new(
-            "PSIK: more arcs help",
-            "quickly rising with the number of vibrissae",
-            format_args!(
-                "{} % with one arc, {} with two, {} with three, {} with all",
-                text(one),
-                text(two),
-                text(three),
-                text(all)
-            ),
-            ((two - one).min(three - two).min(all - one), "points"),
-        )
-        .told(all, CHANCE),
-    );
+    page.claim(
+        "PSIK: more arcs help",
+        "quickly rising with the number of vibrissae",
+        format_args!(
+            "{} % with one arc, {} with two, {} with three, {} with all",
+            text(one),
+            text(two),
+            text(three),
+            text(all)
+        ),
+        ((two - one).min(three - two).min(all - one), "points"),
+    )
+    .rests_on(all, CHANCE);
     let least = rates.iter().skip(2).copied().fold(100.0, f64::min);
-    page.claims.push(
-        Claim::new(
-            format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
-            format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
-            format_args!(
-                "{} % with three, at least {} % from there on",
-                text(three),
-                text(least)
-            ),
-            (least - ENOUGH, "points"),
-        )
-        .told(three, CHANCE),
-    );
+    page.claim(
+        format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
+        format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
+        format_args!(
+            "{} % with three, at least {} % from there on",
+            text(three),
+            text(least)
+        ),
+        (least - ENOUGH, "points"),
+    )
+    .rests_on(three, CHANCE);
 }

@@ -109,7 +109,7 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
         "Of {} claims {} are met, {} are not met, {} are within noise, and {} do not count. A \
          claim is met or not met if zero is outside the 95 % interval of its margin's mean \
          (Student's t). A placebo is the same experiment with one texture, at one place, \
-         under all labels; a claim whose placebo is told apart otherwise than by chance (in \
+         under all labels; a claim whose placebo is recognised otherwise than by chance (in \
          brackets; 99 %) does not count. Claims without a placebo do not rest on telling anything \
          apart.",
         claims.len(),

@@ -140,7 +140,7 @@ impl WhiskingHead {
                 module.feel(n, whisker.codes());
             }
             module.tick()?;
-            // Anew for each whisk, as soon as no whisker touches.
+            // Again for each whisk, as soon as no whisker touches.
             is_to_move |= tick > 0 && tick % self.whisk_ticks() == 0;
             if is_to_move && !whiskers.iter().any(TouchingWhisker::contact) {
                 plate = self.placed(visit, &mut chance);

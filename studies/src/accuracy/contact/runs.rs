@@ -91,7 +91,7 @@ pub(super) fn pose(overlap_deg: f64) -> Pose {
 }
 
 /// Rotations of the base at [`SAMPLES_HZ`], rad, and what the run took.
-struct Heard {
+struct Run {
     rotations: Vec<[f64; 2]>,
     /// Share of ticks cut into parts, and parts of such a tick.
     share: f64,
@@ -101,7 +101,7 @@ struct Heard {
     lowered_m: f64,
 }
 
-fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Heard> {
+fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Run> {
     let mut whisker = subject.whisker(finer)?;
     let plate = subject.plate(surface);
     let ticks = SECONDS * hz;
@@ -122,7 +122,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
             rotations.push(whisker.rotation_rad());
         }
     }
-    Ok(Heard {
+    Ok(Run {
         rotations,
         share: f64::from(cut) / f64::from(ticks),
         parts: parts as f64 / f64::from(cut.max(1)),
@@ -152,8 +152,8 @@ pub(in crate::accuracy) struct Measured {
 }
 
 impl Measured {
-    fn new(heard: &Heard, truth: &Heard) -> Self {
-        let (ours, theirs) = (&heard.rotations, &truth.rotations);
+    fn new(run: &Run, truth: &Run) -> Self {
+        let (ours, theirs) = (&run.rotations, &truth.rotations);
         let (mut squares, mut largest) = (0.0, 0.0);
         for (a, b) in ours.iter().zip(theirs) {
             let square = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
@@ -166,10 +166,10 @@ impl Measured {
             largest: largest / whole,
             spread: spread(ours) / whole,
             change: spread(&changes(ours)) / spread(&changes(theirs)),
-            share: heard.share,
-            parts: heard.parts,
-            most_parts: heard.most_parts,
-            lowered_m: heard.lowered_m,
+            share: run.share,
+            parts: run.parts,
+            most_parts: run.most_parts,
+            lowered_m: run.lowered_m,
         }
     }
 }
@@ -207,8 +207,8 @@ pub(in crate::accuracy) fn measure() -> Result<Vec<Against>> {
     let against = |(name, surface): Named| {
         let truth = whisk(&subject, surface, REFERENCE)?;
         let of = |hz, finer| -> Result<Measured> {
-            let heard = whisk(&subject, surface, (hz, finer))?;
-            Ok(Measured::new(&heard, &truth))
+            let run = whisk(&subject, surface, (hz, finer))?;
+            Ok(Measured::new(&run, &truth))
         };
         let half = of(HALF.0, HALF.1)?;
         let mut ticks = [half; TICKS_HZ.len()];

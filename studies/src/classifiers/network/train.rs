@@ -64,7 +64,7 @@ impl Options {
 
     /// PSIK section 3.2.1: 33 hidden units. The paper names neither a stopping rule nor a penalty,
     /// and sets no bar, as few vibrissae cannot name every paper; nothing is held out, and a weak
-    /// penalty keeps weights finite where classes can be told apart without error.
+    /// penalty keeps weights finite where classes can be separated without error.
     pub(crate) const fn imp(seed: u64) -> Self {
         Self {
             hidden: 33,

@@ -8,7 +8,7 @@ use scene::{GateSettings, Scene};
 use super::figures::{FREQUENCY_HZ, TICK_HZ};
 use super::patterns::{LEFT, RIGHT, Row, angles, contacts};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::biotact::{FIG9, OBSTACLES_DEG};
 use host_sim::run::Run;
 
@@ -146,7 +146,7 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
         return Ok(());
     };
     let (left, right) = (one_side.peak_deg[LEFT], one_side.peak_deg[RIGHT]);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \
          back and lets the right protract more",
         "so",
@@ -161,9 +161,9 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
             (free.peak_deg[LEFT] - left).min(right - free.peak_deg[RIGHT]),
             "degrees",
         ),
-    ));
+    );
     let (found, missed) = (with.contacts[RIGHT], without.contacts[RIGHT]);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 9, 24 whiskers with bodies: with CIA the right finds its obstacle",
         "1 contact a whisk, none without CIA",
         format_args!(
@@ -172,6 +172,6 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
             figure(missed, 2)
         ),
         ((found - 0.5).min(0.5 - missed), "contacts a whisk"),
-    ));
+    );
     Ok(())
 }

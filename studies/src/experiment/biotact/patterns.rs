@@ -4,7 +4,7 @@
 use super::figures::{FREQUENCY_HZ, TICK_HZ, run};
 use crate::chart::{Mark, Series, linear, panel};
 use crate::moments::range;
-use crate::page::{Claim, Page};
+use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
 use anyhow::Result;
 
@@ -73,12 +73,12 @@ fn gains(page: &mut Page) -> Result<()> {
     let most = (highest.last().copied().unwrap_or(0.0) - 50.0) / 100.0;
     let rises = highest.iter().zip(highest.iter().skip(1));
     let rise = rises.map(|(a, b)| (b - a) / 100.0).fold(f64::MAX, f64::min);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 6: a higher gain gives a higher θ', and at g = 2 θ approaches unity but does not exceed it",
         "so",
         format_args!("largest θ = {most:.4} at g = 2"),
         (rise.min(most - 0.95).min(1.0 - most), "of θ"),
-    ));
+    );
     Ok(())
 }
 
@@ -118,7 +118,7 @@ fn obstacles(page: &mut Page) -> Result<()> {
     let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| angles(rows, side).1);
     let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side, WHISKS));
     let (left, right) = (highest(0, LEFT), highest(0, RIGHT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 7: RCP holds the left back, by 5 degrees or more; the right does not reach its obstacle",
         "left suppressed, right below 125 degrees",
         format_args!("left up to {left:.1}, right up to {right:.1} degrees"),
@@ -126,16 +126,16 @@ fn obstacles(page: &mut Page) -> Result<()> {
             (right - 5.0 - left).min(OBSTACLES_DEG[RIGHT] - right),
             "degrees",
         ),
-    ));
+    );
     let (strong, gentle) = (touches(1, LEFT), touches(0, LEFT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 8: strong and fast RCP makes two distinct contacts a whisk",
         "2",
         format_args!("{strong:.1}; {gentle:.1} with Fig. 7's"),
         ((strong - 1.5).min(1.5 - gentle), "contacts a whisk"),
-    ));
+    );
     let (with, without) = (touches(2, RIGHT), touches(0, RIGHT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 9: with CIA the right finds its obstacle",
         "beyond 125 degrees, 1 contact a whisk",
         format_args!(
@@ -143,6 +143,6 @@ fn obstacles(page: &mut Page) -> Result<()> {
             highest(2, RIGHT),
         ),
         ((with - 0.5).min(0.5 - without), "contacts a whisk"),
-    ));
+    );
     Ok(())
 }

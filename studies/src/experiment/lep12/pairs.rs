@@ -9,7 +9,7 @@ use super::groups::{BLOCK, BOTH, Group};
 use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
 use crate::classifiers::sprt::Sprt;
 use crate::experiment::floors::{CHANNELS, Stream, train};
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::lep10::FLOORS;
 
 /// Threshold on the probability: the middle one of Fig. 8.
@@ -109,8 +109,8 @@ impl Pair {
             let mut knowing = Sprt::new(model, THETA, ratio)?;
             for (class, floor) in floors.into_iter().enumerate() {
                 let weight = 0.5 * if class == likely { share } else { 1.0 - share };
-                let told = decisions(&each(&mut knowing, &group.validation, floor), class);
-                for (place, of) in [plain[class], told].into_iter().enumerate() {
+                let known = decisions(&each(&mut knowing, &group.validation, floor), class);
+                for (place, of) in [plain[class], known].into_iter().enumerate() {
                     error[place] += weight * of.error();
                     time[place] += weight * of.time();
                 }
@@ -161,20 +161,18 @@ pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()
         |of: &dyn Fn(&Pair) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len().max(1) as f64;
     let (flat, known) = (mean(&|pair| pair.error[0]), mean(&|pair| pair.error[1]));
     let same = mean(&|pair| pair.alike);
-    page.claims.push(Claim::new(
+    page.claim(
         "LEP12, below eq. 8: for two choices, eq. 8 is the sequential probability ratio test",
         "formally equivalent",
         format_args!("{} % of all decisions alike", figure(same, 2)),
         (same - ALIKE, "points over 99.9"),
-    ));
-    page.claims.push(
-        Claim::new(
-            "LEP12 eq. 1: a prior ratio that is known saves errors",
-            "trades off sensory information and prior probability",
-            format_args!("{} against {} %", figure(known, 1), figure(flat, 1)),
-            (flat - known, "points"),
-        )
-        .told(100.0 - flat, 50.0),
     );
+    page.claim(
+        "LEP12 eq. 1: a prior ratio that is known saves errors",
+        "trades off sensory information and prior probability",
+        format_args!("{} against {} %", figure(known, 1), figure(flat, 1)),
+        (flat - known, "points"),
+    )
+    .rests_on(100.0 - flat, 50.0);
     Ok(())
 }

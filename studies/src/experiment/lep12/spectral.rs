@@ -1,7 +1,7 @@
 //! The spectral methods of LEP12 section 5: the template of the power
 //! spectrum, and a neural network of 120–20–4 units on it.
 //!
-//! Both hear x and y, as the other classifiers do, up to 120 Hz: above that
+//! Both take x and y, as the other classifiers do, up to 120 Hz: above that
 //! "the power is close to zero". The template takes every bin above zero
 //! frequency: the paper's spectra show no offset. The network's
 //! 120 inputs are 2 to 120 Hz in steps of 2 Hz of each of them (a transform of
@@ -80,7 +80,7 @@ pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]
         .into_par_iter()
         .map(|session| {
             let options = Options::spectrum(seed_of(seed, &[12, session]));
-            // Floors that cannot be told leave no start that tells each of them.
+            // Floors that cannot be separated leave no start that names each of them.
             let any = Options {
                 reliable: 0.0,
                 ..options

@@ -24,13 +24,13 @@ pub(super) fn notched(x: &[f64], hz: f64, quality: f64, rate_hz: f64) -> Vec<f64
     let (sine, cosine) = libm::sincos(TAU * hz / rate_hz);
     let a = sine / (2.0 * quality);
     let rest = x.first().copied().unwrap_or(0.0);
-    let (mut heard, mut given) = ([rest; 2], [rest; 2]);
+    let (mut inputs, mut outputs) = ([rest; 2], [rest; 2]);
     let step = |&x: &f64| {
-        let zeros = x - 2.0 * cosine * heard[0] + heard[1];
-        let poles = 2.0 * cosine * given[0] - (1.0 - a) * given[1];
+        let zeros = x - 2.0 * cosine * inputs[0] + inputs[1];
+        let poles = 2.0 * cosine * outputs[0] - (1.0 - a) * outputs[1];
         let y = (zeros + poles) / (1.0 + a);
-        heard = [x, heard[0]];
-        given = [y, given[0]];
+        inputs = [x, inputs[0]];
+        outputs = [y, outputs[0]];
         y
     };
     x.iter().map(step).collect()

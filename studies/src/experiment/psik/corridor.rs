@@ -12,7 +12,7 @@ use crate::experiment::record::corridor::{COLUMNS, place};
 use crate::experiment::record::pads::INPUTS;
 use crate::experiment::recording::{Recording, Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, confusion, figure};
+use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::rigs::seed_of;
 
@@ -91,18 +91,16 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
     ));
     let printed = |truth: usize, named: usize| TABLE_3[truth][named];
     confusion(page, &CORRIDORS, &printed, &by_run);
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "PSIK: the robot tells two corridors and their directions apart on its way, \
+    page.claim(
+        format_args!(
+            "PSIK: the robot tells two corridors and their directions apart on its way, \
                  steering by touch ({ENOUGH:.0} % or more)"
-            ),
-            format_args!("{paper:.0} %"),
-            format_args!("{} %", figure(hit, 1)),
-            (hit - ENOUGH, "points"),
-        )
-        .told(hit, CHANCE),
-    );
+        ),
+        format_args!("{paper:.0} %"),
+        format_args!("{} %", figure(hit, 1)),
+        (hit - ENOUGH, "points"),
+    )
+    .rests_on(hit, CHANCE);
     page.score(
         "IMP and network 66–66–4, votes",
         "two corridors, both ways",

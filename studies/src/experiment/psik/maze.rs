@@ -11,7 +11,7 @@ use crate::classifiers::network::Network;
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
 
@@ -286,12 +286,12 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
         .iter()
         .map(|tour| tour.laps)
         .fold(f64::INFINITY, f64::min);
-    page.claims.push(Claim::new(
+    page.claim(
         "PSIK: the robot circulates around the maze, from either start (a whole tour or more)",
         "several tours in a row",
         format_args!("at least {} tours in {} s", figure(least, 2), maze.tour_s),
         (least - 1.0, "tours over one"),
-    ));
+    );
     let passed: u32 = tours.iter().map(|tour| tour.passed).sum();
     let right: u32 = tours.iter().map(|tour| tour.right).sum();
     let share = if passed == 0 {
@@ -299,17 +299,15 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     } else {
         100.0 * f64::from(right) / f64::from(passed)
     };
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "PSIK: at the ends of corridors the robot turns as their walls say \
+    page.claim(
+        format_args!(
+            "PSIK: at the ends of corridors the robot turns as their walls say \
                  ({ENOUGH:.0} % or more)"
-            ),
-            "so",
-            format_args!("{} %", figure(share, 1)),
-            (share - ENOUGH, "points"),
-        )
-        .told(share, CHANCE),
-    );
+        ),
+        "so",
+        format_args!("{} %", figure(share, 1)),
+        (share - ENOUGH, "points"),
+    )
+    .rests_on(share, CHANCE);
     Ok(())
 }
