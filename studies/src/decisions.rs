@@ -58,18 +58,15 @@ pub(crate) fn page(folders: Folders<'_>, extent: &Extent, verbosity: Verbosity) 
     introduction(&mut page, extent);
 
     let grounds = Ground::all(extent, verbosity)?;
-    let trained = goals::measure(&grounds, verbosity)?;
-    goals::section(&mut page, &mut table, &grounds, &trained);
-    main_job::section(&mut page, &mut table, &grounds, &trained, extent, verbosity)?;
+    goals::section(&mut page, &mut table, &grounds);
+    main_job::section(&mut page, &mut table, &grounds[0], extent, verbosity)?;
     unknown::section(&mut page, &mut table, &grounds, extent, verbosity)?;
-    air::section(&mut page, &grounds, &trained, extent, verbosity)?;
-    placebo::section(&mut page, &mut table, &grounds, &trained, verbosity)?;
+    air::section(&mut page, &grounds, extent, verbosity)?;
+    placebo::section(&mut page, &mut table, &grounds, verbosity)?;
     terrain::section(&mut page, folders.terrain, extent, verbosity)?;
-    calibration::section(&mut page, &grounds, &trained)?;
-    run_time::section(
-        &mut page, &mut table, &grounds, &trained, &counts, extent, verbosity,
-    )?;
-    hindsight::section(&mut page, &mut table, &grounds, &trained, verbosity)?;
+    calibration::section(&mut page, &grounds)?;
+    run_time::section(&mut page, &mut table, &grounds, &counts, extent, verbosity)?;
+    hindsight::section(&mut page, &mut table, &grounds, verbosity)?;
 
     let text = format!("{}\n", page.text.trim_end());
     let mut files = vec![

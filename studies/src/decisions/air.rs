@@ -8,7 +8,6 @@ use host_sim::run::Run;
 use scene::{Rule, Scene};
 
 use super::extent::Extent;
-use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, verdict};
@@ -24,17 +23,14 @@ const SEED: u64 = 400;
 pub(super) fn section(
     page: &mut Page,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     extent: &Extent,
     verbosity: Verbosity,
 ) -> Result<()> {
-    let shipped = || trained.iter().filter_map(|trained| trained.first());
-    let jobs: Vec<(&Ground, &Trained, f64)> = grounds
+    let jobs = grounds
         .iter()
-        .zip(shipped())
-        .flat_map(|(ground, trained)| FREQUENCIES_HZ.map(|hz| (ground, trained, hz)))
-        .collect();
-    let found = each(verbosity, "free air", &jobs, |&(ground, trained, hz)| {
+        .flat_map(|ground| FREQUENCIES_HZ.map(|hz| (ground, hz)));
+    let jobs: Vec<(&Ground, f64)> = jobs.collect();
+    let found = each(verbosity, "free air", &jobs, |&(ground, hz)| {
         let mut scene = Scene {
             seed: SEED,
             duration_s: extent.air_s,
@@ -47,7 +43,7 @@ pub(super) fn section(
             obstacle.obstacle_deg.fill(OUT_OF_REACH_DEG);
         }
         let rule = Rule::Sequential { threshold: 0.99 };
-        let classifier = Classifier::new(trained.model.clone(), rule)?;
+        let classifier = Classifier::new(ground.shipped().model.clone(), rule)?;
         let mut run = Run::new(&scene, Some(classifier))?;
         let (mut decisions, mut touches) = (0_u32, 0_u32);
         for _ in 0..run.ticks() {
@@ -65,7 +61,7 @@ pub(super) fn section(
          that the module tells although there is none.",
         extent.air_s
     ));
-    let rows = jobs.iter().zip(&found).map(|((ground, _, hz), found)| {
+    let rows = jobs.iter().zip(&found).map(|((ground, hz), found)| {
         let (decisions, touches) = *found;
         let minutes = extent.air_s / 60.0;
         vec![

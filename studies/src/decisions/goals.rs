@@ -30,23 +30,20 @@ impl Trained {
     }
 }
 
-/// Of each scene a model a training.
-pub(super) fn measure(grounds: &[Ground], verbosity: Verbosity) -> Result<Vec<Vec<Trained>>> {
-    let of_ground = |ground: &Ground| {
-        let seeds: Vec<u64> = ground.seeds().collect();
-        each(verbosity, "trainings", &seeds, |&seed| {
-            let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
-            let model = joint.model()?;
-            let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
-            Ok(Trained {
-                seed,
-                at: at.into_iter().collect::<Result<_, _>>()?,
-                joint,
-                model,
-            })
+/// A model a training.
+pub(super) fn measure(ground: &Ground, verbosity: Verbosity) -> Result<Vec<Trained>> {
+    let seeds: Vec<u64> = ground.seeds().collect();
+    each(verbosity, "trainings", &seeds, |&seed| {
+        let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
+        let model = joint.model()?;
+        let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
+        Ok(Trained {
+            seed,
+            at: at.into_iter().collect::<Result<_, _>>()?,
+            joint,
+            model,
         })
-    };
-    grounds.iter().map(of_ground).collect()
+    })
 }
 
 /// A line: what is measured of a model, and how that is written.
@@ -210,12 +207,7 @@ impl Line {
 }
 
 /// A table a scene.
-pub(super) fn section(
-    page: &mut Page,
-    table: &mut Table,
-    grounds: &[Ground],
-    trained: &[Vec<Trained>],
-) {
+pub(super) fn section(page: &mut Page, table: &mut Table, grounds: &[Ground]) {
     page.heading(2, "Goals");
     page.say(
         "A hit rate is the mean over classes of the share of right decisions among those for a \
@@ -223,14 +215,16 @@ pub(super) fn section(
          verdict is on the shipped model, and the last columns say what other runs would have \
          given (mean ± standard error; the worst).",
     );
-    for (ground, trained) in grounds.iter().zip(trained) {
+    for ground in grounds {
         page.heading(3, &format!("`scenes/{}.toml`", ground.name));
-        let rows = lines(ground).into_iter().map(|line| line.row(trained));
+        let rows = lines(ground)
+            .into_iter()
+            .map(|line| line.row(&ground.trained));
         page.table(
             "figure | goal | shipped | | other trainings; the worst | trainings that keep it",
             rows,
         );
-        for one in trained {
+        for one in &ground.trained {
             for ((threshold, _), figures) in THRESHOLDS.iter().zip(&one.at) {
                 let setting = format!("threshold {threshold}");
                 table.add(["goals", ground.name, &setting], one.seed, figures);

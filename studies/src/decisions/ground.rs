@@ -14,6 +14,7 @@ use tactile::train::joint::{JointModel, Options};
 
 use super::extent::Extent;
 use super::figures::Figures;
+use super::goals::{Trained, measure};
 use crate::cores::each;
 
 /// Longest run that is trained on, s.
@@ -63,10 +64,12 @@ pub(super) struct Ground {
     recorded: Vec<(u64, Vec<Stream>)>,
     /// The runs that are scored.
     pub(super) runs: Vec<Heard>,
+    /// A model a training, the one that is shipped first.
+    pub(super) trained: Vec<Trained>,
 }
 
 impl Ground {
-    /// All scenes with their runs.
+    /// All scenes with their runs and models.
     pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>> {
         SCENES
             .into_iter()
@@ -81,15 +84,23 @@ impl Ground {
                     Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
                 })?;
                 let seeds: Vec<u64> = extent.scored.clone().collect();
-                Ok(Self {
+                let mut ground = Self {
                     name,
                     goals,
                     recorded,
                     runs: record_all(&scene, &seeds, verbosity)?,
+                    trained: Vec::new(),
                     scene,
-                })
+                };
+                ground.trained = measure(&ground, verbosity)?;
+                Ok(ground)
             })
             .collect()
+    }
+
+    /// The model that is shipped.
+    pub(super) fn shipped(&self) -> &Trained {
+        &self.trained[0]
     }
 
     /// The seeds that are trained on.

@@ -76,7 +76,6 @@ pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     verbosity: Verbosity,
 ) -> Result<()> {
     page.heading(2, "Chosen after results were seen");
@@ -91,16 +90,14 @@ pub(super) fn section(
          at a time, mean of all trainings; the others cannot be taken back by an option, and what \
          was found without them stands in the notes.",
     );
-    for (ground, trained) in grounds.iter().zip(trained) {
-        let Some(Options {
+    for ground in grounds {
+        let trained = &ground.trained;
+        let Options {
             refused: share,
             bins,
             block,
             ..
-        }) = trained.first().map(|one| &one.joint.options)
-        else {
-            continue;
-        };
+        } = &ground.shipped().joint.options;
         let share = 100.0 * share;
         let mut rows = vec![of(
             &format!("by default: {share} % refused, {bins} bins with blocks of {block}"),

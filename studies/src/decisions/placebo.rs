@@ -22,7 +22,6 @@ pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     verbosity: Verbosity,
 ) -> Result<()> {
     page.heading(2, "A placebo");
@@ -37,7 +36,7 @@ pub(super) fn section(
          which does not.",
     );
     let mut rows = Vec::new();
-    for (ground, trained) in grounds.iter().zip(trained) {
+    for ground in grounds {
         let textured = ground.scene.plant.textured.as_ref();
         let textures = textured.map_or(&[][..], |textured| &textured.textures);
         let names: Vec<&str> = textures.iter().map(|texture| texture.name()).collect();
@@ -46,7 +45,7 @@ pub(super) fn section(
             shown.label = permuted(&names, &shown.label, shown.trial);
         }
         let seeds: Vec<u64> = ground.seeds().collect();
-        let true_count = over(trained.iter().map(Trained::usual), count).0;
+        let true_count = over(ground.trained.iter().map(Trained::usual), count).0;
         for (name, tables, threshold) in MODELS {
             let found = each(verbosity, "placebo", &seeds, |&seed| {
                 let mut streams = ground.recording(seed, ground.scene.duration_s);
