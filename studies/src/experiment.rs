@@ -15,11 +15,9 @@
 //! recorded changes a byte.
 
 mod biotact;
-mod bodies;
 mod changes;
 mod costs;
 mod data;
-mod dataset;
 mod floors;
 mod lep10;
 mod lep12;

@@ -1,8 +1,7 @@
 //! What changes of rigs do to claims: margins beside each other, and the reasons that follow.
 
-use super::bodies::Bodies;
 use super::variants::{Kind, Variant};
-use super::verdicts::{Judged, Verdict, judged};
+use super::verdicts::{Bodies, Judged, Verdict, judged};
 use crate::page::Page;
 use anyhow::Result;
 

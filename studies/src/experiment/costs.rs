@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use tactile::{Sequential, Window};
 
-use super::bodies::Bodies;
+use super::verdicts::Bodies;
 use crate::classifiers::stationary::Stationary;
 use crate::moments::Summary;
 use crate::page::{Page, Score};

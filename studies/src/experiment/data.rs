@@ -5,12 +5,11 @@ use std::fmt::Display;
 
 use host_sim::origin::Origin;
 
-use super::bodies::Bodies;
-use super::dataset::{Dataset, Job};
 use super::protocol::Protocol;
 use super::record::corridor::FELT;
 use super::record::pads::INPUTS;
-use super::recording::{Recording, Recordings};
+use super::recording::{Dataset, Job, Recording, Recordings};
+use super::verdicts::Bodies;
 use crate::page::Files;
 use crate::rigs::CHANNELS;
 

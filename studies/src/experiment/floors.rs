@@ -7,9 +7,8 @@ use tactile::ModelBuf;
 use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
 
-use super::dataset::Dataset;
 use super::record::floor::{MOTIONS, number};
-use super::recording::{Recording, Recordings, of_set};
+use super::recording::{Dataset, Recording, Recordings, of_set};
 use super::request::{Extent, Request};
 use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use crate::moments::range;

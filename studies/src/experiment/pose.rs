@@ -1,12 +1,10 @@
 //! POSE: angle, speed and texture of one brief contact, by the template, the
 //! spectral template and features.
 
-mod matrices;
 mod notch;
 mod rules;
 mod scores;
 mod sets;
-mod tables;
 
 use super::product;
 use super::record::table::Contact;
@@ -36,9 +34,9 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         notch::resonance_hz()?
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];
-    tables::main(page, &rows);
-    matrices::section(page, &rows)?;
-    tables::features(page, &by_features.textures);
+    scores::kappas(page, &rows);
+    scores::matrices(page, &rows)?;
+    scores::features(page, &by_features.textures);
     let alone = [
         rules::template_of_textures(&sets)?,
         rules::spectral_of_textures(&sets)?,

@@ -10,9 +10,8 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
-use super::dataset::Dataset;
 use super::record::pad::PAPERS;
-use super::recording::{Recordings, of_set};
+use super::recording::{Dataset, Recordings, of_set};
 use super::request::Request;
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Page, confusion, figure, row};

@@ -9,8 +9,7 @@ pub(crate) mod pads;
 pub(crate) mod table;
 mod whiskers;
 
-use super::dataset::{Dataset, Job};
-use super::recording::{Recording, Recordings};
+use super::recording::{Dataset, Job, Recording, Recordings};
 use super::request::{Extent, Request};
 use crate::cores::each;
 use crate::rigs::seed_of;

@@ -1,7 +1,7 @@
 //! What was asked for: which experiments, how much of them, from which seed
 //! and on which rigs.
 
-use super::dataset::Dataset;
+use super::recording::Dataset;
 use crate::rigs::Rigs;
 
 /// An experiment.

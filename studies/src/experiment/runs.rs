@@ -4,14 +4,14 @@
 use anyhow::Result;
 use host_sim::progress::{Progress, Verbosity};
 
-use super::bodies::Bodies;
 use super::changes::Changed;
 use super::data;
-use super::dataset::Dataset;
 use super::protocol::Protocol;
 use super::record::{jobs, record};
+use super::recording::Dataset;
 use super::request::{Extent, Name, Request};
 use super::variants::{VARIANTS, Variant};
+use super::verdicts::Bodies;
 use super::whole::{evaluate, report};
 use crate::page::Files;
 use crate::rigs::Setting;

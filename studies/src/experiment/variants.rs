@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::dataset::Dataset;
+use super::recording::Dataset;
 use super::request::Name;
 use crate::paper::printed;
 use crate::rigs::Setting;

@@ -4,6 +4,23 @@ use crate::moments::{SURE, Summary, VERY_SURE};
 use crate::page::{Claim, Page, Recognition, joined};
 use anyhow::{Context, Result, bail};
 
+/// Pages of the seeds: as it is, and of placebos.
+#[derive(Debug, Default)]
+pub(super) struct Bodies {
+    pub(super) pages: Vec<Page>,
+    pub(super) placebos: Vec<Page>,
+}
+
+impl Bodies {
+    pub(super) const fn of(&mut self, is_placebo: bool) -> &mut Vec<Page> {
+        if is_placebo {
+            &mut self.placebos
+        } else {
+            &mut self.pages
+        }
+    }
+}
+
 /// What is to be said of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {

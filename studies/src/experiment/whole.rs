@@ -3,12 +3,11 @@
 use anyhow::{Context, Result};
 use std::fmt::Write;
 
-use super::bodies::Bodies;
 use super::changes::{self, Changed};
 use super::protocol::Protocol;
 use super::recording::Recordings;
 use super::request::{Name, Request};
-use super::verdicts::{Judged, Verdict, judged};
+use super::verdicts::{Bodies, Judged, Verdict, judged};
 use super::{biotact, costs, lep10, lep12, pose, psik};
 use crate::page::{Files, Page, joined};
 

@@ -6,9 +6,8 @@ use anyhow::Result;
 
 use super::movement::column;
 use crate::chart::{Mark, Series, linear, panel};
-use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::number;
-use crate::experiment::recording::{Recording, Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
 use crate::page::Page;

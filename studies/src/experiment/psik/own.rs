@@ -1,11 +1,10 @@
 //! The product's own rule on PSIK's papers and corridors, by one vibrissa: the middle one of the
 //! longest arc, of the left pad in corridors.
 
-use crate::experiment::dataset::Dataset;
 use crate::experiment::product::{Task, section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
 use crate::experiment::record::pad::{PAPERS, place as on_paper};
-use crate::experiment::recording::{Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
