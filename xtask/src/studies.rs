@@ -1,5 +1,5 @@
-//! The studies: a workspace of its own beside the product's, with the same target directory, so
-//! that what both need of others is compiled once.
+//! The studies: a workspace of its own beside the product's, with the same target directory
+//! (`.cargo/config.toml`).
 
 use std::process::Command;
 
@@ -10,9 +10,7 @@ pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
 
 /// `cargo` with a command, in that workspace.
 fn in_workspace(command: &str) -> Command {
-    let mut cargo = cargo(&[command, "--locked", "--manifest-path", MANIFEST]);
-    cargo.arg("--target-dir").arg(target());
-    cargo
+    cargo(&[command, "--locked", "--manifest-path", MANIFEST])
 }
 
 /// The program, in the profile of the tests.

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 use std::{fs, io};
 
-use crate::run::{Fault, built, listing, read, read_bytes, target, top, write};
+use crate::run::{Fault, built, listing, read, read_bytes, top, write};
 use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
@@ -162,13 +162,8 @@ fn as_built(commands: &str) -> String {
     let tool = "-p whisker ";
     let commands = commands.replace(tool, &format!("{tool}--no-default-features "));
     // A page's folder is not at the top.
-    let (manifest, target) = (top().join(studies::MANIFEST), target());
-    let found = format!(
-        "'{}' --target-dir '{}'",
-        manifest.display(),
-        target.display()
-    );
-    commands.replace(studies::MANIFEST, &found)
+    let manifest = top().join(studies::MANIFEST);
+    commands.replace(studies::MANIFEST, &format!("'{}'", manifest.display()))
 }
 
 /// Runs a block as its reader does, in a shell that stops at the first failure.
