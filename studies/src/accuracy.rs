@@ -27,47 +27,40 @@ mod reference;
 mod schemes;
 mod split;
 
+use anyhow::Result;
 use std::path::Path;
 
-use crate::page::Page;
+use crate::page::{Files, Page};
 use counts::Counts;
 use long_run::{DAY, QUICK, Table};
 
-use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 /// What to do about the run of 24 hours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LongRun {
+pub(crate) enum LongRun {
     /// Show the results that are kept.
     Kept,
     /// Run ten minutes in its place.
     Quick,
     /// Run it and keep the results.
-    Anew,
+    Measured,
 }
 
 /// Where results of the long run are kept, below the folder of documents.
 const LONG_RUN: &str = "accuracy/long-run.csv";
 
-/// Generated files: path below the folder of documents, and contents.
-pub type Files = Vec<(String, String)>;
-
 /// Measures everything. `docs` is the folder whose tables of instructions and
 /// of the long run are read.
-///
-/// # Errors
-/// [`Error::Input`] if a table of results is broken, [`Error::Work`] if a
-/// picture fails.
-pub fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Files, Error> {
-    let counts = Counts::read(&docs.join("instructions.csv"));
+pub(crate) fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Files> {
+    let counts = Counts::read(&docs.join("instructions.csv"))?;
     let (day, kept) = match long_run {
         LongRun::Kept => (Table::read(&docs.join(LONG_RUN))?, None),
-        LongRun::Quick => (Some(Table::measure(QUICK, verbosity)?), None),
-        LongRun::Anew => {
+        LongRun::Quick => (Table::measure(QUICK, verbosity)?, None),
+        LongRun::Measured => {
             let table = Table::measure(DAY, verbosity)?;
             let csv = table.csv();
-            (Some(table), Some((LONG_RUN.to_owned(), csv)))
+            (table, Some((LONG_RUN.to_owned(), csv)))
         }
     };
     let near = integrators::measure(&integrators::NEAR)?;
@@ -81,7 +74,7 @@ pub fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Fi
     boundaries::section(&mut page)?;
     corners::section(&mut page)?;
     contact::section(&mut page, &contact::measure()?)?;
-    long_run::section(&mut page, day.as_ref(), long_run == LongRun::Quick)?;
+    long_run::section(&mut page, &day, long_run == LongRun::Quick)?;
 
     let text = format!("{}\n", page.text.trim_end());
     let mut files = vec![("accuracy.md".to_owned(), text)];

@@ -1,5 +1,6 @@
 //! Panels of curves with linear or logarithmic axes, as SVG documents.
 
+use anyhow::{Result, bail};
 use std::ops::Range;
 
 use plotters::coord::Shift;
@@ -7,7 +8,6 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 
 use crate::moments::range;
-use host_sim::Error;
 
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(crate) type Fault = Box<dyn std::error::Error>;
@@ -133,6 +133,11 @@ impl Series {
         }
     }
 
+    /// Joined points whose panel says how they are drawn.
+    pub(crate) fn curve(name: &str, points: Vec<(f64, f64)>) -> Self {
+        Self::new(name, 0, Mark::Nothing, points)
+    }
+
     /// The points alone.
     pub(crate) fn unjoined(self) -> Self {
         Self {
@@ -149,6 +154,42 @@ pub(crate) struct Panel {
     pub(crate) x: Axis,
     pub(crate) y: Axis,
     pub(crate) series: Vec<Series>,
+}
+
+/// A percentage.
+pub(crate) fn percent(name: &'static str) -> Axis {
+    linear(name, 0.0, 100.0)
+}
+
+/// A diagram of joined points.
+pub(crate) fn panel(title: &str, x: Axis, y: Axis, curves: &[Series], mark: Mark) -> Panel {
+    // Grey is for what is beside the point.
+    let colours = (1..COLOURS.len()).cycle();
+    let series = curves.iter().zip(colours);
+    let series = series.map(|(curve, colour)| Series {
+        colour: COLOURS[colour],
+        mark,
+        ..curve.clone()
+    });
+    Panel {
+        title: title.to_owned(),
+        x,
+        y,
+        series: series.collect(),
+    }
+}
+
+/// Hit rates against a window in seconds.
+pub(crate) fn over_windows(title: &str, curves: &[Series]) -> Panel {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let x = Axis::decades("window, s", points.map(|point| point.0));
+    panel(title, x, percent(""), curves, Mark::Dot)
+}
+
+/// The range of all ordinates, from zero.
+pub(crate) fn top(curves: &[Series]) -> f64 {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    points.map(|point| point.1).fold(0.0, f64::max)
 }
 
 /// Colours that stay apart in print.
@@ -169,22 +210,20 @@ const LEGEND_ROW: i32 = 22;
 const LEGEND_COLUMNS: usize = 3;
 
 /// What `draw` puts on a white picture of so many pixels.
-///
-/// # Errors
-/// [`Error::Work`] if the drawing library fails.
 pub(crate) fn svg(
     size: (u32, u32),
     draw: impl FnOnce(&Area<'_>) -> Result<(), Fault>,
-) -> Result<String, Error> {
+) -> Result<String> {
     let mut svg = String::new();
     let all = |root: Area<'_>| -> Result<(), Fault> {
         root.fill(&WHITE)?;
         draw(&root)?;
         Ok(root.present()?)
     };
-    match all(SVGBackend::with_string(&mut svg, size).into_drawing_area()) {
+    let drawn = all(SVGBackend::with_string(&mut svg, size).into_drawing_area());
+    match drawn {
         Ok(()) => Ok(svg),
-        Err(fault) => Err(Error::Work(format!("a picture: {fault}"))),
+        Err(fault) => bail!("a picture: {fault}"),
     }
 }
 
@@ -194,7 +233,7 @@ pub(crate) fn grid<T>(
     columns: usize,
     size: (u32, u32),
     draw_one: impl Fn(&T, &Area<'_>) -> Result<(), Fault>,
-) -> Result<String, Error> {
+) -> Result<String> {
     let columns = columns.max(1);
     let rows = all.len().div_ceil(columns).max(1);
     svg((size.0 * columns as u32, size.1 * rows as u32), |root| {
@@ -206,12 +245,12 @@ pub(crate) fn grid<T>(
 }
 
 /// The panels, two beside each other, over one legend (that of the first).
-pub(crate) fn draw(panels: &[Panel]) -> Result<String, Error> {
+pub(crate) fn draw(panels: &[Panel]) -> Result<String> {
     draw_in(panels.len().clamp(1, 2), panels)
 }
 
 /// The panels in so many columns.
-pub(crate) fn draw_in(columns: usize, panels: &[Panel]) -> Result<String, Error> {
+pub(crate) fn draw_in(columns: usize, panels: &[Panel]) -> Result<String> {
     let rows = panels.len().div_ceil(columns).max(1);
     let named = |series: &&Series| !series.name.is_empty();
     let first = panels.first().into_iter();
@@ -280,24 +319,4 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), Fault> {
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Axis, linear};
-
-    #[test]
-    fn decades_enclose_their_values_and_places_are_even() {
-        let axis = Axis::decades("", [3e-4, 0.2, f64::NAN, 0.0].into_iter());
-        assert!((axis.low / 1e-4 - 1.0).abs() < 1e-12 && (axis.high - 1.0).abs() < 1e-12);
-        assert!((axis.place(1e-3) - 0.25).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_linear_axis_counts_in_round_steps() {
-        for (high, step) in [(24.0, 5.0), (1.0, 0.1), (3e-3, 5e-4)] {
-            let axis = linear("", 0.0, high);
-            assert!((axis.step() / step - 1.0).abs() < 1e-12, "{high}");
-        }
-    }
 }

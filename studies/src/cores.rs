@@ -1,23 +1,20 @@
 //! Work that is shared out among all cores, with its progress.
 
+use anyhow::Result;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use host_sim::Error;
 use host_sim::progress::{Progress, Verbosity};
 use rayon::prelude::*;
 
 /// Does `work` for each of `items` on all cores; the results are in their order, and
 /// depend on neither the order in which they were made nor the number of cores.
-///
-/// # Errors
-/// One of those that `work` gives.
 pub(crate) fn each<T: Sync, U: Send>(
     verbosity: Verbosity,
     message: &'static str,
     items: &[T],
-    work: impl Fn(&T) -> Result<U, Error> + Sync,
-) -> Result<Vec<U>, Error> {
+    work: impl Fn(&T) -> Result<U> + Sync,
+) -> Result<Vec<U>> {
     let bar = Mutex::new(Progress::new(verbosity, message, items.len() as u64));
     let done = AtomicU64::new(0);
     let one = |item: &T| {

@@ -15,16 +15,13 @@
 //! recorded changes a byte.
 
 mod biotact;
-mod bodies;
 mod changes;
 mod costs;
 mod data;
-mod dataset;
 mod floors;
 mod lep10;
 mod lep12;
 mod matrix;
-mod picture;
 mod pose;
 mod product;
 mod protocol;
@@ -38,12 +35,8 @@ mod variants;
 mod verdicts;
 mod whole;
 
-pub use dataset::{Dataset, Job};
-pub use protocol::{Files, Protocol};
-pub use record::{jobs, record};
-pub use recording::{Recording, Recordings};
-pub use request::{Extent, Name, Request};
-pub use runs::run;
+pub(crate) use protocol::Protocol;
+pub(crate) use runs::run;
 
 #[cfg(test)]
 mod tests;

@@ -1,17 +1,32 @@
-//! The command line. `studies --help` documents it.
+//! The laboratory: the papers' experiments on simulated rigs with their classifiers, the report of
+//! how accurate the numerics are, and the page of what decisions are worth. Nothing that a board or
+//! a simulated scene runs depends on it. `studies --help` documents the command line.
 
-use std::path::PathBuf;
+mod accuracy;
+mod chart;
+mod classifiers;
+mod cores;
+mod decisions;
+mod experiment;
+mod moments;
+mod page;
+mod paper;
+mod rigs;
+
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::{Context, Result, bail};
 use clap::{Parser, Subcommand};
 use host_sim::Error;
+use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::report::{program, say};
-use studies::accuracy::LongRun;
-use studies::commands::experiment::{self, Options};
-use studies::commands::{decisions, report};
-use studies::decisions::Extent;
-use studies::experiment::Name;
+
+use accuracy::LongRun;
+use decisions::Folders;
+use experiment::Protocol;
+use page::Files;
 
 /// The laboratory: the papers' experiments on simulated rigs, the accuracy report, and
 /// what decisions are worth.
@@ -32,13 +47,7 @@ struct Arguments {
 enum Command {
     /// Runs the experiments of the papers on simulated rigs and writes
     /// DIR/experiments.md with tables and figures beside the papers'
-    Experiment {
-        /// Which, or all of them
-        #[arg(value_enum, required = true)]
-        which: Vec<Which>,
-        #[command(flatten)]
-        options: Options,
-    },
+    Experiment(Protocol),
     /// Measures the accuracy of every integrator, number format and function
     /// and writes DIR/accuracy.md with its pictures
     Report {
@@ -48,7 +57,7 @@ enum Command {
         /// Run ten minutes in place of showing the kept 24 hours
         #[arg(long)]
         quick: bool,
-        /// Run the 24 hours anew and keep them (DIR/accuracy/long-run.csv)
+        /// Run the 24 hours and keep them (DIR/accuracy/long-run.csv)
         #[arg(long, conflicts_with = "quick")]
         long: bool,
         /// Only say whether the report is up to date
@@ -73,44 +82,51 @@ enum Command {
     },
 }
 
-/// Experiments by the names of their papers.
-#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum Which {
-    /// LEP10: naive Bayes over fixed windows, on four floors
-    Lep10,
-    /// LEP12: sequential Bayes, spectral template and neural network, on four floors
-    Lep12,
-    /// BIOTACT: six whisking whiskers, with and without RCP
-    Biotact,
-    /// POSE: one contact at an unknown angle and speed
-    Pose,
-    /// PSIK: 33 vibrissae, sandpapers and corridors
-    Psikharpax,
-    /// All of them
-    All,
-}
-
-/// The experiments, each once, in the order of the page.
-fn names(which: &[Which]) -> Vec<Name> {
-    let is_meant = |name: &Name| {
-        let own = match name {
-            Name::Lep10 => Which::Lep10,
-            Name::Lep12 => Which::Lep12,
-            Name::Biotact => Which::Biotact,
-            Name::Pose => Which::Pose,
-            Name::Psikharpax => Which::Psikharpax,
-        };
-        which.contains(&own) || which.contains(&Which::All)
+/// Runs experiments. Writes the page, its pictures and, where asked for, their data. Returns what
+/// was done.
+fn experiments(protocol: &Protocol, verbosity: Verbosity) -> Result<String> {
+    let write = |folder: &Path, files: &Files| {
+        let mut all = files.iter();
+        all.try_for_each(|(name, text)| Ok(write_whole(&folder.join(name), text.as_bytes())?))
     };
-    Name::ALL.into_iter().filter(is_meant).collect()
+    let files = experiment::run(protocol, verbosity, &mut |data| match &protocol.data {
+        Some(folder) => write(folder, data),
+        None => Ok(()),
+    })?;
+    write(&protocol.out, &files)?;
+    let page = files.last().map_or("", |(name, _)| name);
+    Ok(protocol.out.join(page).display().to_string())
 }
 
-fn work(arguments: Arguments) -> Result<(), Error> {
+/// Writes generated files into the folder `out`, or with `check` says whether those that are there
+/// are the same. `command` makes `what`. Returns what was done.
+fn keep(out: &Path, files: &Files, check: bool, what: &str, command: &str) -> Result<String> {
+    let folder = out.display();
+    if !check {
+        for (name, text) in files {
+            write_whole(&out.join(name), text.as_bytes())?;
+        }
+        return Ok(format!("{folder}: {} files of {what}", files.len()));
+    }
+    let differs = |(name, text): &&(String, String)| {
+        std::fs::read(out.join(name)).map_or(true, |found| found != text.as_bytes())
+    };
+    let stale = files.iter().filter(differs);
+    let stale: Vec<String> = stale
+        .map(|(name, _)| out.join(name).display().to_string())
+        .collect();
+    if stale.is_empty() {
+        Ok(format!("{folder}: {what} is up to date"))
+    } else {
+        let stale = stale.join(", ");
+        bail!("out of date: {stale}: run {command}")
+    }
+}
+
+fn work(arguments: Arguments) -> Result<()> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
-        Command::Experiment { which, options } => {
-            experiment::experiment(names(&which), &options, verbosity)?
-        }
+        Command::Experiment(protocol) => experiments(&protocol, verbosity)?,
         Command::Report {
             out,
             quick,
@@ -118,11 +134,14 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             check,
         } => {
             let long_run = match (long, quick) {
-                (true, _) => LongRun::Anew,
+                (true, _) => LongRun::Measured,
                 (false, true) => LongRun::Quick,
                 (false, false) => LongRun::Kept,
             };
-            report::report(&out, long_run, check, verbosity)?
+            let what = "the accuracy report";
+            let files = accuracy::report(&out, long_run, verbosity);
+            let files = files.context(what)?;
+            keep(&out, &files, check, what, "studies report")?
         }
         Command::Decisions {
             out,
@@ -131,16 +150,32 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             check,
         } => {
             let extent = if quick {
-                Extent::quick()
+                decisions::Extent::quick()
             } else {
-                Extent::full()
+                decisions::Extent::full()
             };
-            decisions::decisions(&out, &terrain, &extent, check, verbosity)?
+            let what = "the page of decisions";
+            let folders = Folders {
+                docs: &out,
+                terrain: &terrain,
+            };
+            let files = decisions::page(folders, &extent, verbosity);
+            let files = files.context(what)?;
+            keep(&out, &files, check, what, "studies decisions")?
         }
     });
     Ok(())
 }
 
+/// The fault as the exit status needs it: wrong arguments and files stay what they are.
+fn fault(error: anyhow::Error) -> Error {
+    let text = format!("{error:#}");
+    match error.downcast() {
+        Ok(input @ Error::Input(_)) => input,
+        _ => Error::Work(text),
+    }
+}
+
 fn main() -> ExitCode {
-    program("studies", || work(Arguments::parse()))
+    program("studies", || work(Arguments::parse()).map_err(fault))
 }

@@ -33,7 +33,7 @@ pub(crate) const VERY_SURE: Sureness = Sureness([
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Summary {
     pub(crate) mean: f64,
-    /// Zero of one seed, of which nobody knows it.
+    /// Zero of one seed, whose error is unknown.
     pub(crate) error: f64,
     pub(crate) count: usize,
 }

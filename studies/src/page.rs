@@ -3,17 +3,20 @@
 
 mod figure;
 
+use anyhow::Result;
 use std::fmt::{Display, Write};
 
-use host_sim::Error;
 use tactile::score::Confusion;
 
 use crate::chart::{Panel, draw};
 pub(crate) use figure::{figure, joined};
 
-/// How well classes are told apart, and how well chance does.
+/// Files by their paths.
+pub(crate) type Files = Vec<(String, String)>;
+
+/// How well classes are recognised, and how well chance does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct Recognition {
     /// A hit rate in percent, or κ.
     pub(crate) rate: f64,
     pub(crate) chance: f64,
@@ -33,31 +36,13 @@ pub(crate) struct Claim {
     /// Of the margin.
     pub(crate) unit: &'static str,
     /// What it rests on, where it rests on telling classes apart.
-    pub(crate) told: Option<Told>,
+    pub(crate) recognition: Option<Recognition>,
 }
 
 impl Claim {
-    /// One that does not rest on telling classes apart.
-    pub(crate) fn new(
-        what: impl Display,
-        paper: impl Display,
-        ours: impl Display,
-        (margin, unit): (f64, &'static str),
-    ) -> Self {
-        Self {
-            what: what.to_string(),
-            paper: paper.to_string(),
-            ours: ours.to_string(),
-            margin,
-            unit,
-            told: None,
-        }
-    }
-
-    /// The same that rests on such a rate, where chance has that.
-    pub(crate) fn told(self, rate: f64, chance: f64) -> Self {
-        let told = Some(Told { rate, chance });
-        Self { told, ..self }
+    /// Says on which rate it rests, where chance has that.
+    pub(crate) fn rests_on(&mut self, rate: f64, chance: f64) {
+        self.recognition = Some(Recognition { rate, chance });
     }
 }
 
@@ -69,7 +54,7 @@ pub(crate) struct Score {
     /// On what.
     pub(crate) task: String,
     /// Hit rate, percent.
-    pub(crate) told: Told,
+    pub(crate) recognition: Recognition,
     /// Of the product's classifier.
     pub(crate) product: Option<Product>,
 }
@@ -97,7 +82,7 @@ pub(crate) struct Page {
     /// Where pictures are, beside the page.
     pub(crate) folder: &'static str,
     pub(crate) text: String,
-    pub(crate) files: Vec<(String, String)>,
+    pub(crate) files: Files,
     pub(crate) claims: Vec<Claim>,
     pub(crate) scores: Vec<Score>,
     pub(crate) shown: Vec<Shown>,
@@ -142,13 +127,33 @@ impl Page {
     }
 
     /// Diagrams as a picture.
-    pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<(), Error> {
+    pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<()> {
         self.picture(name, what, draw(panels)?);
         self.shown.push(Shown {
             name: name.trim_end_matches(".svg").to_owned(),
             panels: panels.to_vec(),
         });
         Ok(())
+    }
+
+    /// Adds a claim, which does not rest on telling classes apart unless that is said.
+    pub(crate) fn claim(
+        &mut self,
+        what: impl Display,
+        paper: impl Display,
+        ours: impl Display,
+        (margin, unit): (f64, &'static str),
+    ) -> &mut Claim {
+        self.claims.push(Claim {
+            what: what.to_string(),
+            paper: paper.to_string(),
+            ours: ours.to_string(),
+            margin,
+            unit,
+            recognition: None,
+        });
+        let last = self.claims.len() - 1;
+        &mut self.claims[last]
     }
 
     /// Adds a classifier's score: its hit rate in percent, and that of chance.
@@ -162,7 +167,7 @@ impl Page {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
-            told: Told { rate: hit, chance },
+            recognition: Recognition { rate: hit, chance },
             product: None,
         });
     }
@@ -214,16 +219,4 @@ pub(crate) fn confusion(
     });
     let header = format!("true \\ decided | {}", names.join(" | "));
     page.table(&header, rows);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Page, short};
-
-    #[test]
-    fn a_table_has_a_rule_of_its_width() {
-        let mut page = Page::default();
-        page.table("a | b", [vec!["1".to_owned(), short(2.5e-4)]]);
-        assert_eq!(page.text, "| a | b |\n|---|---|\n| 1 | 2.5e-4 |\n\n");
-    }
 }

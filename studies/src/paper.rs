@@ -3,12 +3,13 @@
 //! Percentages are hit rates or shares of a true class. Where a paper shows a
 //! figure without its numbers, only what the text says of it is here.
 
-pub mod biotact;
-pub mod lep10;
-pub mod lep12;
-pub mod pose;
-pub mod psik;
+pub(crate) mod biotact;
+pub(crate) mod lep10;
+pub(crate) mod lep12;
+pub(crate) mod pose;
+pub(crate) mod psik;
 
+use anyhow::Result;
 use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;

@@ -18,37 +18,36 @@ mod table;
 
 use std::path::Path;
 
-pub use chance::{Chance, Wander, seed_of};
-pub use corridor::{Corridor, Robot};
-pub use floor::{Drive, Floor, RobotMotion};
-pub use head::{CHANNELS, Felt, Visit, WhiskingHead};
-pub use maze::{Made, Maze, Wall};
-pub use module::PositionControl;
-pub use pad::{Layout, Pad, Sweep, Vibrissa, panned};
-pub use read::{Keys, OutOfRange, Rig, load, parse};
-pub use setting::Setting;
-pub use surfaces::{Properties, Surfaces};
-pub use table::{Carriage, Table, facing};
+pub(crate) use chance::{Chance, seed_of};
+pub(crate) use corridor::{Corridor, Robot};
+pub(crate) use floor::{Floor, RobotMotion};
+pub(crate) use head::{CHANNELS, Visit, WhiskingHead};
+pub(crate) use maze::{Made, Maze, Wall};
+pub(crate) use pad::{Layout, Pad, Vibrissa, panned};
+pub(crate) use read::load;
+pub(crate) use setting::Setting;
+pub(crate) use surfaces::Surfaces;
+pub(crate) use table::{Carriage, Table, facing};
 
 use host_sim::Error;
 
 /// All rigs.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rigs {
+pub(crate) struct Rigs {
     /// LEP10 and LEP12.
-    pub floor: Floor,
+    pub(crate) floor: Floor,
     /// BIOTACT.
-    pub head: WhiskingHead,
+    pub(crate) head: WhiskingHead,
     /// POSE.
-    pub table: Table,
+    pub(crate) table: Table,
     /// PSIK, fixed head.
-    pub pad: Pad,
+    pub(crate) pad: Pad,
     /// PSIK, mobile robot.
-    pub corridor: Corridor,
+    pub(crate) corridor: Corridor,
     /// PSIK, the mobile robot's maze.
-    pub maze: Maze,
+    pub(crate) maze: Maze,
     /// What is before them.
-    pub surfaces: Surfaces,
+    pub(crate) surfaces: Surfaces,
 }
 
 /// The names of the rigs' files in a folder.
@@ -67,10 +66,7 @@ fn names_in(folder: &Path) -> Result<Vec<String>, Error> {
 
 impl Rigs {
     /// The rigs that are built in, with what files in `folder` say, and `settings` after them.
-    ///
-    /// # Errors
-    /// [`Error::Input`] names the file, the line and the key, or the setting.
-    pub fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
+    pub(crate) fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
         /// As settings name them.
         const NAMES: [&str; 7] = [
             "floor", "head", "table", "pad", "corridor", "maze", "surfaces",

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use crate::emulate::{Emulated, Probe, Task};
 use crate::firmware::{Board, EVERY_PART};
-use crate::run::{Fault, cargo, run, take_built_programs, target, workspace_program};
+use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::Steps;
 use crate::{
     arrows, book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
-    page, panics, python, size, walk,
+    page, panics, python, size, studies, walk,
 };
 
 /// What a warning becomes.
@@ -41,7 +41,7 @@ const SEED: &str = "1";
 /// The first check that fails.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
-    steps.run("format", || run(&mut cargo(&["fmt", "--all", "--check"])))?;
+    steps.run("format", format)?;
     steps.run("arrows", arrows::all)?;
     steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
@@ -55,7 +55,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("the book", || book::test().and_then(|()| book::build()))?;
     steps.run("Python", python::test)?;
     steps.run("page", || page::build().and_then(|()| page::test(None)))?;
-    steps.run("experiments, cut short", experiments)?;
+    steps.run("studies", || studies::check(Some(SEED)))?;
+    steps.run("experiments, cut short", studies::experiments_in_short)?;
     steps.run("firmware, three scenes", size::short)?;
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated boards, one side and two", board)?;
@@ -65,6 +66,11 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;
     steps.end()
+}
+
+fn format() -> Result<(), Fault> {
+    run(&mut cargo(&["fmt", "--all", "--check"]))?;
+    studies::format()
 }
 
 /// host-sim without its command line, where there are no files, threads or clocks.
@@ -98,24 +104,6 @@ fn tests() -> Result<(), Fault> {
     take_built_programs();
     test(&ALL)?;
     test(&["-p", "count", "--lib"])
-}
-
-/// In the profile of the tests, which has built all of it. PSIK's 33 vibrissae take minutes, and
-/// are the nightly run's.
-fn experiments() -> Result<(), Fault> {
-    let quick = [
-        "--quiet",
-        "experiment",
-        "lep10",
-        "lep12",
-        "biotact",
-        "pose",
-        "--quick",
-    ];
-    run(workspace_program("studies")
-        .args(quick)
-        .arg("--out")
-        .arg(target().join("experiments")))
 }
 
 /// A board's own program on the emulated chip: PC and board agree, in single precision

@@ -1,18 +1,24 @@
-//! Licences, duplicates and sources of the dependencies (deny.toml), and what is known
-//! against them, by cargo-deny. To build that takes minutes, so that CI runs it where it is
-//! installed; the nightly run installs it.
+//! Licences, duplicates and sources of the dependencies (deny.toml) of both workspaces, and what
+//! is known against them, by cargo-deny. To build that takes minutes, so that CI runs it where it
+//! is installed; the nightly run installs it.
 
-use crate::run::{Fault, cargo, installed, output, run};
+use crate::run::{Fault, cargo, installed, output, run, top};
+use crate::studies;
 
-/// What the lock file alone tells.
-const OFFLINE: [&str; 6] = [
-    "--locked",
-    "check",
-    "licenses",
-    "bans",
-    "sources",
-    "--hide-inclusion-graph",
-];
+/// What the lock file alone says.
+const OFFLINE: [&str; 4] = ["licenses", "bans", "sources", "--hide-inclusion-graph"];
+
+/// The product's workspace and the studies'.
+const WORKSPACES: [&str; 2] = ["Cargo.toml", studies::MANIFEST];
+
+/// Checks `what` of each workspace.
+fn deny(what: &[&str]) -> Result<(), Fault> {
+    WORKSPACES.into_iter().try_for_each(|manifest| {
+        let mut deny = cargo(&["deny", "--locked", "--manifest-path", manifest, "check"]);
+        deny.arg("--config").arg(top().join("deny.toml"));
+        run(deny.args(what))
+    })
+}
 
 /// Checks licences, duplicates and sources, if cargo-deny is there.
 ///
@@ -23,7 +29,7 @@ pub(crate) fn check() -> Result<(), Fault> {
         println!("not checked: cargo-deny is not installed; cargo xtask nightly installs it");
         return Ok(());
     }
-    run(cargo(&["deny"]).args(OFFLINE))
+    deny(&OFFLINE)
 }
 
 /// The same wherever it is run, and what is known against a version, as far as the
@@ -38,5 +44,5 @@ pub(crate) fn install_and_check() -> Result<(), Fault> {
         println!("advisories are not checked: their database cannot be reached");
         return Ok(());
     }
-    run(&mut cargo(&["deny", "--locked", "check", "advisories"]))
+    deny(&["advisories"])
 }

@@ -7,9 +7,9 @@ mod mount;
 
 use crate::firmware::Board;
 use crate::run::{
-    Fault, cargo, document, output, read, read_bytes, run, target, top, workspace_program, write,
+    Fault, cargo, document, output, read, read_bytes, target, top, workspace_program,
 };
-use crate::{cost, descriptions, emulate};
+use crate::{cost, descriptions, emulate, studies};
 use harness::Drawn;
 use main_job::DECISIONS;
 
@@ -43,9 +43,9 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     of_boards(check)?;
     // The main job's page quotes what it measures over many runs.
-    studies("decisions", check)?;
+    studies::page("decisions", check)?;
     of_runs(check)?;
-    studies("report", check)
+    studies::page("report", check)
 }
 
 /// Checks that every generated document is up to date but the two pages of the studies, which
@@ -56,7 +56,7 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
 pub(crate) fn short() -> Result<(), Fault> {
     of_boards(true)?;
     of_runs(true)?;
-    studies_in_short()
+    studies::pages_in_short()
 }
 
 /// What follows from the source alone, from descriptions of chips, and from what boards cost.
@@ -118,27 +118,6 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
     let drawn = target().join("picture/asymmetry.svg");
     emulate::picture(Board::named("nucleo-f446re")?, &scenes, &drawn)?;
     document("docs/asymmetry.svg", &read_bytes(&drawn)?, check)
-}
-
-/// Makes a page of the studies. They show docs/measured/instructions.csv, which
-/// `cargo xtask count` writes. In the profile of the tests, which CI has built all of.
-fn studies(page: &str, check: bool) -> Result<(), Fault> {
-    run(workspace_program("studies")
-        .arg(page)
-        .args(check.then_some("--check")))
-}
-
-/// Makes both pages of the studies in short, in a folder of their own.
-fn studies_in_short() -> Result<(), Fault> {
-    let folder = target().join("studies");
-    let counted = "instructions.csv";
-    let there = read_bytes(&top().join("docs/measured").join(counted))?;
-    write(&folder.join(counted), &there)?;
-    for page in ["decisions", "report"] {
-        let quick = ["--quiet", page, "--quick", "--out"];
-        run(workspace_program("studies").args(quick).arg(&folder))?;
-    }
-    Ok(())
 }
 
 /// A scene whose model is trained on a run of it with another seed, as its first lines say.

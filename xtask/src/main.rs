@@ -25,6 +25,7 @@ mod run;
 mod size;
 mod speed;
 mod steps;
+mod studies;
 mod traces;
 mod walk;
 

@@ -11,7 +11,7 @@ use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
     ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, python, reproducible,
-    size, walk,
+    size, studies, walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -26,7 +26,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("lints of every board", lints);
     steps.try_run("the bench's program with debug probes", with_probes);
     steps.try_run("properties on other cases", || {
-        run(cargo(&["test", "--locked"]).args(ci::ALL))
+        run(cargo(&["test", "--locked"]).args(ci::ALL))?;
+        studies::check(None)
     });
     steps.try_run("size of every scene on every board", || {
         size::all(None, true)
@@ -37,7 +38,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("every scene on the emulated boards", boards);
     steps.try_run("counts and cost of every stage", || cost::all(None, true));
     steps.try_run("documents", || docs::all(true));
-    steps.try_run("experiments", experiments);
+    steps.try_run("experiments", studies::experiments);
     steps.try_run("Python: sources, sweeps, notebooks", python::whole);
     steps.try_run("the walk through the book", walk::nightly);
     steps.try_run("endurance", endurance::nightly);
@@ -105,12 +106,6 @@ fn boards() -> Result<(), Fault> {
         }
     }
     Ok(())
-}
-
-fn experiments() -> Result<(), Fault> {
-    let studies = ["run", "--release", "--quiet", "--locked", "-p", "studies"];
-    let all = ["--", "--quiet", "experiment", "all", "--out"];
-    run(cargo(&studies).args(all).arg(target().join("nightly")))
 }
 
 /// Changes the product's crates (.cargo/mutants.toml) in one place at a time and asks

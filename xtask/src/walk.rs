@@ -9,6 +9,7 @@ use std::time::Instant;
 use std::{fs, io};
 
 use crate::run::{Fault, built, listing, read, read_bytes, top, write};
+use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
 /// Pages with commands that are not in the book.
@@ -152,14 +153,17 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
 /// run has a debug probe.
 fn as_built(commands: &str) -> String {
     let mut commands = commands.to_owned();
-    for package in ["host-sim", "studies", "whisker"] {
+    for package in ["host-sim", "whisker"] {
         if let Some(program) = built(package) {
             let run = format!("cargo run -p {package} -- ");
             commands = commands.replace(&run, &format!("'{}' ", program.display()));
         }
     }
     let tool = "-p whisker ";
-    commands.replace(tool, &format!("{tool}--no-default-features "))
+    let commands = commands.replace(tool, &format!("{tool}--no-default-features "));
+    // A page's folder is not at the top.
+    let manifest = top().join(studies::MANIFEST);
+    commands.replace(studies::MANIFEST, &format!("'{}'", manifest.display()))
 }
 
 /// Runs a block as its reader does, in a shell that stops at the first failure.

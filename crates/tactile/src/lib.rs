@@ -38,7 +38,7 @@
 //! logarithm at run time.
 //!
 //! The classifiers that the papers compare these with are in
-//! `studies/classifiers`.
+//! `studies/src/classifiers`.
 //!
 //! # Error bounds
 //!

@@ -1,6 +1,7 @@
 //! The limit cycle: how round it is in each format, and where forward Euler
 //! leaves it or breaks down, predicted and measured.
 
+use anyhow::Result;
 use std::f64::consts::TAU;
 
 use whisking::{Config, Integrator, Real, muscle, oscillator};
@@ -8,8 +9,6 @@ use whisking::{Config, Integrator, Real, muscle, oscillator};
 use super::schemes::{Format, Pace, in_format};
 use crate::chart::{Axis, Mark, Panel, Series, draw, linear};
 use crate::page::{Page, short};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// f_W T of the table of radii: 2 Hz at 20 kHz up to 25 Hz at 250 Hz.
 const CYCLES: [f64; 7] = [1e-4, 1e-3, 4e-3, 8e-3, 1.25e-2, 0.05, 0.1];
@@ -20,15 +19,17 @@ const MEASURED: f64 = 20.0;
 const LIMIT: f64 = 1.5;
 
 /// A product's configuration at f_W T = `cycles`.
-fn config<R: Real>(integrator: Integrator, cycles: f64) -> Result<Config<R>, Error> {
+fn config<R: Real>(integrator: Integrator, cycles: f64) -> Result<Config<R>> {
     // The frequency is free: only f_W T enters. It keeps the tick rate in range.
     let frequency_hz = (cycles * 20_000.0).min(25.0);
     let pace = Pace::new(frequency_hz, frequency_hz / cycles);
-    pace.settings(integrator).build().map_err(refused)
+    pace.settings(integrator)
+        .build()
+        .map_err(anyhow::Error::new)
 }
 
 /// Smallest and largest radius and largest |ψ₁| on the settled limit cycle.
-fn cycle<R: Real>(integrator: Integrator, cycles: f64) -> Result<[f64; 3], Error> {
+fn cycle<R: Real>(integrator: Integrator, cycles: f64) -> Result<[f64; 3]> {
     let oscillators = config::<R>(integrator, cycles)?.oscillators;
     let mut state = oscillator::State::new([[R::ONE, R::ZERO]; 2].into());
     for _ in 0..(SETTLE / cycles) as usize {
@@ -49,7 +50,7 @@ fn cycle<R: Real>(integrator: Integrator, cycles: f64) -> Result<[f64; 3], Error
 }
 
 /// Largest |r − 1|.
-fn out_of_round(integrator: Integrator, format: Format, cycles: f64) -> Result<f64, Error> {
+fn out_of_round(integrator: Integrator, format: Format, cycles: f64) -> Result<f64> {
     let [low, high, _] = in_format!(format, cycle(integrator, cycles))?;
     Ok(f64::max(high - 1.0, 1.0 - low))
 }
@@ -70,7 +71,7 @@ fn predicted_limit() -> f64 {
 }
 
 /// f_W T at which the product's Euler oscillator first touches its limit.
-fn measured_limit() -> Result<f64, Error> {
+fn measured_limit() -> Result<f64> {
     bisect(5e-3, 1.2e-2, |cycles| {
         let [_, _, drive] = cycle::<f64>(Integrator::Euler, cycles)?;
         Ok(drive >= LIMIT)
@@ -83,7 +84,7 @@ fn predicted_muscle() -> f64 {
 }
 
 /// 10 f_W T at which the product's Euler muscle, without force, starts to grow.
-fn measured_muscle() -> Result<f64, Error> {
+fn measured_muscle() -> Result<f64> {
     let cycles = bisect(0.01, 0.1, |cycles| {
         let muscle = config::<f64>(Integrator::Euler, cycles)?.muscle;
         let mut state = muscle::State::default();
@@ -101,11 +102,7 @@ fn measured_muscle() -> Result<f64, Error> {
 }
 
 /// Where between `low` (false) and `high` (true) `test` turns.
-fn bisect(
-    mut low: f64,
-    mut high: f64,
-    test: impl Fn(f64) -> Result<bool, Error>,
-) -> Result<f64, Error> {
+fn bisect(mut low: f64, mut high: f64, test: impl Fn(f64) -> Result<bool>) -> Result<f64> {
     for _ in 0..16 {
         let middle = f64::midpoint(low, high);
         if test(middle)? {
@@ -118,7 +115,7 @@ fn bisect(
 }
 
 /// The table of radii, and Euler's boundaries.
-pub(super) fn section(page: &mut Page) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page) -> Result<()> {
     page.heading(2, "Limit cycle");
     page.say(format_args!(
         "Largest |r − 1| of ψ over {MEASURED} whisks after {SETTLE} whisks, both sides in phase. \
@@ -177,7 +174,7 @@ pub(super) fn section(page: &mut Page) -> Result<(), Error> {
     Ok(())
 }
 
-fn picture() -> Result<String, Error> {
+fn picture() -> Result<String> {
     let grid = |n: i32, of: i32| libm::pow(10.0, -4.0 + 3.0 * f64::from(n) / f64::from(of));
     let predicted = (0..=300)
         .map(|n| grid(n, 300))

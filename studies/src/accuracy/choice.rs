@@ -4,26 +4,13 @@ use super::counts::{Counts, Target};
 use super::integrators::{Errors, FREQUENCIES_HZ, TICKS_HZ, diagram};
 use super::schemes::Scheme;
 use crate::page::{Page, row};
-use host_sim::Error;
+use anyhow::Result;
 
 /// Errors that one might live with, degrees.
 const BOUNDS_DEG: [f64; 3] = [0.05, 1e-3, 1e-4];
 
 /// Error against instructions a second for every processor.
-pub(super) fn section(page: &mut Page, measured: &[Errors], counts: &Counts) -> Result<(), Error> {
-    if counts.is_empty() {
-        page.say(
-            "Instructions are **not counted** yet (`docs/measured/instructions.csv` is missing; \
-             `cargo xtask count` writes it). Until then the error stands against the tick rate.",
-        );
-        let svg = diagram(measured, "ticks a second", |scheme| {
-            matches!(scheme, Scheme::Product(..)).then_some(1.0)
-        })?;
-        if let Some(svg) = svg {
-            page.picture("choose.svg", "error against tick rate", svg);
-        }
-        return Ok(());
-    }
+pub(super) fn section(page: &mut Page, measured: &[Errors], counts: &Counts) -> Result<()> {
     for (target, file) in Target::ALL.into_iter().zip(["choose.svg", "choose-m0.svg"]) {
         let cost = |scheme| match scheme {
             Scheme::Product(integrator, format) => counts.tick(integrator, format, target),

@@ -11,11 +11,11 @@
 mod energy;
 mod runs;
 
+use anyhow::Result;
 use std::fmt::Write;
 
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short};
-use host_sim::Error;
 use runs::{Measured, TICKS_HZ};
 
 pub(super) use runs::{Against, measure};
@@ -24,7 +24,7 @@ pub(super) use runs::{Against, measure};
 const USUAL_HZ: u32 = 2_000;
 
 /// The section. `measured` is what [`measure`] returned.
-pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     page.heading(2, "Contact");
     page.say(
         "The middle whisker of BIOTACT (112 mm, 50 Hz) whisks at 2 Hz, by 10 degrees to both \
@@ -148,7 +148,7 @@ fn panel(title: &str, names: [&'static str; 2], series: Vec<Series>) -> Panel {
     }
 }
 
-fn picture(measured: &[Against]) -> Result<String, Error> {
+fn picture(measured: &[Against]) -> Result<String> {
     let error = curves(measured, |m, hz| {
         let steps = 1.0 - m.share + m.share * m.parts;
         (steps * f64::from(hz), m.rms)

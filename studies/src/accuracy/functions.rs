@@ -1,12 +1,12 @@
 //! Elementary functions: error and instructions of the product's, of Rust's
 //! libm and of micromath.
 
+use anyhow::Result;
 use whisking::{Fix, Real};
 
 use super::counts::{Counts, Target, cell};
 use crate::chart::{Axis, Mark, Panel, Series};
 use crate::page::{Page, short, verdict};
-use host_sim::Error;
 
 /// Intervals of the grid of each function.
 const GRID: i32 = 600_000;
@@ -189,7 +189,7 @@ fn errors(function: Function, maker: Maker) -> [f64; 2] {
 }
 
 /// Errors and instructions of every function and implementation.
-pub(super) fn section(page: &mut Page, counts: &Counts) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, counts: &Counts) -> Result<()> {
     page.heading(2, "Elementary functions");
     page.say(format_args!(
         "Errors are absolute, at the input as the format holds it, over {GRID} points, against \
@@ -251,7 +251,7 @@ fn judged(function: Function, maker: Maker, worst: f64, work: Option<f64>) -> St
 
 type Points = Vec<(Maker, (f64, f64))>;
 
-fn picture(page: &mut Page, panels: Vec<(Function, Points)>) -> Result<(), Error> {
+fn picture(page: &mut Page, panels: Vec<(Function, Points)>) -> Result<()> {
     let panel = |(function, points): (Function, Points)| {
         let x = points.iter().map(|(_, point)| point.0);
         // An error of zero (f64 against itself) has no place on the scale.

@@ -1,6 +1,7 @@
 //! The gates: how exactly z decays, and of which order a step is while a gate
 //! jumps.
 
+use anyhow::{Context, Result};
 use whisking::gate::Gate;
 use whisking::{GateSettings, Integrator, Number, Settings, State};
 
@@ -8,8 +9,6 @@ use super::reference::{Case, GRID, PEAK_GAIN, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, in_format, name};
 use crate::chart::{Axis, Mark, Panel, Series};
 use crate::page::{Page, short};
-use crate::refused::refused;
-use host_sim::Error;
 
 const FREQUENCY_HZ: f64 = 2.0;
 /// Tick rates of the order, each twice the one before, Hz.
@@ -92,17 +91,10 @@ impl Contact {
     }
 
     /// Largest error of θ' in degrees.
-    fn error<R: Number>(
-        self,
-        integrator: Integrator,
-        tick_hz: f64,
-        truth: &Truth,
-    ) -> Result<f64, Error> {
+    fn error<R: Number>(self, integrator: Integrator, tick_hz: f64, truth: &Truth) -> Result<f64> {
         let (pace, settings) = modulated(integrator, tick_hz);
-        let config = settings.build::<R>().map_err(refused)?;
-        let start = settings
-            .start(&CASE.psi, &[&[CASE.gain][..]; 2])
-            .map_err(refused)?;
+        let config = settings.build::<R>()?;
+        let start = settings.start(&CASE.psi, &[&[CASE.gain][..]; 2])?;
         let mut state = State::new(&start, 1);
         let stride = pace.stride()?;
         let mut worst = 0.0_f64;
@@ -120,11 +112,11 @@ impl Contact {
 
 /// Relative error of z after four time constants of free decay from one at
 /// 2 kHz.
-fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
-    fn of<R: Number>(integrator: Integrator) -> Result<f64, Error> {
+fn decay(integrator: Integrator, format: Format) -> Result<f64> {
+    fn of<R: Number>(integrator: Integrator) -> Result<f64> {
         let (pace, settings) = modulated(integrator, 2_000.0);
-        let rcp = settings.build::<R>().map_err(refused)?.rcp;
-        let rcp = rcp.ok_or_else(|| Error::Work("RCP is missing".to_owned()))?;
+        let rcp = settings.build::<R>()?.rcp;
+        let rcp = rcp.context("RCP is missing")?;
         let mut z = Gate::new(R::ONE);
         for _ in 0..(4.0 * RCP.tau_s * pace.tick_hz) as usize {
             rcp.step(&mut z, R::ZERO);
@@ -135,7 +127,7 @@ fn decay(integrator: Integrator, format: Format) -> Result<f64, Error> {
 }
 
 /// Error of the decay, and order of convergence across a step of contact.
-pub(super) fn section(page: &mut Page) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page) -> Result<()> {
     page.heading(2, "Gates");
     page.say(
         "Decay of z (τ_z = T_W/4, 2 Hz, 0.5 ms) after four time constants, against exp(−4): \

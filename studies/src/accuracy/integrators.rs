@@ -1,5 +1,6 @@
 //! Error of θ' against run time: every integrator, number format and tick.
 
+use anyhow::Result;
 use whisking::Integrator;
 
 use super::counts::{Counts, Target, cell};
@@ -7,7 +8,6 @@ use super::reference::{Case, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, Scheme, name};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short, verdict};
-use host_sim::Error;
 
 /// Whisk frequencies, Hz.
 pub(super) const FREQUENCIES_HZ: [f64; 4] = [0.5, 2.0, 8.0, 25.0];
@@ -44,7 +44,7 @@ pub(super) struct Errors {
 }
 
 /// Measures every scheme from `case`.
-pub(super) fn measure(case: &Case) -> Result<Vec<Errors>, Error> {
+pub(super) fn measure(case: &Case) -> Result<Vec<Errors>> {
     let truth = Truth::solve(case);
     let of = |scheme: Scheme| {
         let mut degrees = [[0.0; TICKS_HZ.len()]; FREQUENCIES_HZ.len()];
@@ -65,7 +65,7 @@ pub(super) fn diagram(
     measured: &[Errors],
     work: &'static str,
     cost: impl Fn(Scheme) -> Option<f64>,
-) -> Result<Option<String>, Error> {
+) -> Result<Option<String>> {
     let points = |errors: &Errors, f: usize| -> Vec<(f64, f64)> {
         let cost = cost(errors.scheme);
         let row = errors.degrees.get(f).into_iter().flatten();
@@ -130,7 +130,7 @@ fn costs(page: &mut Page, counts: &Counts) {
 }
 
 /// Goals beside what was measured, and the errors of every combination.
-pub(super) fn section(page: &mut Page, near: &[Errors], counts: &Counts) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, near: &[Errors], counts: &Counts) -> Result<()> {
     page.heading(2, "Integrators");
     costs(page, counts);
     page.heading(3, "Goals");

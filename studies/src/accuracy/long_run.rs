@@ -6,6 +6,7 @@
 
 mod whisk;
 
+use anyhow::{Result, anyhow};
 use std::fmt::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -48,7 +49,7 @@ pub(super) struct Table(Vec<Row>);
 
 impl Table {
     /// Runs all formats side by side.
-    pub(super) fn measure(length: Length, verbosity: Verbosity) -> Result<Self, Error> {
+    pub(super) fn measure(length: Length, verbosity: Verbosity) -> Result<Self> {
         let formats = Format::ALL.len() as u64;
         let total = formats * (length.stretches + 1) * length.minutes;
         let done = AtomicU64::new(0);
@@ -62,29 +63,22 @@ impl Table {
                 progress.set(done.load(Ordering::Relaxed));
                 thread::sleep(Duration::from_millis(50));
             }
-            let lost = |_| Err(Error::Work("the long run broke down".to_owned()));
+            let lost = |_| Err(anyhow!("the long run broke down"));
             let join = |thread: thread::ScopedJoinHandle<'_, _>| thread.join().unwrap_or_else(lost);
             work.into_iter().map(join).collect::<Result<Vec<_>, _>>()
         })?;
         Ok(Self(rows.concat()))
     }
 
-    /// Reads what [`Table::csv`] wrote; `None` if there is no such file.
-    pub(super) fn read(path: &Path) -> Result<Option<Self>, Error> {
-        let Ok(text) = std::fs::read_to_string(path) else {
-            return Ok(None);
-        };
+    /// Reads what [`Table::csv`] wrote.
+    pub(super) fn read(path: &Path) -> Result<Self> {
+        let wrong = |fault: String| Error::file(path, format!("{fault}; run with --long"));
+        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
         // Not by the names of the header: a range takes two columns.
         let mut reader = csv::ReaderBuilder::new();
         let reader = reader.has_headers(false).from_reader(text.as_bytes());
-        let rows = reader.into_deserialize().skip(1);
-        match rows.collect::<Result<Vec<Row>, _>>() {
-            Ok(rows) if !rows.is_empty() => Ok(Some(Self(rows))),
-            _ => Err(Error::file(
-                path,
-                "is not a table of a long run: run with --long",
-            )),
-        }
+        let rows = reader.into_deserialize().skip(1).collect::<Result<_, _>>();
+        Ok(Self(rows.map_err(|error| wrong(error.to_string()))?))
     }
 
     /// As comma-separated text.
@@ -105,7 +99,7 @@ impl Table {
 }
 
 /// The whole run at 2 Hz, then one stretch of it at the odd frequency.
-fn both<R: Number>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>, Error> {
+fn both<R: Number>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>> {
     let mut rows = whisk::run::<R>(format, PAPERS, length, done)?;
     let stretch = Length {
         stretches: 1,
@@ -116,14 +110,8 @@ fn both<R: Number>(format: Format, length: Length, done: &AtomicU64) -> Result<V
 }
 
 /// What the table says.
-pub(super) fn section(page: &mut Page, table: Option<&Table>, quick: bool) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, Table(rows): &Table, quick: bool) -> Result<()> {
     page.heading(2, "Long run");
-    let Some(Table(rows)) = table else {
-        page.say(
-            "Not run yet: `studies report --long` writes `docs/measured/accuracy/long-run.csv`.",
-        );
-        return Ok(());
-    };
     let last = rows.iter().map(|row| row.minutes).max().unwrap_or(0);
     let ticks = (last + 1) * MINUTE_TICKS;
     page.say(format_args!(
@@ -197,7 +185,7 @@ fn summary(rows: &[Row], format: Format, pace: Pace) -> Option<Vec<String>> {
     ])
 }
 
-fn picture(rows: &[Row]) -> Result<String, Error> {
+fn picture(rows: &[Row]) -> Result<String> {
     let hours = |row: &Row| row.minutes as f64 / 60.0;
     let degrees = |row: &Row| 360.0 * row.phase_whisks;
     let shown = || {
@@ -222,7 +210,7 @@ fn picture(rows: &[Row]) -> Result<String, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Length, Table};
+    use super::{Length, Path, Table};
     use host_sim::progress::Verbosity;
 
     #[test]
@@ -234,7 +222,7 @@ mod tests {
         let table = Table::measure(length, Verbosity::Quiet).unwrap();
         let file = tempfile::NamedTempFile::new().unwrap();
         std::fs::write(file.path(), table.csv()).unwrap();
-        assert_eq!(Table::read(file.path()).unwrap(), Some(table.clone()));
+        assert_eq!(Table::read(file.path()).unwrap(), table);
         assert_eq!(table.0.len(), 9);
         for row in &table.0 {
             assert!(
@@ -244,9 +232,6 @@ mod tests {
         }
         std::fs::write(file.path(), "format\nf64,x\n").unwrap();
         assert!(Table::read(file.path()).is_err());
-        assert_eq!(
-            Table::read(std::path::Path::new("/nowhere/at/all")).unwrap(),
-            None
-        );
+        assert!(Table::read(Path::new("/nowhere/at/all")).is_err());
     }
 }

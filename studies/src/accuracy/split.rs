@@ -78,21 +78,3 @@ fn answer(m: &[[f64; 2]; 2], [theta, v]: [f64; 2], push: f64) -> [f64; 2] {
         m[1][0] * off + m[1][1] * v,
     ]
 }
-
-#[cfg(test)]
-mod tests {
-    use super::propagator;
-
-    #[test]
-    fn the_propagator_composes() {
-        let (half, whole) = (propagator(0.4), propagator(0.8));
-        for i in 0..2 {
-            for j in 0..2 {
-                let twice: f64 = (0..2).map(|k| half[i][k] * half[k][j]).sum();
-                assert!((twice - whole[i][j]).abs() < 1e-14);
-            }
-        }
-        // dθ = h v to first order: the sign of the off-diagonal.
-        assert!((propagator(1e-6)[0][1] / 1e-6 - 1.0).abs() < 1e-5);
-    }
-}

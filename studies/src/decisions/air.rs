@@ -1,18 +1,16 @@
 //! Decisions of a whisker that touches nothing.
 
+use anyhow::Result;
 use firmware::Event;
-use host_sim::Error;
 use host_sim::classifier::Classifier;
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use scene::{Rule, Scene};
 
 use super::extent::Extent;
-use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, verdict};
-use crate::refused::refused;
 
 /// Whisking frequencies tried, Hz.
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
@@ -25,17 +23,14 @@ const SEED: u64 = 400;
 pub(super) fn section(
     page: &mut Page,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
-    let shipped = || trained.iter().filter_map(|trained| trained.first());
-    let jobs: Vec<(&Ground, &Trained, f64)> = grounds
+) -> Result<()> {
+    let jobs = grounds
         .iter()
-        .zip(shipped())
-        .flat_map(|(ground, trained)| FREQUENCIES_HZ.map(|hz| (ground, trained, hz)))
-        .collect();
-    let found = each(verbosity, "free air", &jobs, |&(ground, trained, hz)| {
+        .flat_map(|ground| FREQUENCIES_HZ.map(|hz| (ground, hz)));
+    let jobs: Vec<(&Ground, f64)> = jobs.collect();
+    let found = each(verbosity, "free air", &jobs, |&(ground, hz)| {
         let mut scene = Scene {
             seed: SEED,
             duration_s: extent.air_s,
@@ -48,7 +43,7 @@ pub(super) fn section(
             obstacle.obstacle_deg.fill(OUT_OF_REACH_DEG);
         }
         let rule = Rule::Sequential { threshold: 0.99 };
-        let classifier = Classifier::new(trained.model.clone(), rule).map_err(refused)?;
+        let classifier = Classifier::new(ground.shipped().model.clone(), rule)?;
         let mut run = Run::new(&scene, Some(classifier))?;
         let (mut decisions, mut touches) = (0_u32, 0_u32);
         for _ in 0..run.ticks() {
@@ -66,7 +61,7 @@ pub(super) fn section(
          that the module tells although there is none.",
         extent.air_s
     ));
-    let rows = jobs.iter().zip(&found).map(|((ground, _, hz), found)| {
+    let rows = jobs.iter().zip(&found).map(|((ground, hz), found)| {
         let (decisions, touches) = *found;
         let minutes = extent.air_s / 60.0;
         vec![

@@ -1,6 +1,6 @@
 //! Stated against found, as a picture and a table.
 
-use host_sim::Error;
+use anyhow::Result;
 use tactile::score::{CalibrationBin, Interval};
 
 use super::figures::percent;
@@ -15,11 +15,7 @@ const FOUND: f64 = 1e-4;
 const HIGH: f64 = 0.1;
 
 /// The decisions of all trainings, by what they state.
-pub(super) fn section(
-    page: &mut Page,
-    grounds: &[Ground],
-    trained: &[Vec<Trained>],
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, grounds: &[Ground]) -> Result<()> {
     page.heading(2, "Stated against found");
     page.say(
         "Decisions of all trainings by their posterior, at three thresholds. The picture shows \
@@ -29,15 +25,12 @@ pub(super) fn section(
     );
     let panels: Vec<Panel> = grounds
         .iter()
-        .zip(trained)
-        .map(|(ground, trained)| panel(ground.name, trained))
+        .map(|ground| panel(ground.name, &ground.trained))
         .collect();
     page.panels("calibration.svg", "stated against found", &panels)?;
-    for (ground, trained) in grounds.iter().zip(trained) {
-        let Some((at, (threshold, _))) = THRESHOLDS.iter().enumerate().next() else {
-            continue;
-        };
-        let rows = pooled(trained, at).into_iter().map(|bin| {
+    let (at, (threshold, _)) = (0, THRESHOLDS[0]);
+    for ground in grounds {
+        let rows = pooled(&ground.trained, at).into_iter().map(|bin| {
             let setting = format!("{} to {}", bin.low, bin.high);
             let cells = [
                 format!("{:.2}", 100.0 * bin.stated),

@@ -4,26 +4,26 @@ use std::ops::Range;
 
 /// How much is measured. Training seeds are none of those scored.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Extent {
+pub(crate) struct Extent {
     /// Whether this is the short form.
-    pub is_quick: bool,
+    pub(crate) is_quick: bool,
     /// Seeds of the runs that are trained on; the first is that of the shipped models.
-    pub trainings: Vec<u64>,
+    pub(crate) trainings: Vec<u64>,
     /// Seeds of the runs that are scored.
-    pub scored: Range<u64>,
+    pub(crate) scored: Range<u64>,
     /// Seeds of the runs of the main job.
-    pub main_job: Range<u64>,
+    pub(crate) main_job: Range<u64>,
     /// How long a free whisker is moved, s.
-    pub air_s: f64,
+    pub(crate) air_s: f64,
     /// How many drives are held out; the rest only serve to train.
-    pub drives: usize,
+    pub(crate) drives: usize,
     /// Values tried of each setting.
-    pub values: usize,
+    pub(crate) values: usize,
 }
 
 impl Extent {
     /// What the page shows.
-    pub fn full() -> Self {
+    pub(crate) fn full() -> Self {
         Self {
             is_quick: false,
             trainings: [3].into_iter().chain(41..=49).collect(),
@@ -36,7 +36,7 @@ impl Extent {
     }
 
     /// A short form, for tests.
-    pub fn quick() -> Self {
+    pub(crate) fn quick() -> Self {
         Self {
             is_quick: true,
             trainings: vec![3],

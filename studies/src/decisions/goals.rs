@@ -1,6 +1,6 @@
 //! Each figure of the two scenes beside its goal.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::ModelBuf;
 use tactile::train::joint::JointModel;
@@ -9,7 +9,6 @@ use super::figures::{Figures, Goal, Table, mean_of, number, percent, plus_minus}
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::Page;
-use crate::refused::refused;
 
 /// Thresholds, with how many points stated and found may lie apart.
 pub(super) const THRESHOLDS: [(f64, f64); 3] = [(0.95, 1.5), (0.99, 1.0), (0.999, 1.5)];
@@ -31,26 +30,20 @@ impl Trained {
     }
 }
 
-/// Of each scene a model a training.
-pub(super) fn measure(
-    grounds: &[Ground],
-    verbosity: Verbosity,
-) -> Result<Vec<Vec<Trained>>, Error> {
-    let of_ground = |ground: &Ground| {
-        let seeds: Vec<u64> = ground.seeds().collect();
-        each(verbosity, "trainings", &seeds, |&seed| {
-            let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
-            let model = joint.model().map_err(refused)?;
-            let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
-            Ok(Trained {
-                seed,
-                at: at.into_iter().collect::<Result<_, _>>()?,
-                joint,
-                model,
-            })
+/// A model a training.
+pub(super) fn measure(ground: &Ground, verbosity: Verbosity) -> Result<Vec<Trained>> {
+    let seeds: Vec<u64> = ground.seeds().collect();
+    each(verbosity, "trainings", &seeds, |&seed| {
+        let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
+        let model = joint.model()?;
+        let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
+        Ok(Trained {
+            seed,
+            at: at.into_iter().collect::<Result<_, _>>()?,
+            joint,
+            model,
         })
-    };
-    grounds.iter().map(of_ground).collect()
+    })
 }
 
 /// A line: what is measured of a model, and how that is written.
@@ -84,7 +77,7 @@ fn lines(ground: &Ground) -> Vec<Line> {
         Goal::AtLeast(_) => Goal::AtLeast(f64::NEG_INFINITY),
         Goal::AtMost(_) => Goal::AtMost(f64::INFINITY),
     };
-    let count = ground.heard.len();
+    let count = ground.runs.len();
     let line = |name: &str, goal, value, text, decimals| Line {
         name: name.to_owned(),
         goal,
@@ -214,12 +207,7 @@ impl Line {
 }
 
 /// A table a scene.
-pub(super) fn section(
-    page: &mut Page,
-    table: &mut Table,
-    grounds: &[Ground],
-    trained: &[Vec<Trained>],
-) {
+pub(super) fn section(page: &mut Page, table: &mut Table, grounds: &[Ground]) {
     page.heading(2, "Goals");
     page.say(
         "A hit rate is the mean over classes of the share of right decisions among those for a \
@@ -227,14 +215,16 @@ pub(super) fn section(
          verdict is on the shipped model, and the last columns say what other runs would have \
          given (mean ± standard error; the worst).",
     );
-    for (ground, trained) in grounds.iter().zip(trained) {
+    for ground in grounds {
         page.heading(3, &format!("`scenes/{}.toml`", ground.name));
-        let rows = lines(ground).into_iter().map(|line| line.row(trained));
+        let rows = lines(ground)
+            .into_iter()
+            .map(|line| line.row(&ground.trained));
         page.table(
             "figure | goal | shipped | | other trainings; the worst | trainings that keep it",
             rows,
         );
-        for one in trained {
+        for one in &ground.trained {
             for ((threshold, _), figures) in THRESHOLDS.iter().zip(&one.at) {
                 let setting = format!("threshold {threshold}");
                 table.add(["goals", ground.name, &setting], one.seed, figures);

@@ -1,6 +1,6 @@
 //! The scenes that are scored, with their runs.
 
-use host_sim::Error;
+use anyhow::{Context, Result};
 use host_sim::classifier::Classifier;
 use host_sim::commands::record;
 use host_sim::progress::Verbosity;
@@ -14,8 +14,8 @@ use tactile::train::joint::{JointModel, Options};
 
 use super::extent::Extent;
 use super::figures::Figures;
+use super::goals::{Trained, measure};
 use crate::cores::each;
-use crate::refused::refused;
 
 /// Longest run that is trained on, s.
 pub(super) const LONGEST_S: f64 = 80.0;
@@ -63,12 +63,14 @@ pub(super) struct Ground {
     /// By the seed of each training a run of [`LONGEST_S`].
     recorded: Vec<(u64, Vec<Stream>)>,
     /// The runs that are scored.
-    pub(super) heard: Vec<Heard>,
+    pub(super) runs: Vec<Heard>,
+    /// A model a training, the one that is shipped first.
+    pub(super) trained: Vec<Trained>,
 }
 
 impl Ground {
-    /// All scenes with their runs.
-    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>, Error> {
+    /// All scenes with their runs and models.
+    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>> {
         SCENES
             .into_iter()
             .map(|(name, text, goals)| {
@@ -82,15 +84,23 @@ impl Ground {
                     Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
                 })?;
                 let seeds: Vec<u64> = extent.scored.clone().collect();
-                Ok(Self {
+                let mut ground = Self {
                     name,
                     goals,
                     recorded,
-                    heard: heard(&scene, &seeds, verbosity)?,
+                    runs: record_all(&scene, &seeds, verbosity)?,
+                    trained: Vec::new(),
                     scene,
-                })
+                };
+                ground.trained = measure(&ground, verbosity)?;
+                Ok(ground)
             })
             .collect()
+    }
+
+    /// The model that is shipped.
+    pub(super) fn shipped(&self) -> &Trained {
+        &self.trained[0]
     }
 
     /// The seeds that are trained on.
@@ -116,9 +126,9 @@ impl Ground {
     }
 
     /// A joint model with the settings that `host-sim train` has by default.
-    pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel, Error> {
+    pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel> {
         let joint = self.train_tables(streams, Tables::Joint)?.joint;
-        joint.ok_or_else(|| Error::Work("training made no joint model".to_owned()))
+        joint.context("training made no joint model")
     }
 
     /// A model of any tables with the settings that `host-sim train` has by default.
@@ -126,56 +136,49 @@ impl Ground {
         &self,
         streams: Vec<Stream>,
         tables: Tables,
-    ) -> Result<TrainedModel, Error> {
+    ) -> Result<TrainedModel> {
         let recordings = [(self.scene.name.clone(), streams)];
         let contact_min = self.scene.classifier.as_ref().and_then(|c| c.contact_min);
         let how = How::of(tables).gated(contact_min);
         let trained = how.train(&recordings, self.scene.tick_hz);
-        trained.map_err(refused)
+        trained.map_err(anyhow::Error::new)
     }
 
     /// A model with other settings.
-    pub(super) fn train_by(
-        &self,
-        streams: Vec<Stream>,
-        options: &Options,
-    ) -> Result<JointModel, Error> {
-        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(refused)
+    pub(super) fn train_by(&self, streams: Vec<Stream>, options: &Options) -> Result<JointModel> {
+        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(anyhow::Error::new)
     }
 
     /// A model on the runs that are scored.
-    pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures, Error> {
-        self.score_on(&self.heard, model, threshold)
+    pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures> {
+        self.score_on(&self.runs, model, threshold)
     }
 
     /// A model on some runs.
     pub(super) fn score_on(
         &self,
-        heard: &[Heard],
+        runs: &[Heard],
         model: &ModelBuf,
         threshold: f64,
-    ) -> Result<Figures, Error> {
+    ) -> Result<Figures> {
         let rule = Rule::Sequential { threshold };
-        let classifier = Classifier::new(model.clone(), rule).map_err(refused)?;
-        let runs = heard.iter().map(|run| run.score(classifier.clone()));
+        let classifier = Classifier::new(model.clone(), rule)?;
+        let scored = runs.iter().map(|run| run.score(classifier.clone()));
         Ok(Figures::of(
-            runs.collect(),
+            scored.collect(),
             classifier.classes(),
             self.scene.tick_hz,
         ))
     }
 }
 
-/// Runs of a scene with these seeds, as a classifier hears them.
-pub(super) fn heard(
-    scene: &Scene,
-    seeds: &[u64],
-    verbosity: Verbosity,
-) -> Result<Vec<Heard>, Error> {
+/// Runs of a scene with these seeds, as a classifier takes them.
+pub(super) fn record_all(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
     each(verbosity, "scored runs", seeds, |&seed| {
-        Heard::record(&Scene {
+        let scene = Scene {
             seed,
             ..scene.clone()
-        })
+        };
+        Ok(Heard::record(&scene)?)
     })
 }

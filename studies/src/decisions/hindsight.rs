@@ -1,6 +1,6 @@
 //! What was chosen after results had been seen, and what would have come of it otherwise.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
@@ -9,7 +9,6 @@ use super::goals::Trained;
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, row};
-use crate::refused::refused;
 
 /// Where such choices are noted, each with the way there from the page.
 const NOTES: [(&str, &str, &str); 3] = [
@@ -77,9 +76,8 @@ pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.heading(2, "Chosen after results were seen");
     page.say("Values that were chosen with results before the eyes, as their sources tell them:");
     for (name, way, text) in NOTES {
@@ -92,16 +90,14 @@ pub(super) fn section(
          at a time, mean of all trainings; the others cannot be taken back by an option, and what \
          was found without them stands in the notes.",
     );
-    for (ground, trained) in grounds.iter().zip(trained) {
-        let Some(Options {
+    for ground in grounds {
+        let trained = &ground.trained;
+        let Options {
             refused: share,
             bins,
             block,
             ..
-        }) = trained.first().map(|one| &one.joint.options)
-        else {
-            continue;
-        };
+        } = &ground.shipped().joint.options;
         let share = 100.0 * share;
         let mut rows = vec![of(
             &format!("by default: {share} % refused, {bins} bins with blocks of {block}"),
@@ -112,7 +108,7 @@ pub(super) fn section(
                 let options = without.options(&one.joint.options);
                 let streams = ground.recording(one.seed, ground.scene.duration_s);
                 let joint = ground.train_by(streams, &options)?;
-                ground.score(&joint.model().map_err(refused)?, 0.99)
+                ground.score(&joint.model()?, 0.99)
             })?;
             let name = without.name();
             for (one, figures) in trained.iter().zip(&found) {

@@ -1,30 +1,25 @@
 //! The main job over many runs.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 
 use super::extent::Extent;
 use super::figures::{Table, mean_of, percent, plus_minus};
-use super::goals::Trained;
-use super::ground::{Ground, heard};
+use super::ground::{Ground, record_all};
 use crate::page::Page;
 
-/// The first scene with its shipped model: what `docs/textures.md` quotes.
+/// A scene with its shipped model: what `docs/textures.md` quotes.
 pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
-    grounds: &[Ground],
-    trained: &[Vec<Trained>],
+    ground: &Ground,
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
-    let (Some(ground), Some([shipped, ..])) = (grounds.first(), trained.first().map(Vec::as_slice))
-    else {
-        return Ok(());
-    };
+) -> Result<()> {
+    let shipped = ground.shipped();
     let seeds: Vec<u64> = extent.main_job.clone().collect();
-    let heard = heard(&ground.scene, &seeds, verbosity)?;
-    let figures = ground.score_on(&heard, &shipped.model, 0.99)?;
+    let runs = record_all(&ground.scene, &seeds, verbosity)?;
+    let figures = ground.score_on(&runs, &shipped.model, 0.99)?;
     table.add(
         ["main job", ground.name, "as shipped"],
         shipped.seed,

@@ -1,6 +1,6 @@
-//! What is told where there is nothing to tell: labels that mean nothing.
+//! What is decided where there is nothing to decide: labels that mean nothing.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use host_sim::training::Tables;
 
@@ -22,9 +22,8 @@ pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.heading(2, "A placebo");
     page.say(
         "The same runs with labels that mean nothing: trial n of texture m is called by name \
@@ -37,16 +36,16 @@ pub(super) fn section(
          which does not.",
     );
     let mut rows = Vec::new();
-    for (ground, trained) in grounds.iter().zip(trained) {
+    for ground in grounds {
         let textured = ground.scene.plant.textured.as_ref();
         let textures = textured.map_or(&[][..], |textured| &textured.textures);
         let names: Vec<&str> = textures.iter().map(|texture| texture.name()).collect();
-        let mut heard = ground.heard.clone();
-        for shown in heard.iter_mut().flat_map(|run| &mut run.presentations) {
+        let mut runs = ground.runs.clone();
+        for shown in runs.iter_mut().flat_map(|run| &mut run.presentations) {
             shown.label = permuted(&names, &shown.label, shown.trial);
         }
         let seeds: Vec<u64> = ground.seeds().collect();
-        let true_count = over(trained.iter().map(Trained::usual), count).0;
+        let true_count = over(ground.trained.iter().map(Trained::usual), count).0;
         for (name, tables, threshold) in MODELS {
             let found = each(verbosity, "placebo", &seeds, |&seed| {
                 let mut streams = ground.recording(seed, ground.scene.duration_s);
@@ -55,7 +54,7 @@ pub(super) fn section(
                     stream.label = permuted(&names, &stream.label, trial);
                 }
                 let model = ground.train_tables(streams, tables)?.model;
-                ground.score_on(&heard, &model, threshold)
+                ground.score_on(&runs, &model, threshold)
             })?;
             let setting = format!("{name} at {threshold}");
             for (seed, figures) in seeds.iter().zip(&found) {

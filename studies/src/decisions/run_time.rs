@@ -3,13 +3,12 @@
 mod picture;
 mod settings;
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
 use super::extent::Extent;
 use super::figures::{Table, number};
-use super::goals::Trained;
 use super::ground::Ground;
 use crate::accuracy::counts::{Counts, Target};
 use crate::chart::draw_in;
@@ -22,21 +21,19 @@ pub(super) fn section(
     page: &mut Page,
     table: &mut Table,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
     counts: &Counts,
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     let mut jobs = Vec::new();
     for setting in Setting::ALL {
         for &value in setting.values().iter().take(extent.values) {
-            jobs.extend((0..grounds.len()).map(|ground| (setting, value, ground)));
+            jobs.extend(grounds.iter().map(|ground| (setting, value, ground)));
         }
     }
-    let tried = each(verbosity, "settings", &jobs, |&(setting, value, n)| {
-        let (ground, trained) = (&grounds[n], &trained[n]);
+    let tried = each(verbosity, "settings", &jobs, |&(setting, value, ground)| {
         let (mut figures, mut bytes) = (Vec::new(), 0);
-        for one in trained {
+        for one in &ground.trained {
             let model = match setting.model(value, ground, one) {
                 // Too short a training is refused: it then has no figure.
                 Err(_) if setting == Setting::Training => continue,
@@ -48,7 +45,7 @@ pub(super) fn section(
         Ok(Tried {
             setting,
             value,
-            ground: n,
+            ground,
             figures,
             bytes,
         })
@@ -56,11 +53,7 @@ pub(super) fn section(
     for tried in &tried {
         let setting = format!("{} {}", tried.value, tried.setting.name());
         for (seed, figures) in &tried.figures {
-            table.add(
-                ["run time", grounds[tried.ground].name, &setting],
-                *seed,
-                figures,
-            );
+            table.add(["run time", tried.ground.name, &setting], *seed, figures);
         }
     }
 
@@ -80,7 +73,7 @@ pub(super) fn section(
         picture,
     );
     for setting in Setting::ALL {
-        of_setting(page, setting, grounds, trained, &tried, counts);
+        of_setting(page, setting, grounds, &tried, counts);
     }
     Ok(())
 }
@@ -90,8 +83,7 @@ fn of_setting(
     page: &mut Page,
     setting: Setting,
     grounds: &[Ground],
-    trained: &[Vec<Trained>],
-    tried: &[Tried],
+    tried: &[Tried<'_>],
     counts: &Counts,
 ) {
     let values = || {
@@ -139,7 +131,7 @@ fn of_setting(
     );
 
     let keeps = |(_, of_value): &(u32, Vec<&Tried>)| {
-        let enough = |tried: &&Tried| tried.is_enough(&grounds[tried.ground]);
+        let enough = |tried: &&Tried| tried.is_enough();
         of_value.len() == grounds.len() && of_value.iter().all(enough)
     };
     let of_value = |found: Option<(u32, Vec<&Tried>)>| {
@@ -157,11 +149,7 @@ fn of_setting(
         .min_by(|a, b| ms(a).total_cmp(&ms(b)));
     let mut defaults: Vec<String> = grounds
         .iter()
-        .zip(trained)
-        .filter_map(|(ground, trained)| {
-            let options = &trained.first()?.joint.options;
-            Some(setting.default(ground, options).to_string())
-        })
+        .map(|ground| setting.default(ground).to_string())
         .collect();
     defaults.dedup();
     // Bits and training are chosen by what they cost.
@@ -220,7 +208,7 @@ mod tests {
         // 100 a sample and 200 for the end, counted with blocks of 40.
         let table = b"kernel,format,target,mean,worst\n\
             joint classifier push K=4,integer,cortex-m4f,105,300\n";
-        let counts = Counts::parse(table);
+        let counts = Counts::parse(table).unwrap();
         assert_eq!(instructions(&counts, 40), "105; not counted");
         assert_eq!(instructions(&counts, 20), "110; not counted");
         assert_eq!(instructions(&counts, 5), "140; not counted");

@@ -1,13 +1,14 @@
 //! A robot's vibration over three grounds: other drives, and other stretches of the same.
 
+use anyhow::Result;
 use std::path::Path;
 
 use host_sim::decisions::{Decided, UNKNOWN};
 use host_sim::evaluation::{Shown, presentations};
+use host_sim::files;
 use host_sim::progress::Verbosity;
 use host_sim::recording::{CHANNELS, Stream};
 use host_sim::training::{How, Tables};
-use host_sim::{Error, files};
 use tactile::ModelBuf;
 use tactile::score::Interval;
 
@@ -15,7 +16,6 @@ use super::extent::Extent;
 use super::figures::{Goal, percent};
 use crate::cores::each;
 use crate::page::Page;
-use crate::refused::refused;
 
 /// Samples of a window.
 const WINDOW: usize = 2000;
@@ -56,7 +56,7 @@ pub(super) fn section(
     folder: &Path,
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     let [first, second] = ["terrain-train.csv", "terrain-test.csv"].map(|name| {
         let path = folder.join(name);
         files::read_recording(&path, CHANNELS)
@@ -184,13 +184,13 @@ fn windows(drive: &Stream) -> Vec<Stream> {
     drive.samples.chunks_exact(length).map(window).collect()
 }
 
-fn trained(recordings: &[(String, Vec<Stream>)]) -> Result<ModelBuf, Error> {
+fn trained(recordings: &[(String, Vec<Stream>)]) -> Result<ModelBuf> {
     let trained = How::of(Tables::Joint).train(recordings, RATE_HZ);
-    Ok(trained.map_err(refused)?.model)
+    Ok(trained?.model)
 }
 
-fn decided(model: &ModelBuf, windows: &[Stream]) -> Result<Windows, Error> {
-    let shown = presentations(model, 0.99, windows).map_err(refused)?;
+fn decided(model: &ModelBuf, windows: &[Stream]) -> Result<Windows> {
+    let shown = presentations(model, 0.99, windows)?;
     Ok(Windows::of(&shown))
 }
 

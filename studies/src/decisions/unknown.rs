@@ -1,8 +1,8 @@
 //! Textures that the model does not know: trained on all but one.
 
+use anyhow::Result;
 use std::collections::BTreeMap;
 
-use host_sim::Error;
 use host_sim::progress::Verbosity;
 
 use super::extent::Extent;
@@ -10,7 +10,6 @@ use super::figures::{Figures, Table, mean_of, over, percent, plus_minus};
 use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, row, verdict};
-use crate::refused::refused;
 
 /// Of a scene each texture left out in each training.
 pub(super) fn section(
@@ -19,7 +18,7 @@ pub(super) fn section(
     grounds: &[Ground],
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.heading(2, "Unknown textures");
     page.say(
         "Each texture in turn is left out of the training and presented all the same. Refused is \
@@ -40,7 +39,7 @@ pub(super) fn section(
         let found = each(verbosity, "unknown textures", &jobs, |&(label, seed)| {
             let mut streams = ground.recording(seed, ground.scene.duration_s);
             streams.retain(|stream| stream.label != label);
-            let model = ground.train(streams)?.model().map_err(refused)?;
+            let model = ground.train(streams)?.model()?;
             ground.score(&model, 0.99)
         })?;
         for ((label, seed), figures) in jobs.iter().zip(&found) {

@@ -10,18 +10,17 @@ mod own;
 mod patterns;
 mod whisks;
 
+use anyhow::Result;
 use rayon::prelude::*;
 
-use super::picture::{Curve, panel, percent};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::chart::{Mark, linear};
-use crate::page::{Claim, Page, figure, row};
+use crate::chart::{Mark, Series, linear, panel, percent};
+use crate::page::{Page, figure, row};
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
 use crate::rigs::{Chance, seed_of};
-use host_sim::Error;
 use whisks::{Method, Task, Visits};
 
 /// Random choices of training whisks that a hit rate is the mean of.
@@ -38,7 +37,7 @@ type HitCurve = Vec<f64>;
 struct Hits(Vec<HitCurve>);
 
 impl Hits {
-    fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self, Error> {
+    fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self> {
         let whisks = request.extent.whisks();
         let mut cases = Vec::new();
         for method in Method::ALL {
@@ -48,7 +47,7 @@ impl Hits {
                 }
             }
         }
-        let rates: Result<Vec<f64>, Error> = cases
+        let rates: Result<Vec<f64>> = cases
             .into_par_iter()
             .map(|(method, task, strategy, count)| {
                 let mut sum = 0.0;
@@ -82,11 +81,7 @@ impl Hits {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let visits = Visits::new(request, recordings);
     let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));
     let hits = Hits::measure(request, &visits, most)?;
@@ -95,7 +90,7 @@ pub(super) fn evaluate(
         "Six whiskers of 80, 112 and 158 mm (`studies/rigs/head.toml`), moved by the module's pattern \
          generator in closed loop with what they feel, each by a motor under the module's \
          position control, before {} textures at {} distances, {} \
-         whisks each. The arm's error and the spot of the surface are drawn anew for each whisk. \
+         whisks each. The arm's error and the spot of the surface are drawn again for each whisk. \
          Friction leaves motors a dead band of {:.2} degrees. A hit rate is the mean over {DRAWS} random choices of training whisks; all \
          other whisks validate. The paper's curves are drawn without numbers; its text says: {}.",
         TEXTURES.len(),
@@ -109,13 +104,13 @@ pub(super) fn evaluate(
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {
-            let curves: Vec<Curve> = STRATEGIES
+            let curves: Vec<Series> = STRATEGIES
                 .iter()
                 .enumerate()
                 .map(|(strategy, (name, _))| {
                     let points = hits.curve(method, task, strategy).iter().enumerate();
                     let points = points.map(|(n, hit)| ((n + 1) as f64, *hit));
-                    Curve::new(name, points.collect())
+                    Series::curve(name, points.collect())
                 })
                 .collect();
             let x = linear("training whisks", 0.0, most as f64 + 1.0);
@@ -161,86 +156,76 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
     for method in Method::ALL {
         for count in [1, 2] {
             let [plain, rcp7, rcp9] = [0, 1, 2].map(|n| hits.at(method, Task::Both, n, count));
-            page.claims.push(
-                Claim::new(
-                    format_args!(
-                        "BIOTACT: after {count} training whisk(s) RCP7 is best and unmodulated \
+            page.claim(
+                format_args!(
+                    "BIOTACT: after {count} training whisk(s) RCP7 is best and unmodulated \
                          whisking worst (texture and distance, {})",
-                        method.text()
-                    ),
-                    "so",
-                    format_args!(
-                        "unmodulated {}, RCP7 {}, RCP9 {} %",
-                        one(plain),
-                        one(rcp7),
-                        one(rcp9)
-                    ),
-                    ((rcp7 - rcp9).min(rcp9 - plain), "points"),
-                )
-                .told(rcp7, Task::Both.chance()),
-            );
+                    method.text()
+                ),
+                "so",
+                format_args!(
+                    "unmodulated {}, RCP7 {}, RCP9 {} %",
+                    one(plain),
+                    one(rcp7),
+                    one(rcp9)
+                ),
+                ((rcp7 - rcp9).min(rcp9 - plain), "points"),
+            )
+            .rests_on(rcp7, Task::Both.chance());
         }
     }
     let bayes = |task, strategy, count| hits.at(Method::Bayes, task, strategy, count);
     let whisks = 7.min(most);
     let seven = bayes(Task::Both, 1, whisks);
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "BIOTACT: naive Bayes with RCP7 reaches {NEARLY_ALL} % after {whisks} training whisks"
-            ),
-            format_args!("{FIG10_RCP7_SEVEN:.0} %"),
-            format_args!("{} %", one(seven)),
-            (seven - NEARLY_ALL, "points"),
-        )
-        .told(seven, Task::Both.chance()),
-    );
+    page.claim(
+        format_args!(
+            "BIOTACT: naive Bayes with RCP7 reaches {NEARLY_ALL} % after {whisks} training whisks"
+        ),
+        format_args!("{FIG10_RCP7_SEVEN:.0} %"),
+        format_args!("{} %", one(seven)),
+        (seven - NEARLY_ALL, "points"),
+    )
+    .rests_on(seven, Task::Both.chance());
     let [joint, texture, distance] = Task::ALL.map(|task| bayes(task, 0, most));
     let product = texture * distance / 100.0;
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "BIOTACT: the joint hit rate is within {NEARLY} points of the product of \
+    page.claim(
+        format_args!(
+            "BIOTACT: the joint hit rate is within {NEARLY} points of the product of \
                  texture's and distance's (naive Bayes, unmodulated)"
-            ),
-            "about equal",
-            format_args!(
-                "{} against {} x {} = {} %",
-                one(joint),
-                one(texture),
-                one(distance),
-                one(product)
-            ),
-            (NEARLY - (joint - product).abs(), "points"),
-        )
-        .told(joint, Task::Both.chance()),
-    );
+        ),
+        "about equal",
+        format_args!(
+            "{} against {} x {} = {} %",
+            one(joint),
+            one(texture),
+            one(distance),
+            one(product)
+        ),
+        (NEARLY - (joint - product).abs(), "points"),
+    )
+    .rests_on(joint, Task::Both.chance());
     let template = hits.at(Method::Template, Task::Texture, 0, most);
-    page.claims.push(
-        Claim::new(
-            "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
-            format_args!("about 100 against {FIG11_TEXTURE:.0} %"),
-            format_args!("{} against {} %", one(texture), one(template)),
-            (texture - template, "points"),
-        )
-        .told(texture, Task::Texture.chance()),
-    );
+    page.claim(
+        "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
+        format_args!("about 100 against {FIG11_TEXTURE:.0} %"),
+        format_args!("{} against {} %", one(texture), one(template)),
+        (texture - template, "points"),
+    )
+    .rests_on(texture, Task::Texture.chance());
     let [plain, rcp7, rcp9] = [0, 1, 2].map(|n| hits.at(Method::Template, Task::Distance, n, most));
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "BIOTACT: with the template, RCP is worse than unmodulated whisking on distance \
+    page.claim(
+        format_args!(
+            "BIOTACT: with the template, RCP is worse than unmodulated whisking on distance \
                  ({most} training whisks)"
-            ),
-            "so, after more than three",
-            format_args!(
-                "unmodulated {}, RCP7 {}, RCP9 {} %",
-                one(plain),
-                one(rcp7),
-                one(rcp9)
-            ),
-            (plain - rcp7.max(rcp9), "points"),
-        )
-        .told(plain, Task::Distance.chance()),
-    );
+        ),
+        "so, after more than three",
+        format_args!(
+            "unmodulated {}, RCP7 {}, RCP9 {} %",
+            one(plain),
+            one(rcp7),
+            one(rcp9)
+        ),
+        (plain - rcp7.max(rcp9), "points"),
+    )
+    .rests_on(plain, Task::Distance.chance());
 }

@@ -1,11 +1,9 @@
 //! What changes of rigs do to claims: margins beside each other, and the reasons that follow.
 
-use host_sim::Error;
-
-use super::bodies::Bodies;
 use super::variants::{Kind, Variant};
-use super::verdicts::{Judged, Verdict, judged};
+use super::verdicts::{Bodies, Judged, Verdict, judged};
 use crate::page::Page;
+use anyhow::Result;
 
 /// What came of a change.
 #[derive(Debug)]
@@ -26,11 +24,7 @@ fn cell(claim: &Judged) -> String {
 }
 
 /// What each change of a rig does to the claims that rest on it.
-pub(super) fn section(
-    page: &mut Page,
-    claims: &[Judged],
-    changed: &[Changed],
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, claims: &[Judged], changed: &[Changed]) -> Result<()> {
     if changed.is_empty() {
         return Ok(());
     }
@@ -38,7 +32,7 @@ pub(super) fn section(
     let seeds = changed.iter().map(|one| one.bodies.pages.len()).max();
     page.say(format_args!(
         "One thing is changed at a time, {} seeds each: margins of the claims, **bold** where they \
-         are not met, (in brackets) within noise, ~~struck out~~ where a placebo is told apart. \
+         are not met, (in brackets) within noise, ~~struck out~~ where a placebo is recognised. \
          *Without* undoes what was chosen, mostly after a result had been seen; *cause* changes \
          what might be why a claim is not met. Those with (†) have a placebo of their own.",
         seeds.unwrap_or(0)

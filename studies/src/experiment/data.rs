@@ -1,17 +1,16 @@
 //! What pictures show and what rigs recorded, as CSV: each file says its version and seed.
 
+use anyhow::Result;
 use std::fmt::Display;
 
-use host_sim::Error;
 use host_sim::origin::Origin;
 
-use super::bodies::Bodies;
-use super::dataset::{Dataset, Job};
-use super::protocol::{Files, Protocol};
+use super::protocol::Protocol;
 use super::record::corridor::FELT;
 use super::record::pads::INPUTS;
-use super::recording::{Recording, Recordings};
-use crate::refused::refused;
+use super::recording::{Dataset, Job, Recording, Recordings};
+use super::verdicts::Bodies;
+use crate::page::Files;
 use crate::rigs::CHANNELS;
 
 /// What stands above a table.
@@ -21,7 +20,7 @@ fn origin(protocol: &Protocol, seeds: impl Display) -> Origin {
         .with("seed", seeds);
     let folder = protocol.rigs.iter();
     let said = folder.fold(said, |said, folder| said.with("rigs", folder.display()));
-    let settings = protocol.settings.iter();
+    let settings = protocol.set.iter();
     settings.fold(said, |said, setting| said.with("set", setting))
 }
 
@@ -30,20 +29,20 @@ fn table(
     origin: &Origin,
     header: &[String],
     rows: impl Iterator<Item = Vec<String>>,
-) -> Result<String, Error> {
+) -> Result<String> {
     let mut text = Vec::new();
-    origin.write(&mut text).map_err(refused)?;
+    origin.write(&mut text)?;
     let mut table = csv::Writer::from_writer(text);
-    table.write_record(header).map_err(refused)?;
+    table.write_record(header)?;
     for row in rows {
-        table.write_record(row).map_err(refused)?;
+        table.write_record(row)?;
     }
-    let text = table.into_inner().map_err(refused)?;
-    String::from_utf8(text).map_err(refused)
+    let text = table.into_inner()?;
+    String::from_utf8(text).map_err(anyhow::Error::new)
 }
 
 /// The data of every figure, all seeds in one file.
-pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Result<Files, Error> {
+pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Result<Files> {
     let seeds = protocol.all_seeds();
     let last = seeds.end.saturating_sub(1);
     let origin = origin(protocol, format_args!("{} to {last}", seeds.start));
@@ -92,7 +91,7 @@ fn columns(dataset: Dataset, count: usize) -> Vec<String> {
 }
 
 /// Every recording of a seed, each in a file of its own.
-pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Result<Files, Error> {
+pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Result<Files> {
     let origin = origin(protocol, seed);
     let one = |(job, recording): (&Job, &Recording)| {
         let header = columns(job.dataset, recording.channels);

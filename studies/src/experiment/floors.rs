@@ -1,22 +1,20 @@
 //! The floor robot's recordings as LEP10 and LEP12 use them: the first half of
 //! every trial to train on, the second to validate with.
 
-use classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
+use anyhow::Result;
 use rayon::prelude::*;
 use tactile::ModelBuf;
 use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
 
-use super::dataset::Dataset;
 use super::record::floor::{MOTIONS, number};
-use super::recording::{Recording, Recordings, of_set};
+use super::recording::{Dataset, Recording, Recordings, of_set};
 use super::request::{Extent, Request};
+use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
 use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
-use crate::refused::refused;
 use crate::rigs::RobotMotion;
-use host_sim::Error;
 
 /// Sensor codes of 10 mV: 14 bits over 5 V.
 const CODES_A_BIN: f64 = 16_384.0 * 0.010 / 5.0;
@@ -109,7 +107,7 @@ impl<'a> Floors<'a> {
 ///
 /// The model's bins span each channel's own range, so every class is given the
 /// common range's two ends as samples: 2 among some 10⁵.
-pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf, Error> {
+pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<ModelBuf> {
     let all = streams.iter().flat_map(|stream| &stream.samples).copied();
     let (low, high) = range(all);
     let bins = ((high - low) / CODES_A_BIN).ceil().clamp(1.0, 4096.0) as usize;
@@ -118,11 +116,11 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
         smooth: SMOOTH_BINS,
         block,
     };
-    let mut trainer = Trainer::new(picked.len(), options).map_err(refused)?;
+    let mut trainer = Trainer::new(picked.len(), options)?;
     for stream in streams {
         let name = FLOORS.get(stream.floor).copied().unwrap_or_default();
         for sample in pick(&stream.samples, CHANNELS, picked).chunks_exact(picked.len()) {
-            trainer.add(name, sample).map_err(refused)?;
+            trainer.add(name, sample)?;
         }
     }
     let is_there = |floor: &usize| streams.iter().any(|stream| stream.floor == *floor);
@@ -132,10 +130,10 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
     {
         for end in [low, high] {
             let sample = vec![end; picked.len()];
-            trainer.add(name, &sample).map_err(refused)?;
+            trainer.add(name, &sample)?;
         }
     }
-    trainer.train().map_err(refused)
+    trainer.train().map_err(anyhow::Error::new)
 }
 
 /// Outcomes of each true floor.
@@ -149,9 +147,9 @@ impl Tally {
     /// What a recogniser makes of all streams, each from its start.
     pub(super) fn of<R: Recogniser>(
         streams: &[Stream],
-        new: impl Fn() -> Result<R, Error> + Sync,
-    ) -> Result<Self, Error> {
-        let found: Result<Vec<(usize, Vec<Outcome>)>, Error> = streams
+        new: impl Fn() -> Result<R> + Sync,
+    ) -> Result<Self> {
+        let found: Result<Vec<(usize, Vec<Outcome>)>> = streams
             .par_iter()
             .map(|stream| {
                 let mut recogniser = new()?;
@@ -176,8 +174,8 @@ impl Tally {
     }
 
     /// Counts an outcome after so many samples.
-    pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) -> Result<(), Error> {
-        self.confusion.add(floor, Some(decided)).map_err(refused)?;
+    pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) -> Result<()> {
+        self.confusion.add(floor, Some(decided))?;
         self.samples += samples;
         Ok(())
     }
@@ -201,8 +199,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::{Stream, Tally, train};
-    use classifiers::recogniser::Bayes;
-    use host_sim::Error;
+    use crate::classifiers::recogniser::{Bayes, Picked};
     use tactile::WindowRule;
 
     /// Floors that differ in x by 500 codes and not in y.
@@ -225,8 +222,8 @@ mod tests {
             assert_eq!(model.bins(0), Some(49), "1596 codes in bins of 32.77");
             let tally = Tally::of(&streams, || {
                 let bayes = Bayes::<WindowRule>::new(model, 100);
-                let bayes = bayes.map_err(|error| Error::Work(error.to_string()))?;
-                Ok(classifiers::recogniser::Picked::new(bayes, &picked))
+                let bayes = bayes?;
+                Ok(Picked::new(bayes, &picked))
             });
             let tally = tally.unwrap();
             assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");

@@ -2,15 +2,14 @@
 //! (turning on the spot) against natural motion (autonomous).
 
 use super::floors::{Floors, Half, Stream, Tally, train};
-use super::picture::{self, Curve};
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::{Claim, Page, confusion, figure, row};
+use crate::chart::{Series, over_windows};
+use crate::classifiers::recogniser::{Bayes, Picked};
+use crate::page::{Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
-use crate::refused::refused;
 use crate::rigs::RobotMotion;
-use classifiers::recogniser::{Bayes, Picked};
-use host_sim::Error;
+use anyhow::Result;
 use tactile::{ModelBuf, WindowRule};
 
 /// Windows of Fig. 4, samples: 0.5 ms to 1 s.
@@ -28,25 +27,16 @@ const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 const VINYL: usize = 3;
 
 /// Hits over windows of so many samples.
-fn windows(
-    buf: &ModelBuf,
-    picked: &[usize],
-    validation: &[Stream],
-    window: u32,
-) -> Result<Tally, Error> {
+fn windows(buf: &ModelBuf, picked: &[usize], validation: &[Stream], window: u32) -> Result<Tally> {
     let model = buf.view();
     Tally::of(validation, || {
-        let bayes = Bayes::<WindowRule>::new(model, window).map_err(refused)?;
+        let bayes = Bayes::<WindowRule>::new(model, window)?;
         Ok(Picked::new(bayes, picked))
     })
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::with_all(request, recordings);
     page.heading(2, "LEP10: naive Bayes over fixed windows");
     page.say(
@@ -117,12 +107,14 @@ fn figure_4(
     models: &[ModelBuf],
     validation: &[Stream],
     page: &mut Page,
-) -> Result<[f64; 3], Error> {
+) -> Result<[f64; 3]> {
     let mut panels = Vec::new();
-    let mut means: Vec<Curve> = Vec::new();
+    let mut means: Vec<Series> = Vec::new();
     for ((name, picked), model) in CHANNELS.iter().zip(models) {
-        let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
-        let mut mean = Curve::new(name, Vec::new());
+        let mut curves: Vec<Series> = FLOORS
+            .map(|floor| Series::curve(floor, Vec::new()))
+            .to_vec();
+        let mut mean = Series::curve(name, Vec::new());
         for window in WINDOWS {
             let seconds = f64::from(window) / floors.rate_hz;
             let tally = windows(model, picked, validation, window)?;
@@ -132,7 +124,7 @@ fn figure_4(
             mean.points.push((seconds, tally.mean_hit()));
         }
         let title = format!("{name}: hit rate of each floor, %");
-        panels.push(picture::windows(&title, &curves));
+        panels.push(over_windows(&title, &curves));
         means.push(mean);
     }
     let at = |seconds: f64| {
@@ -152,7 +144,7 @@ fn figure_4(
             row(&*curve.name, cells)
         })
         .collect();
-    let mean = picture::windows("mean hit rate, %", &means);
+    let mean = over_windows("mean hit rate, %", &means);
     page.say(format_args!(
         "**Fig. 4**: hit rate against the window. In the paper x alone and y alone reach about \
          {:.0} % and both together {:.0} % from 0.5 s on.",
@@ -168,49 +160,43 @@ fn figure_4(
 fn claims(page: &mut Page, means: &[f64; 5], hits: &[[f64; 4]; 5], knee: [f64; 3]) {
     let [x, y, both, transfer, natural] = *means;
     let one = |value: f64| figure(value, 1);
-    page.claims.push(
-        Claim::new(
-            "LEP10: x and y together beat either alone (0.5 s)",
-            "79, 82: 92 %",
-            format_args!("{}, {}: {} %", one(x), one(y), one(both)),
-            (both - x.max(y), "points"),
-        )
-        .told(both, CHANCE),
-    );
+    page.claim(
+        "LEP10: x and y together beat either alone (0.5 s)",
+        "79, 82: 92 %",
+        format_args!("{}, {}: {} %", one(x), one(y), one(both)),
+        (both - x.max(y), "points"),
+    )
+    .rests_on(both, CHANCE);
     let share = 100.0 * (knee[1] - knee[0]) / (knee[2] - knee[0]);
-    page.claims.push(
-        Claim::new(
-            "LEP10: most of the gain comes within 100 ms",
-            "substantial up to 100 ms, modest after",
-            format_args!(
-                "{} % at one sample, {} % at 100 ms, {} % at 1 s: {} % of the gain",
-                one(knee[0]),
-                one(knee[1]),
-                one(knee[2]),
-                figure(share, 0)
-            ),
-            (share - 50.0, "points over half of the gain"),
-        )
-        .told(knee[2], CHANCE),
-    );
+    page.claim(
+        "LEP10: most of the gain comes within 100 ms",
+        "substantial up to 100 ms, modest after",
+        format_args!(
+            "{} % at one sample, {} % at 100 ms, {} % at 1 s: {} % of the gain",
+            one(knee[0]),
+            one(knee[1]),
+            one(knee[2]),
+            figure(share, 0)
+        ),
+        (share - 50.0, "points over half of the gain"),
+    )
+    .rests_on(knee[2], CHANCE);
     let [_, _, artificial, natural_by_artificial, _] = hits;
     let falls: [f64; 4] = core::array::from_fn(|k| artificial[k] - natural_by_artificial[k]);
     let others = falls.iter().take(VINYL).copied().fold(f64::MIN, f64::max);
-    page.claims.push(
-        Claim::new(
-            "LEP10: the hit rate falls from artificial training to natural validation, that of \
+    page.claim(
+        "LEP10: the hit rate falls from artificial training to natural validation, that of \
              vinyl the most",
-            "92 to 68 %, vinyl 98 to 20; natural training 81 %",
-            format_args!(
-                "{} to {} %, vinyl {} to {}; natural training {} %",
-                one(both),
-                one(transfer),
-                figure(artificial[VINYL], 0),
-                figure(natural_by_artificial[VINYL], 0),
-                one(natural)
-            ),
-            ((both - transfer).min(falls[VINYL] - others), "points"),
-        )
-        .told(both, CHANCE),
-    );
+        "92 to 68 %, vinyl 98 to 20; natural training 81 %",
+        format_args!(
+            "{} to {} %, vinyl {} to {}; natural training {} %",
+            one(both),
+            one(transfer),
+            figure(artificial[VINYL], 0),
+            figure(natural_by_artificial[VINYL], 0),
+            one(natural)
+        ),
+        ((both - transfer).min(falls[VINYL] - others), "points"),
+    )
+    .rests_on(both, CHANCE);
 }

@@ -10,22 +10,17 @@ use super::floors::{Floors, Stream};
 use super::product;
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::{Claim, Page, beside, figure};
+use crate::page::{Page, beside, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
-use crate::refused::refused;
+use anyhow::{Context, Result};
 use groups::{Curves, Group, interpolate};
-use host_sim::Error;
 
 /// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::new(request, recordings);
     let rate_hz = floors.rate_hz;
     let groups = Group::all(&floors)?;
@@ -43,7 +38,7 @@ pub(super) fn evaluate(
     for group in &groups {
         let both = Curves::of(group, rate_hz)?;
         let window = group.window(floors.samples(TIME_S) as u32, rate_hz)?;
-        let nearest = both.nearest().ok_or_else(|| refused("no threshold"))?;
+        let nearest = both.nearest().context("no threshold")?;
         times.push((nearest.parameter, nearest.time_s));
         rows[0].push(with_mean(window.tally.hits()));
         rows[1].push(with_mean(nearest.tally.hits()));
@@ -78,8 +73,8 @@ pub(super) fn evaluate(
 }
 
 /// The product's own rule, on each group of trials.
-fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<(), Error> {
-    let streams = |streams: &[Stream]| -> Result<Vec<_>, Error> {
+fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<()> {
+    let streams = |streams: &[Stream]| -> Result<Vec<_>> {
         let all = streams.iter().enumerate();
         let one = |(n, stream): (usize, &Stream)| {
             let pairs = stream.samples.as_chunks().0.to_vec();
@@ -153,43 +148,39 @@ fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
         let gain = at(sequential) - fixed;
         let printed = TABLES[1].mean[m] - TABLES[0].mean[m];
         let one = |value: f64| figure(value, 1);
-        page.claims.push(
-            Claim::new(
-                format_args!(
-                    "LEP12, {motion}: sequential beats the window by {:.0} points or more at \
+        page.claim(
+            format_args!(
+                "LEP12, {motion}: sequential beats the window by {:.0} points or more at \
                      equal mean time",
-                    SEQUENTIAL_GAIN.0
-                ),
-                format_args!("{printed:+.0} points"),
-                format_args!(
-                    "{} against {} %: {:+} points",
-                    one(at(sequential)),
-                    one(fixed),
-                    one(gain)
-                ),
-                (gain - SEQUENTIAL_GAIN.0, "points over those"),
-            )
-            .told(at(sequential), CHANCE),
-        );
+                SEQUENTIAL_GAIN.0
+            ),
+            format_args!("{printed:+.0} points"),
+            format_args!(
+                "{} against {} %: {:+} points",
+                one(at(sequential)),
+                one(fixed),
+                one(gain)
+            ),
+            (gain - SEQUENTIAL_GAIN.0, "points over those"),
+        )
+        .rests_on(at(sequential), CHANCE);
         let best = at(template).max(at(network));
-        page.claims.push(
-            Claim::new(
-                format_args!("LEP12, {motion}: both beat the spectral template and the network"),
-                format_args!(
-                    "{:.0} and {:.0} against {:.0} and {:.0} %",
-                    TABLES[0].mean[m], TABLES[1].mean[m], TABLES[2].mean[m], TABLES[3].mean[m]
-                ),
-                format_args!(
-                    "{} and {} against {} and {} %",
-                    one(at(window)),
-                    one(at(sequential)),
-                    one(at(template)),
-                    one(at(network))
-                ),
-                (at(window).min(at(sequential)) - best, "points"),
-            )
-            .told(at(window), CHANCE),
-        );
+        page.claim(
+            format_args!("LEP12, {motion}: both beat the spectral template and the network"),
+            format_args!(
+                "{:.0} and {:.0} against {:.0} and {:.0} %",
+                TABLES[0].mean[m], TABLES[1].mean[m], TABLES[2].mean[m], TABLES[3].mean[m]
+            ),
+            format_args!(
+                "{} and {} against {} and {} %",
+                one(at(window)),
+                one(at(sequential)),
+                one(at(template)),
+                one(at(network))
+            ),
+            (at(window).min(at(sequential)) - best, "points"),
+        )
+        .rests_on(at(window), CHANCE);
     }
     let Some(rotating) = curves.get(2) else {
         return;
@@ -197,19 +188,17 @@ fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
     let at = |time: f64| interpolate(&rotating.sequential, time);
     let (first, knee, last) = (at(0.0), at(KNEE_S), at(1.0));
     let share = 100.0 * (knee - first) / (last - first);
-    page.claims.push(
-        Claim::new(
-            "LEP12, rotating: most of the gain of the sequential rule comes within 100 ms",
-            "dramatic up to 100 ms, slow after",
-            format_args!(
-                "{} % at the shortest, {} % at 100 ms, {} % at the longest: {} % of the gain",
-                figure(first, 1),
-                figure(knee, 1),
-                figure(last, 1),
-                figure(share, 0)
-            ),
-            (share - 50.0, "points over half of the gain"),
-        )
-        .told(last, CHANCE),
-    );
+    page.claim(
+        "LEP12, rotating: most of the gain of the sequential rule comes within 100 ms",
+        "dramatic up to 100 ms, slow after",
+        format_args!(
+            "{} % at the shortest, {} % at 100 ms, {} % at the longest: {} % of the gain",
+            figure(first, 1),
+            figure(knee, 1),
+            figure(last, 1),
+            figure(share, 0)
+        ),
+        (share - 50.0, "points over half of the gain"),
+    )
+    .rests_on(last, CHANCE);
 }

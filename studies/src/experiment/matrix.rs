@@ -1,11 +1,11 @@
 //! Confusion matrices as pictures: a square of shaded cells each.
 
+use anyhow::Result;
 use plotters::prelude::*;
 use tactile::score::Confusion;
 
 use crate::chart::grid;
 use crate::page::percent_of;
-use host_sim::Error;
 
 /// A confusion matrix with its names.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ fn shade(share: f64) -> RGBColor {
 }
 
 /// The matrices in so many columns.
-pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String, Error> {
+pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String> {
     grid(matrices, columns, PANEL, |matrix, area| {
         let text = |text: &str, at: (i32, i32), size: i32| {
             area.draw(&Text::new(text.to_owned(), at, ("sans-serif", size)))
@@ -55,31 +55,4 @@ pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String, Error>
         let frame = [(left, top), (left + end, top + end)];
         Ok(area.draw(&Rectangle::new(frame, RGBColor(110, 110, 110)))?)
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Matrix, draw, shade};
-    use plotters::style::RGBColor;
-    use tactile::score::Confusion;
-
-    #[test]
-    fn every_cell_is_drawn_in_the_shade_of_its_share() {
-        let mut score = Confusion::new(2);
-        for (truth, named) in [(0, 0), (1, 0), (1, 1), (1, 1), (1, 1)] {
-            score.add(truth, Some(named)).unwrap();
-        }
-        let matrix = Matrix {
-            title: "two".to_owned(),
-            classes: vec!["a".to_owned(), "b".to_owned()],
-            score,
-        };
-        let svg = draw(&[matrix], 1).unwrap();
-        assert_eq!(shade(0.0), RGBColor(255, 255, 255));
-        // 255 − 0.25 · 245, 0.25 · 205 and 0.25 · 145 below 255.
-        assert_eq!(shade(0.25), RGBColor(194, 204, 219));
-        for colour in ["#0A326E", "#C2CCDB"] {
-            assert_eq!(svg.matches(colour).count(), 1, "{colour}");
-        }
-    }
 }

@@ -1,30 +1,24 @@
 //! POSE: angle, speed and texture of one brief contact, by the template, the
 //! spectral template and features.
 
-mod matrices;
 mod notch;
 mod rules;
 mod scores;
 mod sets;
-mod tables;
 
 use super::product;
 use super::record::table::Contact;
 use super::recording::Recordings;
 use super::request::Request;
-use crate::page::{Claim, Page, figure};
+use crate::page::{Page, figure};
 use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
-use host_sim::Error;
+use anyhow::Result;
 use rules::{features, spectral, template};
 use scores::Scores;
 use sets::Sets;
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sets = Sets::new(request, recordings);
     let by_template = template(&sets)?;
     let by_spectrum = spectral(&sets)?;
@@ -40,9 +34,9 @@ pub(super) fn evaluate(
         notch::resonance_hz()?
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];
-    tables::main(page, &rows);
-    matrices::section(page, &rows)?;
-    tables::features(page, &by_features.textures);
+    scores::kappas(page, &rows);
+    scores::matrices(page, &rows)?;
+    scores::features(page, &by_features.textures);
     let alone = [
         rules::template_of_textures(&sets)?,
         rules::spectral_of_textures(&sets)?,
@@ -75,8 +69,8 @@ pub(super) fn evaluate(
 }
 
 /// The product's own rule on textures, whatever the pose.
-fn product(page: &mut Page, sets: &Sets) -> Result<(), Error> {
-    let streams = |set: usize| -> Result<Vec<_>, Error> {
+fn product(page: &mut Page, sets: &Sets) -> Result<()> {
+    let streams = |set: usize| -> Result<Vec<_>> {
         let all = sets.pairs[set].iter().enumerate();
         let one = |(n, (contact, pairs)): (usize, &(Contact, Vec<[f64; 2]>))| {
             let name = TEXTURES[contact.texture];
@@ -100,14 +94,12 @@ fn claims(page: &mut Page, rows: &[&Scores; 3]) {
         let others = (0..ours.len()).filter(|row| *row != best);
         let others = others.map(|row| ours[row]).fold(f64::MIN, f64::max);
         let [x, y, z] = ours.map(|kappa| figure(kappa, 2));
-        page.claims.push(
-            Claim::new(
-                format_args!("POSE: best for {name}: {}", ROWS[best].what),
-                format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
-                format_args!("template {x}, spectral {y}, features {z}"),
-                (ours[best] - others, "of κ"),
-            )
-            .told(ours[best], 0.0),
-        );
+        page.claim(
+            format_args!("POSE: best for {name}: {}", ROWS[best].what),
+            format_args!("template {a:.2}, spectral {b:.2}, features {c:.2}"),
+            format_args!("template {x}, spectral {y}, features {z}"),
+            (ours[best] - others, "of κ"),
+        )
+        .rests_on(ours[best], 0.0);
     }
 }

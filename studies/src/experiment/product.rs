@@ -1,14 +1,13 @@
 //! The product's own classifier in the place of the papers': tables of both channels together,
 //! weighted by what training holds out, and the sequential rule at a stated 99 %.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::evaluation::{Evaluation, presentations};
 use host_sim::recording::Stream;
 use host_sim::training::{How, Tables};
 use whisking::filter;
 
-use crate::page::{Page, Product, Score, Told, figure, row};
-use crate::refused::refused;
+use crate::page::{Page, Product, Recognition, Score, figure, row};
 
 /// Decided at this posterior.
 const THRESHOLD: f64 = 0.99;
@@ -16,7 +15,7 @@ const THRESHOLD: f64 = 0.99;
 /// Its name among the scores.
 const NAME: &str = "the product's: joint tables, stated 99 %";
 
-/// A question: what is told apart, and how many there are of it.
+/// A question: what is classified, and how many there are of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Task<'n> {
     pub(super) name: &'n str,
@@ -32,14 +31,14 @@ pub(super) fn stream(
     trial: usize,
     samples: Vec<[f64; 2]>,
     in_the_air: Option<f64>,
-) -> Result<Stream, Error> {
+) -> Result<Stream> {
     let contact = in_the_air.map(|rate_hz| {
-        let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, rate_hz).map_err(refused)?;
+        let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, rate_hz)?;
         let mut state = filter::State::default();
         let pi = samples
             .iter()
             .map(|[x, _]| h50.process(&mut state, x / 8192.0).abs());
-        Ok::<Vec<f64>, Error>(pi.collect())
+        anyhow::Ok(pi.collect())
     });
     Ok(Stream {
         label: label.to_owned(),
@@ -60,12 +59,12 @@ fn cells(
     task: Task<'_>,
     training: Vec<Stream>,
     testing: &[Stream],
-) -> Result<Vec<String>, Error> {
+) -> Result<Vec<String>> {
     let recordings = [("training".to_owned(), training)];
     let trained = How::of(Tables::Joint).train(&recordings, task.rate_hz.round() as u32);
-    let model = trained.map_err(refused)?.model;
+    let model = trained?.model;
     let classes = host_sim::classifier::names(&model);
-    let shown = presentations(&model, THRESHOLD, testing).map_err(refused)?;
+    let shown = presentations(&model, THRESHOLD, testing)?;
     let found = Evaluation::new(&classes, &shown);
     let right = 100.0 * found.calibration.found.share;
     let decided = 100.0 * (1.0 - found.undecided.share);
@@ -73,7 +72,7 @@ fn cells(
     page.scores.push(Score {
         classifier: NAME,
         task: task.name.to_owned(),
-        told: Told {
+        recognition: Recognition {
             rate: right,
             chance: 100.0 / task.classes as f64,
         },
@@ -94,7 +93,7 @@ fn cells(
 pub(super) fn section(
     page: &mut Page,
     tasks: Vec<(Task<'_>, Vec<Stream>, Vec<Stream>)>,
-) -> Result<(), Error> {
+) -> Result<()> {
     page.say(
         "**The product's own rule** on the same recordings: joint tables, weighted by what \
          training holds out; a decision falls at a posterior of 99 %, or not at all.",

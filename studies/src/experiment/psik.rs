@@ -1,25 +1,22 @@
 //! PSIK: eight sandpapers by the IMP of 33 vibrissae and a small network, with
-//! more and more arcs; and two corridors told apart on the way through.
+//! more and more arcs; and two corridors recognised on the way through.
 
 mod corridor;
 mod maze;
 mod own;
 mod sweeps;
 
+use anyhow::{Context, Result};
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
-use super::dataset::Dataset;
-use super::picture::{Curve, panel, percent};
 use super::record::pad::PAPERS;
-use super::recording::{Recordings, of_set};
+use super::recording::{Dataset, Recordings, of_set};
 use super::request::Request;
-use crate::chart::{Mark, linear};
-use crate::page::{Claim, Page, confusion, figure, row};
+use crate::chart::{Mark, Series, linear, panel, percent};
+use crate::page::{Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
-use crate::refused::refused;
 use crate::rigs::seed_of;
-use host_sim::Error;
 use sweeps::{NAMES, Sweeps, hit, mean_hit};
 
 /// Chance of naming a sandpaper, percent.
@@ -37,11 +34,7 @@ fn borders() -> Vec<usize> {
 }
 
 /// Evaluates the recordings.
-pub(super) fn evaluate(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sweeps = Sweeps::new(request, &of_set(recordings, Dataset::Pad));
     let (training, testing) = request.extent.sweeps();
     page.heading(2, "PSIK: many vibrissae");
@@ -59,12 +52,12 @@ pub(super) fn evaluate(
     let more = (1..=ARCS.len())
         .into_par_iter()
         .map(|arcs| sweeps.score(0, borders[arcs], seed(arcs)))
-        .collect::<Result<Vec<Confusion>, Error>>()?;
+        .collect::<Result<Vec<Confusion>>>()?;
     let single = (0..5)
         .into_par_iter()
         .map(|arc| sweeps.score(borders[arc], borders[arc + 1], seed(100 + arc)))
-        .collect::<Result<Vec<Confusion>, Error>>()?;
-    let all = more.last().ok_or_else(|| refused("no arcs"))?;
+        .collect::<Result<Vec<Confusion>>>()?;
+    let all = more.last().context("no arcs")?;
 
     let mean = mean_hit(&TABLE_2);
     page.say(format_args!(
@@ -87,10 +80,10 @@ fn figures(
     more: &[Confusion],
     single: &[Confusion],
     borders: &[usize],
-) -> Result<(), Error> {
+) -> Result<()> {
     let points = more.iter().zip(borders.iter().skip(1));
     let points = points.map(|(score, count)| (*count as f64, hit(score)));
-    let curve = Curve::new("mean performance", points.collect());
+    let curve = Series::curve("mean performance", points.collect());
     let x = linear(
         "vibrissae, from the longest arc on",
         0.0,
@@ -138,33 +131,29 @@ fn claims(page: &mut Page, more: &[Confusion]) {
     let at = |arcs: usize| rates.get(arcs - 1).copied().unwrap_or(0.0);
     let [one, two, three, all] = [1, 2, 3, 8].map(at);
     let text = |rate: f64| figure(rate, 1);
-    page.claims.push(
-        Claim::new(
-            "PSIK: more arcs help",
-            "quickly rising with the number of vibrissae",
-            format_args!(
-                "{} % with one arc, {} with two, {} with three, {} with all",
-                text(one),
-                text(two),
-                text(three),
-                text(all)
-            ),
-            ((two - one).min(three - two).min(all - one), "points"),
-        )
-        .told(all, CHANCE),
-    );
+    page.claim(
+        "PSIK: more arcs help",
+        "quickly rising with the number of vibrissae",
+        format_args!(
+            "{} % with one arc, {} with two, {} with three, {} with all",
+            text(one),
+            text(two),
+            text(three),
+            text(all)
+        ),
+        ((two - one).min(three - two).min(all - one), "points"),
+    )
+    .rests_on(all, CHANCE);
     let least = rates.iter().skip(2).copied().fold(100.0, f64::min);
-    page.claims.push(
-        Claim::new(
-            format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
-            format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
-            format_args!(
-                "{} % with three, at least {} % from there on",
-                text(three),
-                text(least)
-            ),
-            (least - ENOUGH, "points"),
-        )
-        .told(three, CHANCE),
-    );
+    page.claim(
+        format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
+        format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
+        format_args!(
+            "{} % with three, at least {} % from there on",
+            text(three),
+            text(least)
+        ),
+        (least - ENOUGH, "points"),
+    )
+    .rests_on(three, CHANCE);
 }

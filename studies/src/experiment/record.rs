@@ -9,13 +9,11 @@ pub(crate) mod pads;
 pub(crate) mod table;
 mod whiskers;
 
-use super::dataset::{Dataset, Job};
-use super::recording::{Recording, Recordings};
+use super::recording::{Dataset, Job, Recording, Recordings};
 use super::request::{Extent, Request};
 use crate::cores::each;
-use crate::refused::within;
 use crate::rigs::seed_of;
-use host_sim::Error;
+use anyhow::{Context, Result};
 use host_sim::progress::Verbosity;
 
 /// The jobs of a data set.
@@ -31,7 +29,7 @@ fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
 }
 
 /// The jobs of all data sets that the experiments of a request need, each once.
-pub fn jobs(request: &Request) -> Vec<Job> {
+pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     let names = request.names.iter();
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
     datasets.sort_unstable();
@@ -41,7 +39,7 @@ pub fn jobs(request: &Request) -> Vec<Job> {
 }
 
 /// Makes one recording. It depends on the seed, the rig and the job alone.
-fn one(request: &Request, job: Job) -> Result<Recording, Error> {
+fn one(request: &Request, job: Job) -> Result<Recording> {
     let Job { dataset, number } = job;
     let drawn = dataset.drawn_as() as u64;
     let seed = seed_of(request.seed, &[drawn, number as u64]);
@@ -53,15 +51,12 @@ fn one(request: &Request, job: Job) -> Result<Recording, Error> {
         Dataset::Corridor => corridor::record,
         Dataset::Vibrissa => pad::record_one,
     };
-    record(request, number, seed).map_err(|error| within(dataset.text(), error))
+    record(request, number, seed).context(dataset.text())
 }
 
 /// Records `jobs` on all cores. The result depends on neither their order nor
 /// the number of cores.
-///
-/// # Errors
-/// [`Error::Work`] if the simulation refuses a setting of a rig.
-pub fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings, Error> {
+pub(crate) fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings> {
     each(verbosity, "recording", jobs, |job| {
         Ok((*job, one(request, *job)?))
     })

@@ -1,27 +1,74 @@
-//! What a rig recorded, and which recordings there are.
+//! The data sets, which are simulated once and used by one experiment or more; what a rig
+//! recorded, and which recordings there are.
 
 use std::collections::BTreeMap;
 
-use super::dataset::{Dataset, Job};
+/// A set of recordings on one rig. Their order is in the seeds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Dataset {
+    /// The floor robot.
+    Floor,
+    /// The whisking head.
+    Head,
+    /// The XY table.
+    Table,
+    /// The fixed head with its pad.
+    Pad,
+    /// The mobile robot in its corridors.
+    Corridor,
+    /// One vibrissa of the pad, sample by sample, in the pad's sweeps.
+    Vibrissa,
+}
+
+impl Dataset {
+    /// Its name.
+    pub(crate) const fn text(self) -> &'static str {
+        match self {
+            Self::Floor => "floor",
+            Self::Head => "head",
+            Self::Table => "table",
+            Self::Pad => "pad",
+            Self::Corridor => "corridor",
+            Self::Vibrissa => "vibrissa",
+        }
+    }
+
+    /// The data set whose chance it has.
+    pub(super) const fn drawn_as(self) -> Self {
+        match self {
+            Self::Vibrissa => Self::Pad,
+            other => other,
+        }
+    }
+}
+
+/// A job of a data set: what one recording comes of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Job {
+    /// Of which set.
+    pub(crate) dataset: Dataset,
+    /// Which of its jobs, from 0.
+    pub(crate) number: usize,
+}
 
 /// What one job of a data set recorded: samples of some channels, one after
 /// another. Sensor codes of 14 bits are exact in single precision.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Recording {
+pub(crate) struct Recording {
     /// Numbers of a sample.
-    pub channels: usize,
+    pub(crate) channels: usize,
     /// The samples.
-    pub values: Vec<f32>,
+    pub(crate) values: Vec<f32>,
 }
 
 impl Recording {
     /// Of `channels` numbers a sample.
-    pub fn new(channels: usize, values: Vec<f32>) -> Self {
+    pub(crate) fn new(channels: usize, values: Vec<f32>) -> Self {
         Self { channels, values }
     }
 
     /// From sensor codes.
-    pub fn from_codes(channels: usize, codes: &[i16]) -> Self {
+    pub(crate) fn from_codes(channels: usize, codes: &[i16]) -> Self {
         Self::new(
             channels,
             codes.iter().map(|code| f32::from(*code)).collect(),
@@ -29,30 +76,25 @@ impl Recording {
     }
 
     /// Samples.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.values.len() / self.channels.max(1)
     }
 
-    /// Whether there is no sample.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The samples from `from` up to `to` (not included), as far as there are.
-    pub fn part(&self, from: usize, to: usize) -> &[f32] {
+    pub(crate) fn part(&self, from: usize, to: usize) -> &[f32] {
         let end = (to * self.channels).min(self.values.len());
         let start = (from * self.channels).min(end);
         self.values.get(start..end).unwrap_or(&[])
     }
 
     /// The same in double precision.
-    pub fn segment(&self, from: usize, to: usize) -> Vec<f64> {
+    pub(crate) fn segment(&self, from: usize, to: usize) -> Vec<f64> {
         self.part(from, to).iter().map(|x| f64::from(*x)).collect()
     }
 }
 
 /// All recordings of a request.
-pub type Recordings = BTreeMap<Job, Recording>;
+pub(crate) type Recordings = BTreeMap<Job, Recording>;
 
 /// The recordings of a set in the order of its jobs.
 pub(crate) fn of_set(all: &Recordings, dataset: Dataset) -> Vec<&Recording> {

@@ -1,12 +1,12 @@
 //! What was asked for: which experiments, how much of them, from which seed
 //! and on which rigs.
 
-use super::dataset::Dataset;
+use super::recording::Dataset;
 use crate::rigs::Rigs;
 
 /// An experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Name {
+pub(crate) enum Name {
     /// LEP10: fixed windows.
     Lep10,
     /// LEP12: sequential analysis.
@@ -21,7 +21,7 @@ pub enum Name {
 
 impl Name {
     /// All of them, in the order of the page.
-    pub const ALL: [Self; 5] = [
+    pub(crate) const ALL: &'static [Self] = &[
         Self::Lep10,
         Self::Lep12,
         Self::Biotact,
@@ -30,7 +30,7 @@ impl Name {
     ];
 
     /// As on the command line.
-    pub const fn text(self) -> &'static str {
+    pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Lep10 => "lep10",
             Self::Lep12 => "lep12",
@@ -41,7 +41,7 @@ impl Name {
     }
 
     /// The data sets it needs.
-    pub const fn datasets(self) -> &'static [Dataset] {
+    pub(crate) const fn datasets(self) -> &'static [Dataset] {
         match self {
             Self::Lep10 | Self::Lep12 => &[Dataset::Floor],
             Self::Biotact => &[Dataset::Head],
@@ -54,7 +54,7 @@ impl Name {
 /// How much of each experiment: fewer trials, whisks, contacts, sweeps and runs;
 /// the physics is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// As much as the papers, but for PSIK: of that, as much over five seeds or so.
     Full,
     /// The least with which an experiment can still fail.
@@ -71,28 +71,28 @@ impl Extent {
 
     /// Floor robot: trials of each rotation (LEP10 and LEP12: 4); of natural
     /// motion there are twice as many (LEP10 section III-D).
-    pub const fn trials(self) -> usize {
+    pub(crate) const fn trials(self) -> usize {
         self.pick(4, 2)
     }
 
     /// Whisking head: whisks of each condition (BIOTACT: 12).
-    pub const fn whisks(self) -> usize {
+    pub(crate) const fn whisks(self) -> usize {
         self.pick(12, 4)
     }
 
     /// Trials of natural motion.
-    pub const fn natural_trials(self) -> usize {
+    pub(crate) const fn natural_trials(self) -> usize {
         2 * self.trials()
     }
 
     /// XY table: every how-manieth angle and speed is used (POSE: all).
-    pub const fn stride(self) -> usize {
+    pub(crate) const fn stride(self) -> usize {
         self.pick(1, 3)
     }
 
     /// Fixed head: sweeps of each sandpaper to train on and to test with (PSIK: 300 and
     /// 100; five seeds have 200 and 50 together).
-    pub const fn sweeps(self) -> (usize, usize) {
+    pub(crate) const fn sweeps(self) -> (usize, usize) {
         match self {
             Self::Full => (40, 10),
             Self::Quick => (6, 2),
@@ -101,24 +101,24 @@ impl Extent {
 
     /// Corridor: runs of each to train on (of these, to test with), and to
     /// decide in (PSIK: 10, 3, 20; five seeds have 20 to decide in together).
-    pub const fn runs(self) -> (usize, usize, usize) {
+    pub(crate) const fn runs(self) -> (usize, usize, usize) {
         (self.pick(10, 2), self.pick(3, 1), self.pick(4, 1))
     }
 }
 
 /// What was asked for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Request {
+pub(crate) struct Request {
     /// The experiments.
-    pub names: Vec<Name>,
+    pub(crate) names: Vec<Name>,
     /// How much of each.
-    pub extent: Extent,
+    pub(crate) extent: Extent,
     /// All chance comes from it.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Where whiskers are and how they move.
-    pub rigs: Rigs,
+    pub(crate) rigs: Rigs,
     /// Whether all classes are one: same textures at the same place, under different labels.
-    pub is_placebo: bool,
+    pub(crate) is_placebo: bool,
 }
 
 impl Request {

@@ -1,18 +1,19 @@
 //! The runs of a protocol: each seed once as it is and once as a placebo, and some seeds of
 //! every change of a rig.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::{Progress, Verbosity};
 
-use super::bodies::Bodies;
 use super::changes::Changed;
 use super::data;
-use super::dataset::Dataset;
-use super::protocol::{Files, Protocol};
+use super::protocol::Protocol;
+use super::record::{jobs, record};
+use super::recording::Dataset;
 use super::request::{Extent, Name, Request};
 use super::variants::{VARIANTS, Variant};
+use super::verdicts::Bodies;
 use super::whole::{evaluate, report};
-use super::{jobs, record};
+use crate::page::Files;
 use crate::rigs::Setting;
 
 /// Seeds of a change: the first of all.
@@ -22,28 +23,27 @@ const SEEDS_OF_CHANGES: u64 = 3;
 /// none.
 fn changes(protocol: &Protocol) -> Vec<&'static Variant> {
     let has = |variant: &&Variant| {
-        let names = protocol.names.iter().flat_map(|name| name.datasets());
+        let names = protocol.names();
+        let mut datasets = names.iter().flat_map(|name| name.datasets());
         variant
             .dataset()
-            .is_some_and(|of| names.copied().any(|dataset| dataset == of))
+            .is_some_and(|of| datasets.any(|dataset| *dataset == of))
     };
-    let all = VARIANTS.iter().filter(|_| protocol.extent == Extent::Full);
+    let all = VARIANTS
+        .iter()
+        .filter(|_| protocol.extent() == Extent::Full);
     all.filter(has).collect()
 }
 
 /// Runs all of it; the page comes last. `keep` takes the data of its figures, and recordings
 /// where those are kept.
-///
-/// # Errors
-/// [`Error::Input`] for a bad rig, [`Error::Work`] if the simulation or a classifier refuses
-/// something, and what `keep` gives.
-pub fn run(
+pub(crate) fn run(
     protocol: &Protocol,
     verbosity: Verbosity,
-    keep: &mut dyn FnMut(&Files) -> Result<(), Error>,
-) -> Result<Files, Error> {
+    keep: &mut dyn FnMut(&Files) -> Result<()>,
+) -> Result<Files> {
     let changes = changes(protocol);
-    let (first, count) = protocol.seeds;
+    let (first, count) = (protocol.seed, protocol.seeds);
     let of_changes = count.min(SEEDS_OF_CHANGES);
     let with_placebo = changes.iter().filter(|variant| variant.has_placebo).count();
     let runs = 2 * count + of_changes * (changes.len() + with_placebo) as u64;
@@ -59,7 +59,7 @@ pub fn run(
         let page = evaluate(request, &recordings)?;
         done += 1;
         bar.set(done);
-        Ok::<_, Error>(page)
+        anyhow::Ok(page)
     };
     let mut both = |seeds: u64, more: &[Setting], only: Option<&Variant>| {
         let mut bodies = Bodies::default();
@@ -78,13 +78,13 @@ pub fn run(
                     };
                     request.names.retain(concerned);
                 }
-                let keeps = protocol.keeps_recordings && only.is_none() && !is_placebo;
+                let keeps = protocol.recordings && only.is_none() && !is_placebo;
                 let dataset = only.and_then(Variant::dataset);
                 let page = one(&request, dataset, keeps)?;
                 bodies.of(is_placebo).push(page);
             }
         }
-        Ok::<_, Error>(bodies)
+        anyhow::Ok(bodies)
     };
     let plain = both(count, &[], None)?;
     let mut changed = Vec::new();

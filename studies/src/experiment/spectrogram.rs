@@ -1,9 +1,9 @@
 //! Spectra over time as pictures: a rectangle of shaded cells each.
 
+use anyhow::Result;
 use plotters::prelude::*;
 
 use crate::chart::grid;
-use host_sim::Error;
 
 /// What is drawn white, below the most, dB.
 pub(super) const RANGE_DB: f64 = 60.0;
@@ -32,7 +32,7 @@ fn shade(power: f64, most: f64) -> u8 {
 }
 
 /// Spectrograms in so many columns, shaded alike.
-pub(super) fn draw(all: &[Spectrogram], columns: usize) -> Result<String, Error> {
+pub(super) fn draw(all: &[Spectrogram], columns: usize) -> Result<String> {
     let powers = all.iter().flat_map(|one| one.power.iter().flatten());
     let most = powers.copied().fold(f64::MIN_POSITIVE, f64::max);
     grid(all, columns, PANEL, |one, area| {
@@ -62,30 +62,4 @@ pub(super) fn draw(all: &[Spectrogram], columns: usize) -> Result<String, Error>
         text(format!("{:.1} s", one.time_s), (right - 30, bottom + 6))?;
         Ok(())
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Spectrogram, draw, shade};
-
-    #[test]
-    fn shades_fall_with_the_decibel() {
-        assert_eq!(shade(1.0, 1.0), 0);
-        // 30 of 60 dB.
-        assert_eq!(shade(1e-3, 1.0), 128);
-        assert_eq!((shade(1e-7, 1.0), shade(0.0, 1.0)), (255, 255));
-    }
-
-    #[test]
-    fn what_is_too_weak_is_not_drawn() {
-        let one = Spectrogram {
-            title: "one".to_owned(),
-            time_s: 0.5,
-            highest_hz: 250.0,
-            power: vec![vec![1.0, 1e-9], vec![1e-3, 0.0]],
-        };
-        let svg = draw(&[one], 1).unwrap();
-        assert_eq!(svg.matches("#000000").count(), 1 + 4, "a cell, four texts");
-        assert_eq!(svg.matches("#808080").count(), 1);
-    }
 }

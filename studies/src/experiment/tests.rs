@@ -2,10 +2,12 @@
 //! the recordings alone: neither on the number of cores.
 
 use super::record::{corridor, floor, head, pad, table};
+use super::record::{jobs, record};
+use super::recording::Recording;
+use super::request::{Name, Request};
 use super::whole::evaluate;
-use super::{Name, Recording, Request, jobs, record};
 use crate::rigs::RobotMotion;
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::progress::Verbosity;
 
 fn on_cores<T: Send>(cores: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -22,7 +24,7 @@ fn the_same_seed_gives_the_same_recordings_on_one_core_or_several() {
         let make = |request| record(request, &jobs, Verbosity::Quiet).unwrap();
         let one = on_cores(1, || make(&request));
         assert_eq!(one.len(), jobs.len());
-        assert!(one.iter().all(|(_, recording)| !recording.is_empty()));
+        assert!(one.iter().all(|(_, recording)| recording.len() > 0));
         assert_eq!(one, on_cores(3, || make(&request)), "{name:?}");
         let other = make(&Request::quick(&[name], 4));
         assert!(one.iter().zip(&other).all(|(a, b)| a.1 != b.1), "{name:?}");
@@ -41,13 +43,13 @@ fn the_same_recordings_give_the_same_pages_on_one_core_or_several() {
 }
 
 /// What records a job from a seed.
-type Record = fn(&Request, usize, u64) -> Result<Recording, Error>;
+type Record = fn(&Request, usize, u64) -> Result<Recording>;
 
 /// Of two jobs that differ in their classes alone, from one seed: recordings differ, and in a
 /// placebo they are the same to the last bit, so that nothing is left that tells classes apart.
 #[test]
 fn in_a_placebo_a_label_is_all_that_differs() {
-    let request = Request::quick(&Name::ALL, 1);
+    let request = Request::quick(Name::ALL, 1);
     let placebo = Request {
         is_placebo: true,
         ..request.clone()

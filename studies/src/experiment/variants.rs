@@ -1,16 +1,15 @@
 //! Changes of rigs that are tried beside them: values that were chosen, undone; and what might
 //! be why a claim is not met, changed.
 
+use anyhow::Result;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::dataset::Dataset;
+use super::recording::Dataset;
 use super::request::Name;
 use crate::paper::printed;
-use crate::refused::refused;
 use crate::rigs::Setting;
-use host_sim::Error;
 
 /// Why a change is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -43,12 +42,11 @@ pub(super) static VARIANTS: LazyLock<Vec<Variant>> =
 
 impl Variant {
     /// The keys that it sets.
-    ///
-    /// # Errors
-    /// [`Error::Work`]: never, as a test reads all of them.
-    pub(super) fn settings(&self) -> Result<Vec<Setting>, Error> {
-        let settings = self.set.iter().map(|text| text.parse().map_err(refused));
-        settings.collect()
+    pub(super) fn settings(&self) -> Result<Vec<Setting>> {
+        let settings = self.set.iter().map(|text| text.parse());
+        settings
+            .collect::<Result<_, _>>()
+            .map_err(anyhow::Error::msg)
     }
 
     /// The data set of the rig that it changes.

@@ -1,9 +1,25 @@
 //! What becomes of claims over several seeds and beside a placebo.
 
 use crate::moments::{SURE, Summary, VERY_SURE};
-use crate::page::{Claim, Page, Told, joined};
-use crate::refused::refused;
-use host_sim::Error;
+use crate::page::{Claim, Page, Recognition, joined};
+use anyhow::{Context, Result, bail};
+
+/// Pages of the seeds: as it is, and of placebos.
+#[derive(Debug, Default)]
+pub(super) struct Bodies {
+    pub(super) pages: Vec<Page>,
+    pub(super) placebos: Vec<Page>,
+}
+
+impl Bodies {
+    pub(super) const fn of(&mut self, is_placebo: bool) -> &mut Vec<Page> {
+        if is_placebo {
+            &mut self.placebos
+        } else {
+            &mut self.pages
+        }
+    }
+}
 
 /// What is to be said of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,7 +30,7 @@ pub(super) enum Verdict {
     NotMet,
     /// The seeds do not say whether it does.
     WithinNoise,
-    /// Its placebo is told apart too, so that it says nothing.
+    /// Its placebo is recognised too, so that it says nothing.
     DoesNotCount,
 }
 
@@ -29,7 +45,7 @@ impl Verdict {
     }
 }
 
-/// How well a placebo is told apart.
+/// How well a placebo is recognised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placebo {
     rate: Summary,
@@ -38,14 +54,14 @@ pub(super) struct Placebo {
 
 impl Placebo {
     /// Of the same rate in several seeds.
-    fn of(told: &[Told]) -> Option<Self> {
-        let chance = told.first()?.chance;
-        let rates: Vec<f64> = told.iter().map(|told| told.rate).collect();
+    fn of(found: &[Recognition]) -> Option<Self> {
+        let chance = found.first()?.chance;
+        let rates: Vec<f64> = found.iter().map(|found| found.rate).collect();
         let rate = Summary::of(&rates);
         Some(Self { rate, chance })
     }
 
-    /// Whether it is told apart no better and no worse than by chance. Very sure, as a page has
+    /// Whether it is recognised no better and no worse than by chance. Very sure, as a page has
     /// dozens of placebos: of a hundred that are at chance one is taken for none.
     pub(super) fn is_at_chance(&self) -> bool {
         let off = (self.rate.mean - self.chance).abs();
@@ -128,27 +144,25 @@ fn of_all(pages: &[Page], n: usize) -> impl Iterator<Item = &Claim> {
 }
 
 /// The claims of some seeds, beside those of placebos.
-///
-/// # Errors
-/// [`Error::Work`] if the seeds claim different things.
-pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>, Error> {
+pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>> {
     let claims = pages.first().map_or(&[][..], |page| &page.claims);
     let one = |(n, claim): (usize, &Claim)| {
         let ours: Vec<&str> = of_all(pages, n).map(|claim| &*claim.ours).collect();
         let same = of_all(pages, n).filter(|other| other.what == claim.what);
         let margins: Vec<f64> = same.map(|claim| claim.margin).collect();
         if margins.len() != pages.len() {
-            return Err(refused(format!("seeds differ in {:?}", claim.what)));
+            bail!("seeds differ in {:?}", claim.what);
         }
-        let told: Vec<Told> = of_all(placebos, n).filter_map(|claim| claim.told).collect();
+        let found: Vec<Recognition> = of_all(placebos, n)
+            .filter_map(|claim| claim.recognition)
+            .collect();
         Ok(Judged {
             what: claim.what.clone(),
             paper: claim.paper.clone(),
-            ours: joined(&ours)
-                .ok_or_else(|| refused(format!("seeds differ in words: {ours:?}")))?,
+            ours: joined(&ours).with_context(|| format!("seeds differ in words: {ours:?}"))?,
             margin: Summary::of(&margins),
             unit: claim.unit,
-            placebo: Placebo::of(&told),
+            placebo: Placebo::of(&found),
         })
     };
     claims.iter().enumerate().map(one).collect()
@@ -157,16 +171,15 @@ pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>, E
 #[cfg(test)]
 mod tests {
     use super::{Verdict, judged};
-    use crate::page::{Claim, Page, figure};
+    use crate::page::{Page, figure};
 
     fn pages(margins: &[f64], rates: &[f64]) -> Vec<Page> {
         let page = |(margin, rate): (&f64, &f64)| {
+            let mut page = Page::default();
             let ours = format!("{} points", figure(*margin, 1));
-            let claim = Claim::new("a beats b", "so", ours, (*margin, "points"));
-            Page {
-                claims: vec![claim.told(*rate, 25.0)],
-                ..Page::default()
-            }
+            let claim = page.claim("a beats b", "so", ours, (*margin, "points"));
+            claim.rests_on(*rate, 25.0);
+            page
         };
         margins.iter().zip(rates).map(page).collect()
     }

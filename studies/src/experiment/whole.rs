@@ -1,27 +1,21 @@
 //! The page of all experiments: claims first, what was chosen, then each experiment.
 
+use anyhow::{Context, Result};
 use std::fmt::Write;
 
-use host_sim::Error;
-
-use super::bodies::Bodies;
 use super::changes::{self, Changed};
-use super::protocol::{Files, Protocol};
+use super::protocol::Protocol;
 use super::recording::Recordings;
-use super::request::{Extent, Name, Request};
-use super::verdicts::{Judged, Verdict, judged};
+use super::request::{Name, Request};
+use super::verdicts::{Bodies, Judged, Verdict, judged};
 use super::{biotact, costs, lep10, lep12, pose, psik};
-use crate::page::{Page, joined};
-use crate::refused::{refused, within};
+use crate::page::{Files, Page, joined};
 
 /// The name of the page.
 const PAGE: &str = "experiments.md";
 
 /// Evaluates the recordings of one seed.
-///
-/// # Errors
-/// [`Error::Work`] if a classifier cannot be trained or a picture fails.
-pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Page, Error> {
+pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Page> {
     let mut body = Page::new("experiments");
     for name in &request.names {
         let evaluate = match name {
@@ -31,24 +25,20 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Pag
             Name::Pose => pose::evaluate,
             Name::Psikharpax => psik::evaluate,
         };
-        evaluate(&mut body, request, recordings).map_err(|error| within(name.text(), error))?;
+        evaluate(&mut body, request, recordings).context(name.text())?;
     }
     Ok(body)
 }
 
 /// The page of all seeds, and before it the pictures of the first.
-pub(super) fn report(
-    protocol: &Protocol,
-    plain: Bodies,
-    changed: &[Changed],
-) -> Result<Files, Error> {
+pub(super) fn report(protocol: &Protocol, plain: Bodies, changed: &[Changed]) -> Result<Files> {
     let claims = judged(&plain.pages, &plain.placebos)?;
     let mut page = Page::default();
     introduction(&mut page, protocol, &claims);
     changes::section(&mut page, &claims, changed)?;
     costs::section(&mut page, &plain);
     let texts: Vec<&str> = plain.pages.iter().map(|page| &*page.text).collect();
-    let body = joined(&texts).ok_or_else(|| refused("the pages of two seeds differ in words"))?;
+    let body = joined(&texts).context("the pages of two seeds differ in words")?;
     let text = format!("{}{}\n", page.text, body.trim_end());
     let first = plain.pages.into_iter().next();
     let mut files = first.map_or_else(Vec::new, |page| page.files);
@@ -58,22 +48,23 @@ pub(super) fn report(
 
 /// The command that makes the page again.
 fn command(protocol: &Protocol) -> String {
-    let name = if protocol.names == Name::ALL {
+    let name = if protocol.names() == Name::ALL {
         "all".to_owned()
     } else {
-        let names = protocol.names.iter().map(|name| name.text());
+        let names = protocol.names();
+        let names = names.iter().map(|name| name.text());
         names.collect::<Vec<_>>().join(" ")
     };
-    let (first, count) = protocol.seeds;
-    let mut said = format!("studies experiment {name} --seed {first} --seeds {count}");
-    if protocol.extent == Extent::Quick {
+    let Protocol { seed, seeds, .. } = protocol;
+    let mut said = format!("studies experiment {name} --seed {seed} --seeds {seeds}");
+    if protocol.quick {
         said.push_str(" --quick");
     }
     // Writing to a string does not fail.
     if let Some(folder) = &protocol.rigs {
         let _ = write!(said, " --rigs '{}'", folder.display());
     }
-    for setting in &protocol.settings {
+    for setting in &protocol.set {
         let _ = write!(said, " --set '{setting}'");
     }
     said
@@ -91,13 +82,13 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
          source, or says that it was chosen.",
         command(protocol)
     ));
-    if protocol.extent == Extent::Quick {
+    if protocol.quick {
         page.say(
             "This is a quick run: fewer trials, whisks, contacts, sweeps and runs than the \
              papers', on the same physics. Its hit rates are rough, and no change is tried.",
         );
     }
-    let is_left_out = |name: &&Name| !protocol.names.contains(name);
+    let is_left_out = |name: &&Name| !protocol.names().contains(name);
     let left_out: Vec<&str> = Name::ALL
         .iter()
         .filter(is_left_out)
@@ -117,7 +108,7 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
         "Of {} claims {} are met, {} are not met, {} are within noise, and {} do not count. A \
          claim is met or not met if zero is outside the 95 % interval of its margin's mean \
          (Student's t). A placebo is the same experiment with one texture, at one place, \
-         under all labels; a claim whose placebo is told apart otherwise than by chance (in \
+         under all labels; a claim whose placebo is recognised otherwise than by chance (in \
          brackets; 99 %) does not count. Claims without a placebo do not rest on telling anything \
          apart.",
         claims.len(),

@@ -65,7 +65,7 @@ pub(crate) fn joined(texts: &[&str]) -> Option<String> {
             values.push(*value);
         }
         text.push_str(before);
-        // Nobody knows the mean of what is not there in some of them.
+        // What is missing in a text has no part in the mean.
         values.retain(|value| value.is_finite());
         if values.is_empty() {
             text.push('–');

@@ -7,30 +7,30 @@ use serde::Deserialize;
 use super::printed;
 
 /// The four floors, in the order of every table (section II-B).
-pub const FLOORS: [&str; 4] = ["rough carpet", "smooth carpet", "tarmac", "vinyl"];
+pub(crate) const FLOORS: [&str; 4] = ["rough carpet", "smooth carpet", "tarmac", "vinyl"];
 
 /// Window of Tables I to V, s.
-pub const WINDOW_S: f64 = 0.5;
+pub(crate) const WINDOW_S: f64 = 0.5;
 
 /// One of Tables I to V.
 #[derive(Debug, Clone, Deserialize)]
-pub struct Table {
+pub(crate) struct Table {
     /// Its number in the paper.
-    pub number: String,
+    pub(crate) number: String,
     /// What was classified.
-    pub what: String,
+    pub(crate) what: String,
     /// The mean hit rate of its caption, percent.
-    pub mean: f64,
+    pub(crate) mean: f64,
     /// Percent, `[decided][true]`: the columns are the true class.
-    pub percent: [[f64; 4]; 4],
+    pub(crate) percent: [[f64; 4]; 4],
 }
 
 /// Tables I to V.
-pub static TABLES: LazyLock<[Table; 5]> =
+pub(crate) static TABLES: LazyLock<[Table; 5]> =
     LazyLock::new(|| printed(include_str!("lep10.toml"), "tables"));
 
 /// Fig. 4 as the text tells it (sections III-B and III-C): mean hit rates of x
 /// alone, y alone, and both at windows of half a second or more, percent.
-pub const FIG4_LONG: [f64; 3] = [80.0, 80.0, 90.0];
+pub(crate) const FIG4_LONG: [f64; 3] = [80.0, 80.0, 90.0];
 /// Fig. 4: most of the gain comes up to this window, s.
-pub const FIG4_KNEE_S: f64 = 0.1;
+pub(crate) const FIG4_KNEE_S: f64 = 0.1;

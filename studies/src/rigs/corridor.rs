@@ -32,22 +32,22 @@ keys! {
 
 /// Where the robot is: its neck, and where it heads.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Robot {
+pub(crate) struct Robot {
     /// Of the neck along and across the corridor, m.
-    pub neck_m: [f64; 2],
+    pub(crate) neck_m: [f64; 2],
     /// Radians anticlockwise from the corridor's direction.
-    pub heading: f64,
+    pub(crate) heading: f64,
 }
 
 impl Corridor {
     /// V_y by the distances of the robot's sides, mm (PSIK eq. 2).
-    pub fn across_m_s(&self, left_mm: f64, right_mm: f64) -> f64 {
+    pub(crate) fn across_m_s(&self, left_mm: f64, right_mm: f64) -> f64 {
         let across = (left_mm - right_mm) * self.gain;
         across.clamp(-self.most_m_s, self.most_m_s)
     }
 
     /// The robot `dt_s` later, with V_y, m/s.
-    pub fn go(&self, robot: &mut Robot, across: f64, dt_s: f64) {
+    pub(crate) fn go(&self, robot: &mut Robot, across: f64, dt_s: f64) {
         let velocity = turn([self.speed_m_s, across, 0.0], robot.heading);
         robot.neck_m[0] += velocity[0] * dt_s;
         robot.neck_m[1] += velocity[1] * dt_s;
@@ -55,7 +55,7 @@ impl Corridor {
     }
 
     /// The robot `dt_s` later in its corridor, steered by the distances of its sides, mm.
-    pub fn drive(&self, robot: &mut Robot, left_mm: f64, right_mm: f64, dt_s: f64) {
+    pub(crate) fn drive(&self, robot: &mut Robot, left_mm: f64, right_mm: f64, dt_s: f64) {
         self.go(robot, self.across_m_s(left_mm, right_mm), dt_s);
         // The robot's own sides keep it from the walls.
         let room = self.slack_m;
@@ -64,7 +64,7 @@ impl Corridor {
     }
 
     /// Where a vibrissa of the left (`side` 0) or right pad is.
-    pub fn pose(&self, robot: &Robot, side: usize, vibrissa: &Vibrissa) -> Pose {
+    pub(crate) fn pose(robot: &Robot, side: usize, vibrissa: &Vibrissa) -> Pose {
         let Pose { base_m, x, y } = vibrissa.pose;
         // The right pad mirrors the left; x turns round to stay right-handed.
         let mirrored = |[a, b, c]: [f64; 3]| if side == 0 { [a, b, c] } else { [a, -b, c] };
@@ -118,7 +118,7 @@ mod tests {
         let rig = rig();
         for side in [0, 1] {
             for vibrissa in rig.layout.vibrissae() {
-                let pose = rig.pose(&MIDDLE, side, &vibrissa);
+                let pose = Corridor::pose(&MIDDLE, side, &vibrissa);
                 let shaft = cross(pose.x, pose.y);
                 assert!((dot(shaft, shaft) - 1.0).abs() < 1e-12);
                 let tip = add(pose.base_m, vibrissa.length_m, shaft);

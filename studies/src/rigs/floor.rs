@@ -44,7 +44,7 @@ keys! {
 
 /// How the robot moves during a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RobotMotion {
+pub(crate) enum RobotMotion {
     /// Turning on the spot, anticlockwise as seen from above.
     Anticlockwise,
     /// Turning on the spot, clockwise.
@@ -55,7 +55,7 @@ pub enum RobotMotion {
 
 /// A robot on its way.
 #[derive(Debug, Clone)]
-pub struct Drive<'r> {
+pub(crate) struct Drive<'r> {
     rig: &'r Floor,
     motion: RobotMotion,
     chance: Chance,
@@ -73,18 +73,24 @@ pub struct Drive<'r> {
 
 impl Floor {
     /// One tick, s.
-    pub fn dt_s(&self) -> f64 {
+    pub(crate) fn dt_s(&self) -> f64 {
         1.0 / self.tick_hz
     }
 
     /// Ticks of a trial.
-    pub fn ticks(&self) -> usize {
+    pub(crate) fn ticks(&self) -> usize {
         (self.trial_s * self.tick_hz).round() as usize
     }
 
     /// A robot somewhere on a large floor with a whisker of `length_m`; `height_m` is the
     /// root mean square of the floor's heights.
-    pub fn drive(&self, motion: RobotMotion, length_m: f64, height_m: f64, seed: u64) -> Drive<'_> {
+    pub(crate) fn drive(
+        &self,
+        motion: RobotMotion,
+        length_m: f64,
+        height_m: f64,
+        seed: u64,
+    ) -> Drive<'_> {
         let mut chance = Chance::new(seed);
         let reach = length_m * libm::sin(-self.elevation_deg.to_radians());
         let press = self.press_m + self.press_sd_m * chance.normal();
@@ -130,7 +136,7 @@ impl Drive<'_> {
     }
 
     /// Where the whisker is fixed, a tick later.
-    pub fn step(&mut self) -> Pose {
+    pub(crate) fn step(&mut self) -> Pose {
         /// Time constant with which the wheels follow, s.
         const WHEELS_S: f64 = 0.05;
         let dt_s = self.rig.dt_s();

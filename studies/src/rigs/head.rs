@@ -7,18 +7,17 @@
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A
 //! whisker at θ' = 90 degrees points sideways, beyond that forward.
 
+use anyhow::Result;
 use whisking::{GateSettings, Integrator, Settings};
 
 use super::chance::{Chance, seed_of};
 use super::module::{EACH, HeadModule, PositionControl, SIDES};
 use super::read::keys;
-use crate::refused::refused;
-use host_sim::Error;
 use physics::vector::add;
 use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Channels: x and y of every whisker, left side first.
-pub const CHANNELS: usize = 2 * SIDES * EACH;
+pub(crate) const CHANNELS: usize = 2 * SIDES * EACH;
 
 keys! {
     /// Geometry of the head; see `studies/rigs/head.toml` for each key.
@@ -40,38 +39,38 @@ keys! {
 
 /// What the head is put before, and how it whisks there.
 #[derive(Debug, Clone)]
-pub struct Visit<'a> {
+pub(crate) struct Visit<'a> {
     /// From the front of the head to the surface, m.
-    pub distance_m: f64,
+    pub(crate) distance_m: f64,
     /// The surface.
-    pub surface: &'a Surface,
+    pub(crate) surface: &'a Surface,
     /// RCP, if whisking is modulated.
-    pub rcp: Option<GateSettings>,
+    pub(crate) rcp: Option<GateSettings>,
     /// Whisks to record.
-    pub whisks: usize,
+    pub(crate) whisks: usize,
     /// Of this visit's chance.
-    pub seed: u64,
+    pub(crate) seed: u64,
 }
 
 /// What a visit brought.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Felt {
+pub(crate) struct Felt {
     /// Sensor codes, [`CHANNELS`] a tick.
-    pub codes: Vec<i16>,
+    pub(crate) codes: Vec<i16>,
     /// θ' of the front whisker of each side, degrees, each tick.
-    pub angle_deg: Vec<[f64; SIDES]>,
+    pub(crate) angle_deg: Vec<[f64; SIDES]>,
     /// Whether any whisker of a side touched, each tick.
-    pub touching: Vec<[bool; SIDES]>,
+    pub(crate) touching: Vec<[bool; SIDES]>,
 }
 
 impl WhiskingHead {
     /// Ticks of a whisk.
-    pub fn whisk_ticks(&self) -> usize {
+    pub(crate) fn whisk_ticks(&self) -> usize {
         (self.tick_hz / self.whisk_hz).round() as usize
     }
 
     /// Where a whisker is at an angle θ'. Its sensor's x is along protraction.
-    pub fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
+    pub(crate) fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
         let left = if side == 0 { 1.0 } else { -1.0 };
         let (sine, cosine) = libm::sincos(theta_deg.to_radians());
         let back = self.base_back_m.get(whisker).copied().unwrap_or(0.0);
@@ -105,15 +104,12 @@ impl WhiskingHead {
     }
 
     /// Whisks against a surface.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if a setting is refused.
-    pub fn visit(
+    pub(crate) fn visit(
         &self,
         shafts: &[Shaft; EACH],
         sensor: &SensorSettings,
         visit: &Visit<'_>,
-    ) -> Result<Felt, Error> {
+    ) -> Result<Felt> {
         let settings = Settings {
             tick_hz: self.tick_hz,
             frequency_hz: self.whisk_hz,
@@ -133,7 +129,7 @@ impl WhiskingHead {
         for n in 0..SIDES * EACH {
             let seed = seed_of(visit.seed, &[2, n as u64]);
             let whisker = TouchingWhisker::new(&shafts[n % EACH], sensor, seed);
-            whiskers.push(whisker.map_err(refused)?);
+            whiskers.push(whisker?);
         }
         let dt_s = 1.0 / self.tick_hz;
 
@@ -144,7 +140,7 @@ impl WhiskingHead {
                 module.feel(n, whisker.codes());
             }
             module.tick()?;
-            // Anew for each whisk, as soon as no whisker touches.
+            // Again for each whisk, as soon as no whisker touches.
             is_to_move |= tick > 0 && tick % self.whisk_ticks() == 0;
             if is_to_move && !whiskers.iter().any(TouchingWhisker::contact) {
                 plate = self.placed(visit, &mut chance);

@@ -29,7 +29,7 @@ keys! {
 
 /// What a wall is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Made {
+pub(crate) enum Made {
     /// Cardboard.
     Plain,
     /// One of the four reliefs.
@@ -38,15 +38,15 @@ pub enum Made {
 
 /// A straight wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wall {
+pub(crate) struct Wall {
     /// Where it begins.
-    pub from_m: Place,
+    pub(crate) from_m: Place,
     /// Unit vector along it.
-    pub along: Place,
+    pub(crate) along: Place,
     /// Its length, m.
-    pub length_m: f64,
+    pub(crate) length_m: f64,
     /// What it is made of.
-    pub made: Made,
+    pub(crate) made: Made,
 }
 
 fn product(a: Place, b: Place) -> f64 {
@@ -66,7 +66,7 @@ impl Wall {
     }
 
     /// Unit vector into free space.
-    pub fn normal(&self) -> Place {
+    pub(crate) fn normal(&self) -> Place {
         let [x, y] = self.along;
         [-y, x]
     }
@@ -79,7 +79,7 @@ impl Wall {
 
     /// Which share of the straight way between two places lies before the wall, if it goes
     /// through.
-    pub fn crossing(&self, from_m: Place, to_m: Place) -> Option<f64> {
+    pub(crate) fn crossing(&self, from_m: Place, to_m: Place) -> Option<f64> {
         let ((a, above), (b, below)) = (self.coordinates(from_m), self.coordinates(to_m));
         if above <= 0.0 || below >= 0.0 {
             return None;
@@ -90,7 +90,7 @@ impl Wall {
     }
 
     /// The nearest place that is at least so far from the wall.
-    pub fn kept_off(&self, place_m: Place, least_m: f64) -> Place {
+    pub(crate) fn kept_off(&self, place_m: Place, least_m: f64) -> Place {
         let (at, _) = self.coordinates(place_m);
         let at = at.clamp(0.0, self.length_m);
         let nearest = [0, 1].map(|k| self.from_m[k] + at * self.along[k]);
@@ -135,7 +135,7 @@ impl Line {
 impl Maze {
     /// All walls: those outside anticlockwise, those of the island clockwise. The corridor at the
     /// top has the reliefs 0 outside and 1 inside, that at the bottom 2 and 3.
-    pub fn walls(&self, corridor: &Corridor) -> Vec<Wall> {
+    pub(crate) fn walls(&self, corridor: &Corridor) -> Vec<Wall> {
         let (a, b, r) = (self.length_m / 2.0, self.width_m / 2.0, self.corner_m);
         let half = corridor.length_m / 2.0;
         let mut outside = Line {

@@ -2,12 +2,12 @@
 //! that it knows of its whiskers comes by sensor frames and encoders. A whisker
 //! that is bent pulls back on its motor.
 
+use anyhow::Result;
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
 use firmware::{
     BusError, Config, Driver, Event, FrameSource, Hardware, HeadConfig, Module, MotionConfig,
     SensingConfig, ServoConfig, WhiskerParts,
 };
-use host_sim::Error;
 use host_sim::bench::NoClock;
 use host_sim::classifier::Tap;
 use host_sim::drive::{self, AnyAngle, AnyMotor};
@@ -17,7 +17,6 @@ use whisking::motor::GuardSettings;
 use whisking::{degrees, filter, pd};
 
 use super::read::keys;
-use crate::refused::refused;
 
 /// Sides of the head.
 pub(super) const SIDES: usize = 2;
@@ -38,7 +37,7 @@ keys! {
 
 impl PositionControl {
     /// How far a whisker may be off where friction holds it, degrees: τ_c over k_p k U/R.
-    pub fn dead_band_deg(&self) -> f64 {
+    pub(crate) fn dead_band_deg(&self) -> f64 {
         let motor = MotorSettings::DEFAULT;
         let full_nm = motor.torque_nm_per_a * motor.supply_v / motor.resistance_ohm;
         motor.coulomb_nm / (self.kp * full_nm)
@@ -107,7 +106,7 @@ impl HeadModule {
         control: &PositionControl,
         gain: f64,
         seed: u64,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self> {
         let tick_hz = settings.tick_hz;
         let ticks_per_s = tick_hz.round() as u32;
         let motor = MotorSettings::DEFAULT;
@@ -133,16 +132,14 @@ impl HeadModule {
                 limits: sensor_limits(ticks_per_s, Plausible::ANY),
                 ..still.sensor
             },
-            contact: Some(filter::Config::new(filter::CORNER_HZ, tick_hz).map_err(refused)?),
+            contact: Some(filter::Config::new(filter::CORNER_HZ, tick_hz)?),
             motion: Some(MotionConfig {
-                whisking: settings.build().map_err(refused)?,
+                whisking: settings.build()?,
                 // Retracted, so that no whisker begins inside the surface.
-                start: settings
-                    .start(&[[-1.0, 0.0]; SIDES], &[&[gain; EACH][..]; SIDES])
-                    .map_err(refused)?,
+                start: settings.start(&[[-1.0, 0.0]; SIDES], &[&[gain; EACH][..]; SIDES])?,
                 seed,
                 servo: ServoConfig {
-                    pd: pd.build(tick_hz).map_err(refused)?,
+                    pd: pd.build(tick_hz)?,
                     retry: retry(ticks_per_s),
                     guards,
                     approach: 1.0,
@@ -159,7 +156,7 @@ impl HeadModule {
         let mut parts = Vec::with_capacity(SIDES * EACH);
         for _ in 0..SIDES * EACH {
             let (actuator, pins) = if control.follows {
-                let (motor, pins) = SimMotor::brushed(motor).map_err(refused)?;
+                let (motor, pins) = SimMotor::brushed(motor)?;
                 (Actuator::Motor(Box::new(motor)), Pins::Brushed(pins))
             } else {
                 let ideal = IdealMotor::new(1.0 / motor.degrees_per_count());
@@ -188,18 +185,14 @@ impl HeadModule {
     }
 
     /// One tick of the module.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if a motor faulted: the recording would be of a whisker
-    /// that rests.
-    pub(super) fn tick(&mut self) -> Result<(), Error> {
+    pub(super) fn tick(&mut self) -> Result<()> {
         let mut fault = None;
         self.module.tick(&self.config, &mut |event| {
             if let Event::MotorFault(..) = event {
                 fault = Some(format!("{event:?}"));
             }
         });
-        fault.map_or(Ok(()), |fault| Err(refused(fault)))
+        fault.map_or(Ok(()), |fault| Err(anyhow::Error::msg(fault)))
     }
 
     /// Lets a tick pass for the motor of whisker `n` against a torque on the
@@ -226,7 +219,6 @@ impl HeadModule {
 #[cfg(test)]
 mod tests {
     use super::{EACH, HeadModule, PositionControl, SIDES};
-    use crate::rigs::Keys;
     use firmware::{Command, Place};
     use whisking::{Integrator, Settings, protraction};
 
@@ -280,20 +272,5 @@ mod tests {
             (least - 0.1..most + 0.1).contains(&error),
             "{error}: {least} to {most}"
         );
-    }
-
-    #[test]
-    fn position_control_with_a_setting_out_of_range_is_refused() {
-        let wrong = PositionControl {
-            kp: f64::NAN,
-            ..CONTROL
-        };
-        assert!(HeadModule::new(&WHISKING, &wrong, 1.0, 1).is_err());
-        assert!(CONTROL.check().is_ok());
-        let wrong = PositionControl {
-            max_deg: 0.0,
-            ..CONTROL
-        };
-        assert!(wrong.check().is_err());
     }
 }

@@ -38,20 +38,20 @@ keys! {
 
 /// One vibrissa of a pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vibrissa {
+pub(crate) struct Vibrissa {
     /// Its arc, from 0.
-    pub arc: usize,
+    pub(crate) arc: usize,
     /// Its row, 0 to 4.
-    pub row: usize,
+    pub(crate) row: usize,
     /// Its length, m.
-    pub length_m: f64,
+    pub(crate) length_m: f64,
     /// Base and axes in the frame of the neck, for the left pad.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
 }
 
 impl Layout {
     /// The vibrissae, arc by arc from the back.
-    pub fn vibrissae(&self) -> Vec<Vibrissa> {
+    pub(crate) fn vibrissae(&self) -> Vec<Vibrissa> {
         let mut all = Vec::new();
         let middle = (ARCS.len() as f64 - 1.0) / 2.0;
         for (arc, (count, length_mm)) in ARCS.into_iter().enumerate() {
@@ -81,7 +81,7 @@ impl Layout {
 }
 
 /// The pose after a turn about the neck.
-pub fn panned(pose: &Pose, radians: f64) -> Pose {
+pub(crate) fn panned(pose: &Pose, radians: f64) -> Pose {
     Pose {
         base_m: turn(pose.base_m, radians),
         x: turn(pose.x, radians),
@@ -104,21 +104,21 @@ keys! {
 
 /// One sweep: how far the sheet is, and where along it the head is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sweep {
+pub(crate) struct Sweep {
     /// From the neck to the sheet, m.
-    pub distance_m: f64,
+    pub(crate) distance_m: f64,
     /// Origin of the sheet's texture, m, along it and upwards.
-    pub origin_m: [f64; 2],
+    pub(crate) origin_m: [f64; 2],
 }
 
 impl Pad {
     /// Ticks of a sweep.
-    pub fn ticks(&self) -> usize {
+    pub(crate) fn ticks(&self) -> usize {
         (self.sweep_s * RATE_HZ).round() as usize
     }
 
     /// Draws a sweep.
-    pub fn sweep(&self, chance: &mut Chance) -> Sweep {
+    pub(crate) fn sweep(&self, chance: &mut Chance) -> Sweep {
         let (spread, aside) = (self.distance_spread_m, self.position_spread_m);
         Sweep {
             distance_m: self.distance_m + chance.between(-spread, spread),
@@ -128,7 +128,7 @@ impl Pad {
 
     /// The pan at a tick, radians: from −`sweep_deg` to `sweep_deg`, with the
     /// speed of half a cosine.
-    pub fn pan(&self, tick: usize) -> f64 {
+    pub(crate) fn pan(&self, tick: usize) -> f64 {
         let share = tick as f64 / self.ticks().max(1) as f64;
         -self.sweep_deg.to_radians() * libm::cos(core::f64::consts::PI * share)
     }

@@ -13,14 +13,11 @@ use super::overlay::{Fault, overlay};
 use super::setting::Setting;
 
 /// A number of a rig that is out of its range: its key, and what is wrong.
-pub type OutOfRange = (&'static str, String);
+pub(crate) type OutOfRange = (&'static str, String);
 
 /// Keys of a file that can say whether their numbers are in range.
-pub trait Keys: DeserializeOwned {
+pub(crate) trait Keys: DeserializeOwned {
     /// Checks every number.
-    ///
-    /// # Errors
-    /// The first that is out of range.
     fn check(&self) -> Result<(), OutOfRange>;
 }
 
@@ -32,7 +29,7 @@ impl Keys for bool {
 }
 
 /// A rig: keys in a file of their own.
-pub trait Rig: Keys {
+pub(crate) trait Rig: Keys {
     /// The name of its file.
     const FILE: &'static str;
     /// The values of all keys where nothing else is said.
@@ -86,9 +83,8 @@ macro_rules! keys {
         $(#[$meta])*
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
         #[serde(deny_unknown_fields)]
-        #[expect(missing_docs, reason = "each key is documented in the rig's file")]
-        pub struct $name {
-            $(pub $key: $type,)*
+        pub(crate) struct $name {
+            $(pub(crate) $key: $type,)*
         }
 
         impl crate::rigs::read::Keys for $name {
@@ -118,10 +114,7 @@ pub(super) use keys;
 
 /// The rig that is built in, with what the file in `folder` says, if there is one, and with
 /// those of `settings` that are its keys.
-///
-/// # Errors
-/// [`Error::Input`].
-pub fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Error> {
+pub(crate) fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Error> {
     let path = folder.map(|folder| folder.join(R::FILE));
     let there = path.filter(|path| path.exists());
     let text = match &there {
@@ -134,10 +127,7 @@ pub fn load<R: Rig>(folder: Option<&Path>, settings: &[Setting]) -> Result<R, Er
 
 /// A rig from the text of its file, which has what differs, and from settings; `path` is for
 /// the messages.
-///
-/// # Errors
-/// [`Error::Input`].
-pub fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R, Error> {
+pub(crate) fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Result<R, Error> {
     let at = |line: usize, fault: String| Error::file(path, format_args!("line {line}: {fault}"));
     let mut keys: Table =
         toml::from_str(&R::defaults()).map_err(|error| at(1, error.to_string()))?;

@@ -8,7 +8,7 @@ use toml::{Table, Value};
 /// A key that is set by name, such as `head.motor.kp=0.2`: its rig, where in that it is, and
 /// its value in TOML.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub(crate) struct Setting {
     path: Vec<String>,
     value: Value,
     /// As it was written.
@@ -38,7 +38,7 @@ impl FromStr for Setting {
 
 impl Setting {
     /// The rig that it is a key of.
-    pub fn rig(&self) -> &str {
+    pub(crate) fn rig(&self) -> &str {
         self.path.first().map_or("", String::as_str)
     }
 

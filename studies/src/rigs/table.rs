@@ -30,17 +30,17 @@ keys! {
 
 /// The carriage: where the object is along its way, and how fast.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Carriage {
+pub(crate) struct Carriage {
     /// Place, m.
-    pub x_m: f64,
+    pub(crate) x_m: f64,
     /// Speed, m/s.
-    pub v_m_s: f64,
+    pub(crate) v_m_s: f64,
 }
 
 impl Carriage {
     /// Moves for `dt_s` towards the speed `wanted_m_s` with at most `most`
     /// m/s² of acceleration: exact for that acceleration.
-    pub fn step(&mut self, wanted_m_s: f64, most: f64, dt_s: f64) {
+    pub(crate) fn step(&mut self, wanted_m_s: f64, most: f64, dt_s: f64) {
         let change = wanted_m_s - self.v_m_s;
         let reach = (change.abs() / most).min(dt_s);
         let pull = most * if change < 0.0 { -1.0 } else { 1.0 };
@@ -57,7 +57,7 @@ impl Carriage {
 /// The surface's normal towards the whisker and the direction along it, for a
 /// surface at `angle_deg` that travels towards +x (`way` = 1) or −x (−1), turned by
 /// `roll_deg` about its way.
-pub fn facing(angle_deg: f64, roll_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn facing(angle_deg: f64, roll_deg: f64, way: f64) -> ([f64; 3], [f64; 3]) {
     let (sine, cosine) = libm::sincos(angle_deg.to_radians());
     let (aside, upright) = libm::sincos(roll_deg.to_radians());
     let rolled = |x: f64, z: f64| [x, -aside * z, upright * z];

@@ -1,9 +1,8 @@
 //! Fixed point against the reference in double precision, on sensor codes of
-//! any spread: the product's windows and the papers' stationary rule.
+//! any spread, in windows.
 
 use acceptance::reference::bayes::{self, Rule};
 use acceptance::reference::recording::Sample;
-use classifiers::Stationary;
 use proptest::prelude::*;
 use tactile::Window;
 use tactile::train::{Options, Trainer};
@@ -56,16 +55,5 @@ proptest! {
                 prop_assert!(e.posterior < 0.502);
             }
         }
-
-        // Blocks of one sample count every sample in full, as the rule does.
-        let reference = bayes::train(&recording, bins, smooth, 1);
-        let exact = bayes::classify(&reference, &stream[..20], Rule::Window(20));
-        let mut stationary = Stationary::new(model.view(), ()).unwrap();
-        for sample in &stream[..20] {
-            stationary.push(&codes(sample)).unwrap();
-        }
-        let fixed = stationary.finish().unwrap();
-        prop_assert_eq!((fixed.samples() as usize, exact.len()), (20, 1));
-        prop_assert!((fixed.posterior().to_f64() - exact[0].posterior).abs() < 7e-3);
     }
 }

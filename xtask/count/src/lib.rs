@@ -38,7 +38,6 @@ pub mod machine;
 #[path = "pc.rs"]
 pub mod machine;
 pub mod module;
-pub mod networks;
 pub mod pipeline;
 pub mod report;
 pub mod samples;

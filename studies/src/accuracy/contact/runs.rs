@@ -1,9 +1,8 @@
 //! Whisks against plates, as a reference has them and as ticks do.
 
+use anyhow::Result;
 use core::f64::consts::TAU;
 
-use crate::refused::refused;
-use host_sim::Error;
 use physics::{
     Biotact, Facing, Grit, Material, Modes, Plate, Pose, SensorSettings, Shaft, Surface,
     TouchingWhisker,
@@ -63,17 +62,17 @@ pub(super) struct Subject {
 }
 
 impl Subject {
-    pub(super) fn new() -> Result<Self, Error> {
+    pub(super) fn new() -> Result<Self> {
         let shaft = Shaft::biotact(Biotact::Middle);
-        let modes = shaft.modes(8).map_err(refused)?;
+        let modes = shaft.modes(8)?;
         Ok(Self { shaft, modes })
     }
 
     /// Straight and at rest.
-    pub(super) fn whisker(&self, finer: u32) -> Result<TouchingWhisker, Error> {
+    pub(super) fn whisker(&self, finer: u32) -> Result<TouchingWhisker> {
         let sensor = SensorSettings::default();
         let whisker = TouchingWhisker::with_modes(&self.shaft, &self.modes, &sensor, 1);
-        Ok(whisker.map_err(refused)?.finer(finer))
+        Ok(whisker?.finer(finer))
     }
 
     /// A plate that it touches at [`TOUCH_RAD`].
@@ -92,7 +91,7 @@ pub(super) fn pose(overlap_deg: f64) -> Pose {
 }
 
 /// Rotations of the base at [`SAMPLES_HZ`], rad, and what the run took.
-struct Heard {
+struct Run {
     rotations: Vec<[f64; 2]>,
     /// Share of ticks cut into parts, and parts of such a tick.
     share: f64,
@@ -102,7 +101,7 @@ struct Heard {
     lowered_m: f64,
 }
 
-fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Heard, Error> {
+fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Run> {
     let mut whisker = subject.whisker(finer)?;
     let plate = subject.plate(surface);
     let ticks = SECONDS * hz;
@@ -123,7 +122,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
             rotations.push(whisker.rotation_rad());
         }
     }
-    Ok(Heard {
+    Ok(Run {
         rotations,
         share: f64::from(cut) / f64::from(ticks),
         parts: parts as f64 / f64::from(cut.max(1)),
@@ -153,8 +152,8 @@ pub(in crate::accuracy) struct Measured {
 }
 
 impl Measured {
-    fn new(heard: &Heard, truth: &Heard) -> Self {
-        let (ours, theirs) = (&heard.rotations, &truth.rotations);
+    fn new(run: &Run, truth: &Run) -> Self {
+        let (ours, theirs) = (&run.rotations, &truth.rotations);
         let (mut squares, mut largest) = (0.0, 0.0);
         for (a, b) in ours.iter().zip(theirs) {
             let square = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
@@ -167,10 +166,10 @@ impl Measured {
             largest: largest / whole,
             spread: spread(ours) / whole,
             change: spread(&changes(ours)) / spread(&changes(theirs)),
-            share: heard.share,
-            parts: heard.parts,
-            most_parts: heard.most_parts,
-            lowered_m: heard.lowered_m,
+            share: run.share,
+            parts: run.parts,
+            most_parts: run.most_parts,
+            lowered_m: run.lowered_m,
         }
     }
 }
@@ -203,13 +202,13 @@ pub(in crate::accuracy) struct Against {
 }
 
 /// Measures against every surface.
-pub(in crate::accuracy) fn measure() -> Result<Vec<Against>, Error> {
+pub(in crate::accuracy) fn measure() -> Result<Vec<Against>> {
     let subject = Subject::new()?;
     let against = |(name, surface): Named| {
         let truth = whisk(&subject, surface, REFERENCE)?;
-        let of = |hz, finer| -> Result<Measured, Error> {
-            let heard = whisk(&subject, surface, (hz, finer))?;
-            Ok(Measured::new(&heard, &truth))
+        let of = |hz, finer| -> Result<Measured> {
+            let run = whisk(&subject, surface, (hz, finer))?;
+            Ok(Measured::new(&run, &truth))
         };
         let half = of(HALF.0, HALF.1)?;
         let mut ticks = [half; TICKS_HZ.len()];

@@ -1,5 +1,6 @@
 //! One format's long run: extremes of every stretch, and the phase.
 
+use anyhow::Result;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use serde::Deserialize;
@@ -7,8 +8,6 @@ use whisking::{Integrator, Number, State};
 
 use crate::accuracy::integrators::NEAR;
 use crate::accuracy::schemes::{Format, Pace};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Ticks of a minute at 2 kHz.
 pub(super) const MINUTE_TICKS: u64 = 120_000;
@@ -40,12 +39,10 @@ pub(super) fn run<R: Number>(
     pace: Pace,
     length: Length,
     done: &AtomicU64,
-) -> Result<Vec<Row>, Error> {
+) -> Result<Vec<Row>> {
     let settings = pace.settings(Integrator::Exact);
-    let config = settings.build::<R>().map_err(refused)?;
-    let start = settings
-        .start(&NEAR.psi, &[&[NEAR.gain][..]; 2])
-        .map_err(refused)?;
+    let config = settings.build::<R>()?;
+    let start = settings.start(&NEAR.psi, &[&[NEAR.gain][..]; 2])?;
     let mut state = State::new(&start, 1);
     // A minute: sides in phase, radius one, to rounding.
     for _ in 0..MINUTE_TICKS {

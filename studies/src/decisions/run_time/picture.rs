@@ -5,7 +5,7 @@ use crate::chart::{Mark, Panel, Series, linear};
 use crate::decisions::ground::Ground;
 
 /// A line of panels a setting, a column a figure.
-pub(super) fn panels(grounds: &[Ground], tried: &[Tried]) -> Vec<Panel> {
+pub(super) fn panels(grounds: &[Ground], tried: &[Tried<'_>]) -> Vec<Panel> {
     let mut panels = Vec::new();
     for setting in Setting::ALL {
         for (name, figure) in FIGURES {
@@ -18,7 +18,7 @@ pub(super) fn panels(grounds: &[Ground], tried: &[Tried]) -> Vec<Panel> {
             let most = setting.values().iter().copied().max().unwrap_or(1);
             let mut series = Vec::new();
             for (n, ground) in grounds.iter().enumerate() {
-                let of_ground = || of_setting().filter(move |tried| tried.ground == n);
+                let of_ground = || of_setting().filter(|tried| tried.ground.name == ground.name);
                 let known = of_ground().filter(|tried| !tried.figures.is_empty());
                 let points: Vec<_> = known
                     .map(|tried| (f64::from(tried.value), tried.mean(figure)))

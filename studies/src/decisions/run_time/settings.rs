@@ -1,6 +1,6 @@
 //! What is varied, and what came of it.
 
-use host_sim::Error;
+use anyhow::Result;
 use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, Options};
 
@@ -8,7 +8,6 @@ use crate::decisions::figures::{Figures, over};
 use crate::decisions::goals::Trained;
 use crate::decisions::ground::{Ground, LONGEST_S};
 use crate::moments::range;
-use crate::refused::refused;
 
 /// What is varied, all else by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +45,8 @@ impl Setting {
     }
 
     /// The product's.
-    pub(super) fn default(self, ground: &Ground, options: &Options) -> u32 {
+    pub(super) fn default(self, ground: &Ground) -> u32 {
+        let options = &ground.shipped().joint.options;
         match self {
             Self::Bits => 16,
             Self::Bins => options.bins as u32,
@@ -56,12 +56,7 @@ impl Setting {
     }
 
     /// A training with it.
-    pub(super) fn model(
-        self,
-        value: u32,
-        ground: &Ground,
-        trained: &Trained,
-    ) -> Result<ModelBuf, Error> {
+    pub(super) fn model(self, value: u32, ground: &Ground, trained: &Trained) -> Result<ModelBuf> {
         let options = trained.joint.options.clone();
         let seconds = match self {
             Self::Training => f64::from(value),
@@ -84,7 +79,7 @@ impl Setting {
                 ground.train_by(ground.recording(trained.seed, seconds), &options)?
             }
         };
-        joint.model().map_err(refused)
+        joint.model().map_err(anyhow::Error::new)
     }
 }
 
@@ -108,32 +103,32 @@ fn coarser(joint: &JointModel, bits: u32) -> JointModel {
 }
 
 /// What a setting's value gave, by training.
-pub(super) struct Tried {
+pub(super) struct Tried<'g> {
     pub(super) setting: Setting,
     pub(super) value: u32,
-    pub(super) ground: usize,
+    pub(super) ground: &'g Ground,
     /// Of the trainings that this was enough for.
     pub(super) figures: Vec<(u64, Figures)>,
     /// Bytes of the first model.
     pub(super) bytes: usize,
 }
 
-impl Tried {
+impl Tried<'_> {
     pub(super) fn mean(&self, figure: fn(&Figures) -> f64) -> (f64, f64) {
         let figures = self.figures.iter().map(|(_, figures)| figures);
         over(figures, figure)
     }
 
     /// Whether the mean over the trainings keeps the goals with a standard error to spare.
-    pub(super) fn is_enough(&self, ground: &Ground) -> bool {
+    pub(super) fn is_enough(&self) -> bool {
+        let goals = self.ground.goals;
         let keeps = |(figure, most): (Figure, f64)| {
             let (mean, error) = self.mean(figure);
             mean + error <= most
         };
-        let most = [1.5, 1.0, ground.goals.contact_ms];
+        let most = [1.5, 1.0, goals.contact_ms];
         let drawn = FIGURES.map(|(_, figure)| figure).into_iter().zip(most);
-        let others: [(Figure, f64); 2] =
-            [(undecided, ground.goals.undecided), (known_refused, 6.0)];
+        let others: [(Figure, f64); 2] = [(undecided, goals.undecided), (known_refused, 6.0)];
         drawn.chain(others).all(keeps)
     }
 }

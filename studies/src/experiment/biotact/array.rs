@@ -1,15 +1,15 @@
 //! The whole head: twelve whiskers a side, with motors, elastic shafts and sensors, before
 //! obstacles, moved by the module (BIOTACT section III-D, Figs. 7 and 9).
 
+use anyhow::Result;
 use rayon::prelude::*;
 use scene::{GateSettings, Scene};
 
 use super::figures::{FREQUENCY_HZ, TICK_HZ};
 use super::patterns::{LEFT, RIGHT, Row, angles, contacts};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::biotact::{FIG9, OBSTACLES_DEG};
-use host_sim::Error;
 use host_sim::run::Run;
 
 /// Whisks that are left out, as the motors settle, and those that are measured.
@@ -18,7 +18,7 @@ const WHISKS: usize = 16;
 const WHISK_TICKS: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 
 /// The head without obstacles, with the noise and the gains of the head's experiments.
-fn head(request: &Request) -> Result<Scene, Error> {
+fn head(request: &Request) -> Result<Scene> {
     let rig = &request.rigs.head;
     let (kp, kd) = (rig.motor.kp, rig.motor.kd);
     let text = format!(
@@ -84,7 +84,7 @@ struct Moved {
 }
 
 impl Case {
-    fn run(&self, scene: &Scene) -> Result<Moved, Error> {
+    fn run(&self, scene: &Scene) -> Result<Moved> {
         let mut scene = scene.clone();
         let gate = |(gain, whisks): (f64, f64)| GateSettings {
             gain,
@@ -117,10 +117,10 @@ impl Case {
     }
 }
 
-pub(super) fn section(page: &mut Page, request: &Request) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
     let scene = head(request)?;
     let cases = CASES.par_iter().map(|case| case.run(&scene));
-    let moved = cases.collect::<Result<Vec<Moved>, Error>>()?;
+    let moved = cases.collect::<Result<Vec<Moved>>>()?;
     page.say(format_args!(
         "**The whole head**: 24 whiskers, 12 a side, with the gains of Fig. 9, each with its motor \
          and an elastic shaft of 112 mm, before plates that a straight whisker touches at {} degrees \
@@ -146,7 +146,7 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<(), Error> {
         return Ok(());
     };
     let (left, right) = (one_side.peak_deg[LEFT], one_side.peak_deg[RIGHT]);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \
          back and lets the right protract more",
         "so",
@@ -161,9 +161,9 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<(), Error> {
             (free.peak_deg[LEFT] - left).min(right - free.peak_deg[RIGHT]),
             "degrees",
         ),
-    ));
+    );
     let (found, missed) = (with.contacts[RIGHT], without.contacts[RIGHT]);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 9, 24 whiskers with bodies: with CIA the right finds its obstacle",
         "1 contact a whisk, none without CIA",
         format_args!(
@@ -172,6 +172,6 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<(), Error> {
             figure(missed, 2)
         ),
         ((found - 0.5).min(0.5 - missed), "contacts a whisk"),
-    ));
+    );
     Ok(())
 }

@@ -2,11 +2,10 @@
 //! has them: forward Euler, 2 kHz, 2 Hz, no noise, both sides started at
 //! ψ = (1, 0).
 
+use anyhow::Result;
 use whisking::{GateSettings, Integrator, Settings, State, degrees, filter};
 
 use crate::paper::biotact::{Figure, OBSTACLES_DEG, OVERLAP_GAIN};
-use crate::refused::refused;
-use host_sim::Error;
 
 pub(super) const TICK_HZ: f64 = 2_000.0;
 pub(super) const FREQUENCY_HZ: f64 = 2.0;
@@ -22,7 +21,7 @@ fn gate((gain, whisks): (f64, f64)) -> GateSettings {
 }
 
 /// θ' of both sides at each tick, degrees.
-pub(super) fn run(figure: &Figure) -> Result<Vec<[f64; 2]>, Error> {
+pub(super) fn run(figure: &Figure) -> Result<Vec<[f64; 2]>> {
     let settings = Settings {
         tick_hz: TICK_HZ,
         frequency_hz: FREQUENCY_HZ,
@@ -32,10 +31,10 @@ pub(super) fn run(figure: &Figure) -> Result<Vec<[f64; 2]>, Error> {
         rcp: figure.rcp.map(gate),
         cia: figure.cia.map(gate),
     };
-    let config = settings.build::<f64>().map_err(refused)?;
+    let config = settings.build::<f64>()?;
     let start = settings.start(&[[1.0, 0.0]; 2], &[&[figure.gain][..]; 2]);
-    let mut state = State::new(&start.map_err(refused)?, 1);
-    let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ).map_err(refused)?;
+    let mut state = State::new(&start?, 1);
+    let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ)?;
     let mut filters = [filter::State::default(); 2];
     let mut angles = [50.0; 2];
     let tick = |_| {

@@ -1,20 +1,17 @@
 //! One whisk against smooth plastic and against abrasive, with and without RCP:
 //! x over time, and its spectrum over time (BIOTACT Fig. 12).
 
-use classifiers::spectrum::{Bins, Measure, Spectrum};
+use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
+use anyhow::Result;
 
 use super::movement::column;
-use crate::chart::{Mark, linear};
-use crate::experiment::dataset::Dataset;
-use crate::experiment::picture::{Curve, panel};
+use crate::chart::{Mark, Series, linear, panel};
 use crate::experiment::record::head::number;
-use crate::experiment::recording::{Recording, Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// The distance of the figure: the middle one.
 const DISTANCE: usize = 1;
@@ -35,11 +32,7 @@ fn whisk(all: &[&Recording], ticks: usize, strategy: usize, texture: usize) -> O
     Some(column(visit, ticks, 2 * ticks, 0))
 }
 
-pub(super) fn section(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
     let rate_hz = request.rigs.head.tick_hz;
@@ -58,7 +51,7 @@ pub(super) fn section(
                 power: gabor(&x, rate_hz)?,
             });
             let points = x.iter().enumerate().map(|(n, x)| (n as f64 / rate_hz, *x));
-            curves.push(Curve::new(name, points.collect()));
+            curves.push(Series::curve(name, points.collect()));
         }
         let ends = curves.iter().flat_map(|curve| &curve.points);
         let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), point| {
@@ -89,18 +82,17 @@ pub(super) fn section(
 
 /// Power by times and frequencies of a signal without its mean: |∫ x(t) w(t − t₀)
 /// exp(−iωt) dt|² with a Gaussian w.
-fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
+fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>> {
     // Four standard deviations either way.
     let reach = (4.0 * WINDOW_S * rate_hz).ceil() as usize;
     let block = 2 * reach + 1;
     let points = (rate_hz * FREQUENCIES as f64 / HIGHEST_HZ).round() as usize;
     let bins = Bins {
-        points: points.max(block) as u32,
+        points: points.max(block),
         first: 0,
-        step: 1,
         count: FREQUENCIES,
     };
-    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let spectrum = Spectrum::new(bins);
     let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
     let mut all = Vec::with_capacity(TIMES);
     for time in 0..TIMES {
@@ -110,8 +102,7 @@ fn gabor(x: &[f64], rate_hz: f64) -> Result<Vec<Vec<f64>>, Error> {
             let away = (n as f64 - reach as f64) / (WINDOW_S * rate_hz);
             at.map_or(0.0, |x| (x - mean) * libm::exp(-0.5 * away * away))
         });
-        let power = spectrum.of(block, Measure::Power);
-        all.push(power.map_err(refused)?);
+        all.push(spectrum.of(block, Measure::Power)?);
     }
     Ok(all)
 }

@@ -1,9 +1,8 @@
 //! How the head moves: whether a whisk has one peak or two, how long it
 //! touches, and what RCP leaves of the deflection (BIOTACT Fig. 8).
 
-use crate::experiment::dataset::Dataset;
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
-use crate::experiment::recording::{Recording, Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::{Page, figure};
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};

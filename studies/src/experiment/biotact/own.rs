@@ -1,6 +1,6 @@
 //! The product's own rule on BIOTACT's textures, by the left front whisker alone.
 
-use host_sim::Error;
+use anyhow::Result;
 use host_sim::recording::Stream;
 
 use super::whisks::{Visits, Whisk};
@@ -15,10 +15,10 @@ pub(super) fn of_one_whisker(
     visits: &Visits,
     rate_hz: f64,
     most: usize,
-) -> Result<(), Error> {
+) -> Result<()> {
     let order: Vec<usize> = (0..visits.count()).collect();
     let (training, testing) = order.split_at(most.min(order.len()));
-    let streams = |strategy: usize, numbers: &[usize]| -> Result<Vec<Stream>, Error> {
+    let streams = |strategy: usize, numbers: &[usize]| -> Result<Vec<Stream>> {
         let one = |(n, (texture, _, samples)): (usize, &Whisk)| {
             let pairs = samples.chunks_exact(CHANNELS).map(|all| [all[0], all[1]]);
             stream(TEXTURES[*texture].0, n, pairs.collect(), Some(rate_hz))

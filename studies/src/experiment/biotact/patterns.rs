@@ -2,12 +2,11 @@
 //! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
 
 use super::figures::{FREQUENCY_HZ, TICK_HZ, run};
-use crate::chart::{Mark, linear};
-use crate::experiment::picture::{Curve, panel};
+use crate::chart::{Mark, Series, linear, panel};
 use crate::moments::range;
-use crate::page::{Claim, Page};
+use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
-use host_sim::Error;
+use anyhow::Result;
 
 /// Ticks of a whisk.
 const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
@@ -20,7 +19,7 @@ pub(super) const RIGHT: usize = 1;
 pub(super) type Row = [f64; 2];
 
 /// The last whisks of a run.
-fn tail(figure: &Figure) -> Result<Vec<Row>, Error> {
+fn tail(figure: &Figure) -> Result<Vec<Row>> {
     let rows = run(figure)?;
     let from = rows.len().saturating_sub(WHISKS * WHISK);
     Ok(rows.into_iter().skip(from).collect())
@@ -39,20 +38,20 @@ pub(super) fn contacts(rows: &[Row], side: usize, whisks: usize) -> f64 {
     count as f64 / whisks as f64
 }
 
-fn curve(name: &str, rows: &[Row], side: usize) -> Curve {
+fn curve(name: &str, rows: &[Row], side: usize) -> Series {
     // Every tenth tick is plenty for a picture.
     let points = rows.iter().enumerate().step_by(10);
     let points = points.map(|(n, row)| (n as f64 / TICK_HZ, row[side]));
-    Curve::new(name, points.collect())
+    Series::curve(name, points.collect())
 }
 
-pub(super) fn section(page: &mut Page) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page) -> Result<()> {
     gains(page)?;
     obstacles(page)
 }
 
 /// Fig. 6.
-fn gains(page: &mut Page) -> Result<(), Error> {
+fn gains(page: &mut Page) -> Result<()> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
         let rows = tail(&Figure { gain, ..FIG6 })?;
@@ -74,17 +73,17 @@ fn gains(page: &mut Page) -> Result<(), Error> {
     let most = (highest.last().copied().unwrap_or(0.0) - 50.0) / 100.0;
     let rises = highest.iter().zip(highest.iter().skip(1));
     let rise = rises.map(|(a, b)| (b - a) / 100.0).fold(f64::MAX, f64::min);
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 6: a higher gain gives a higher θ', and at g = 2 θ approaches unity but does not exceed it",
         "so",
         format_args!("largest θ = {most:.4} at g = 2"),
         (rise.min(most - 0.95).min(1.0 - most), "of θ"),
-    ));
+    );
     Ok(())
 }
 
 /// Figs. 7 to 9.
-fn obstacles(page: &mut Page) -> Result<(), Error> {
+fn obstacles(page: &mut Page) -> Result<()> {
     let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;
     let mut panels = Vec::new();
@@ -97,7 +96,7 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
         let rows = tail(&figure)?;
         let level = |name: &str, side: usize| {
             let at = OBSTACLES_DEG[side];
-            Curve::new(name, vec![(0.0, at), (end, at)])
+            Series::curve(name, vec![(0.0, at), (end, at)])
         };
         let curves = [
             curve("left", &rows, LEFT),
@@ -119,7 +118,7 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
     let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| angles(rows, side).1);
     let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side, WHISKS));
     let (left, right) = (highest(0, LEFT), highest(0, RIGHT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 7: RCP holds the left back, by 5 degrees or more; the right does not reach its obstacle",
         "left suppressed, right below 125 degrees",
         format_args!("left up to {left:.1}, right up to {right:.1} degrees"),
@@ -127,16 +126,16 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
             (right - 5.0 - left).min(OBSTACLES_DEG[RIGHT] - right),
             "degrees",
         ),
-    ));
+    );
     let (strong, gentle) = (touches(1, LEFT), touches(0, LEFT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 8: strong and fast RCP makes two distinct contacts a whisk",
         "2",
         format_args!("{strong:.1}; {gentle:.1} with Fig. 7's"),
         ((strong - 1.5).min(1.5 - gentle), "contacts a whisk"),
-    ));
+    );
     let (with, without) = (touches(2, RIGHT), touches(0, RIGHT));
-    page.claims.push(Claim::new(
+    page.claim(
         "BIOTACT Fig. 9: with CIA the right finds its obstacle",
         "beyond 125 degrees, 1 contact a whisk",
         format_args!(
@@ -144,6 +143,6 @@ fn obstacles(page: &mut Page) -> Result<(), Error> {
             highest(2, RIGHT),
         ),
         ((with - 0.5).min(0.5 - without), "contacts a whisk"),
-    ));
+    );
     Ok(())
 }

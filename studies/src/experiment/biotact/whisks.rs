@@ -1,18 +1,16 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
-use classifiers::StationaryRule;
-use classifiers::recogniser::{Bayes, Recogniser, first_outcome};
-use classifiers::template_train::TemplateTrainer;
+use anyhow::Result;
 use tactile::train::{Options, Trainer};
 
-use crate::experiment::dataset::Dataset;
+use crate::classifiers::recogniser::{Bayes, outcomes};
+use crate::classifiers::stationary::StationaryRule;
+use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::record::head::{COLUMNS, number};
-use crate::experiment::recording::{Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
-use crate::refused::refused;
 use crate::rigs::CHANNELS;
-use host_sim::Error;
 
 /// A classifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,59 +148,59 @@ impl Visits {
         task: Task,
         strategy: usize,
         split: Split<'_>,
-    ) -> Result<f64, Error> {
+    ) -> Result<f64> {
         match method {
             Method::Bayes => self.bayes(task, strategy, split),
             Method::Template => self.template(task, strategy, split),
         }
     }
 
-    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64, Error> {
+    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64> {
         let (training, validation) = split;
-        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks).map_err(refused)?;
+        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks);
         for (texture, distance, samples) in self.some(strategy, training) {
             let class = task.class(*texture, *distance);
-            trainer.add(class, samples).map_err(refused)?;
+            trainer.add(class, samples)?;
         }
-        let templates = trainer.train().map_err(refused)?;
+        let templates = trainer.train().in_codes();
         let validation = self.some(strategy, validation);
-        Ok(share(&mut templates.recogniser(), task, validation))
+        Ok(share(task, validation, |whisk| {
+            Some(templates.classify(whisk))
+        }))
     }
 
-    fn bayes(
-        &self,
-        task: Task,
-        strategy: usize,
-        (training, validation): Split<'_>,
-    ) -> Result<f64, Error> {
-        let mut trainer = Trainer::new(CHANNELS, self.options).map_err(refused)?;
+    fn bayes(&self, task: Task, strategy: usize, (training, validation): Split<'_>) -> Result<f64> {
+        let mut trainer = Trainer::new(CHANNELS, self.options)?;
         // Classes are numbered as they first appear: put them in order.
         let mut sorted: Vec<&Whisk> = self.some(strategy, training).collect();
         sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
         for (texture, distance, samples) in sorted {
             let name = format!("class {}", task.class(*texture, *distance));
             for sample in samples.chunks_exact(CHANNELS) {
-                trainer.add(&name, sample).map_err(refused)?;
+                trainer.add(&name, sample)?;
             }
         }
-        let buf = trainer.train().map_err(refused)?;
+        let buf = trainer.train()?;
         let model = buf.view();
-        let mut bayes = Bayes::<StationaryRule>::new(model, ()).map_err(refused)?;
+        let mut bayes = Bayes::<StationaryRule>::new(model, ())?;
         let validation = self.some(strategy, validation);
-        Ok(share(&mut bayes, task, validation))
+        Ok(share(task, validation, |whisk| {
+            let found = outcomes(&mut bayes, whisk, CHANNELS);
+            found.first().map(|outcome| outcome.class)
+        }))
     }
 }
 
+/// The share of whisks that are named rightly.
 fn share<'w>(
-    recogniser: &mut impl Recogniser,
     task: Task,
     validation: impl Iterator<Item = &'w Whisk>,
+    mut named: impl FnMut(&[f64]) -> Option<usize>,
 ) -> f64 {
     let (mut hits, mut count) = (0_u32, 0_u32);
     for (texture, distance, samples) in validation {
-        let outcome = first_outcome(recogniser, samples, CHANNELS);
         let class = task.class(*texture, *distance);
-        hits += u32::from(outcome.is_some_and(|outcome| outcome.class == class));
+        hits += u32::from(named(samples) == Some(class));
         count += 1;
     }
     f64::from(hits) / f64::from(count.max(1))

@@ -2,18 +2,16 @@
 
 mod spectra;
 
-use classifiers::recogniser::{Bayes, Recogniser, outcomes};
+use anyhow::Result;
 use tactile::{SequentialRule, Threshold};
 
 use super::groups::{BLOCK, Curves, Group, Point};
-use crate::chart::{Axis, Mark, Panel, linear};
+use crate::chart::{Axis, Mark, Panel, Series, linear, panel, percent, top};
+use crate::classifiers::recogniser::{Bayes, Recogniser, outcomes};
 use crate::experiment::floors::CHANNELS;
-use crate::experiment::picture::{Curve, panel, percent, top};
 use crate::page::{Page, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS};
-use crate::refused::refused;
-use host_sim::Error;
 
 /// How much of a stretch Fig. 7 shows, s; what takes longer is shown as that.
 const SHOWN_S: f64 = 0.2;
@@ -25,7 +23,7 @@ pub(super) fn all(
     groups: &[Group],
     curves: &[Curves],
     rate_hz: f64,
-) -> Result<(), Error> {
+) -> Result<()> {
     distributions(page, groups)?;
     hit_rates(page, groups, curves)?;
     if let Some(rotating) = groups.get(2) {
@@ -39,7 +37,7 @@ pub(super) fn all(
 }
 
 /// Fig. 4: how often each voltage occurs, per floor, channel and motion.
-fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
+fn distributions(page: &mut Page, groups: &[Group]) -> Result<()> {
     let mut panels = Vec::new();
     for group in groups {
         let model = group.model.view();
@@ -54,7 +52,7 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
                 let code = f64::from(q.low) + share * (f64::from(q.high) - f64::from(q.low));
                 (q.origin + code * unit) * VOLTS + 2.5
             };
-            let curves: Vec<Curve> = FLOORS
+            let curves: Vec<Series> = FLOORS
                 .iter()
                 .enumerate()
                 .map(|(class, floor)| {
@@ -62,7 +60,7 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
                         let log2 = model.log2_likelihood(channel, bin, class).unwrap_or(-20.0);
                         100.0 * libm::exp2(f64::from(log2))
                     };
-                    Curve::new(floor, (0..bins).map(|bin| (volts(bin), p(bin))).collect())
+                    Series::curve(floor, (0..bins).map(|bin| (volts(bin), p(bin))).collect())
                 })
                 .collect();
             let x = linear("V", volts(0), volts(bins.saturating_sub(1)));
@@ -76,16 +74,16 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<(), Error> {
 }
 
 /// Figs. 5 and 6: hit rates against time and threshold.
-fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<(), Error> {
-    let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Curve> {
-        let mut curves: Vec<Curve> = (0..FLOORS.len())
+fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<()> {
+    let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Series> {
+        let mut curves: Vec<Series> = (0..FLOORS.len())
             .map(|k| {
                 let points = points.iter().map(|p| (x(p), p.tally.hits()[k]));
-                Curve::new(FLOORS[k], points.collect())
+                Series::curve(FLOORS[k], points.collect())
             })
             .collect();
         let mean = points.iter().map(|p| (x(p), p.tally.mean_hit()));
-        curves.push(Curve::new("mean", mean.collect()));
+        curves.push(Series::curve("mean", mean.collect()));
         curves
     };
     let (mut fixed, mut sequential) = (Vec::new(), Vec::new());
@@ -123,14 +121,16 @@ fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<(),
 }
 
 /// Fig. 7: posteriors of one stretch of rough carpet.
-fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
+fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     let model = group.model.view();
-    let never = Threshold::new(1.0 - 1e-12).map_err(refused)?;
+    let never = Threshold::new(1.0 - 1e-12)?;
     let Some(stream) = group.validation.first() else {
         return Ok(());
     };
-    let mut bayes = Bayes::<SequentialRule>::new(model, never).map_err(refused)?;
-    let mut curves: Vec<Curve> = FLOORS.map(|floor| Curve::new(floor, Vec::new())).to_vec();
+    let mut bayes = Bayes::<SequentialRule>::new(model, never)?;
+    let mut curves: Vec<Series> = FLOORS
+        .map(|floor| Series::curve(floor, Vec::new()))
+        .to_vec();
     let mut passed = FIG7.map(|_| None);
     let block = BLOCK as usize;
     let shown = (SHOWN_S * rate_hz).round() as usize;
@@ -176,15 +176,16 @@ fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
 }
 
 /// Fig. 8: how decision times spread, per floor.
-fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
+fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     /// Width of a bar, s, and how many there are.
     const BAR_S: f64 = 0.02;
     const BARS: usize = 40;
     let model = group.model.view();
-    let mut panels: Vec<(usize, Vec<Curve>)> = (0..FLOORS.len()).map(|k| (k, Vec::new())).collect();
+    let mut panels: Vec<(usize, Vec<Series>)> =
+        (0..FLOORS.len()).map(|k| (k, Vec::new())).collect();
     let mut means = Vec::new();
     for theta in FIG8_THRESHOLDS {
-        let threshold = Threshold::new(theta).map_err(refused)?;
+        let threshold = Threshold::new(theta)?;
         let mut cells = vec![format!("{theta}")];
         for (floor, curves) in &mut panels {
             let mut counts = [0_u32; BARS];
@@ -194,7 +195,7 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Er
                 .iter()
                 .filter(|stream| stream.floor == *floor)
             {
-                let mut bayes = Bayes::<SequentialRule>::new(model, threshold).map_err(refused)?;
+                let mut bayes = Bayes::<SequentialRule>::new(model, threshold)?;
                 for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
                     let time_s = f64::from(outcome.samples) / rate_hz;
                     let bar = ((time_s / BAR_S) as usize).min(BARS - 1);
@@ -206,7 +207,10 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Er
             let share = |n: u32| 100.0 * f64::from(n) / f64::from(count.max(1));
             let points = counts.iter().enumerate();
             let points = points.map(|(bar, n)| ((bar as f64 + 0.5) * BAR_S, share(*n)));
-            curves.push(Curve::new(&format!("threshold {theta}"), points.collect()));
+            curves.push(Series::curve(
+                &format!("threshold {theta}"),
+                points.collect(),
+            ));
             let mean_s = sum / f64::from(count.max(1));
             cells.push(figure(1000.0 * mean_s, 0).to_string());
         }

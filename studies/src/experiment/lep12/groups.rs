@@ -1,14 +1,13 @@
 //! Groups of trials that are trained on and validated by themselves, and their
 //! curves of hit rate against time.
 
-use classifiers::recogniser::Bayes;
+use anyhow::Result;
 use tactile::{ModelBuf, SequentialRule, Threshold, WindowRule};
 
+use crate::classifiers::recogniser::Bayes;
 use crate::experiment::floors::{Floors, Half, Stream, Tally, train};
 use crate::paper::lep12::{MOTIONS, TIME_S};
-use crate::refused::refused;
 use crate::rigs::RobotMotion;
-use host_sim::Error;
 
 /// Samples of a block of evidence (m of eq. 6).
 pub(super) const BLOCK: u32 = 20;
@@ -40,7 +39,7 @@ pub(super) struct Point {
 }
 
 impl Group {
-    pub(super) fn all(floors: &Floors<'_>) -> Result<Vec<Self>, Error> {
+    pub(super) fn all(floors: &Floors<'_>) -> Result<Vec<Self>> {
         let motions: [&[RobotMotion]; 4] = [
             &[RobotMotion::Anticlockwise],
             &[RobotMotion::Clockwise],
@@ -59,11 +58,11 @@ impl Group {
         MOTIONS.iter().zip(motions).map(group).collect()
     }
 
-    pub(super) fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point, Error> {
+    pub(super) fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point> {
         let model = self.model.view();
-        let threshold = Threshold::new(1.0 - doubt).map_err(refused)?;
+        let threshold = Threshold::new(1.0 - doubt)?;
         let tally = Tally::of(&self.validation, || {
-            Bayes::<SequentialRule>::new(model, threshold).map_err(refused)
+            Bayes::<SequentialRule>::new(model, threshold).map_err(anyhow::Error::new)
         })?;
         Ok(Point {
             parameter: 1.0 - doubt,
@@ -72,10 +71,10 @@ impl Group {
         })
     }
 
-    pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point, Error> {
+    pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point> {
         let model = self.model.view();
         let tally = Tally::of(&self.validation, || {
-            Bayes::<WindowRule>::new(model, window).map_err(refused)
+            Bayes::<WindowRule>::new(model, window).map_err(anyhow::Error::new)
         })?;
         Ok(Point {
             parameter: f64::from(window),
@@ -92,7 +91,7 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    pub(super) fn of(group: &Group, rate_hz: f64) -> Result<Self, Error> {
+    pub(super) fn of(group: &Group, rate_hz: f64) -> Result<Self> {
         let window = WINDOWS.iter().map(|window| group.window(*window, rate_hz));
         let sequential = DOUBTS.iter().map(|doubt| group.sequential(*doubt, rate_hz));
         Ok(Self {

@@ -1,17 +1,16 @@
 //! Two floors at a time by the sequential probability ratio test, with a prior ratio (LEP12 eqs.
 //! 1 and 2).
 
-use classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
-use classifiers::sprt::Sprt;
+use anyhow::Result;
 use rayon::prelude::*;
 use tactile::{ModelBuf, SequentialRule, Threshold};
 
 use super::groups::{BLOCK, BOTH, Group};
+use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
+use crate::classifiers::sprt::Sprt;
 use crate::experiment::floors::{CHANNELS, Stream, train};
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::lep10::FLOORS;
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Threshold on the probability: the middle one of Fig. 8.
 const THETA: f64 = 0.9;
@@ -78,7 +77,7 @@ fn alike(ours: &[Vec<Outcome>], theirs: &[Vec<Outcome>]) -> (f64, f64) {
 }
 
 impl Pair {
-    fn of(group: &Group, floors: [usize; 2]) -> Result<Self, Error> {
+    fn of(group: &Group, floors: [usize; 2]) -> Result<Self> {
         let some = |streams: &[Stream]| -> Vec<Stream> {
             let among = streams
                 .iter()
@@ -87,9 +86,9 @@ impl Pair {
         };
         let model: ModelBuf = train(&some(&group.training), &BOTH, BLOCK)?;
         let model = model.view();
-        let threshold = Threshold::new(THETA).map_err(refused)?;
-        let mut eq8 = Bayes::<SequentialRule>::new(model, threshold).map_err(refused)?;
-        let mut flat = Sprt::new(model, THETA, 1.0).map_err(refused)?;
+        let threshold = Threshold::new(THETA)?;
+        let mut eq8 = Bayes::<SequentialRule>::new(model, threshold)?;
+        let mut flat = Sprt::new(model, THETA, 1.0)?;
         let (mut same, mut all) = (0.0, 0.0);
         let mut plain = [Decisions::default(); 2];
         for (class, floor) in floors.into_iter().enumerate() {
@@ -107,11 +106,11 @@ impl Pair {
             } else {
                 1.0 / PRIOR_RATIO
             };
-            let mut knowing = Sprt::new(model, THETA, ratio).map_err(refused)?;
+            let mut knowing = Sprt::new(model, THETA, ratio)?;
             for (class, floor) in floors.into_iter().enumerate() {
                 let weight = 0.5 * if class == likely { share } else { 1.0 - share };
-                let told = decisions(&each(&mut knowing, &group.validation, floor), class);
-                for (place, of) in [plain[class], told].into_iter().enumerate() {
+                let known = decisions(&each(&mut knowing, &group.validation, floor), class);
+                for (place, of) in [plain[class], known].into_iter().enumerate() {
                     error[place] += weight * of.error();
                     time[place] += weight * of.time();
                 }
@@ -127,7 +126,7 @@ impl Pair {
 }
 
 /// The section, on a group of trials.
-pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     let mut pairs = Vec::new();
     for a in 0..FLOORS.len() {
         pairs.extend((a + 1..FLOORS.len()).map(|b| [a, b]));
@@ -162,20 +161,18 @@ pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()
         |of: &dyn Fn(&Pair) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len().max(1) as f64;
     let (flat, known) = (mean(&|pair| pair.error[0]), mean(&|pair| pair.error[1]));
     let same = mean(&|pair| pair.alike);
-    page.claims.push(Claim::new(
+    page.claim(
         "LEP12, below eq. 8: for two choices, eq. 8 is the sequential probability ratio test",
         "formally equivalent",
         format_args!("{} % of all decisions alike", figure(same, 2)),
         (same - ALIKE, "points over 99.9"),
-    ));
-    page.claims.push(
-        Claim::new(
-            "LEP12 eq. 1: a prior ratio that is known saves errors",
-            "trades off sensory information and prior probability",
-            format_args!("{} against {} %", figure(known, 1), figure(flat, 1)),
-            (flat - known, "points"),
-        )
-        .told(100.0 - flat, 50.0),
     );
+    page.claim(
+        "LEP12 eq. 1: a prior ratio that is known saves errors",
+        "trades off sensory information and prior probability",
+        format_args!("{} against {} %", figure(known, 1), figure(flat, 1)),
+        (flat - known, "points"),
+    )
+    .rests_on(100.0 - flat, 50.0);
     Ok(())
 }

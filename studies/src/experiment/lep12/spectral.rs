@@ -1,27 +1,24 @@
 //! The spectral methods of LEP12 section 5: the template of the power
 //! spectrum, and a neural network of 120–20–4 units on it.
 //!
-//! Both hear x and y, as the other classifiers do, up to 120 Hz: above that
+//! Both take x and y, as the other classifiers do, up to 120 Hz: above that
 //! "the power is close to zero". The template takes every bin above zero
 //! frequency: the paper's spectra show no offset. The network's
 //! 120 inputs are 2 to 120 Hz in steps of 2 Hz of each of them (a transform of
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).
 
-use classifiers::mlp::Network;
-use classifiers::mlp::train::{NetworkTrainer, Options};
-use classifiers::recogniser::outcomes;
-use classifiers::spectral_train::SpectralTrainer;
-use classifiers::spectrum::{Bins, Measure, Spectrum};
+use anyhow::Result;
 use rayon::prelude::*;
 
 use super::groups::Group;
+use crate::classifiers::means::least;
+use crate::classifiers::network::{self, Options, Row};
+use crate::classifiers::spectral::SpectralTrainer;
+use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
 use crate::experiment::floors::{CHANNELS, Stream, Tally};
-use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::SEGMENT_S;
-use crate::refused::refused;
 use crate::rigs::seed_of;
-use host_sim::Error;
 
 /// Highest frequency, Hz.
 const HIGHEST_HZ: f64 = 120.0;
@@ -29,90 +26,70 @@ const HIGHEST_HZ: f64 = 120.0;
 const TRANSFORM_S: f64 = 0.5;
 
 /// Hit rates of the template, percent.
-pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4], Error> {
+pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4]> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let bins = Bins::between(block as u32, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
-    let mut trainer =
-        SpectralTrainer::new(CHANNELS, bins, block, Measure::Power).map_err(refused)?;
+    let bins = Bins::between(block, rate_hz, 1.0, HIGHEST_HZ)?;
+    let mut trainer = SpectralTrainer::new(CHANNELS, bins, block, Measure::Power);
     for stream in &group.training {
-        trainer
-            .add(stream.floor, &stream.samples)
-            .map_err(refused)?;
+        trainer.add(stream.floor, &stream.samples)?;
     }
-    let templates = trainer.train().map_err(refused)?;
+    let templates = trainer.train();
     let mut tally = Tally::empty();
     for stream in &group.validation {
-        let mut recogniser = templates.recogniser();
         for segment in stream.samples.chunks_exact(block * CHANNELS) {
-            for outcome in outcomes(&mut recogniser, segment, CHANNELS) {
-                tally.add(stream.floor, outcome.class, block as u64)?;
-            }
+            let named = least(&templates.errors(segment)?);
+            tally.add(stream.floor, named, block as u64)?;
         }
     }
     Ok(tally.hits())
 }
 
 /// The power spectrum of a channel of a segment, without its mean.
-pub(super) fn power(
-    spectrum: &mut Spectrum,
-    segment: &[f64],
-    channel: usize,
-) -> Result<Vec<f64>, Error> {
+pub(super) fn power(spectrum: &Spectrum, segment: &[f64], channel: usize) -> Result<Vec<f64>> {
     let line = || segment.iter().skip(channel).step_by(CHANNELS);
     let mean = line().sum::<f64>() / (segment.len() / CHANNELS) as f64;
-    let power = spectrum.of(line().map(|x| x - mean), Measure::Power);
-    power.map_err(refused)
+    spectrum.of(line().map(|x| x - mean), Measure::Power)
 }
 
 /// The inputs of the network for every segment of a stream, with its floor.
-fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<(usize, Vec<f64>)>, Error> {
+fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let points = (TRANSFORM_S * rate_hz).round() as u32;
-    let bins = Bins::between(points, rate_hz, 1.0, HIGHEST_HZ).map_err(refused)?;
-    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let points = (TRANSFORM_S * rate_hz).round() as usize;
+    let bins = Bins::between(points, rate_hz, 1.0, HIGHEST_HZ)?;
+    let spectrum = Spectrum::new(bins);
     let mut rows = Vec::new();
     for segment in stream.samples.chunks_exact(block * CHANNELS) {
         let mut row = Vec::with_capacity(CHANNELS * bins.count);
         for channel in 0..CHANNELS {
-            row.extend(power(&mut spectrum, segment, channel)?);
+            row.extend(power(&spectrum, segment, channel)?);
         }
         rows.push((stream.floor, row));
     }
     Ok(rows)
 }
 
-/// A network that is trained on these rows.
-fn trained(rows: &[(usize, Vec<f64>)], options: Options) -> Result<Network, Error> {
-    let inputs = rows.first().map_or(0, |(_, row)| row.len());
-    let mut trainer = NetworkTrainer::new(inputs, options).map_err(refused)?;
-    for (floor, row) in rows {
-        trainer.add(FLOORS[*floor], row).map_err(refused)?;
-    }
-    Ok(trainer.train().map_err(refused)?.network)
-}
-
 /// Hit rates of the network, percent: the mean of ten trainings.
-pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4], Error> {
+pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]> {
     const SESSIONS: u64 = 10;
-    let all = |streams: &[Stream]| -> Result<Vec<(usize, Vec<f64>)>, Error> {
-        let rows: Result<Vec<_>, Error> = streams.iter().map(|s| rows(s, rate_hz)).collect();
+    let all = |streams: &[Stream]| -> Result<Vec<Row>> {
+        let rows: Result<Vec<_>> = streams.iter().map(|s| rows(s, rate_hz)).collect();
         Ok(rows?.into_iter().flatten().collect())
     };
     let (training, validation) = (all(&group.training)?, all(&group.validation)?);
-    let sessions: Result<Vec<[f64; 4]>, Error> = (0..SESSIONS)
+    let sessions: Result<Vec<[f64; 4]>> = (0..SESSIONS)
         .into_par_iter()
         .map(|session| {
             let options = Options::spectrum(seed_of(seed, &[12, session]));
-            // Floors that cannot be told leave no start that tells each of them.
+            // Floors that cannot be separated leave no start that names each of them.
             let any = Options {
                 reliable: 0.0,
                 ..options
             };
-            let network = trained(&training, options).or_else(|_| trained(&training, any))?;
+            let network = network::train(&training, &options);
+            let network = network.or_else(|_| network::train(&training, &any))?;
             let mut tally = Tally::empty();
             for (floor, row) in &validation {
-                // Floors come in order, so that outputs are numbered as they.
-                tally.add(*floor, network.classify(row).map_err(refused)?, 1)?;
+                tally.add(*floor, network.classify(row)?, 1)?;
             }
             Ok(tally.hits())
         })

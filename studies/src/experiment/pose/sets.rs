@@ -1,8 +1,7 @@
 //! The contacts, to train on and to test with.
 
-use crate::experiment::dataset::Dataset;
 use crate::experiment::record::table::{Contact, contacts};
-use crate::experiment::recording::{Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::rigs::{Chance, seed_of};
 

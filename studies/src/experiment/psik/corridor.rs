@@ -1,20 +1,19 @@
 //! The corridors of PSIK section 3.3: a network on the IMP of both pads votes
 //! at every step; the most votes decide where to turn at the end.
 
+use anyhow::Result;
 use tactile::score::Confusion;
 
 use super::maze;
-use super::sweeps::{PENALTIES, Row, mean_hit, train};
-use crate::experiment::dataset::Dataset;
+use super::sweeps::{PENALTIES, mean_hit, train};
+use crate::classifiers::network::Row;
 use crate::experiment::record::corridor::{COLUMNS, place};
 use crate::experiment::record::pads::INPUTS;
-use crate::experiment::recording::{Recording, Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, confusion, figure};
+use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
-use crate::refused::refused;
 use crate::rigs::seed_of;
-use host_sim::Error;
 
 /// Chance of naming a corridor and its direction, percent.
 const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
@@ -28,11 +27,7 @@ fn steps(run: &Recording) -> Vec<Vec<f64>> {
         .collect()
 }
 
-pub(super) fn section(
-    page: &mut Page,
-    request: &Request,
-    recordings: &Recordings,
-) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let runs = of_set(recordings, Dataset::Corridor);
     if runs.is_empty() {
         return Ok(());
@@ -55,19 +50,19 @@ pub(super) fn section(
         let (case, number) = place(request.extent, job);
         let mut votes = [0_u32; 4];
         for row in steps(run) {
-            let named = network.classify(&row).map_err(refused)?;
+            let named = network.classify(&row)?;
             if let Some(votes) = votes.get_mut(named) {
                 *votes += 1;
             }
             if (taught..training).contains(&number) {
-                by_step.add(case, Some(named)).map_err(refused)?;
+                by_step.add(case, Some(named))?;
             }
         }
         if number < training {
             continue;
         }
         let most = (0..4).max_by_key(|k| (votes[*k], 4 - k));
-        by_run.add(case, most).map_err(refused)?;
+        by_run.add(case, most)?;
         finished += 1;
         for row in run.part(0, run.len()).chunks_exact(COLUMNS) {
             let aside = row.get(INPUTS).map_or(0.0, |x| f64::from(*x));
@@ -95,18 +90,16 @@ pub(super) fn section(
     ));
     let printed = |truth: usize, named: usize| TABLE_3[truth][named];
     confusion(page, &CORRIDORS, &printed, &by_run);
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "PSIK: the robot tells two corridors and their directions apart on its way, \
+    page.claim(
+        format_args!(
+            "PSIK: the robot tells two corridors and their directions apart on its way, \
                  steering by touch ({ENOUGH:.0} % or more)"
-            ),
-            format_args!("{paper:.0} %"),
-            format_args!("{} %", figure(hit, 1)),
-            (hit - ENOUGH, "points"),
-        )
-        .told(hit, CHANCE),
-    );
+        ),
+        format_args!("{paper:.0} %"),
+        format_args!("{} %", figure(hit, 1)),
+        (hit - ENOUGH, "points"),
+    )
+    .rests_on(hit, CHANCE);
     page.score(
         "IMP and network 66–66–4, votes",
         "two corridors, both ways",

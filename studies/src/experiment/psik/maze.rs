@@ -2,19 +2,17 @@
 //! notices corridors by their aperture, tells them by their walls, and turns at their ends as
 //! they say.
 
-use classifiers::mlp::Network;
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Material, Plate, Pose};
 use rayon::prelude::*;
 
-use crate::chart::{Mark, linear};
-use crate::experiment::picture::{Curve, panel};
+use crate::chart::{Mark, Series, linear, panel};
+use crate::classifiers::network::Network;
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
 use crate::experiment::request::Request;
-use crate::page::{Claim, Page, figure, row};
+use crate::page::{Page, figure, row};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
-use crate::refused::refused;
 use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
 
 /// A case's chance of the right turn, percent: two of four say right.
@@ -111,7 +109,7 @@ struct Behaviour<'r> {
 
 impl Behaviour<'_> {
     /// A tick: the corridor that the robot has just left, as it takes it.
-    fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<usize>, Error> {
+    fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<usize>> {
         let is_narrow = felt.distance_mm.iter().sum::<f64>() < self.maze.aperture_mm;
         let is_inside = matches!(self.doing, Doing::Inside(_));
         self.other_s = if is_narrow == is_inside {
@@ -138,7 +136,7 @@ impl Behaviour<'_> {
                 self.inside_s += dt_s;
                 if let Some(window) = &felt.window {
                     let row: Vec<f64> = window.iter().map(|x| f64::from(*x)).collect();
-                    let named = self.network.classify(&row).map_err(refused)?;
+                    let named = self.network.classify(&row)?;
                     if let Some(votes) = votes.get_mut(named) {
                         *votes += 1;
                     }
@@ -162,7 +160,7 @@ impl Behaviour<'_> {
 }
 
 /// A tour from the top wall, heading right or left.
-fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour, Error> {
+fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour> {
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     let seed = seed_of(request.seed, &[9, u64::from(heads_right)]);
     let mut chance = Chance::new(seed_of(seed, &[0]));
@@ -204,9 +202,7 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour,
     let body_m = rig.width_m / 2.0 - rig.slack_m;
     let mut turned_rad = 0.0;
     for tick in 0..(maze.tour_s * RATE_HZ) as usize {
-        let felt = pads.step(rig, &robot, |_, pose, length_m| {
-            walls.before(pose, length_m)
-        });
+        let felt = pads.step(&robot, |_, pose, length_m| walls.before(pose, length_m));
         if let Some(decided) = behaviour.tick(&felt, turned_rad, dt_s)? {
             match case_at(request, &robot) {
                 Some(case) => {
@@ -239,11 +235,11 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour,
     Ok(tour)
 }
 
-pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<(), Error> {
+pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<()> {
     let tours = [true, false]
         .into_par_iter()
         .map(|right| tour(request, network, right));
-    let tours = tours.collect::<Result<Vec<Tour>, Error>>()?;
+    let tours = tours.collect::<Result<Vec<Tour>>>()?;
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     page.say(format_args!(
         "**The maze** (`studies/rigs/maze.toml`): {} by {} m, an island in the middle, which leaves \
@@ -277,8 +273,8 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     let mut panels = Vec::new();
     for (name, tour) in names.iter().zip(&tours) {
         let curves = [
-            Curve::new("walls", outline.clone()),
-            Curve::new("neck", tour.path.clone()),
+            Series::curve("walls", outline.clone()),
+            Series::curve("neck", tour.path.clone()),
         ];
         let (x, y) = (linear("m", -a, a), linear("m", -b, b));
         panels.push(panel(&format!("start {name}"), x, y, &curves, Mark::Dot));
@@ -290,12 +286,12 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
         .iter()
         .map(|tour| tour.laps)
         .fold(f64::INFINITY, f64::min);
-    page.claims.push(Claim::new(
+    page.claim(
         "PSIK: the robot circulates around the maze, from either start (a whole tour or more)",
         "several tours in a row",
         format_args!("at least {} tours in {} s", figure(least, 2), maze.tour_s),
         (least - 1.0, "tours over one"),
-    ));
+    );
     let passed: u32 = tours.iter().map(|tour| tour.passed).sum();
     let right: u32 = tours.iter().map(|tour| tour.right).sum();
     let share = if passed == 0 {
@@ -303,17 +299,15 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     } else {
         100.0 * f64::from(right) / f64::from(passed)
     };
-    page.claims.push(
-        Claim::new(
-            format_args!(
-                "PSIK: at the ends of corridors the robot turns as their walls say \
+    page.claim(
+        format_args!(
+            "PSIK: at the ends of corridors the robot turns as their walls say \
                  ({ENOUGH:.0} % or more)"
-            ),
-            "so",
-            format_args!("{} %", figure(share, 1)),
-            (share - ENOUGH, "points"),
-        )
-        .told(share, CHANCE),
-    );
+        ),
+        "so",
+        format_args!("{} %", figure(share, 1)),
+        (share - ENOUGH, "points"),
+    )
+    .rests_on(share, CHANCE);
     Ok(())
 }

@@ -1,16 +1,14 @@
 //! The product's own rule on PSIK's papers and corridors, by one vibrissa: the middle one of the
 //! longest arc, of the left pad in corridors.
 
-use host_sim::Error;
-
-use crate::experiment::dataset::Dataset;
 use crate::experiment::product::{Task, section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
 use crate::experiment::record::pad::{PAPERS, place as on_paper};
-use crate::experiment::recording::{Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
+use anyhow::Result;
 
 use super::sweeps::NAMES;
 
@@ -27,7 +25,7 @@ pub(super) fn of_one_vibrissa(
     page: &mut Page,
     request: &Request,
     recordings: &Recordings,
-) -> Result<(), Error> {
+) -> Result<()> {
     let task = |name, classes| Task {
         name,
         classes,

@@ -1,21 +1,16 @@
 //! The sweeps over the sandpapers, and the networks that are trained on them.
 
-use classifiers::mlp::Network;
-use classifiers::mlp::train::{NetworkTrainer, Options};
+use anyhow::Result;
 use tactile::score::Confusion;
 
+use crate::classifiers::network::{self, Network, Options, Row};
 use crate::experiment::record::pad::{PAPERS, place};
 use crate::experiment::recording::Recording;
 use crate::experiment::request::Request;
-use crate::refused::refused;
-use host_sim::Error;
 
 /// Names of the sandpapers, from coarse to fine.
 pub(super) const NAMES: [&str; PAPERS] =
     ["P40", "P50", "P60", "P80", "P100", "P120", "P150", "P180"];
-
-/// A row of the network's inputs, and its class.
-pub(super) type Row = (usize, Vec<f64>);
 
 /// Penalties λ on weights that are tried; the paper names none. Trained to the
 /// end with hardly any, 1400 weights fit the scatter of a few hundred sweeps.
@@ -25,8 +20,8 @@ pub(super) const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 const HELD_OUT: usize = 5;
 
 /// Trains a network with the penalty that does best on sweeps that are held out
-/// of the training ones, the smallest of equals; classes must come in order.
-fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
+/// of the training ones, the smallest of equals.
+fn train_choosing(rows: &[Row], seed: u64) -> Result<Network> {
     let mut best = (0, Options::imp(seed).decay);
     let places = || rows.iter().enumerate();
     let kept = places().filter(|(n, _)| n % HELD_OUT != 0);
@@ -35,7 +30,7 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
         let network = train(&kept, seed, penalty)?;
         let mut hits = 0;
         for (_, (class, row)) in places().filter(|(n, _)| n % HELD_OUT == 0) {
-            hits += usize::from(network.classify(row).map_err(refused)? == *class);
+            hits += usize::from(network.classify(row)? == *class);
         }
         if hits > best.0 {
             best = (hits, penalty);
@@ -44,21 +39,15 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network, Error> {
     train(rows, seed, best.1)
 }
 
-/// Trains a network with a penalty on its weights; classes must come in order.
-pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network, Error> {
+/// Trains a network with a penalty on its weights.
+pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
-    let mut options = Options::imp(seed);
-    options.decay = penalty;
-    options.hidden = inputs.max(1);
-    // The paper sets no bar, and few vibrissae cannot tell every paper.
-    options.reliable = 0.0;
-    let mut trainer = NetworkTrainer::new(inputs, options).map_err(refused)?;
-    for (class, row) in rows {
-        trainer
-            .add(&format!("class {class}"), row)
-            .map_err(refused)?;
-    }
-    Ok(trainer.train().map_err(refused)?.network)
+    let options = Options {
+        decay: penalty,
+        hidden: inputs,
+        ..Options::imp(seed)
+    };
+    network::train(rows, &options)
 }
 
 /// The sweeps, to train on and to test with.
@@ -86,7 +75,7 @@ impl Sweeps {
     }
 
     /// Trains and tests with the vibrissae from `from` up to `to`.
-    pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion, Error> {
+    pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion> {
         let cut = |rows: &[Row]| -> Vec<Row> {
             let some = |row: &Vec<f64>| row.get(from..to).unwrap_or(&[]).to_vec();
             rows.iter()
@@ -96,8 +85,8 @@ impl Sweeps {
         let network = train_choosing(&cut(&self.training), seed)?;
         let mut score = Confusion::new(PAPERS);
         for (class, row) in cut(&self.testing) {
-            let named = network.classify(&row).map_err(refused)?;
-            score.add(class, Some(named)).map_err(refused)?;
+            let named = network.classify(&row)?;
+            score.add(class, Some(named))?;
         }
         Ok(score)
     }

@@ -7,7 +7,7 @@ use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use crate::rigs::{Chance, Robot, seed_of};
-use host_sim::Error;
+use anyhow::Result;
 use physics::Plate;
 
 /// Columns before the readings: the inputs, then how far the neck is off the middle, m, its
@@ -68,7 +68,7 @@ fn plate(request: &Request, side: usize, number: usize, seed: u64) -> Plate {
 }
 
 /// Records a run: a sample of [`COLUMNS`] numbers a window.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.corridor;
     let (case, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
@@ -85,7 +85,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let (mut values, mut one) = (Vec::new(), Vec::new());
     let most = (4.0 * rig.length_m / rig.speed_m_s * RATE_HZ) as usize;
     for _ in 0..most {
-        let felt = pads.step(rig, &robot, |side, _, _| Some(plates[side]));
+        let felt = pads.step(&robot, |side, _, _| Some(plates[side]));
         let [left, right] = felt.distance_mm;
         one.extend(felt.one);
         if let Some(window) = felt.window {
@@ -103,14 +103,4 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         }
     }
     Ok(Recording::new(COLUMNS, values))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::walls;
-
-    #[test]
-    fn the_way_back_swaps_the_walls() {
-        assert_eq!([0, 1, 2, 3].map(walls), [[0, 1], [1, 0], [2, 3], [3, 2]]);
-    }
 }

@@ -5,9 +5,8 @@ use super::whiskers;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
 use crate::paper::lep10::FLOORS;
-use crate::refused::refused;
 use crate::rigs::{RobotMotion, seed_of};
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Plate, Shaft, TouchingWhisker};
 
 /// Motions in the order of the jobs.
@@ -49,7 +48,7 @@ fn place(extent: Extent, job: usize) -> (usize, RobotMotion) {
 }
 
 /// Records a trial: codes of x and y.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let (floor, motion) = place(request.extent, job);
     let rig = &request.rigs.floor;
     let shaft = Shaft::floor_robot();
@@ -65,7 +64,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let mut codes = Vec::with_capacity(2 * rig.ticks());
     for placement in 0..rig.placements as u64 {
         let whisker = TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0, placement]));
-        let mut whisker = whisker.map_err(refused)?;
+        let mut whisker = whisker?;
         let seed = seed_of(seed, &[1, placement]);
         let mut drive = rig.drive(motion, shaft.length_m, plate.surface.height_m, seed);
         for tick in 0..lead + each {
@@ -81,7 +80,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
 #[cfg(test)]
 mod tests {
     use super::{MOTIONS, jobs, number, place};
-    use crate::experiment::Extent;
+    use crate::experiment::request::Extent;
     use crate::rigs::RobotMotion;
 
     #[test]

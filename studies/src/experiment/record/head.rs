@@ -9,7 +9,7 @@ use crate::paper::biotact::{
     DISTANCES_MM, OBSTACLES_DEG, STRATEGIES, STRONG, TAU_Z_PERIODS, TEXTURES, WHISKERS,
 };
 use crate::rigs::{CHANNELS, Visit};
-use host_sim::Error;
+use anyhow::Result;
 use whisking::GateSettings;
 
 /// Sensor channels, then θ' of the front whiskers in degrees and whether a
@@ -44,7 +44,7 @@ pub(crate) fn number(strategy: usize, texture: usize, distance: usize) -> usize 
 }
 
 /// Records a visit.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.head;
     let (strategy, texture, distance_m) = if let Some(strategy) = job.checked_sub(CLASSIFIED) {
         let front = WHISKERS[0].0 / 1000.0;

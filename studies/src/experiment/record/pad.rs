@@ -1,15 +1,13 @@
 //! Sweeps of the fixed head over sandpapers: the IMP of every vibrissa, summed
 //! over the sweep, and what one vibrissa feels, sample by sample.
 
-use classifiers::imp::{Band, Imp, ImpSweep};
-
 use super::whiskers;
+use crate::classifiers::imp::Imp;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
-use crate::refused::refused;
 use crate::rigs::{Chance, panned, seed_of};
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Plate, sensor_code};
 
 /// Sandpapers.
@@ -67,7 +65,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
 }
 
 /// Records what one vibrissa feels in a sweep: x and y.
-pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
@@ -83,12 +81,16 @@ pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Rec
 }
 
 /// Records a sweep: one sample of 33 numbers.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
     let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
-    let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;
-    let (mut state, mut sum) = (imp.state(), ImpSweep::default());
+    let (mut imp, mut sums) = (Imp::new(WINDOW), [0_u32; VIBRISSAE]);
+    let mut add = |window: [u32; VIBRISSAE]| {
+        for (sum, imp) in sums.iter_mut().zip(window) {
+            *sum = sum.saturating_add(imp);
+        }
+    };
     for tick in 0..rig.ticks() {
         let mut all = [[0; 2]; VIBRISSAE];
         for ((vibrissa, whisker), code) in whiskers.iter_mut().zip(&mut all) {
@@ -96,14 +98,10 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
             whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
             *code = codes(whisker.reading(), rig.bits);
         }
-        if let Some(window) = imp.push(&mut state, &all) {
-            sum.add(&window);
-        }
+        imp.push(&all).map(&mut add);
     }
-    if let Some(window) = imp.finish(&mut state) {
-        sum.add(&window);
-    }
+    imp.finish().map(&mut add);
     // In codes a sample.
-    let values = sum.sums().iter().map(|x| *x as f32 / 65_536.0);
+    let values = sums.iter().map(|x| *x as f32 / 65_536.0);
     Ok(Recording::new(VIBRISSAE, values.collect()))
 }

@@ -1,12 +1,11 @@
 //! Both pads of the mobile robot: deflections, distances and the smoothed IMP.
 
-use classifiers::imp::{Band, Imp, ImpState};
-use host_sim::Error;
+use anyhow::Result;
 use physics::{Plate, Pose, TouchingWhisker};
 
 use super::{pad, whiskers};
+use crate::classifiers::imp::Imp;
 use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
-use crate::refused::refused;
 use crate::rigs::{Corridor, Robot, Vibrissa};
 
 /// Inputs of the network: the vibrissae of both sides.
@@ -19,7 +18,7 @@ pub(crate) const WINDOW: u32 = 58;
 /// A side of the robot: its vibrissae and what they do.
 struct Side {
     whiskers: Vec<(Vibrissa, TouchingWhisker)>,
-    state: ImpState<VIBRISSAE>,
+    imp: Imp,
     /// Low-passed deflection, 0 to 1, and IMP of each vibrissa.
     bent: [f32; VIBRISSAE],
     power: [f32; VIBRISSAE],
@@ -27,7 +26,6 @@ struct Side {
 
 /// Both pads of the robot.
 pub(crate) struct Pads {
-    imp: Imp<VIBRISSAE>,
     sides: [Side; 2],
     /// Of the low-pass filters, a tick and a window.
     keep: f32,
@@ -46,12 +44,11 @@ pub(crate) struct Felt {
 
 impl Pads {
     /// The pads of a robot, each side with a seed.
-    pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self, Error> {
-        let imp = Imp::<VIBRISSAE>::new(WINDOW, Band::default()).map_err(refused)?;
+    pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self> {
         let side = |seed| {
-            Ok::<Side, Error>(Side {
+            anyhow::Ok(Side {
                 whiskers: whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?,
-                state: imp.state(),
+                imp: Imp::new(WINDOW),
                 bent: [0.0; VIBRISSAE],
                 power: [0.0; VIBRISSAE],
             })
@@ -60,7 +57,6 @@ impl Pads {
         let dt_s = 1.0 / RATE_HZ;
         Ok(Self {
             sides: [side(left)?, side(right)?],
-            imp,
             keep: libm::exp(-dt_s / rig.smooth_s) as f32,
             keep_window: libm::exp(-f64::from(WINDOW) * dt_s / rig.smooth_s) as f32,
         })
@@ -70,7 +66,6 @@ impl Pads {
     /// length, m.
     pub(crate) fn step(
         &mut self,
-        rig: &Corridor,
         robot: &Robot,
         wall: impl Fn(usize, &Pose, f64) -> Option<Plate>,
     ) -> Felt {
@@ -84,7 +79,7 @@ impl Pads {
             let mut codes = [[0; 2]; VIBRISSAE];
             let all = side.whiskers.iter_mut().zip(&mut codes).zip(&mut side.bent);
             for (((vibrissa, whisker), code), bent) in all {
-                let pose = rig.pose(robot, number, vibrissa);
+                let pose = Corridor::pose(robot, number, vibrissa);
                 let plate = wall(number, &pose, vibrissa.length_m);
                 whisker.step(&pose, plate.as_ref(), 1.0 / RATE_HZ);
                 *code = pad::codes(whisker.reading(), BITS);
@@ -97,7 +92,7 @@ impl Pads {
                 felt.one = pad::widened(codes[pad::ONE], BITS);
             }
             felt.distance_mm[number] = distance_mm(&side.bent);
-            if let Some(window) = self.imp.push(&mut side.state, &codes) {
+            if let Some(window) = side.imp.push(&codes) {
                 for (power, imp) in side.power.iter_mut().zip(window) {
                     let imp = imp as f32 / 65_536.0;
                     *power = keep_window * *power + (1.0 - keep_window) * imp;

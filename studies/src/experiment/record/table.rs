@@ -4,9 +4,8 @@ use super::whiskers;
 use crate::experiment::recording::Recording;
 use crate::experiment::request::{Extent, Request};
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
-use crate::refused::refused;
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
-use host_sim::Error;
+use anyhow::{Context, Result};
 use physics::vector::{add, cross};
 use physics::{Plate, Pose, Shaft, Surface, TouchingWhisker};
 
@@ -57,9 +56,9 @@ pub(crate) fn jobs(extent: Extent) -> usize {
 
 /// Records a contact: codes of x and y about the peak of x, x turned to
 /// positive.
-pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording, Error> {
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let all = contacts(request.extent);
-    let contact = all.get(job).ok_or_else(|| refused("no such contact"))?;
+    let contact = all.get(job).context("no such contact")?;
     let rig = &request.rigs.table;
     let speed = request.felt(contact.speed, PLACEBO.speed);
     let speed_m_s = speeds().get(speed).copied().unwrap_or(0.0) / 1000.0;
@@ -93,7 +92,7 @@ fn approach(
     speed_m_s: f64,
     surface: Surface,
     seed: u64,
-) -> Result<(Vec<i16>, f64), Error> {
+) -> Result<(Vec<i16>, f64)> {
     let dt_s = 1.0 / rig.tick_hz;
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let way = if chance.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -101,8 +100,7 @@ fn approach(
     let latency = rig.latency_s + rig.latency_spread_s * chance.between(-1.0, 1.0);
     let shaft = Shaft::xy_table();
     let sensor = whiskers::sensor([rig.full_scale_rad; 2]);
-    let mut whisker =
-        TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[1])).map_err(refused)?;
+    let mut whisker = TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[1]))?;
     let (normal, along) = facing(angle_deg, rig.roll_deg, way);
     let spread = rig.spot_spread_m;
     let spot = [0, 1].map(|_| chance.between(-spread, spread));
@@ -156,25 +154,4 @@ fn approach(
         }
     }
     Ok((codes, way))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Contact, contacts, speeds};
-    use crate::experiment::Extent;
-
-    #[test]
-    fn there_are_352_contacts_twice_and_eleven_speeds_from_6_to_106() {
-        assert_eq!(contacts(Extent::Full).len(), 2 * 352);
-        assert_eq!(contacts(Extent::Quick).len(), 2 * 3 * 4 * 4);
-        let speeds = speeds();
-        assert_eq!((speeds.len(), speeds[0], speeds[10]), (11, 6.0, 106.0));
-        let last = contacts(Extent::Full).pop();
-        let expected = Contact {
-            angle: 7,
-            speed: 10,
-            texture: 3,
-        };
-        assert_eq!(last, Some(expected));
-    }
 }

@@ -1,12 +1,11 @@
 //! Which whisker, sensor and surface of the physics each rig has.
 
+use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::paper::psik::ARCS;
-use crate::refused::refused;
 use crate::rigs::{Layout, Surfaces, Vibrissa, seed_of};
-use host_sim::Error;
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// A sensor with a rig's gains of x and y.
@@ -101,9 +100,9 @@ fn vibrissa(
     (arc, tip_diameter_m): (usize, f64),
     full_scale_rad: f64,
     seed: u64,
-) -> Result<TouchingWhisker, Error> {
+) -> Result<TouchingWhisker> {
     let shafts = arcs(tip_diameter_m);
-    let (shaft, modes) = shafts.get(arc).ok_or_else(|| refused("no such arc"))?;
+    let (shaft, modes) = shafts.get(arc).context("no such arc")?;
     let longest = shafts
         .first()
         .map_or(shaft.length_m, |(shaft, _)| shaft.length_m);
@@ -112,7 +111,7 @@ fn vibrissa(
         refresh_s: 0.0,
         ..sensor([full_scale_rad * longest / shaft.length_m; 2])
     };
-    TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(refused)
+    TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(anyhow::Error::new)
 }
 
 /// The vibrissae of a pad, arc by arc, each with a seed of its own.
@@ -120,7 +119,7 @@ pub(crate) fn pad(
     layout: &Layout,
     full_scale_rad: f64,
     seed: u64,
-) -> Result<Vec<(Vibrissa, TouchingWhisker)>, Error> {
+) -> Result<Vec<(Vibrissa, TouchingWhisker)>> {
     let vibrissae = layout.vibrissae().into_iter().enumerate();
     let make = |(n, of): (usize, Vibrissa)| {
         let seed = seed_of(seed, &[1, n as u64]);

@@ -28,14 +28,6 @@ count::program!(
     ("q30": "peer: idsp h50",
         (x: i32, state: &mut DirectForm<i32, 2>) -> i32 { CASCADE.process(state, x) },
         |call| (spread(call, -1.0, 1.0) * Q30) as i32, DirectForm::default()),
-    // Without a floating-point unit it is longer than the timer counts. It works
-    // in place, so that soon all is infinite: with a unit that costs the same.
-    #[cfg(not(machine = "microbit"))]
-    ("f32": "peer: microfft of 1024",
-        (x: f32, block: &mut [f32; 1024]) {
-            block[0] = x;
-            let _ = microfft::real::rfft_1024(block);
-        }, signed, [1.0_f32; 1024]),
 );
 
 /// H50 at 2 kHz as two second-order sections b0, b1, b2, a1, a2 (denominator

@@ -1,23 +1,20 @@
 //! Fig. 9 of LEP12: the power spectra of the whisker on each floor.
 
-use classifiers::spectrum::{Bins, Spectrum};
-
-use crate::chart::{Mark, linear};
+use crate::chart::{Mark, Series, linear, panel, top};
+use crate::classifiers::spectrum::{Bins, Spectrum};
 use crate::experiment::floors::CHANNELS;
 use crate::experiment::lep12::groups::Group;
 use crate::experiment::lep12::spectral::power;
-use crate::experiment::picture::{Curve, panel, top};
 use crate::page::{Page, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG9_PEAK_HZ, SEGMENT_S};
-use crate::refused::refused;
-use host_sim::Error;
+use anyhow::Result;
 
 /// Fig. 9: mean power spectra of anticlockwise motion.
-pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(), Error> {
+pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let bins = Bins::between(block as u32, rate_hz, 0.0, 120.0).map_err(refused)?;
-    let mut spectrum = Spectrum::new(bins, block).map_err(refused)?;
+    let bins = Bins::between(block, rate_hz, 0.0, 120.0)?;
+    let spectrum = Spectrum::new(bins);
     let mut panels = Vec::new();
     let mut peaks = Vec::new();
     for (channel, axis) in ["x", "y"].into_iter().enumerate() {
@@ -27,7 +24,7 @@ pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(
             let mut count = 0.0;
             for stream in group.training.iter().filter(|stream| stream.floor == floor) {
                 for segment in stream.samples.chunks_exact(block * CHANNELS) {
-                    let power = power(&mut spectrum, segment, channel)?;
+                    let power = power(&spectrum, segment, channel)?;
                     for (sum, power) in sum.iter_mut().zip(power) {
                         *sum += power;
                     }
@@ -44,7 +41,7 @@ pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(
                 .max_by(|a, b| a.1.total_cmp(&b.1))
                 .map_or(0.0, |p| p.0);
             peaks.push(peak);
-            curves.push(Curve::new(name, points));
+            curves.push(Series::curve(name, points));
         }
         let total: f64 = curves.iter().flat_map(|c| &c.points).map(|p| p.1).sum();
         for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {

@@ -1,0 +1,26 @@
+//! The classifiers that the papers compare with the product's (`tactile`), and that no scene
+//! names.
+//!
+//! | module | decides | source |
+//! |---|---|---|
+//! | [`stationary`] | by the largest evidence of naive Bayes over a whole whisk and all whiskers | BIOTACT eq. 15–16 |
+//! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
+//! | [`spectral`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
+//! | [`features`] | by a [`regression`] on peak, slope and spectrum | POSE eq. 3–7 |
+//! | [`network`] | by a network with one hidden layer | LEP12 section 5.2, PSIK section 3.2.1 |
+//! | [`sprt`] | between two classes by their probability ratio | LEP12 eq. 1–2 |
+//! | [`imp`] | by the vibrations of a whisker pad, as inputs of a network | PSIK section 3.1 |
+//!
+//! What they cost on a microcontroller was counted once: record 39 of `docs/decisions.md`.
+
+pub(crate) mod features;
+pub(crate) mod imp;
+pub(crate) mod means;
+pub(crate) mod network;
+pub(crate) mod recogniser;
+pub(crate) mod regression;
+pub(crate) mod spectral;
+pub(crate) mod spectrum;
+pub(crate) mod sprt;
+pub(crate) mod stationary;
+pub(crate) mod template;

@@ -1,0 +1,219 @@
+//! One way to ask any classifier, for experiments on a PC: samples in, the
+//! name of a class out, whatever the method.
+//!
+//! # Glossary
+//!
+//! - **sample**: one real number a channel, in the units of training.
+//! - **segment**: the samples of one trial, whisk or window.
+//! - **outcome**: the class that a recogniser names, and after how many samples.
+//!
+//! [`Bayes`] wraps naive Bayes under any rule; [`Picked`] lets a recogniser
+//! take only some channels (x alone, y alone, one whisker).
+
+use anyhow::Result;
+use tactile::{Decision, DecisionRule, Model, NaiveBayes, Posteriors, Quantiser, SetupError};
+
+/// What a recogniser found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Outcome {
+    /// The class, from zero, in the order of training.
+    pub(crate) class: usize,
+    /// Samples that it took since the last outcome (or the start).
+    pub(crate) samples: u32,
+}
+
+/// Anything that names a class from a stream of samples.
+pub(crate) trait Recogniser {
+    /// Takes one sample of all channels; gives an outcome where one falls.
+    /// A sample of another number of channels is not taken.
+    fn push(&mut self, sample: &[f64]) -> Option<Outcome>;
+
+    /// The end of the segment: an outcome of those that wait for it. Then as new.
+    fn finish(&mut self) -> Option<Outcome>;
+
+    /// Forgets all samples.
+    fn reset(&mut self);
+}
+
+/// All outcomes of a segment, its samples one after another, each of `channels` values; starts and
+/// ends as new.
+pub(crate) fn outcomes(
+    recogniser: &mut impl Recogniser,
+    segment: &[f64],
+    channels: usize,
+) -> Vec<Outcome> {
+    recogniser.reset();
+    let mut found: Vec<Outcome> = segment
+        .chunks_exact(channels)
+        .filter_map(|sample| recogniser.push(sample))
+        .collect();
+    found.extend(recogniser.finish());
+    recogniser.reset();
+    found
+}
+
+/// Naive Bayes by the code of a board: samples become codes by the quantisers
+/// of the model.
+#[derive(Debug, Clone)]
+pub(crate) struct Bayes<'m, R: DecisionRule> {
+    classifier: NaiveBayes<R, &'m [u32]>,
+    quantisers: Vec<Quantiser>,
+    codes: Vec<i32>,
+}
+
+impl<'m, R: DecisionRule> Bayes<'m, R> {
+    /// A model under a rule.
+    ///
+    /// # Errors
+    ///
+    /// The rule's settings do not fit the model.
+    pub(crate) fn new(model: Model<&'m [u32]>, settings: R::Settings) -> Result<Self, SetupError> {
+        let quantisers: Vec<_> = (0..model.channels())
+            .filter_map(|channel| model.quantiser(channel))
+            .collect();
+        Ok(Self {
+            classifier: NaiveBayes::new(model, settings)?,
+            codes: Vec::with_capacity(quantisers.len()),
+            quantisers,
+        })
+    }
+
+    /// Posterior of each class after the last full block.
+    pub(crate) fn posteriors(&self) -> Posteriors {
+        self.classifier.posteriors()
+    }
+}
+
+impl From<Decision> for Outcome {
+    fn from(decision: Decision) -> Self {
+        Self {
+            class: decision.leader(),
+            samples: decision.samples(),
+        }
+    }
+}
+
+impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
+    fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
+        if sample.len() != self.quantisers.len() {
+            return None;
+        }
+        self.codes.clear();
+        let codes = self.quantisers.iter().zip(sample);
+        self.codes.extend(codes.map(|(q, &x)| q.code_from_f64(x)));
+        let pushed = self.classifier.push(&self.codes);
+        pushed.ok().flatten().map(Outcome::from)
+    }
+
+    fn finish(&mut self) -> Option<Outcome> {
+        self.classifier.finish().map(Outcome::from)
+    }
+
+    fn reset(&mut self) {
+        self.classifier.reset();
+    }
+}
+
+/// A recogniser that takes some channels of a sample: trained on x alone it
+/// can be asked with x and y. See [`pick`] for training.
+#[derive(Debug, Clone)]
+pub(crate) struct Picked<R> {
+    recogniser: R,
+    channels: Vec<usize>,
+    taken: Vec<f64>,
+}
+
+impl<R> Picked<R> {
+    /// Of each sample, the recogniser takes these channels, in this order.
+    pub(crate) fn new(recogniser: R, channels: &[usize]) -> Self {
+        Self {
+            recogniser,
+            channels: channels.to_vec(),
+            taken: Vec::with_capacity(channels.len()),
+        }
+    }
+}
+
+impl<R: Recogniser> Recogniser for Picked<R> {
+    fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
+        self.taken.clear();
+        let taken = self.channels.iter().filter_map(|&c| sample.get(c));
+        self.taken.extend(taken);
+        // Where a channel is missing the recogniser refuses the sample.
+        self.recogniser.push(&self.taken)
+    }
+
+    fn finish(&mut self) -> Option<Outcome> {
+        self.recogniser.finish()
+    }
+
+    fn reset(&mut self) {
+        self.recogniser.reset();
+    }
+}
+
+/// Some channels of a segment, sample by sample in the given order: what a recogniser in
+/// [`Picked`] is trained on.
+pub(crate) fn pick(segment: &[f64], channels: usize, picked: &[usize]) -> Vec<f64> {
+    let samples = segment.chunks_exact(channels);
+    samples
+        .flat_map(|sample| picked.iter().map(|&channel| sample[channel]))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bayes, Outcome, Picked, outcomes, pick};
+    use crate::classifiers::stationary::StationaryRule;
+    use tactile::train::{Options, Trainer};
+    use tactile::{Sequential, SequentialRule, Threshold};
+
+    /// Channel 0 says nothing, channel 1 is 0 or 100 but for one sample in ten.
+    fn samples(class: usize) -> Vec<f64> {
+        let y = |n| if n % 10 == 0 { 1 - class } else { class };
+        let sample = |n: u32| [f64::from(n % 7), y(n) as f64 * 100.0];
+        (0..600).flat_map(sample).collect()
+    }
+
+    #[test]
+    fn rules_answer_as_they_do_without_a_wrapper() {
+        let mut options = Options::default();
+        (options.block, options.smooth) = (5, 1.0);
+        let mut trainer = Trainer::new(2, options).unwrap();
+        let mut single = Trainer::new(1, options).unwrap();
+        for class in 0..2 {
+            let (name, segment) = (class.to_string(), samples(class));
+            for (both, y) in segment.chunks_exact(2).zip(pick(&segment, 2, &[1])) {
+                trainer.add(&name, both).unwrap();
+                single.add(&name, &[y]).unwrap();
+            }
+        }
+        let (buf, single) = (trainer.train().unwrap(), single.train().unwrap());
+        let (model, threshold) = (buf.view(), Threshold::new(0.99).unwrap());
+        let quantisers = [0, 1].map(|channel| model.quantiser(channel).unwrap());
+        for class in 0..2 {
+            let segment = samples(class);
+            let codes = |sample: &[f64]| [0, 1].map(|c| quantisers[c].code_from_f64(sample[c]));
+            let mut direct = Sequential::new(model, threshold).unwrap();
+            let expected: Vec<Outcome> = segment
+                .chunks_exact(2)
+                .filter_map(|sample| direct.push(&codes(sample)).unwrap().map(Outcome::from))
+                .collect();
+            let mut sequential = Bayes::<SequentialRule>::new(model, threshold).unwrap();
+            assert!(expected.len() > 10 && expected.iter().all(|found| found.class == class));
+            assert_eq!(outcomes(&mut sequential, &segment, 2), expected);
+
+            let whole = [Outcome {
+                class,
+                samples: 600,
+            }];
+            let mut stationary = Bayes::<StationaryRule>::new(model, ()).unwrap();
+            assert_eq!(outcomes(&mut stationary, &segment, 2), whole);
+            let new = || Bayes::<StationaryRule>::new(single.view(), ()).unwrap();
+            let mut y = Picked::new(new(), &[1]);
+            assert_eq!(outcomes(&mut y, &segment, 2), whole);
+            let mut x = Picked::new(new(), &[0]);
+            assert_eq!(outcomes(&mut x, &segment, 2)[0].class, 0);
+        }
+    }
+}

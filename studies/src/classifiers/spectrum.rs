@@ -1,0 +1,140 @@
+//! The spectrum of a block of samples, at the frequencies that are needed.
+//!
+//! # Glossary
+//!
+//! - **block**: the n samples x(0) … x(n − 1) that a spectrum is taken of.
+//! - **points**: the N ≥ n of the discrete Fourier transform; a block is followed by N − n zeros.
+//! - **bin**: one frequency, k · rate / N in Hz: X(k) = Σ_j x(j) exp(−2πi j k / N) (POSE eq. 2,
+//!   which counts from one).
+
+use anyhow::{Result, bail};
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
+
+/// Which bins of which transform: k = first, first + 1, …, `count` of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Bins {
+    pub(crate) points: usize,
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+}
+
+/// What a bin is measured by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Measure {
+    /// |X(k)| (POSE).
+    Magnitude,
+    /// |X(k)|² (LEP12 section 5).
+    Power,
+}
+
+impl Bins {
+    /// Every bin of a transform of so many points, from 0 to N / 2.
+    pub(crate) const fn all(points: usize) -> Self {
+        Self {
+            points,
+            first: 0,
+            count: points / 2 + 1,
+        }
+    }
+
+    /// The bins whose frequencies lie from `low_hz` to `high_hz` (both included, to a millionth
+    /// of a bin), at a sample rate of `rate_hz`.
+    pub(crate) fn between(points: usize, rate_hz: f64, low_hz: f64, high_hz: f64) -> Result<Self> {
+        let k = |hz: f64| hz * points as f64 / rate_hz;
+        let first = libm::ceil(k(low_hz) - 1e-6);
+        let last = libm::floor(k(high_hz) + 1e-6);
+        // What is not a number is in no range.
+        if !(first >= 0.0 && last >= first && last <= points as f64 / 2.0) {
+            bail!("no bins from {low_hz} to {high_hz} Hz at {rate_hz} samples a second");
+        }
+        let count = (last - first) as usize + 1;
+        Ok(Self {
+            points,
+            first: first as usize,
+            count,
+        })
+    }
+
+    /// The frequency of a bin, by its place among these, Hz.
+    pub(crate) fn frequency(&self, bin: usize, rate_hz: f64) -> f64 {
+        (self.first + bin) as f64 * rate_hz / self.points as f64
+    }
+}
+
+/// Some bins of blocks of one length: a plan, which is worth keeping.
+#[derive(Clone)]
+pub(crate) struct Spectrum {
+    pub(crate) bins: Bins,
+    plan: Arc<dyn RealToComplex<f64>>,
+}
+
+impl Spectrum {
+    /// Plans the transform.
+    pub(crate) fn new(bins: Bins) -> Self {
+        let plan = RealFftPlanner::new().plan_fft_forward(bins.points);
+        Self { bins, plan }
+    }
+
+    /// The bins of a block, in order.
+    pub(crate) fn of(
+        &self,
+        block: impl Iterator<Item = f64>,
+        measure: Measure,
+    ) -> Result<Vec<f64>> {
+        let mut input: Vec<f64> = block.collect();
+        if input.len() > self.bins.points {
+            bail!("a block longer than its transform");
+        }
+        input.resize(self.bins.points, 0.0);
+        let mut output = self.plan.make_output_vec();
+        self.plan.process(&mut input, &mut output)?;
+        let measured = |x: &Complex<f64>| match measure {
+            Measure::Magnitude => x.norm(),
+            Measure::Power => x.norm_sqr(),
+        };
+        let Bins { first, count, .. } = self.bins;
+        Ok(output
+            .iter()
+            .skip(first)
+            .take(count)
+            .map(measured)
+            .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bins, Measure, Spectrum};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn a_sine_is_one_bin_of_half_its_samples() {
+        // 35 Hz at 2 kHz is bin 14 of 800; amplitude 3 gives 3 · 800 / 2.
+        let x = (0..800).map(|n| 3.0 * (TAU * 35.0 * f64::from(n) / 2000.0 + 0.4).sin() + 2.0);
+        let bins = Bins::between(800, 2000.0, 2.5, 120.0).unwrap();
+        assert_eq!((bins.first, bins.count), (1, 48));
+        assert!((bins.frequency(13, 2000.0) - 35.0).abs() < 1e-12);
+        let found = Spectrum::new(bins).of(x, Measure::Power).unwrap();
+        for (n, found) in found.iter().enumerate() {
+            let known = if n == 13 { 1_440_000.0 } else { 0.0 };
+            assert!((found - known).abs() < 1e-5, "{n}: {found}");
+        }
+        assert!(Bins::between(800, 2000.0, 10.0, 1003.0).is_err());
+    }
+
+    #[test]
+    fn numpy_gives_the_same() {
+        let x = [1.0, -2.0, 3.5, 0.0, 4.0, -1.0, 0.25, 7.0];
+        let known = include_str!("../../reference/spectrum.csv").lines();
+        let known: Vec<f64> = known.map(|line| line.parse().unwrap()).collect();
+        let found = Spectrum::new(Bins::all(12)).of(x.into_iter(), Measure::Magnitude);
+        let found = found.unwrap();
+        assert_eq!(found.len(), known.len());
+        for (found, known) in found.iter().zip(known) {
+            assert!((found - known).abs() < 1e-13, "{found} {known}");
+        }
+    }
+}

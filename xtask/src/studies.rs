@@ -1,0 +1,87 @@
+//! The studies: a workspace of its own beside the product's, with the same target directory
+//! (`.cargo/config.toml`).
+
+use std::process::Command;
+
+use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
+
+/// From the top.
+pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
+
+/// `cargo` with a command, in that workspace.
+fn in_workspace(command: &str) -> Command {
+    cargo(&[command, "--locked", "--manifest-path", MANIFEST])
+}
+
+/// The program, in the profile of the tests.
+fn program() -> Command {
+    let mut program = in_workspace("run");
+    program.args(["--quiet", "--"]);
+    program
+}
+
+/// Checks their format.
+///
+/// # Errors
+/// If a file is formatted otherwise.
+pub(crate) fn format() -> Result<(), Fault> {
+    run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
+}
+
+/// Lints and tests; with a seed, properties are tried on the same cases in each run.
+///
+/// # Errors
+/// The first lint or test that fails.
+pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
+    let lints = ["--all-targets", "--", "-D", "warnings"];
+    run(in_workspace("clippy").args(lints))?;
+    run(in_workspace("test").envs(seed.map(|seed| ("PROPTEST_RNG_SEED", seed))))
+}
+
+/// The experiments cut short. PSIK's 33 vibrissae take minutes, and are the nightly run's.
+///
+/// # Errors
+/// If one fails.
+pub(crate) fn experiments_in_short() -> Result<(), Fault> {
+    let papers = ["lep10", "lep12", "biotact", "pose"];
+    let mut experiments = program();
+    experiments.args(["--quiet", "experiment"]).args(papers);
+    experiments.args(["--quick", "--out"]);
+    run(experiments.arg(target().join("experiments")))
+}
+
+/// All experiments.
+///
+/// # Errors
+/// If one fails.
+pub(crate) fn experiments() -> Result<(), Fault> {
+    let all = ["--release", "--quiet", "--", "--quiet"];
+    let mut experiments = in_workspace("run");
+    experiments.args(all).args(["experiment", "all", "--out"]);
+    run(experiments.arg(target().join("nightly")))
+}
+
+/// Makes a page, `decisions` or `report`, or checks that it is up to date. They show
+/// docs/measured/instructions.csv, which `cargo xtask count` writes.
+///
+/// # Errors
+/// If it cannot be made, or, checking, differs.
+pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
+    run(program().arg(page).args(check.then_some("--check")))
+}
+
+/// Makes both pages in short, in a folder of their own.
+///
+/// # Errors
+/// If one cannot be made.
+pub(crate) fn pages_in_short() -> Result<(), Fault> {
+    let folder = target().join("studies");
+    let counted = "instructions.csv";
+    let there = read_bytes(&top().join("docs/measured").join(counted))?;
+    write(&folder.join(counted), &there)?;
+    for page in ["decisions", "report"] {
+        let quick = ["--quiet", page, "--quick", "--out"];
+        run(program().args(quick).arg(&folder))?;
+    }
+    Ok(())
+}
