@@ -283,7 +283,7 @@ impl Board {
         self.machine.with_chip(|chip| chip.signals())
     }
 
-    /// What was logged that nobody has taken yet.
+    /// What was logged and not taken yet.
     pub(crate) fn logged(&self) -> &[u8] {
         &self.log
     }

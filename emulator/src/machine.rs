@@ -26,7 +26,7 @@ pub(crate) enum Stop {
     Ready,
     /// The time is up.
     Time,
-    /// The chip has been reset, and the program starts anew.
+    /// The chip has been reset, and the program starts again.
     Reset(ResetCause),
 }
 

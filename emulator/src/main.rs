@@ -78,7 +78,7 @@ enum Command {
     /// Measures how long contact on one side takes to excite the other; fails if it does so
     /// in another tick than the one that reads it
     Latency(Flashed),
-    /// Resets the chip in every way that nobody asked for; fails if a motor is driven after it
+    /// Resets the chip in every way that was not asked for; fails if a motor is driven after it
     /// before the user button is pressed
     Starting(Flashed),
     /// Injects faults at random into running scenes and writes a row a run
@@ -94,7 +94,7 @@ enum Command {
         /// The tables of all shards
         #[arg(required = true)]
         tables: Vec<PathBuf>,
-        /// The page to write; none: only harmful runs are told
+        /// The page to write; none: only harmful runs are named
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
@@ -300,8 +300,8 @@ fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
         world,
         program: &flashed.program,
     };
-    let told = deploying::deploying(bench, model)?;
-    told.iter().for_each(report::say);
+    let lines = deploying::deploying(bench, model)?;
+    lines.iter().for_each(report::say);
     Ok(())
 }
 

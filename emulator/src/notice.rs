@@ -1,8 +1,8 @@
-//! Faults that a module tells of, and their ends.
+//! Faults that a module reports, and their ends.
 
 use firmware::{Event, Place};
 
-/// What a module has told.
+/// What a module reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Notice {
     /// The sensor of a whisker has a fault: its motor is off.

@@ -1,7 +1,7 @@
 //! Ticks that are too long on purpose: does the board notice?
 //!
-//! The core is held in the middle of a tick, as by a fault that nobody thought
-//! of; the program is the one that is flashed.
+//! The core is held in the middle of a tick, as by a fault that was not
+//! thought of; the program is the one that is flashed.
 
 use std::path::Path;
 

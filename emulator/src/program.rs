@@ -25,9 +25,9 @@ fn bad(what: impl std::fmt::Display) -> Fault {
 impl Program {
     /// Reads an ELF file.
     pub(crate) fn load(path: &Path) -> Result<Self, Fault> {
-        let told = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
-        let bytes = std::fs::read(path).map_err(|error| told(&error))?;
-        Self::parse(bytes).map_err(|fault| told(&fault))
+        let named = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
+        let bytes = std::fs::read(path).map_err(|error| named(&error))?;
+        Self::parse(bytes).map_err(|fault| named(&fault))
     }
 
     fn parse(bytes: Vec<u8>) -> Result<Self, Fault> {

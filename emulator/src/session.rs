@@ -56,7 +56,7 @@ impl Session {
     /// The same of what is flashed.
     pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
         Ok(Self {
-            // Decisions are told in the log, by their names.
+            // Decisions are in the log, by their names.
             run: start_without(scene, Vec::new(), program)?,
             decoder: program.log_decoder()?,
             board: program.model()?.program,

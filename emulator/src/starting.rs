@@ -1,4 +1,4 @@
-//! Starts that nobody asked for, and the button: is the motor off after them, and does the
+//! Starts that were not asked for, and the button: is the motor off after them, and does the
 //! module say why?
 
 use std::path::Path;

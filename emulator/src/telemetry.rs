@@ -1,5 +1,5 @@
 //! The link to a PC as a board has it: what it sends of every tick, what it does with
-//! requests, what is lost where nobody reads, and what all that costs.
+//! requests, what is lost where it is not read, and what all that costs.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ use crate::tuning::tune;
 const STREAMING: f64 = 170.0;
 const STREAMING_NO_FPU: f64 = 265.0;
 
-/// The same where nobody asks for any.
+/// The same where none are asked for.
 const QUIET: f64 = 10.0;
 
 /// For how long each program is measured, and every part of the conversation, s.
@@ -207,7 +207,7 @@ impl Talk {
 }
 
 /// A scene on a board that is asked for this and that: the answers must be right, the
-/// records those of the same module on the PC, and where nobody reads whole records be lost,
+/// records those of the same module on the PC, and where they are not read whole records be lost,
 /// and counted.
 fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
@@ -256,7 +256,7 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
             "{} requests answered, {records} records and {events} events as on the PC",
             talk.asked.len()
         ),
-        format!("{lost} records lost while nobody read, and counted"),
+        format!("{lost} records lost while none were read, and counted"),
     ])
 }
 
@@ -273,7 +273,7 @@ fn name(talk: &mut Talk) -> Result<String, Error> {
     }
 }
 
-/// Nobody reads for a part of the time. What is lost must be whole ticks, the board's own
+/// Nothing is read for a part of the time. What is lost must be whole ticks, the board's own
 /// count that of the gap, and the record after the gap say so.
 fn lose(talk: &mut Talk) -> Result<u32, Error> {
     let before = talk.ask(Command::Status)?.values[0];
@@ -343,8 +343,8 @@ const fn answered(packet: &Packet) -> Option<Answer> {
     }
 }
 
-/// Mean instructions of the tick's handler without telemetry, with telemetry that nobody
-/// asks for, with a record a whisker, and with records that find no room; limits hold for the
+/// Mean instructions of the tick's handler without telemetry, with telemetry that is
+/// not asked for, with a record a whisker, and with records that find no room; limits hold for the
 /// last three.
 fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
@@ -385,7 +385,7 @@ fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Erro
     };
     let mut said = Vec::new();
     for (what, mean, most) in [
-        ("that nobody asks for", quiet, QUIET),
+        ("that is not asked for", quiet, QUIET),
         ("with a record a whisker", streaming, streaming_most),
         ("with records that find no room", full, streaming_most),
     ] {

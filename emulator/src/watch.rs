@@ -106,7 +106,7 @@ struct Queue {
     whisker: [u32; 2],
     /// The tags of faults and their ends.
     notices: Vec<(u8, Notice)>,
-    /// The place of the first that nobody has seen.
+    /// The place of the first that was not seen.
     seen: u32,
 }
 

@@ -7,7 +7,7 @@ use super::injection::{Injection, Kind};
 use super::subject::Seen;
 use crate::notice::Notice;
 
-/// Within how many ticks of a fault being told its motor is off.
+/// Within how many ticks of a fault's report its motor is off.
 const OFF_TICKS: u32 = 2;
 /// For how long a whisker may be further from its setpoint than the scene allows, and be
 /// driven, s.
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-3;
 pub(super) enum Harm {
     #[error("driven with more than the duty limit")]
     Effort,
-    #[error("driven after a fault was told")]
+    #[error("driven after a fault was reported")]
     Driven,
     #[error("driven far from its setpoint")]
     Away,
@@ -44,7 +44,7 @@ struct Whisker {
     sensor_is_lost: bool,
     motor_rests: bool,
     given_up: bool,
-    /// Ticks since a fault was told.
+    /// Ticks since a fault was reported.
     off_for: u32,
     /// Ticks for which it has been driven too far from its setpoint.
     away_for: u32,
@@ -99,21 +99,21 @@ impl Judge {
         }
     }
 
-    /// One tick; what must not be, if it is. `told` says whether a fault has been told of.
+    /// One tick; what must not be, if it is. `is_noticed`: a fault was.
     pub(super) fn look(
         &mut self,
         tick: u64,
         seen: &Seen,
-        told: bool,
+        is_noticed: bool,
         injection: &Injection,
     ) -> Option<Harm> {
         if seen.reset.is_some() {
             self.reset = true;
             self.whiskers.fill(Whisker::default());
         }
-        // A core that has told of a fault, and is reset again and again or waits for a probe
+        // A core that has noticed a fault, and is reset again and again or waits for a probe
         // with its motors off, is not hung.
-        let waits = told && seen.effort.iter().all(|effort| *effort == 0.0);
+        let waits = is_noticed && seen.effort.iter().all(|effort| *effort == 0.0);
         self.late_for = if seen.is_late && seen.reset.is_none() && !waits {
             self.late_for + 1
         } else {

@@ -6,7 +6,7 @@ use host_sim::loaded::Loaded;
 use host_sim::motor::SimMotor;
 use host_sim::run::Run;
 
-use super::subject::{Seen, Subject, number, told};
+use super::subject::{Seen, Subject, number, seen};
 use super::words::{STACK, Words};
 use crate::board::Emulated;
 use crate::chip::Fault;
@@ -61,7 +61,7 @@ const fn parts(detail: u64) -> [u32; 4] {
 impl Subject for OnBoard<'_> {
     fn tick(&mut self) -> Result<Seen, Fault> {
         self.run.tick();
-        let mut seen = told(&self.run, 1);
+        let mut seen = seen(&self.run, 1);
         let emulated = self.run.module_mut();
         emulated.check()?;
         let board = &mut emulated.board;

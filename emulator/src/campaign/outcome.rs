@@ -11,9 +11,9 @@ use super::judge::Harm;
 pub enum Ending {
     /// In the end the whiskers move and decide as in the undisturbed run.
     Masked,
-    /// The module has told of it: a fault, a line of the log, or a reset.
+    /// The module has noticed it: a fault, a line of the log, or a reset.
     Noticed,
-    /// It moves or decides otherwise, and has not told of it.
+    /// It moves or decides otherwise, and has not noticed it.
     Silent,
     /// What must hold in every tick did not.
     Harmful,
@@ -38,11 +38,11 @@ pub struct RunRow {
     pub ticks: Option<u64>,
     /// How it is called.
     pub outcome: Ending,
-    /// Why, or what was told first.
+    /// Why, or what was noticed first.
     pub reason: String,
     /// The word of RAM or the register that was changed.
     pub changed: Option<String>,
-    /// From the injection to what was told first, ms.
+    /// From the injection to what was noticed first, ms.
     pub noticed_ms: Option<f64>,
 }
 
@@ -50,8 +50,8 @@ pub struct RunRow {
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) harm: Option<(u64, Harm)>,
-    /// The tick of what was told first after the injection, and what it was.
-    pub(super) told: Option<(u64, String)>,
+    /// The tick of what was noticed first after the injection, and what it was.
+    pub(super) noticed: Option<(u64, String)>,
     /// Where the emulated chip could not follow.
     pub(super) unfollowed: Option<String>,
     /// How it differs from the undisturbed run.
@@ -67,7 +67,7 @@ impl Findings {
         if let Some(what) = &self.unfollowed {
             return (Ending::Unfollowed, what.clone());
         }
-        if let Some((_, what)) = &self.told {
+        if let Some((_, what)) = &self.noticed {
             return (Ending::Noticed, what.clone());
         }
         match self.difference {

@@ -123,11 +123,11 @@ impl Prepared {
                 findings.harm = Some((tick, Harm::Panicked));
                 break;
             }
-            if tick >= injection.start && findings.told.is_none() {
-                let said = first_told(&seen, &complaints);
-                findings.told = said.map(|said| (tick, said));
+            if tick >= injection.start && findings.noticed.is_none() {
+                let said = first_notice(&seen, &complaints);
+                findings.noticed = said.map(|said| (tick, said));
             }
-            if let Some(harm) = judge.look(tick, &seen, findings.told.is_some(), &injection) {
+            if let Some(harm) = judge.look(tick, &seen, findings.noticed.is_some(), &injection) {
                 findings.harm = Some((tick, harm));
                 break;
             }
@@ -136,11 +136,11 @@ impl Prepared {
             same_for = if is_same { same_for + 1 } else { 0 };
             late_for = if seen.is_late { late_for + 1 } else { 0 };
             disturbed.push(seen);
-            if plan == Plan::Words && findings.told.is_some() && late_for >= given_up {
+            if plan == Plan::Words && findings.noticed.is_some() && late_for >= given_up {
                 break;
             }
             if injection.kind.is_momentary()
-                && findings.told.is_none()
+                && findings.noticed.is_none()
                 && same_for >= settled
                 && tick >= injection.start + settled
             {
@@ -159,7 +159,7 @@ impl Prepared {
         if !findings.is_over() && disturbed.len() as u64 == self.ticks {
             findings.difference = self.difference(injection.start as usize, &disturbed);
         }
-        let noticed = findings.told.as_ref();
+        let noticed = findings.noticed.as_ref();
         let noticed_ms = noticed
             .map(|(tick, _)| (tick - injection.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
         let (outcome, reason) = findings.verdict();
@@ -218,8 +218,8 @@ fn extent(angles: &[f64]) -> f64 {
     (highest - lowest).max(0.0)
 }
 
-/// What a tick has told first.
-fn first_told(seen: &Seen, complaints: &[String]) -> Option<String> {
+/// What is noticed first of a tick.
+fn first_notice(seen: &Seen, complaints: &[String]) -> Option<String> {
     let notice = seen.notices.first();
     let notice = notice.map(|(_, notice)| format!("{notice:?}"));
     let reset = seen.reset.map(|cause| format!("reset: {cause:?}"));

@@ -20,7 +20,7 @@ pub(super) struct Seen {
     pub(super) effort: Vec<f64>,
     /// By how much each whisker is displaced from its encoder's count, degrees.
     pub(super) displaced_deg: Vec<f64>,
-    /// What the module has told, and of which whisker.
+    /// What the module has reported, and of which whisker.
     pub(super) notices: Vec<(usize, Notice)>,
     /// The whiskers that have decided, and for what.
     pub(super) decisions: Vec<(usize, String)>,
@@ -31,7 +31,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Whether nothing at all can be told from `other`.
+    /// Whether nothing at all differs from `other`.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         // A side that does not exist has values that are not even equal to themselves.
         let bits = |row: &Row| row.pairs().map(|pair| pair.map(f64::to_bits));
@@ -133,8 +133,8 @@ pub(super) fn number(place: Place, per_side: usize) -> usize {
     usize::from(place.side) * per_side + usize::from(place.whisker)
 }
 
-/// What `run` has told in its last tick.
-pub(super) fn told<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
+/// What can be seen of the last tick of `run`.
+pub(super) fn seen<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
     let notices = run.events().iter().filter_map(Notice::of);
     let decisions = run.decisions().filter_map(|decided| {
         let place = decided.place?;
@@ -153,7 +153,7 @@ pub(super) fn told<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: u
 impl Subject for OnPc {
     fn tick(&mut self) -> Result<Seen, Fault> {
         self.run.tick();
-        let mut seen = told(&self.run, self.per_side);
+        let mut seen = seen(&self.run, self.per_side);
         for n in 0..self.whiskers {
             if let Some(motor) = self.run.motor_mut(n) {
                 seen.effort.push(motor.effort());

@@ -17,7 +17,7 @@ struct Seen {
 /// The counters of a program that were started below their wraps.
 pub(crate) struct Started {
     seen: Vec<Seen>,
-    /// Touches that the program takes for told before the first.
+    /// Touches that the program takes for reported before the first.
     touches: u32,
 }
 

@@ -21,7 +21,7 @@ pub struct ShardRow {
     pub ticks: u64,
     /// Decisions.
     pub decisions: u64,
-    /// Decisions an hour in its first part; on boards parts are not told apart.
+    /// Decisions an hour in its first part; on boards parts are one.
     pub first_rate: Option<f64>,
     /// The same in its last part.
     pub last_rate: Option<f64>,
@@ -29,7 +29,7 @@ pub struct ShardRow {
     pub first_right: Option<f64>,
     /// The same in its last part.
     pub last_right: Option<f64>,
-    /// Touches that were told.
+    /// Touches that were reported.
     pub touches: u64,
     /// Counters that have wrapped.
     pub wrapped: u64,
