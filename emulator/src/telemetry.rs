@@ -153,16 +153,12 @@ impl Talk {
 
     /// The answer to the last request.
     fn answer(&self) -> Result<Answer, Error> {
-        let answers = self.packets.iter().filter_map(|packet| match packet {
-            Packet::Answer(answer) if answer.tag == self.tag => Some(*answer),
-            _ => None,
-        });
-        let mut answers = answers.collect::<Vec<_>>();
-        match (answers.pop(), answers.pop()) {
-            (Some(answer), None) => Ok(answer),
-            (None, _) => Err(Error::Work(format!("request {} is not answered", self.tag))),
+        let answers = self.packets.iter().filter_map(answered);
+        let answers: Vec<_> = answers.filter(|answer| answer.tag == self.tag).collect();
+        match answers[..] {
+            [answer] => Ok(answer),
             _ => Err(Error::Work(format!(
-                "request {} is answered twice",
+                "request {}: answered {answers:?}",
                 self.tag
             ))),
         }
@@ -234,20 +230,22 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
         if answer.status != status || answer.command != command.number() {
             return wrong(format!("{command:?}: {answer:?}"));
         }
-        if command == Command::Hello {
-            let expected = [scene.tick_hz as i32, scene.whiskers() as i32];
-            if answer.values != expected {
-                return wrong(format!("{command:?}: {answer:?}"));
-            }
+        let expected = [scene.tick_hz as i32, scene.whiskers() as i32];
+        if command == Command::Hello && answer.values != expected {
+            return wrong(format!("{command:?}: {answer:?}"));
         }
         let driven = talk.records(0).last().map(|record| record.duty != 0);
         if command == Command::Stop && driven != Some(false) {
             return wrong("driven after it was to stop".to_owned());
         }
     }
-    let name = name(&mut talk)?;
-    if name != scene.name {
-        return wrong(format!("it says that its scene is {name}"));
+    let mut names = vec![name(&mut talk, Command::Name)?];
+    let classes = talk.pair.host.classes().to_vec();
+    for class in 0..classes.len() {
+        names.push(name(&mut talk, |from| Command::Class(class as u8, from))?);
+    }
+    if names != [vec![scene.name.clone()], classes].concat() {
+        return wrong(format!("it says that its scene and classes are {names:?}"));
     }
     let lost = lose(&mut talk)?;
     let [records, events] = equal(&mut talk)?;
@@ -260,11 +258,11 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     ])
 }
 
-/// The name of the scene, as the board says it.
-fn name(talk: &mut Talk) -> Result<String, Error> {
+/// A name, as the board says it where eight letters from one on are asked for so.
+fn name(talk: &mut Talk, command: impl Fn(u8) -> Command) -> Result<String, Error> {
     let mut letters = Vec::new();
     loop {
-        let answer = talk.ask(Command::Name(letters.len() as u8))?;
+        let answer = talk.ask(command(letters.len() as u8))?;
         letters.extend(answer.values.map(i32::to_le_bytes).as_flattened());
         if letters.last() == Some(&0) {
             letters.retain(|letter| *letter != 0);

@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
+use firmware::faults::number;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use scene::PlantKind;
@@ -119,7 +120,8 @@ impl Prepared {
                 }
             };
             let complaints = subject.complaints();
-            if complaints.iter().any(|line| line.contains("panic at")) {
+            let panicked = format!("fault board {} ", number::PANIC);
+            if complaints.iter().any(|line| line.contains(&panicked)) {
                 findings.harm = Some((tick, Harm::Panicked));
                 break;
             }
