@@ -11,7 +11,7 @@ use whisking::motor;
 use wire::{Answer, TickRecord};
 
 use crate::faults::number;
-use crate::{Event, Health, Place, SensorFault};
+use crate::{Event, Health, Part, Place, SensorFault};
 
 /// What a module sends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,14 +83,17 @@ mod kind {
 }
 
 impl EventRecord {
-    /// As it is sent: the tick; what, side, whisker and a number of 8 bits; three values.
+    /// As it is sent: the tick; what, side, whisker and a number of 8 bits; three values. What the
+    /// image was built without does not happen in it.
     fn words(&self) -> Words {
         const NONE: [u32; 3] = [0; 3];
         let nowhere = Place::new(0, 0);
         let (kind, place, number, values) = match self.event {
             Event::Touch { place, number } => (kind::TOUCH, place, 0, [number.into(), 0, 0]),
             Event::TouchEnd { place, number } => (kind::TOUCH_END, place, 0, [number.into(), 0, 0]),
-            Event::Decision(place, decision) => (kind::DECISION, place, 0, decision.words()),
+            Event::Decision(place, decision) if Part::Classifier.is_built() => {
+                (kind::DECISION, place, 0, decision.words())
+            }
             Event::SensorLost(place, fault) => {
                 let values = [detail(fault).into(), 0, 0];
                 (kind::SENSOR_LOST, place, fault.code(), values)
@@ -100,7 +103,7 @@ impl EventRecord {
                 let [x, y] = codes.map(|code| u32::from(code.cast_unsigned()));
                 (kind::ZERO_MOVED, place, 0, [x, y, 0])
             }
-            Event::MotorFault(place, fault) => {
+            Event::MotorFault(place, fault) if Part::Motion.is_built() => {
                 let hall = match fault {
                     motor::Fault::InvalidHall(hall) => hall,
                     _ => 0,
@@ -116,6 +119,7 @@ impl EventRecord {
                 (kind::HEALTH, nowhere, 0, values)
             }
             Event::Limit(number) => (kind::LIMIT, nowhere, number, NONE),
+            Event::Decision(..) | Event::MotorFault(..) => (u8::MAX, nowhere, 0, NONE),
         };
         let what = u32::from_le_bytes([kind, place.side, place.whisker, number]);
         let [a, b, c] = values;

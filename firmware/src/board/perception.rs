@@ -110,7 +110,8 @@ impl Names {
 
     /// The name of a class, if there is one.
     pub(crate) fn find(&self, class: usize) -> Option<&str> {
-        self.0.as_ref()?.name(class)
+        let model = self.0.as_ref().filter(|_| Part::Classifier.is_built());
+        model?.name(class)
     }
 
     /// The name of a class.

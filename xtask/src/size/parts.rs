@@ -59,7 +59,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
         // What a model says of touches is in single precision, and read at the start.
-        "single precision" => classifier.is_some() || computes && !is_fixed,
+        "single precision" => knows_touches || computes && !is_fixed,
         "fixed point" => computes && is_fixed,
         _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
     })
