@@ -58,8 +58,16 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "roughness" | "roughness or floors" => !is_single,
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
-        // What a model says of touches is in single precision, and read at the start.
-        "single precision" => knows_touches || computes && !is_fixed,
+        // What a model says of touches is in single precision, and read at the start: by functions
+        // of their own where there is no FPU.
+        "single precision" => {
+            let reads_touches = if has_fpu {
+                knows_touches
+            } else {
+                classifier.is_some()
+            };
+            reads_touches || computes && !is_fixed
+        }
         "fixed point" => computes && is_fixed,
         _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
     })
