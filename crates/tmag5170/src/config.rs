@@ -100,7 +100,7 @@ impl SystemConfig {
     }
 }
 
-/// What the ALERT pin, an open drain that pulls low, tells. With everything off it tells
+/// What the ALERT pin, an open drain that pulls low, reports. With everything off that is
 /// nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -109,14 +109,14 @@ pub struct AlertConfig {
     pub mode: AlertMode,
     /// Stays asserted until it is read.
     pub latched: bool,
-    /// Tells of [`StatusFaults`](crate::StatusFaults).
+    /// Reports [`StatusFaults`](crate::StatusFaults).
     pub faults: bool,
-    /// Tells of each finished conversion.
+    /// Reports each finished conversion.
     pub results: bool,
     /// Conversions beyond a threshold in succession before it counts, 1 to 4; others count
     /// as the nearest of these.
     pub crossings: u8,
-    /// Tells of crossed thresholds of X, Y, Z and the temperature.
+    /// Reports crossed thresholds of X, Y, Z and the temperature.
     pub thresholds: [bool; 4],
 }
 

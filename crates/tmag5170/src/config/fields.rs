@@ -6,19 +6,20 @@ macro_rules! fields {
     ($(
         $(#[$about:meta])*
         $name:ident at $shift:literal, mask $mask:literal {
-            $first:ident = $first_about:literal,
-            $($value:ident = $value_about:literal,)+
+            $first:ident $(= $first_about:literal)?,
+            $($value:ident $(= $value_about:literal)?),+ $(,)?
         }
     )+) => {$(
         $(#[$about])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[allow(missing_docs, reason = "names say what they stand for where nothing else does")]
         #[repr(u16)]
         pub enum $name {
             #[default]
-            #[doc = $first_about]
+            $(#[doc = $first_about])?
             $first,
-            $(#[doc = $value_about] $value,)+
+            $($(#[doc = $value_about])? $value,)+
         }
 
         impl $name {
@@ -40,15 +41,10 @@ macro_rules! fields {
 }
 
 fields! {
-    /// Conversions of an axis an average. More of them: less noise, more time
-    /// ([`conversion_time_us`](crate::timing::conversion_time_us)).
+    /// Conversions of an axis an average; one alone has twelve bits. More of them: less noise,
+    /// more time ([`conversion_time_us`](crate::timing::conversion_time_us)).
     Average at 12, mask 0x7000 {
-        X1 = "One: twelve bits.",
-        X2 = "Two.",
-        X4 = "Four.",
-        X8 = "Eight.",
-        X16 = "Sixteen.",
-        X32 = "Thirty-two.",
+        X1, X2, X4, X8, X16, X32,
     }
 
     /// The magnet's loss of field with temperature, which the sensor makes good.
@@ -70,47 +66,21 @@ fields! {
         DeepSleep = "Forgets its settings.",
     }
 
-    /// The axes that the angle is computed from.
+    /// The axes that the angle is computed from; [`AnglePair::Off`]: no angle.
     AnglePair at 14, mask 0xC000 {
-        Off = "None: no angle.",
-        Xy = "X and Y.",
-        Yz = "Y and Z.",
-        Xz = "X and Z.",
+        Off, Xy, Yz, Xz,
     }
 
-    /// Time between wake-ups.
+    /// Time between wake-ups, in milliseconds.
     SleepTime at 10, mask 0x3C00 {
-        Ms1 = "1 ms.",
-        Ms5 = "5 ms.",
-        Ms10 = "10 ms.",
-        Ms15 = "15 ms.",
-        Ms20 = "20 ms.",
-        Ms30 = "30 ms.",
-        Ms50 = "50 ms.",
-        Ms100 = "100 ms.",
-        Ms500 = "500 ms.",
-        Ms1000 = "1 s.",
+        Ms1, Ms5, Ms10, Ms15, Ms20, Ms30, Ms50, Ms100, Ms500, Ms1000,
     }
 
-    /// The axes that are measured, in this order. An axis that comes twice has its two
-    /// conversions about the same moment as the others between them.
+    /// The axes that are measured, in the order of the name. An axis that comes twice has its
+    /// two conversions about the same moment as the others between them.
     Channels at 6, mask 0x03C0 {
-        Off = "None.",
-        X = "X.",
-        Y = "Y.",
-        Xy = "X, Y.",
-        Z = "Z.",
-        Zx = "Z, X.",
-        Yz = "Y, Z.",
-        Xyz = "X, Y, Z.",
-        Xyx = "X, Y, X.",
-        Yxy = "Y, X, Y.",
-        Yzy = "Y, Z, Y.",
-        Zyz = "Z, Y, Z.",
-        Zxz = "Z, X, Z.",
-        Xzx = "X, Z, X.",
-        Xyzyx = "X, Y, Z, Y, X.",
-        Xyzzyx = "X, Y, Z, Z, Y, X.",
+        Off, X, Y, Xy, Z, Zx, Yz, Xyz,
+        Xyx, Yxy, Yzy, Zyz, Zxz, Xzx, Xyzyx, Xyzzyx,
     }
 
     /// How far an axis reaches, which depends on the [`Version`] of the part. The title page
@@ -129,16 +99,10 @@ fields! {
         Alert = "A pulse on ALERT.",
     }
 
-    /// What a reply carries: a register, or twelve bits of each of two channels.
+    /// What a reply carries: the register asked for, or twelve bits of each of two channels, in
+    /// the order of the name. T is the temperature.
     DataType at 6, mask 0x01C0 {
-        Register = "The register asked for.",
-        Xy = "X, then Y.",
-        Xz = "X, then Z.",
-        Zy = "Z, then Y.",
-        Xt = "X, then temperature.",
-        Yt = "Y, then temperature.",
-        Zt = "Z, then temperature.",
-        AngleMagnitude = "Angle, then magnitude.",
+        Register, Xy, Xz, Zy, Xt, Yt, Zt, AngleMagnitude,
     }
 
     /// What kind of pin ALERT is.
