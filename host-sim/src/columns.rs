@@ -12,18 +12,13 @@ pub struct Column {
     pub meaning: &'static str,
 }
 
-/// A column; const, so that tables of them are written in one line each.
-pub(crate) const fn column(
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-) -> Column {
-    Column {
-        name,
-        unit,
-        meaning,
-    }
+/// A table of columns, a row each: name, unit, meaning.
+macro_rules! columns {
+    ($($name:literal, $unit:literal, $meaning:literal;)+) => {
+        [$($crate::columns::Column { name: $name, unit: $unit, meaning: $meaning },)+]
+    };
 }
+pub(crate) use columns;
 
 /// The names of columns.
 pub(crate) fn names(columns: &[Column]) -> Vec<&'static str> {

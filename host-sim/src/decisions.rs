@@ -7,7 +7,7 @@ use firmware::Place;
 use tactile::Decision;
 use tactile::score::{Confusion, Statistics};
 
-use crate::columns::{self, Column, column};
+use crate::columns::{self, Column, columns};
 
 /// What a decision says where what was felt is none of the model's classes.
 pub const UNKNOWN: &str = "unknown";
@@ -90,41 +90,19 @@ pub enum Columns {
 }
 
 /// The columns in order; those of a recording first, and of a scene.
-pub const COLUMNS: [Column; 9] = [
-    column("label", "", "the truth: what was touched"),
-    column("trial", "", "which stream of that label"),
-    column("decision", "", "class decided for, or `unknown`"),
-    column(
-        "samples",
-        "samples",
-        "how many samples of contact the decision used",
-    ),
-    column(
-        "posterior",
-        "",
-        "posterior probability of the class decided for; of `unknown` that of the one that came nearest",
-    ),
-    column(
-        "touch",
-        "",
-        "number of the touch in which it fell, or of the last one; 0 before the first",
-    ),
-    column(
-        "t_s",
-        "s",
-        "when it fell, as in the trace; not of a recording, which has no clock",
-    ),
-    column(
-        "side",
-        "",
-        "`left` or `right`; only where several whiskers are heard",
-    ),
-    column(
-        "whisker",
-        "",
-        "number of the whisker on its side, from 1; likewise",
-    ),
-];
+pub const COLUMNS: [Column; 9] = columns! {
+    "label", "", "the truth: what was touched";
+    "trial", "", "which stream of that label";
+    "decision", "", "class decided for, or `unknown`";
+    "samples", "samples", "how many samples of contact the decision used";
+    "posterior", "",
+        "posterior probability of the class decided for; of `unknown` that of the one that came \
+        nearest";
+    "touch", "", "number of the touch in which it fell, or of the last one; 0 before the first";
+    "t_s", "s", "when it fell, as in the trace; not of a recording, which has no clock";
+    "side", "", "`left` or `right`; only where several whiskers are heard";
+    "whisker", "", "number of the whisker on its side, from 1; likewise";
+};
 
 /// How many of them a recording has, and a scene with one whisker that is heard.
 const OF_RECORDING: usize = 6;

@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 
 use crate::Error;
 pub use crate::classifier::GATE;
-use crate::columns::{self, Column, column};
+use crate::columns::{self, Column, columns};
 use crate::origin::{self, Origin};
 use crate::run::Run;
 
@@ -28,30 +28,17 @@ pub struct Stream {
 }
 
 /// The columns of a recording, in the order in which one is written.
-pub const COLUMNS: [Column; 6] = [
-    column("label", "", "what was touched: the name of a class"),
-    column(
-        "trial",
-        "",
-        "any token; rows of one label and trial that follow each other are one stream in time order",
-    ),
-    column(
-        "x",
-        "any",
-        "of a simulated sensor the 14-bit code of x; `--channels` takes other columns",
-    ),
-    column("y", "any", "the same of y"),
-    column(
-        "contact",
-        "",
-        "contact π as in the trace; may be left out: then every row is of contact",
-    ),
-    column(
-        "touch",
-        "",
-        "number of the touch, 0 in the air; may be left out: then contact says where one begins",
-    ),
-];
+pub const COLUMNS: [Column; 6] = columns! {
+    "label", "", "what was touched: the name of a class";
+    "trial", "",
+        "any token; rows of one label and trial that follow each other are one stream in time \
+        order";
+    "x", "any", "of a simulated sensor the 14-bit code of x; `--channels` takes other columns";
+    "y", "any", "the same of y";
+    "contact", "", "contact π as in the trace; may be left out: then every row is of contact";
+    "touch", "",
+        "number of the touch, 0 in the air; may be left out: then contact says where one begins";
+};
 
 /// The channels of a recording, unless said otherwise.
 pub const CHANNELS: [&str; 2] = ["x", "y"];

@@ -101,41 +101,32 @@ mod tests {
     #[test]
     fn a_straight_tip_touches_at_its_angle_and_then_enters() {
         let (theta, length) = (1.7, 0.112);
+        for elevation_deg in [0.0_f64, 25.0] {
+            let facing = Facing {
+                elevation_deg,
+                ..Facing::USUAL
+            };
+            let pose = facing.pose(theta);
+            assert!((pose.z()[2] - elevation_deg.to_radians().sin()).abs() < 1e-15);
+            assert!(dot(pose.x, pose.y).abs() < 1e-15 && (dot(pose.y, pose.y) - 1.0).abs() < 1e-15);
+            // x is against protraction whatever the elevation.
+            assert_eq!(pose.x, Pose::swung(theta).x);
+            let plate = Plate::in_the_way(theta, length, &facing, Surface::of(Material::Flat));
+            assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
+            let frame = PlateFrame::new(&plate);
+            let above = |theta: f64| frame.see(&facing.pose(theta), length).tip[2];
+            assert!(above(theta).abs() < 1e-15);
+            // By L cos 30° cos 20° a radian; the cosine of the elevation shortens the way.
+            let cosines = [30.0_f64, 20.0, elevation_deg].map(|degrees| degrees.to_radians().cos());
+            let depth = length * cosines.iter().product::<f64>();
+            let rate = (above(theta + 1e-6) - above(theta - 1e-6)) / 2e-6;
+            assert!((rate + depth).abs() < 1e-6 * depth, "{rate} {depth}");
+        }
+        assert_eq!(Facing::USUAL.pose(theta), Pose::swung(theta));
+        // The shaft is inclined to the plate by less than the slant, for the tilt.
         let flat = Surface::of(Material::Flat);
         let plate = Plate::in_the_way(theta, length, &Facing::USUAL, flat);
-        assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
-        let above = |theta: f64| PlateFrame::new(&plate).see(&Pose::swung(theta), length).tip[2];
-        assert!(above(theta).abs() < 1e-15);
-        // By L cos 30° cos 20° a radian.
-        let depth = length * 30.0_f64.to_radians().cos() * 20.0_f64.to_radians().cos();
-        let rate = (above(theta + 1e-6) - above(theta - 1e-6)) / 2e-6;
-        assert!((rate + depth).abs() < 1e-6 * depth, "{rate} {depth}");
-        // The shaft is inclined to the plate by less than the slant, for the tilt.
         let sine = -dot(Pose::swung(theta).z(), plate.normal);
         assert!((sine - 0.5 * 20.0_f64.to_radians().cos()).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_raised_whisker_sweeps_a_cone_and_touches_at_the_same_angle() {
-        let (theta, length) = (1.7, 0.112);
-        let raised = Facing {
-            elevation_deg: 25.0,
-            ..Facing::USUAL
-        };
-        assert_eq!(Facing::USUAL.pose(theta), Pose::swung(theta));
-        let pose = raised.pose(theta);
-        assert!((pose.z()[2] - 25.0_f64.to_radians().sin()).abs() < 1e-15);
-        assert!(dot(pose.x, pose.y).abs() < 1e-15 && (dot(pose.y, pose.y) - 1.0).abs() < 1e-15);
-        // x is against protraction whatever the elevation.
-        assert_eq!(pose.x, Pose::swung(theta).x);
-        let flat = Surface::of(Material::Flat);
-        let plate = Plate::in_the_way(theta, length, &raised, flat);
-        let above = |theta: f64| PlateFrame::new(&plate).see(&raised.pose(theta), length).tip[2];
-        assert!(above(theta).abs() < 1e-15);
-        // The tip's way is shorter by the cosine of the elevation.
-        let cosines = [30.0_f64, 20.0, 25.0].map(|degrees| degrees.to_radians().cos());
-        let depth = length * cosines.iter().product::<f64>();
-        let rate = (above(theta + 1e-6) - above(theta - 1e-6)) / 2e-6;
-        assert!((rate + depth).abs() < 1e-6 * depth, "{rate} {depth}");
     }
 }

@@ -75,7 +75,7 @@ impl TouchingWhisker {
     pub fn new(shaft: &Shaft, sensor: &SensorSettings, seed: u64) -> Result<Self, BadSetting> {
         sensor.check()?;
         let modes = shaft.modes(MODES)?;
-        Ok(Self::of(shaft, &modes, sensor, seed))
+        Self::with_modes(shaft, &modes, sensor, seed)
     }
 
     /// As [`TouchingWhisker::new`], with modes that were solved before:
@@ -91,11 +91,8 @@ impl TouchingWhisker {
     ) -> Result<Self, BadSetting> {
         shaft.check()?;
         sensor.check()?;
-        Ok(Self::of(shaft, modes, sensor, seed))
-    }
-
-    fn of(shaft: &Shaft, modes: &Modes, sensor: &SensorSettings, seed: u64) -> Self {
-        Self::at_rest(ModalShaft::new(shaft, modes), *sensor, seed)
+        let shaft = ModalShaft::new(shaft, modes);
+        Ok(Self::at_rest(shaft, *sensor, seed))
     }
 
     fn at_rest(shaft: ModalShaft, sensor: SensorSettings, seed: u64) -> Self {

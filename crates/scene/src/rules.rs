@@ -5,6 +5,7 @@
 
 use tactile::Deciding;
 
+use crate::section::path;
 use crate::sections::{PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, Texture};
 use crate::text::Text;
 use crate::values::Values;
@@ -68,12 +69,9 @@ fn at_least_one_tick(
         return;
     };
     if seconds * f64::from(tick_hz) < 1.0 {
-        let path = match section {
-            "" => key.to_owned(),
-            _ => format!("{section}.{key}"),
-        };
         let allowed = format!("allowed: at least one tick, that is 1/{tick_hz} s");
-        text.report(offset, path, format!("found {seconds} s"), allowed);
+        let found = format!("found {seconds} s");
+        text.report(offset, path(section, key), found, allowed);
     }
 }
 

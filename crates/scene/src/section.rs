@@ -47,11 +47,7 @@ impl Section {
 
     /// The key as messages name it: with its section, if that has a name.
     pub(crate) fn path(&self, key: &str) -> String {
-        if self.name.is_empty() {
-            key.to_owned()
-        } else {
-            format!("{}.{key}", self.name)
-        }
+        path(self.name, key)
     }
 
     /// The section as messages name it.
@@ -61,6 +57,14 @@ impl Section {
         } else {
             format!("[{}]", self.name)
         }
+    }
+}
+
+/// The key as messages name it: with its section, if that has a name.
+pub(crate) fn path(section: &str, key: &str) -> String {
+    match section {
+        "" => key.to_owned(),
+        _ => format!("{section}.{key}"),
     }
 }
 

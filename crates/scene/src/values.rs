@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::choice::Choice;
 use crate::key::Condition;
+use crate::section::path;
 use crate::value::Value;
 
 /// The checked values of a file.
@@ -54,10 +55,7 @@ impl Values {
         let sections = self.sections.iter();
         let sections = sections.map(|(name, given)| ((*name).to_owned(), given.offset));
         let keys = self.keys.iter().filter_map(|((section, key), entry)| {
-            let path = match *section {
-                "" => (*key).to_owned(),
-                section => format!("{section}.{key}"),
-            };
+            let path = path(section, key);
             Some((path, entry.offset?))
         });
         sections.chain(keys)

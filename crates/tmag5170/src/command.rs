@@ -42,7 +42,6 @@ const TELL_TYPE: u8 = 0x20;
 
 impl Command {
     /// Reads a register, without command bits.
-    #[inline]
     pub const fn read(register: Register) -> Command {
         Command {
             access: Access::Read(register),
@@ -52,7 +51,6 @@ impl Command {
     }
 
     /// Writes a register, without command bits.
-    #[inline]
     pub const fn write(register: Register, value: u16) -> Command {
         Command {
             access: Access::Write(register, value),
@@ -60,40 +58,16 @@ impl Command {
         }
     }
 
-    /// The same, that also starts a conversion.
-    #[inline]
-    pub const fn and_convert(self) -> Command {
-        Command {
-            convert: true,
-            ..self
-        }
-    }
-
-    /// The same, that also asks for the data type in the next reply.
-    #[inline]
-    pub const fn and_tell_type(self) -> Command {
-        Command {
-            tell_type: true,
-            ..self
-        }
-    }
-
     /// The frame, check bits included.
-    #[inline]
     pub const fn bytes(self) -> [u8; FRAME_LEN] {
         let (first, value) = match self.access {
             Access::Read(register) => (READ | register.address(), 0),
             Access::Write(register, value) => (register.address(), value),
         };
         let [high, low] = value.to_be_bytes();
-        let mut last = 0;
-        if self.convert {
-            last |= CONVERT;
-        }
-        if self.tell_type {
-            last |= TELL_TYPE;
-        }
-        crc::sealed([first, high, low, last])
+        let convert = if self.convert { CONVERT } else { 0 };
+        let tell_type = if self.tell_type { TELL_TYPE } else { 0 };
+        crc::sealed([first, high, low, convert | tell_type])
     }
 
     /// What a frame from a master asks for, as the sensor takes it. What is to be written in
@@ -101,14 +75,13 @@ impl Command {
     ///
     /// # Errors
     /// The first [`CommandError`] that applies, in the order they are listed.
-    pub const fn decode(bytes: &[u8; FRAME_LEN]) -> Result<Command, CommandError> {
+    pub fn decode(bytes: &[u8; FRAME_LEN]) -> Result<Command, CommandError> {
         if crc4(bytes) != crc::found(*bytes) {
             return Err(CommandError::BadCrc);
         }
         let [first, high, low, last] = *bytes;
-        let Some(register) = Register::at(first & ADDRESS) else {
-            return Err(CommandError::NoRegister(first & ADDRESS));
-        };
+        let address = first & ADDRESS;
+        let register = Register::at(address).ok_or(CommandError::NoRegister(address))?;
         let access = if first & READ == 0 {
             Access::Write(register, u16::from_be_bytes([high, low]))
         } else {

@@ -1,31 +1,19 @@
-//! The settings, register by register. What fields may hold is in `config/axes.rs` and
-//! `config/fields.rs`.
+//! The settings, register by register. What fields may hold is in `config/fields.rs`.
 //!
 //! Sources: TI's example code (`tmag5170.h`, 2022) and light655's library (`TMAG5170.hpp`) have
 //! every field and value and agree; so do brain113's crate and Kharim234's decoder wherever
 //! they name one, except where a field says so.
 
-#[macro_use]
-mod field;
-mod axes;
 mod fields;
 
-pub use axes::{AnglePair, Channels, Range, Version};
 pub use fields::{
-    AlertMode, Average, DataType, Diagnostics, MagnetType, OperatingMode, SleepTime, Trigger,
+    AlertMode, AnglePair, Average, Channels, DataType, Diagnostics, MagnetType, OperatingMode,
+    Range, SleepTime, Trigger, Version,
 };
 
-/// Every bit `true` of a list, as a register.
-const fn flags<const N: usize>(list: [(bool, u16); N]) -> u16 {
-    let mut bits = 0;
-    let mut i = 0;
-    while i < N {
-        if list[i].0 {
-            bits |= list[i].1;
-        }
-        i += 1;
-    }
-    bits
+/// A bit of a register, counted from the lowest.
+const fn bit(is_set: bool, place: u32) -> u16 {
+    (is_set as u16) << place
 }
 
 /// How often and what of the temperature is measured, and when.
@@ -52,11 +40,9 @@ impl DeviceConfig {
         self.average.bits()
             | self.magnet.bits()
             | self.mode.bits()
-            | flags([
-                (self.temperature, 0x0008),
-                (self.temperature_once, 0x0004),
-                (self.temperature_limits, 0x0002),
-            ])
+            | bit(self.temperature, 3)
+            | bit(self.temperature_once, 2)
+            | bit(self.temperature_limits, 1)
     }
 }
 
@@ -108,11 +94,13 @@ impl SystemConfig {
         self.diagnostics.bits()
             | self.trigger.bits()
             | self.data_type.bits()
-            | flags([(z, 0x0004), (y, 0x0002), (x, 0x0001)])
+            | bit(z, 2)
+            | bit(y, 1)
+            | bit(x, 0)
     }
 }
 
-/// What the ALERT pin, an open drain that pulls low, tells. With everything off it tells
+/// What the ALERT pin, an open drain that pulls low, reports. With everything off that is
 /// nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -121,14 +109,14 @@ pub struct AlertConfig {
     pub mode: AlertMode,
     /// Stays asserted until it is read.
     pub latched: bool,
-    /// Tells of [`StatusFaults`](crate::StatusFaults).
+    /// Reports [`StatusFaults`](crate::StatusFaults).
     pub faults: bool,
-    /// Tells of each finished conversion.
+    /// Reports each finished conversion.
     pub results: bool,
     /// Conversions beyond a threshold in succession before it counts, 1 to 4; others count
     /// as the nearest of these.
     pub crossings: u8,
-    /// Tells of crossed thresholds of X, Y, Z and the temperature.
+    /// Reports crossed thresholds of X, Y, Z and the temperature.
     pub thresholds: [bool; 4],
 }
 
@@ -144,15 +132,13 @@ impl AlertConfig {
         };
         self.mode.bits()
             | crossings
-            | flags([
-                (self.latched, 0x2000),
-                (self.faults, 0x0800),
-                (self.results, 0x0100),
-                (t, 0x0008),
-                (z, 0x0004),
-                (y, 0x0002),
-                (x, 0x0001),
-            ])
+            | bit(self.latched, 13)
+            | bit(self.faults, 11)
+            | bit(self.results, 8)
+            | bit(t, 3)
+            | bit(z, 2)
+            | bit(y, 1)
+            | bit(x, 0)
     }
 }
 
@@ -196,6 +182,6 @@ pub struct Config {
     pub system: SystemConfig,
     /// The ALERT pin.
     pub alert: AlertConfig,
-    /// AxisThresholds of X, Y and Z.
+    /// Thresholds of X, Y and Z.
     pub thresholds: [AxisThresholds; 3],
 }

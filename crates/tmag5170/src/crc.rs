@@ -32,7 +32,6 @@ const REMAINDER: [u8; 16] = {
 ///
 /// They find every single wrong bit, and every burst of up to three bits; of random frames
 /// 15 in 16. Of the 496 pairs of wrong bits they miss 21.
-#[inline]
 pub const fn crc4(frame: &[u8; FRAME_LEN]) -> u8 {
     const fn take(register: u8, bits: u8) -> u8 {
         REMAINDER[((register ^ bits) & CRC_BITS) as usize]
@@ -46,14 +45,12 @@ pub const fn crc4(frame: &[u8; FRAME_LEN]) -> u8 {
 }
 
 /// The frame with its check bits put in.
-#[inline]
 pub(crate) const fn sealed(mut frame: [u8; FRAME_LEN]) -> [u8; FRAME_LEN] {
     frame[FRAME_LEN - 1] = (frame[FRAME_LEN - 1] & !CRC_BITS) | crc4(&frame);
     frame
 }
 
 /// The check bits that a frame has.
-#[inline]
 pub(crate) const fn found(frame: [u8; FRAME_LEN]) -> u8 {
     frame[FRAME_LEN - 1] & CRC_BITS
 }

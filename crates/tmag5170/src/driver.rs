@@ -5,8 +5,9 @@ use core::fmt;
 use embedded_hal::spi::SpiDevice;
 
 use crate::{
-    ChannelPair, Command, Config, ConversionStatus, DataType, FRAME_LEN, Field, OperatingMode,
-    Register, Reply, ReplyError, StatusFaults, SystemConfig, Temperature, Version, check,
+    Access, ChannelPair, Command, Config, ConversionStatus, DataType, FRAME_LEN, Field,
+    OperatingMode, Register, Reply, ReplyError, StatusFaults, SystemConfig, Temperature, Version,
+    check,
 };
 
 /// Why there is no reading. `E` is the bus's own error.
@@ -41,6 +42,12 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
 
 impl<E: fmt::Debug> core::error::Error for Error<E> {}
 
+/// Asks for nothing but the data type, which the next reply carries.
+const ASK_TYPE: Command = Command {
+    tell_type: true,
+    ..Command::read(Register::DeviceConfig)
+};
+
 /// A sensor on an SPI bus set to [`SPI_MODE`](crate::SPI_MODE), clocked at no more than
 /// [`CLOCK_MAX_HZ`](crate::timing::CLOCK_MAX_HZ).
 ///
@@ -49,7 +56,7 @@ impl<E: fmt::Debug> core::error::Error for Error<E> {}
 #[derive(Debug)]
 pub struct Tmag5170<SPI> {
     spi: SPI,
-    /// What it was told last.
+    /// What was sent last.
     system: SystemConfig,
 }
 
@@ -77,7 +84,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// Sends a command and returns the four bytes that came meanwhile, without decoding them.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`] only.
     pub fn exchange(&mut self, command: Command) -> Result<[u8; FRAME_LEN], Error<SPI::Error>> {
         let mut bytes = command.bytes();
@@ -88,7 +94,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// Reads a register, whatever the status says; for replies that carry registers.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
     pub fn read(&mut self, register: Register) -> Result<Reply, Error<SPI::Error>> {
         let bytes = self.exchange(Command::read(register))?;
@@ -99,7 +104,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// to be read back, as [`configure`](Tmag5170::configure) does.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole;
     /// [`ReplyError::Rejected`] if the sensor has not written it.
     pub fn write(&mut self, register: Register, value: u16) -> Result<(), Error<SPI::Error>> {
@@ -115,7 +119,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// conversions before the first reading.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], [`Error::Frame`], or [`Error::NotWritten`] with the first setting that
     /// is not what it should be. The sensor is then in configuration mode or as it was.
     pub fn configure(&mut self, config: Config) -> Result<StatusFaults, Error<SPI::Error>> {
@@ -154,17 +157,16 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     }
 
     /// Writes the system's settings while replies carry registers. A new data type shows in
-    /// the second reply from now; its status tells it.
+    /// the second reply from now, whose status names it.
     fn set_system(&mut self, system: SystemConfig) -> Result<(), Error<SPI::Error>> {
         let register = Register::SystemConfig;
         if system.data_type == DataType::Register {
             self.set(register, system.bits())?;
         } else {
             self.write(register, system.bits())?;
-            let ask = Command::read(Register::DeviceConfig).and_tell_type();
-            check(&self.exchange(ask)?)?;
-            let told = ChannelPair::decode(&self.exchange(ask)?)?.status.count();
-            if told != system.data_type as u16 {
+            check(&self.exchange(ASK_TYPE)?)?;
+            let reply = ChannelPair::decode(&self.exchange(ASK_TYPE)?)?;
+            if reply.status.count() != system.data_type as u16 {
                 return Err(Error::NotWritten(register));
             }
         }
@@ -176,7 +178,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// axis that is not measured reads as 0.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::Restarted`] and
     /// [`ReplyError::Sensor`].
     pub fn fields(&mut self) -> Result<[Field; 3], Error<SPI::Error>> {
@@ -190,19 +191,16 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// [`configure`](Tmag5170::configure) has them.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::OtherType`], which is what a
     /// sensor that restarted gives, and [`ReplyError::Sensor`].
     pub fn pair(&mut self) -> Result<ChannelPair, Error<SPI::Error>> {
-        let ask = Command::read(Register::DeviceConfig).and_tell_type();
-        let bytes = self.exchange(ask)?;
+        let bytes = self.exchange(ASK_TYPE)?;
         Ok(ChannelPair::decode(&bytes)?.trusted(self.system.data_type)?)
     }
 
     /// The temperature of the die; for replies that carry registers.
     ///
     /// # Errors
-    ///
     /// As for [`fields`](Tmag5170::fields).
     pub fn temperature(&mut self) -> Result<Temperature, Error<SPI::Error>> {
         let reply = self.read(Register::Temperature)?;
@@ -213,7 +211,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// registers.
     ///
     /// # Errors
-    ///
     /// As for [`read`](Tmag5170::read).
     pub fn conversion_status(&mut self) -> Result<ConversionStatus, Error<SPI::Error>> {
         let reply = self.read(Register::ConversionStatus)?;
@@ -224,11 +221,13 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// [`Trigger::Command`](crate::Trigger::Command).
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
     pub fn convert(&mut self) -> Result<(), Error<SPI::Error>> {
-        let mut command = Command::read(Register::DeviceConfig).and_convert();
-        command.tell_type = self.system.data_type != DataType::Register;
+        let command = Command {
+            access: Access::Read(Register::DeviceConfig),
+            convert: true,
+            tell_type: self.system.data_type != DataType::Register,
+        };
         Ok(check(&self.exchange(command)?)?)
     }
 
@@ -237,7 +236,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// meanwhile.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`], [`Error::Frame`] if a reply did not arrive whole, or
     /// [`Error::NotWritten`] if replies carry registers still.
     pub fn faults(&mut self) -> Result<StatusFaults, Error<SPI::Error>> {
@@ -261,7 +259,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// that is in no source.
     ///
     /// # Errors
-    ///
     /// As for [`read`](Tmag5170::read).
     pub fn version(&mut self) -> Result<Option<Version>, Error<SPI::Error>> {
         Ok(Version::of(self.read(Register::TestConfig)?.value))

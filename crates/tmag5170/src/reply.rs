@@ -34,29 +34,25 @@ impl Status {
     /// S3: some fault.
     pub const ERROR: Status = Status(0x008);
 
-    /// From its bits, of which the upper four do not count. Bits 7 to 4 tell of X, Y, Z and
+    /// From its bits, of which the upper four do not count. Bits 7 to 4 are about X, Y, Z and
     /// the temperature; sources disagree on what (new in this conversion, or beyond a
     /// threshold), and nothing here uses them.
-    #[inline]
     pub const fn new(bits: u16) -> Status {
         Status(bits & 0x0FFF)
     }
 
     /// Its bits.
-    #[inline]
     pub const fn bits(self) -> u16 {
         self.0
     }
 
     /// Whether every bit of `other` is set.
-    #[inline]
     pub const fn contains(self, other: Status) -> bool {
         self.0 & other.0 == other.0
     }
 
     /// S2..S0, 0..=7: how many sets have been converted, or the [`DataType`], as the command
     /// before asked.
-    #[inline]
     pub const fn count(self) -> u16 {
         self.0 & 0x007
     }
@@ -101,12 +97,8 @@ impl fmt::Display for ReplyError {
                 write!(f, "bad CRC: {found:#03x}, expected {expected:#03x}")
             }
             ReplyError::Restarted => f.write_str("the sensor has restarted"),
-            ReplyError::Sensor(status) => {
-                write!(
-                    f,
-                    "the sensor reports a fault: status {:#05x}",
-                    status.bits()
-                )
+            ReplyError::Sensor(Status(bits)) => {
+                write!(f, "the sensor reports a fault: status {bits:#05x}")
             }
             ReplyError::OtherType(found) => write!(f, "data of another type: {found}"),
         }
@@ -122,7 +114,6 @@ impl core::error::Error for ReplyError {}
 ///
 /// # Errors
 /// The first four of [`ReplyError`], in their order.
-#[inline]
 pub const fn check(bytes: &[u8; FRAME_LEN]) -> Result<(), ReplyError> {
     match u32::from_be_bytes(*bytes) {
         u32::MAX => return Err(ReplyError::NoSensor),
@@ -152,14 +143,11 @@ impl Reply {
     ///
     /// # Errors
     /// As [`check`].
-    #[inline]
-    pub const fn decode(bytes: &[u8; FRAME_LEN]) -> Result<Reply, ReplyError> {
-        if let Err(error) = check(bytes) {
-            return Err(error);
-        }
+    pub fn decode(bytes: &[u8; FRAME_LEN]) -> Result<Reply, ReplyError> {
+        check(bytes)?;
         let [first, high, low, last] = *bytes;
         Ok(Reply {
-            status: Status::new(((first as u16) << 4) | (last >> 4) as u16),
+            status: Status::new((u16::from(first) << 4) | u16::from(last >> 4)),
             value: u16::from_be_bytes([high, low]),
         })
     }
@@ -168,8 +156,7 @@ impl Reply {
     ///
     /// # Errors
     /// [`ReplyError::Restarted`] or [`ReplyError::Sensor`]. That an earlier command was
-    /// rejected is none: it was told then.
-    #[inline]
+    /// rejected is none: the reply to that one said so.
     pub const fn trusted(self) -> Result<u16, ReplyError> {
         if self.status.contains(Status::RESTARTED) {
             Err(ReplyError::Restarted)
@@ -195,21 +182,13 @@ pub struct ChannelPair {
 
 impl ChannelPair {
     /// Decodes a reply, whatever its status says. Any four bytes give an answer; a register
-    /// in the other layout is not told from a pair.
+    /// in the other layout looks like a pair.
     ///
     /// # Errors
     /// As [`check`].
-    #[inline]
-    pub const fn decode(bytes: &[u8; FRAME_LEN]) -> Result<ChannelPair, ReplyError> {
-        if let Err(error) = check(bytes) {
-            return Err(error);
-        }
-        let [b0, b1, b2, b3] = [
-            bytes[0] as u16,
-            bytes[1] as u16,
-            bytes[2] as u16,
-            bytes[3] as u16,
-        ];
+    pub fn decode(bytes: &[u8; FRAME_LEN]) -> Result<ChannelPair, ReplyError> {
+        check(bytes)?;
+        let [b0, b1, b2, b3] = bytes.map(u16::from);
         Ok(ChannelPair {
             status: Status::new(b0 >> 4),
             first: ((b1 & 0x0F) << 8) | (b2 & 0xF0) | (b3 >> 4),
@@ -217,7 +196,7 @@ impl ChannelPair {
         })
     }
 
-    /// The same, if it is of the type that its status tells and the status has no fault.
+    /// The same, if its status names the expected type and the status has no fault.
     ///
     /// A sensor that restarted sends registers again, with a status that reads as a type of
     /// four or more: so [`DataType::Xy`], [`DataType::Xz`] and [`DataType::Zy`] are never
@@ -225,7 +204,6 @@ impl ChannelPair {
     ///
     /// # Errors
     /// [`ReplyError::OtherType`] or [`ReplyError::Sensor`].
-    #[inline]
     pub const fn trusted(self, expected: DataType) -> Result<ChannelPair, ReplyError> {
         if self.status.count() != expected as u16 {
             Err(ReplyError::OtherType(self.status.count()))
@@ -237,7 +215,6 @@ impl ChannelPair {
     }
 
     /// Both channels as fields, for the types of two axes.
-    #[inline]
     pub const fn fields(self) -> [Field; 2] {
         [Field::from_12(self.first), Field::from_12(self.second)]
     }
@@ -262,11 +239,8 @@ impl ConversionStatus {
 
     /// X, Y and Z: the axis is of the newest set.
     pub const fn new_axes(self) -> [bool; 3] {
-        [
-            self.0 & 0x0100 != 0,
-            self.0 & 0x0200 != 0,
-            self.0 & 0x0400 != 0,
-        ]
+        let axes = self.0 >> 8;
+        [axes & 1 != 0, axes & 2 != 0, axes & 4 != 0]
     }
 
     /// SET_COUNT: sets converted, modulo 8.

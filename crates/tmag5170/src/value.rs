@@ -14,19 +14,16 @@ pub struct Field(i16);
 
 impl Field {
     /// From the bits of a result register.
-    #[inline]
     pub const fn new(register: u16) -> Field {
         Field(register as i16)
     }
 
     /// From the lower twelve bits, as a pair carries them.
-    #[inline]
     pub const fn from_12(bits: u16) -> Field {
         Field::new(bits << 4)
     }
 
     /// The code, −32,768..=32,767.
-    #[inline]
     pub const fn code(self) -> i16 {
         self.0
     }
@@ -35,14 +32,12 @@ impl Field {
     /// `code / 32768 · full_scale`.
     ///
     /// Arithmetic error: one rounding, 6e-8 of the result.
-    #[inline]
     pub const fn mt(self, full_scale_mt: f32) -> f32 {
         self.0 as f32 * (1.0 / 32_768.0) * full_scale_mt
     }
 
     /// The code nearest to a field, both in millitesla, for a simulated sensor: limited to
     /// the full scale; NaN gives 0.
-    #[inline]
     pub const fn from_mt(field_mt: f32, full_scale_mt: f32) -> Field {
         let scaled = field_mt / full_scale_mt * 32_768.0;
         // A cast cuts, limits to the range, and makes NaN zero.
@@ -57,32 +52,27 @@ pub struct Temperature(u16);
 
 impl Temperature {
     /// From the bits of the result register.
-    #[inline]
     pub const fn new(register: u16) -> Temperature {
         Temperature(register)
     }
 
     /// From the lower twelve bits, as a pair carries them.
-    #[inline]
     pub const fn from_12(bits: u16) -> Temperature {
         Temperature::new(bits << 4)
     }
 
     /// The code, 0..=65,535.
-    #[inline]
     pub const fn code(self) -> u16 {
         self.0
     }
 
     /// In degrees Celsius: `25 + (code − 17522) / 60`. The part's own error is up to 2 °C.
-    #[inline]
     pub const fn celsius(self) -> f32 {
         25.0 + (self.0 as f32 - 17_522.0) / 60.0
     }
 
     /// The code nearest to a temperature in degrees Celsius, for a simulated sensor; NaN
     /// gives 0.
-    #[inline]
     pub const fn from_celsius(celsius: f32) -> Temperature {
         // Codes below 0 are limited by the cast.
         Temperature((17_522.0 + 60.0 * (celsius - 25.0) + 0.5) as u16)
@@ -96,19 +86,16 @@ pub struct Angle(u16);
 
 impl Angle {
     /// From the bits of the result register, of which the upper three are always 0.
-    #[inline]
     pub const fn new(register: u16) -> Angle {
         Angle(register & 0x1FFF)
     }
 
     /// From the lower twelve bits, as a pair carries them: with three binary places.
-    #[inline]
     pub const fn from_12(bits: u16) -> Angle {
         Angle::new(bits << 1)
     }
 
     /// In degrees, 0 to 360: `code / 16`, exact.
-    #[inline]
     pub const fn degrees(self) -> f32 {
         self.0 as f32 / 16.0
     }

@@ -27,12 +27,12 @@ use super::wire::{self, Injected, RELEASED, SimSpiError, Traffic};
 /// What happens to frames on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LineFault {
-    /// The sensor neither hears nor answers, on a line with a pull-up: all bytes 0xFF. A cut
-    /// wire, a lost /CS and a sensor without supply look alike.
+    /// The sensor takes no command and does not answer, on a line with a pull-up: all bytes
+    /// 0xFF. A cut wire, a lost /CS and a sensor without supply look alike.
     Silent,
-    /// SDO is held low: all bytes 0x00. The sensor hears.
+    /// SDO is held low: all bytes 0x00. Commands arrive.
     SdoLow,
-    /// SDI is held low: the sensor hears zeros.
+    /// SDI is held low: commands arrive as zeros.
     SdiLow,
     /// The bus controller reports an error; nothing is sent or read.
     Bus,
@@ -52,6 +52,13 @@ pub enum LineFault {
 /// same along all axes, are choices.
 const NOISE_OF_32_MT: f64 = 0.025;
 
+/// Of X, Y and Z: the result, its thresholds, and the report that it is beyond them.
+const AXES: [(Register, Register, StatusFaults); 3] = [
+    (Register::X, Register::XThresholds, StatusFaults::LIMIT_X),
+    (Register::Y, Register::YThresholds, StatusFaults::LIMIT_Y),
+    (Register::Z, Register::ZThresholds, StatusFaults::LIMIT_Z),
+];
+
 /// A sensor, and the wire to it: an [`SpiDevice`].
 ///
 /// A new one has just been powered up, in a field of zero at 25 °C and without fault.
@@ -69,7 +76,7 @@ pub struct TmagSlave {
     happened: StatusFaults,
     /// The command before was wrong.
     refused: bool,
-    /// S2..S0 of the next reply tell the data type.
+    /// S2..S0 of the next reply are the data type.
     tell_type: bool,
     noise: Option<Noise>,
     injected: Injected<LineFault>,
@@ -177,8 +184,8 @@ impl TmagSlave {
         if !self.due {
             return;
         }
-        let [device, sensor] =
-            [Register::DeviceConfig, Register::SensorConfig].map(|config| self.register(config));
+        let device = self.register(Register::DeviceConfig);
+        let sensor = self.register(Register::SensorConfig);
         let channels = Channels::of(sensor).unwrap_or_default();
         // One conversion alone has twelve bits.
         let resolved = match Average::of(device) {
@@ -187,8 +194,7 @@ impl TmagSlave {
         };
         let conversions = Average::of(device).unwrap_or_default().count();
         let noise_mt = NOISE_OF_32_MT * (32.0 / f64::from(conversions)).sqrt();
-        let results = [Register::X, Register::Y, Register::Z];
-        for (axis, register) in results.into_iter().enumerate() {
+        for (axis, (register, thresholds, beyond)) in AXES.into_iter().enumerate() {
             if channels.axes()[axis] {
                 let range = Range::of(sensor >> (2 * axis)).unwrap_or_default();
                 let full_scale = range.full_scale_mt(self.version);
@@ -196,7 +202,7 @@ impl TmagSlave {
                 let field_mt = self.field_mt[axis] + noise_mt * noise;
                 let field = Field::from_mt(field_mt as f32, full_scale);
                 *self.at(register) = field.code() as u16 & resolved;
-                self.check_limits(axis, field);
+                self.check_limits(field, thresholds, beyond);
             }
         }
         if device & 0x0008 != 0 {
@@ -211,22 +217,10 @@ impl TmagSlave {
     }
 
     /// Notes a field beyond its thresholds, where they are watched.
-    fn check_limits(&mut self, axis: usize, field: Field) {
-        let beyond = [
-            StatusFaults::LIMIT_X,
-            StatusFaults::LIMIT_Y,
-            StatusFaults::LIMIT_Z,
-        ][axis];
+    fn check_limits(&mut self, field: Field, thresholds: Register, beyond: StatusFaults) {
         let watched = self.register(Register::SystemConfig) & beyond.sys_status() != 0;
-        let thresholds = [
-            Register::XThresholds,
-            Register::YThresholds,
-            Register::ZThresholds,
-        ][axis];
-        let [high, low] = self
-            .register(thresholds)
-            .to_be_bytes()
-            .map(|byte| byte as i8);
+        let [high, low] = self.register(thresholds).to_be_bytes();
+        let [high, low] = [high as i8, low as i8];
         let eighth = (field.code() >> 8) as i8;
         if watched && (eighth > high || eighth < low) {
             self.happened = self.happened | beyond;
@@ -239,7 +233,7 @@ impl TmagSlave {
         let afe = report.without(StatusFaults::RESTARTED).afe_status() != 0;
         let sys = report.sys_status() != 0;
         let bit = |set: bool, bit: Status| if set { bit.bits() } else { 0 };
-        let told = if self.tell_type {
+        let count = if self.tell_type {
             self.data_type() as u16
         } else {
             self.sets
@@ -249,16 +243,16 @@ impl TmagSlave {
             | bit(sys, Status::SYSTEM)
             | bit(afe, Status::AFE)
             | bit(afe || sys, Status::ERROR)
-            | told;
+            | count;
         Status::new(bits)
     }
 
-    /// The reply to a command, of which `heard` bytes have come; what depends on others is
+    /// The reply to a command, of which `arrived` bytes have come; what depends on others is
     /// not to be sent yet.
-    fn reply(&self, command: [u8; FRAME_LEN], heard: usize) -> [u8; FRAME_LEN] {
+    fn reply(&self, command: [u8; FRAME_LEN], arrived: usize) -> [u8; FRAME_LEN] {
         let status = self.status();
-        let of = |first, second: Register| {
-            let code = |register| self.register(register) >> 4;
+        let pair = |first: Register, second: Register, shift: u32| {
+            let code = |register| self.register(register) >> shift;
             encode::pair(status, code(first), code(second))
         };
         let reply = match self.data_type() {
@@ -268,19 +262,15 @@ impl TmagSlave {
                 let value = asked.map_or(0, |register| self.register(register));
                 encode::register(status, value)
             }
-            DataType::Xy => of(Register::X, Register::Y),
-            DataType::Xz => of(Register::X, Register::Z),
-            DataType::Zy => of(Register::Z, Register::Y),
-            DataType::Xt => of(Register::X, Register::Temperature),
-            DataType::Yt => of(Register::Y, Register::Temperature),
-            DataType::Zt => of(Register::Z, Register::Temperature),
-            DataType::AngleMagnitude => {
-                let [angle, magnitude] =
-                    [Register::Angle, Register::Magnitude].map(|result| self.register(result));
-                encode::pair(status, angle >> 1, magnitude >> 1)
-            }
+            DataType::Xy => pair(Register::X, Register::Y, 4),
+            DataType::Xz => pair(Register::X, Register::Z, 4),
+            DataType::Zy => pair(Register::Z, Register::Y, 4),
+            DataType::Xt => pair(Register::X, Register::Temperature, 4),
+            DataType::Yt => pair(Register::Y, Register::Temperature, 4),
+            DataType::Zt => pair(Register::Z, Register::Temperature, 4),
+            DataType::AngleMagnitude => pair(Register::Angle, Register::Magnitude, 1),
         };
-        if heard == FRAME_LEN && self.is_wrong(command) {
+        if arrived == FRAME_LEN && self.is_wrong(command) {
             encode::rejecting(reply)
         } else {
             reply
@@ -294,10 +284,10 @@ impl TmagSlave {
         checked && crc4(&command) != last & 0x0F
     }
 
-    /// The rising edge of /CS after `clocked` bytes: the command, if it is one.
-    fn obey(&mut self, command: [u8; FRAME_LEN], clocked: usize) {
+    /// The rising edge of /CS after `arrived` bytes: the command, if it is one.
+    fn obey(&mut self, command: [u8; FRAME_LEN], arrived: usize) {
         self.refused = false;
-        if clocked != FRAME_LEN {
+        if arrived != FRAME_LEN {
             self.happened = self.happened | StatusFaults::FRAME_LENGTH;
             return;
         }
@@ -352,9 +342,9 @@ impl TmagSlave {
 
 /// One transaction, byte by byte.
 struct Frame {
-    /// What the sensor has heard.
+    /// What has arrived at the sensor, and how many bytes.
     command: [u8; FRAME_LEN],
-    heard: usize,
+    arrived: usize,
     clocked: usize,
     fault: Option<LineFault>,
 }
@@ -373,17 +363,17 @@ impl Frame {
             Some(LineFault::ShortFrame) if at + 1 == FRAME_LEN => return RELEASED,
             _ => {}
         }
-        let heard = match self.fault {
+        let taken = match self.fault {
             Some(LineFault::SdiLow) => 0,
             Some(LineFault::FlipCommand(bit)) => sent ^ inverted(bit),
             _ => sent,
         };
-        self.heard += 1;
+        self.arrived += 1;
         let Some(slot) = self.command.get_mut(at) else {
             return RELEASED;
         };
-        *slot = heard;
-        let answer = slave.reply(self.command, self.heard)[at];
+        *slot = taken;
+        let answer = slave.reply(self.command, self.arrived)[at];
         match self.fault {
             Some(LineFault::SdoLow) => 0,
             Some(LineFault::FlipReply(bit)) => answer ^ inverted(bit),
@@ -409,15 +399,15 @@ impl SpiDevice for TmagSlave {
         }
         let mut frame = Frame {
             command: [0; FRAME_LEN],
-            heard: 0,
+            arrived: 0,
             clocked: 0,
             fault,
         };
         let mut traffic = self.traffic;
         wire::clock(operations, &mut traffic, |sent| frame.byte(self, sent));
         self.traffic = traffic;
-        if frame.heard > 0 {
-            self.obey(frame.command, frame.heard);
+        if frame.arrived > 0 {
+            self.obey(frame.command, frame.arrived);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::columns::{Column, column, table};
+use crate::columns::{Column, columns, table};
 use crate::commands::sweep::measured;
 use crate::trace::{FIRST, OF_RIGHT, OF_WHISKER, SECOND};
 use crate::{decisions, recording};
@@ -10,11 +10,9 @@ use crate::{decisions, recording};
 /// The columns of every file, in Markdown: from the lists that the headers are written from.
 pub fn page() -> String {
     let trace = [&FIRST[..], &OF_RIGHT, &SECOND].concat();
-    let of_sweep: [Column; 1] = [column(
-        "seed",
-        "",
-        "seed of the run; before it a column for each `--key`, under the key's name",
-    )];
+    let of_sweep: [Column; 1] = columns! {
+        "seed", "", "seed of the run; before it a column for each `--key`, under the key's name";
+    };
     let sweep = [&of_sweep[..], &measured::COLUMNS].concat();
     let sections = [
         (

@@ -3,134 +3,75 @@
 use scene::Scene;
 
 use crate::bench;
-use crate::columns::{Column, column};
+use crate::columns::{Column, columns};
 
 /// Those of every trace, in order. The first nine are fixed: other programs read them.
-pub const FIRST: [Column; 17] = [
-    column(
-        "t_s",
-        "s",
-        "end of the tick; the first row is at 1/`tick_hz`",
-    ),
-    column(
-        "theta_left_deg",
-        "degrees",
-        "setpoint θ′ of the side's first whisker; 50 is rest, more is protraction",
-    ),
-    column("theta_right_deg", "degrees", "the same of the right side"),
-    column(
-        "z_left",
-        "",
-        "suppression of protraction by contact (RCP), 0 without `[rcp]`",
-    ),
-    column("z_right", "", "the same of the right side"),
-    column(
-        "g_left",
-        "",
-        "gain of the muscle of the side's first whisker, with what contact on the other side lends (CIA)",
-    ),
-    column("g_right", "", "the same of the right side"),
-    column(
-        "contact_left",
-        "",
-        "contact π of the side as the module computes it: the largest of its whiskers'",
-    ),
-    column("contact_right", "", "the same of the right side"),
-    column(
-        "angle_left_deg",
-        "degrees",
-        "angle of the side's first whisker as it is, not as the encoder counts it",
-    ),
-    column("angle_right_deg", "degrees", "the same of the right side"),
-    column(
-        "x_left",
-        "codes",
-        "what the sensor of the side's first whisker is given to send: 14 bits, about 8192 at rest; along the direction of whisking",
-    ),
-    column("x_right", "codes", "the same of the right side"),
-    column(
-        "y_left",
-        "codes",
-        "the same across the direction of whisking",
-    ),
-    column("y_right", "codes", "the same of the right side"),
-    column(
-        "touch",
-        "",
-        "number of the touch of the left side's first whisker, from 1; 0 in the air, and where nothing hears it",
-    ),
-    column(
-        "decision",
-        "",
-        "class that a whisker of the left side decided for in this tick, or `unknown`; empty where no decision fell",
-    ),
-];
+pub const FIRST: [Column; 17] = columns! {
+    "t_s", "s", "end of the tick; the first row is at 1/`tick_hz`";
+    "theta_left_deg", "degrees",
+        "setpoint θ′ of the side's first whisker; 50 is rest, more is protraction";
+    "theta_right_deg", "degrees", "the same of the right side";
+    "z_left", "", "suppression of protraction by contact (RCP), 0 without `[rcp]`";
+    "z_right", "", "the same of the right side";
+    "g_left", "",
+        "gain of the muscle of the side's first whisker, with what contact on the other side \
+        lends (CIA)";
+    "g_right", "", "the same of the right side";
+    "contact_left", "",
+        "contact π of the side as the module computes it: the largest of its whiskers'";
+    "contact_right", "", "the same of the right side";
+    "angle_left_deg", "degrees",
+        "angle of the side's first whisker as it is, not as the encoder counts it";
+    "angle_right_deg", "degrees", "the same of the right side";
+    "x_left", "codes",
+        "what the sensor of the side's first whisker is given to send: 14 bits, about 8192 at \
+        rest; along the direction of whisking";
+    "x_right", "codes", "the same of the right side";
+    "y_left", "codes", "the same across the direction of whisking";
+    "y_right", "codes", "the same of the right side";
+    "touch", "",
+        "number of the touch of the left side's first whisker, from 1; 0 in the air, and where \
+        nothing hears it";
+    "decision", "",
+        "class that a whisker of the left side decided for in this tick, or `unknown`; empty \
+        where no decision fell";
+};
 
 /// Those that follow where whiskers of the right side are heard.
-pub const OF_RIGHT: [Column; 2] = [
-    column(
-        "touch_right",
-        "",
-        "`touch` of the right side; only where whiskers of the right side are heard",
-    ),
-    column(
-        "decision_right",
-        "",
-        "`decision` of the right side; likewise",
-    ),
-];
+pub const OF_RIGHT: [Column; 2] = columns! {
+    "touch_right", "", "`touch` of the right side; only where whiskers of the right side are heard";
+    "decision_right", "", "`decision` of the right side; likewise";
+};
 
 /// Those that then follow in every trace.
-pub const SECOND: [Column; 8] = [
-    column(
-        "label",
-        "",
-        "the truth, which no module knows: the texture that is in place; `obstacle` or `free` where there are none",
-    ),
-    column(
-        "trial",
-        "",
-        "how often that texture has been in place before",
-    ),
-    column(
-        "speed_left_deg_s",
-        "degrees/s",
-        "speed of the side's first whisker as it is",
-    ),
-    column(
-        "speed_right_deg_s",
-        "degrees/s",
-        "the same of the right side",
-    ),
-    column(
-        "duty_left",
-        "",
-        "duty at the motor driver's pins of the side's first whisker, −1 to 1, positive towards protraction; empty where the motor is ideal or none",
-    ),
-    column("duty_right", "", "the same of the right side"),
-    column(
-        "fault_left",
-        "",
-        "number of the fault that holds the side's first whisker ([faults.md](faults.md)), its sensor's before its motor's; 0: none; empty on the emulated board, whose log has it",
-    ),
-    column("fault_right", "", "the same of the right side"),
-];
+pub const SECOND: [Column; 8] = columns! {
+    "label", "",
+        "the truth, which no module knows: the texture that is in place; `obstacle` or `free` \
+        where there are none";
+    "trial", "", "how often that texture has been in place before";
+    "speed_left_deg_s", "degrees/s", "speed of the side's first whisker as it is";
+    "speed_right_deg_s", "degrees/s", "the same of the right side";
+    "duty_left", "",
+        "duty at the motor driver's pins of the side's first whisker, −1 to 1, positive towards \
+        protraction; empty where the motor is ideal or none";
+    "duty_right", "", "the same of the right side";
+    "fault_left", "",
+        "number of the fault that holds the side's first whisker ([faults.md](faults.md)), its \
+        sensor's before its motor's; 0: none; empty on the emulated board, whose log has it";
+    "fault_right", "", "the same of the right side";
+};
 
 /// Those of each further whisker of a side, whose place is put in place of the `*`.
-pub const OF_WHISKER: [Column; 8] = [
-    column("theta_*_deg", "degrees", "setpoint θ′"),
-    column("angle_*_deg", "degrees", "angle as it is"),
-    column("speed_*_deg_s", "degrees/s", "speed as it is"),
-    column("duty_*", "", "duty at the motor driver's pins"),
-    column(
-        "x_*",
-        "codes",
-        "what its sensor is given to send, along the direction of whisking",
-    ),
-    column("y_*", "codes", "the same across it"),
-    column("contact_*", "", "contact π of this whisker alone"),
-    column("fault_*", "", "number of the fault that holds it; 0: none"),
-];
+pub const OF_WHISKER: [Column; 8] = columns! {
+    "theta_*_deg", "degrees", "setpoint θ′";
+    "angle_*_deg", "degrees", "angle as it is";
+    "speed_*_deg_s", "degrees/s", "speed as it is";
+    "duty_*", "", "duty at the motor driver's pins";
+    "x_*", "codes", "what its sensor is given to send, along the direction of whisking";
+    "y_*", "codes", "the same across it";
+    "contact_*", "", "contact π of this whisker alone";
+    "fault_*", "", "number of the fault that holds it; 0: none";
+};
 
 /// What decides which columns a trace has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

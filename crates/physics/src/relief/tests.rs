@@ -27,17 +27,10 @@ fn spread_is_that_of_the_surface_and_top_is_never_passed() {
         square += height * height / 160e3;
         top = top.max(height.abs());
     }
-    assert!(
-        (square.sqrt() / 1e-3 - 1.0).abs() < 0.02,
-        "{}",
-        square.sqrt()
-    );
+    assert!((square.sqrt() / 1e-3 - 1.0).abs() < 0.02, "{square}");
     assert!(sum.abs() < 3e-5, "{sum}");
-    assert!(
-        top < relief.top_m && top > 0.7 * relief.top_m,
-        "{top} {}",
-        relief.top_m
-    );
+    let share = top / relief.top_m;
+    assert!((0.7..1.0).contains(&share), "{share}");
 }
 
 #[test]
@@ -51,13 +44,6 @@ fn slopes_are_those_of_the_heights() {
         assert!((x - (height(d, 0.0) - height(-d, 0.0)) / (2.0 * d)).abs() < 1e-4);
         assert!((y - (height(0.0, d) - height(0.0, -d)) / (2.0 * d)).abs() < 1e-4);
     }
-}
-
-#[test]
-fn a_seed_is_a_place_and_another_seed_another() {
-    let at = |seed| Relief::new(&ROUGH.piece(seed), 1e-6).at([0.0123, -0.2]);
-    assert_eq!(at(1), at(1));
-    assert_ne!(at(1), at(2));
 }
 
 #[test]

@@ -47,8 +47,3 @@ pub(super) fn flat(stiffness_n_m: f64, damping: f64, hold: f64, friction: f64) -
 pub(super) fn robot() -> TouchingWhisker {
     TouchingWhisker::new(&Shaft::floor_robot(), &QUIET, 1).unwrap()
 }
-
-#[test]
-fn the_level_pose_points_along_the_first_axis() {
-    assert_eq!(level([0.0; 3]).z(), [1.0, 0.0, 0.0]);
-}

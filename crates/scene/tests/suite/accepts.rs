@@ -19,11 +19,8 @@ fn every_key_reaches_its_field() {
     let text = with(&text, "duration_s  = 6.0", "duration_s = 6");
     let text = with(&text, "seed        = 1 ", "seed = 0x7fff_ffff_ffff_ffff");
     let text = with(&text, "gain         = 1.0", "gain = [0.5, 2]");
-    let text = with(
-        &text,
-        "[[1.0, 0.0], [1.0, 0.0]]",
-        "[[1, -1.5], [0.25, 0.5]]",
-    );
+    let psi = "[[1, -1.5], [0.25, 0.5]]";
+    let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", psi);
     let expected = Scene {
         name: "A-z_0.9".to_owned(),
         tick_hz: 2000,
@@ -88,19 +85,11 @@ fn every_key_reaches_its_field() {
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
-            zero_codes: None,
-            zero_drift: None,
-            gain_y: 1.0,
-            misaligned_deg: 0.0,
-            cross_talk: 0.0,
-            hysteresis_codes: 0.0,
-            facing: None,
             obstacle: Some(Obstacles {
                 obstacle_deg: vec![100.0, 125.0],
                 stiffness: 0.1,
             }),
-            textured: None,
-            shaft: None,
+            ..PlantSection::default()
         },
         classifier: Some(ClassifierSection {
             rule: Rule::Sequential { threshold: 0.99 },
@@ -191,10 +180,8 @@ fn a_left_half_has_one_entry_a_side() {
     assert_eq!(scene.head.sides, Sides::Left);
     assert_eq!(scene.whiskers(), 1);
     let whisking = scene.whisking.expect("whisking is in the text");
-    assert_eq!(
-        (whisking.gain, whisking.start),
-        (vec![1.0], vec![[1.0, 0.0]])
-    );
+    assert_eq!(whisking.gain, [1.0]);
+    assert_eq!(whisking.start, [[1.0, 0.0]]);
 }
 
 #[test]
@@ -214,10 +201,8 @@ fn textured_surfaces_keep_their_order() {
             own_friction: None,
         }),
     };
-    assert_eq!(
-        (plant.kind, plant.textured),
-        (PlantKind::Textured, Some(expected))
-    );
+    assert_eq!(plant.kind, PlantKind::Textured);
+    assert_eq!(plant.textured, Some(expected));
     assert_eq!(plant.shaft, None, "its default is the elastic whisker's");
 }
 
@@ -341,7 +326,6 @@ fn a_bench_has_neither_surfaces_nor_a_model() {
     assert!(bench.awaits_model() && !read(FULL).awaits_model());
     assert_eq!(bench.model_path(std::path::Path::new(".")), None);
     assert_eq!(bench.plant, PlantSection::default());
-    assert_eq!(bench.plant.obstacle, None);
 }
 
 #[test]
@@ -350,24 +334,20 @@ fn a_module_has_the_world_of_another_scene() {
     let world = read(&with(&world, "seed        = 1  ", "seed = 77 "));
     let bench = on_a_bench();
     let placed = bench.clone().in_world(&world).expect("it fits");
-    assert_eq!(placed.plant, world.plant);
-    assert_eq!((placed.duration_s, placed.seed), (9.0, 77));
-    let own = |scene: &Scene| {
-        (
-            scene.name.clone(),
-            scene.whisking.clone(),
-            scene.classifier.clone(),
-        )
+    // All else is the module's own.
+    let expected = Scene {
+        plant: world.plant.clone(),
+        duration_s: 9.0,
+        seed: 77,
+        ..bench.clone()
     };
-    assert_eq!(own(&placed), own(&bench));
+    assert_eq!(placed, expected);
 
     let mut left = world.clone();
     left.head.sides = Sides::Left;
     let refused = bench.clone().in_world(&left).expect_err("another head");
-    assert!(
-        refused.contains("a world for one side of whiskers"),
-        "{refused}"
-    );
+    let one_side = "a world for one side of whiskers";
+    assert!(refused.contains(one_side), "{refused}");
     let mut short = world.clone();
     short.duration_s = 1e-4;
     assert!(bench.clone().in_world(&short).is_err());

@@ -40,74 +40,59 @@ fn the_scene_is_as_if_the_key_stood_in_the_file() {
 
 #[test]
 fn faults_are_those_of_the_file_under_the_name_of_what_was_given() {
-    assert_eq!(
-        complaint(&["head.whiskers_per_side=13"]),
-        "--set head.whiskers_per_side=13: head.whiskers_per_side: found 13; \
-         allowed: a whole number from 1 to 12"
-    );
-    let slip = complaint(&["rcp.gian=0.5"]);
-    let start = "--set rcp.gian=0.5: rcp.gian: unknown key; did you mean `gain`?";
-    assert!(slip.starts_with(start), "{slip}");
-    let section = complaint(&["wisking.noise=0.5"]);
-    assert!(
-        section.contains("wisking: unknown key; did you mean `whisking`?"),
-        "{section}"
-    );
-    let home = complaint(&["gain=0.5"]);
-    assert!(
-        home.starts_with("--set gain=0.5: gain: unknown key; it belongs to"),
-        "{home}"
-    );
-    let syntax = complaint(&["rcp..gain=0.5"]);
-    assert!(
-        syntax.starts_with("--set rcp..gain=0.5: TOML syntax: "),
-        "{syntax}"
-    );
-    // One line cannot smuggle in another.
-    let two = complaint(&["rcp.gain=0.5\nseed = 9"]);
-    assert!(two.contains("rcp.gain: found \""), "{two}");
-}
-
-#[test]
-fn a_rule_that_an_override_breaks_is_told_where_it_is_broken() {
-    let both = complaint(&["motor.min_deg=170", "motor.max_deg=20"]);
-    assert!(
-        both.starts_with("--set motor.min_deg=170: motor.min_deg: "),
-        "{both}"
-    );
-    let mixed = complaint(&["seed=-1", "rcp.tau_s=0"]);
-    let lines: Vec<_> = mixed.lines().collect();
-    assert_eq!(lines.len(), 2, "{mixed}");
-    assert!(
-        lines[0].starts_with("--set seed=-1: seed: found -1"),
-        "{mixed}"
-    );
-    assert!(
-        lines[1].starts_with("--set rcp.tau_s=0: rcp.tau_s: found 0"),
-        "{mixed}"
-    );
+    let out_of_range = "head.whiskers_per_side: found 13; allowed: a whole number from 1 to 12";
+    let cases = [
+        ("head.whiskers_per_side=13", out_of_range),
+        (
+            "rcp.gian=0.5",
+            "rcp.gian: unknown key; did you mean `gain`?",
+        ),
+        (
+            "wisking.noise=0.5",
+            "wisking: unknown key; did you mean `whisking`?",
+        ),
+        ("gain=0.5", "gain: unknown key; it belongs to"),
+        ("rcp..gain=0.5", "TOML syntax: "),
+        // One line cannot smuggle in another.
+        ("rcp.gain=0.5\nseed = 9", "rcp.gain: found \""),
+    ];
+    for (given, fault) in cases {
+        let complaint = complaint(&[given]);
+        assert!(
+            complaint.starts_with(&format!("--set {given}: {fault}")),
+            "{complaint}"
+        );
+    }
+    // Several have a line each, and a rule has the one that breaks it.
+    let mixed = complaint(&[
+        "seed=-1",
+        "rcp.tau_s=0",
+        "motor.min_deg=170",
+        "motor.max_deg=20",
+    ]);
+    let starts = [
+        "--set seed=-1: seed: found -1",
+        "--set rcp.tau_s=0: rcp.tau_s: found 0",
+        "--set motor.min_deg=170: motor.min_deg: ",
+    ];
+    assert_eq!(mixed.lines().count(), starts.len(), "{mixed}");
+    for (line, start) in mixed.lines().zip(starts) {
+        assert!(line.starts_with(start), "{mixed}");
+    }
 }
 
 #[test]
 fn keys_are_found_again_where_they_stand() {
     let (_, places) = read(&["rcp.gain=0.25"]).expect("a scene");
-    let line = 1 + FULL
-        .lines()
-        .position(|line| line.starts_with("tick_hz"))
-        .expect("a line");
-    assert_eq!(
-        places.fault("tick_hz", "no"),
-        format!("s.toml:{line}: tick_hz: no")
-    );
-    assert_eq!(
-        places.fault("rcp.gain", "no"),
-        "--set rcp.gain=0.25: rcp.gain: no"
-    );
+    let line_of = |start| {
+        let before = FULL.lines().position(|line| line.starts_with(start));
+        1 + before.expect("a line")
+    };
+    let of_rate = format!("s.toml:{}: tick_hz: no", line_of("tick_hz"));
+    assert_eq!(places.fault("tick_hz", "no"), of_rate);
+    let beside = "--set rcp.gain=0.25: rcp.gain: no";
+    assert_eq!(places.fault("rcp.gain", "no"), beside);
     // Left out: its section's line, or the file's first.
-    let line = 1 + FULL
-        .lines()
-        .position(|line| line == "[plant]")
-        .expect("a line");
-    let left_out = places.fault("plant.shaft", "no");
-    assert_eq!(left_out, format!("s.toml:{line}: plant.shaft: no"));
+    let left_out = format!("s.toml:{}: plant.shaft: no", line_of("[plant]"));
+    assert_eq!(places.fault("plant.shaft", "no"), left_out);
 }

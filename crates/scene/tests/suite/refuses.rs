@@ -39,15 +39,8 @@ fn edges_of_ranges() {
         let text = |value: &str| with(FULL, old, &format!("{key}{value}{tail}"));
         assert_eq!(complaint(&text(inside)), "", "{key}{inside}");
         let complaint = complaint(&text(outside));
-        assert_eq!(
-            complaint.lines().count(),
-            1,
-            "{key}{outside}: {complaint:?}"
-        );
-        assert!(
-            complaint.contains("; allowed: "),
-            "{key}{outside}: {complaint:?}"
-        );
+        let is_one = complaint.lines().count() == 1 && complaint.contains("; allowed: ");
+        assert!(is_one, "{key}{outside}: {complaint:?}");
     }
 }
 
@@ -58,11 +51,8 @@ fn names_must_suit_file_names() {
     for bad in ["", "a/b", "..", "a b", "ä", &"x".repeat(65)] {
         let text = with(FULL, "\"rcp7\"", &format!("{bad:?}"));
         let complaint = complaint(&text);
-        assert!(
-            complaint.starts_with("s.toml:1: name: found \""),
-            "{complaint}"
-        );
-        assert!(complaint.ends_with(allowed), "{complaint}");
+        let is_of_name = complaint.starts_with("s.toml:1: name: found \"");
+        assert!(is_of_name && complaint.ends_with(allowed), "{complaint}");
     }
     assert_eq!(complaint(&with(FULL, "rcp7", &"x".repeat(64))), "");
 }

@@ -1,22 +1,120 @@
-//! What the fields of the settings may hold, but for the axes.
+//! What the fields of the settings may hold.
 
-field! {
-    /// Conversions of an axis an average. More of them: less noise, more time
-    /// ([`conversion_time_us`](crate::timing::conversion_time_us)).
-    pub enum Average at 12, mask 0x7000 {
-        /// One: twelve bits.
-        #[default]
-        X1 = 0,
-        /// Two.
-        X2 = 1,
-        /// Four.
-        X4 = 2,
-        /// Eight.
-        X8 = 3,
-        /// Sixteen.
-        X16 = 4,
-        /// Thirty-two.
-        X32 = 5,
+/// Fields of registers: lowest bit, mask, and the values that stand for 0, 1, 2 and so on. The
+/// first value is the one of a reset.
+macro_rules! fields {
+    ($(
+        $(#[$about:meta])*
+        $name:ident at $shift:literal, mask $mask:literal {
+            $first:ident $(= $first_about:literal)?,
+            $($value:ident $(= $value_about:literal)?),+ $(,)?
+        }
+    )+) => {$(
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+        #[allow(missing_docs, reason = "names say what they stand for where nothing else does")]
+        #[repr(u16)]
+        pub enum $name {
+            #[default]
+            $(#[doc = $first_about])?
+            $first,
+            $($(#[doc = $value_about])? $value,)+
+        }
+
+        impl $name {
+            /// Every value, in the order of their bits.
+            pub const ALL: &[$name] = &[$name::$first, $($name::$value,)+];
+
+            /// In its place in the register.
+            pub const fn bits(self) -> u16 {
+                (self as u16) << $shift
+            }
+
+            /// The value that a register holds; `None` if it is none of these.
+            pub fn of(register: u16) -> Option<$name> {
+                let place = usize::from((register & $mask) >> $shift);
+                $name::ALL.get(place).copied()
+            }
+        }
+    )+};
+}
+
+fields! {
+    /// Conversions of an axis an average; one alone has twelve bits. More of them: less noise,
+    /// more time ([`conversion_time_us`](crate::timing::conversion_time_us)).
+    Average at 12, mask 0x7000 {
+        X1, X2, X4, X8, X16, X32,
+    }
+
+    /// The magnet's loss of field with temperature, which the sensor makes good.
+    MagnetType at 8, mask 0x0300 {
+        None = "None.",
+        Neodymium = "0.12 % a degree: neodymium.",
+        SamariumCobalt = "0.03 % a degree: samarium-cobalt. brain113's crate does not have it.",
+        Ferrite = "0.2 % a degree: ferrite.",
+    }
+
+    /// When the sensor measures.
+    OperatingMode at 4, mask 0x0070 {
+        Configuration = "Settings may be changed; a trigger starts a conversion, slowly.",
+        Standby = "Waits for a trigger.",
+        Active = "Measures one set after the other.",
+        Triggered = "Waits for a trigger with everything switched on.",
+        WakeAndSleep = "Measures now and then by itself.",
+        Sleep = "Keeps settings and the last results.",
+        DeepSleep = "Forgets its settings.",
+    }
+
+    /// The axes that the angle is computed from; [`AnglePair::Off`]: no angle.
+    AnglePair at 14, mask 0xC000 {
+        Off, Xy, Yz, Xz,
+    }
+
+    /// Time between wake-ups, in milliseconds.
+    SleepTime at 10, mask 0x3C00 {
+        Ms1, Ms5, Ms10, Ms15, Ms20, Ms30, Ms50, Ms100, Ms500, Ms1000,
+    }
+
+    /// The axes that are measured, in the order of the name. An axis that comes twice has its
+    /// two conversions about the same moment as the others between them.
+    Channels at 6, mask 0x03C0 {
+        Off, X, Y, Xy, Z, Zx, Yz, Xyz,
+        Xyx, Yxy, Yzy, Zyz, Zxz, Xzx, Xyzyx, Xyzzyx,
+    }
+
+    /// How far an axis reaches, which depends on the [`Version`] of the part. The title page
+    /// of SBASAF4 has the same figures; for the A2, brain113's crate has ±200 mT and ±133 mT
+    /// in place of ±150 mT and ±75 mT, from an earlier data sheet.
+    Range at 0, mask 0x0003 {
+        Middle = "±50 mT (A1), ±150 mT (A2).",
+        Narrow = "±25 mT (A1), ±75 mT (A2).",
+        Wide = "±100 mT (A1), ±300 mT (A2).",
+    }
+
+    /// What starts a conversion in the modes that wait for one.
+    Trigger at 9, mask 0x0600 {
+        Command = "CMD0 of a frame.",
+        ChipSelect = "A pulse on /CS.",
+        Alert = "A pulse on ALERT.",
+    }
+
+    /// What a reply carries: the register asked for, or twelve bits of each of two channels, in
+    /// the order of the name. T is the temperature.
+    DataType at 6, mask 0x01C0 {
+        Register, Xy, Xz, Zy, Xt, Yt, Zt, AngleMagnitude,
+    }
+
+    /// What kind of pin ALERT is.
+    AlertMode at 12, mask 0x1000 {
+        Interrupt = "An interrupt, or the trigger of conversions.",
+        Switch = "A switch that follows the thresholds.",
+    }
+
+    /// Which of the two parts it is, in [`TestConfig`](crate::Register::TestConfig).
+    Version at 4, mask 0x0030 {
+        A1 = "TMAG5170A1: up to ±100 mT.",
+        A2 = "TMAG5170A2: up to ±300 mT.",
     }
 }
 
@@ -27,144 +125,67 @@ impl Average {
     }
 }
 
-field! {
-    /// The magnet's loss of field with temperature, which the sensor makes good.
-    pub enum MagnetType at 8, mask 0x0300 {
-        /// None.
-        #[default]
-        None = 0,
-        /// 0.12 % a degree: neodymium.
-        Neodymium = 1,
-        /// 0.03 % a degree: samarium-cobalt. brain113's crate does not have it.
-        SamariumCobalt = 2,
-        /// 0.2 % a degree: ferrite.
-        Ferrite = 3,
+impl Channels {
+    /// Whether X, Y and Z are measured.
+    pub const fn axes(self) -> [bool; 3] {
+        // Where no axis comes twice, each has a bit.
+        let once = match self {
+            Channels::Xyx | Channels::Yxy => Channels::Xy,
+            Channels::Yzy | Channels::Zyz => Channels::Yz,
+            Channels::Zxz | Channels::Xzx => Channels::Zx,
+            Channels::Xyzyx | Channels::Xyzzyx => Channels::Xyz,
+            once => once,
+        } as u16;
+        [once & 1 != 0, once & 2 != 0, once & 4 != 0]
+    }
+
+    /// Measurements a set, 0 to 6.
+    pub const fn count(self) -> u32 {
+        match self as u16 {
+            axes @ ..8 => axes.count_ones(),
+            8..14 => 3,
+            14 => 5,
+            _ => 6,
+        }
     }
 }
 
-field! {
-    /// When the sensor measures.
-    pub enum OperatingMode at 4, mask 0x0070 {
-        /// Settings may be changed; a trigger starts a conversion, slowly.
-        #[default]
-        Configuration = 0,
-        /// Waits for a trigger.
-        Standby = 1,
-        /// Measures one set after the other.
-        Active = 2,
-        /// Waits for a trigger with everything switched on.
-        Triggered = 3,
-        /// Measures now and then by itself.
-        WakeAndSleep = 4,
-        /// Keeps settings and the last results.
-        Sleep = 5,
-        /// Forgets its settings.
-        DeepSleep = 6,
+impl Range {
+    /// Full scale, in millitesla.
+    pub const fn full_scale_mt(self, version: Version) -> f32 {
+        let a1 = match self {
+            Range::Middle => 50.0,
+            Range::Narrow => 25.0,
+            Range::Wide => 100.0,
+        };
+        match version {
+            Version::A1 => a1,
+            Version::A2 => 3.0 * a1,
+        }
     }
 }
 
-field! {
-    /// Time between wake-ups.
-    pub enum SleepTime at 10, mask 0x3C00 {
-        /// 1 ms.
-        #[default]
-        Ms1 = 0,
-        /// 5 ms.
-        Ms5 = 1,
-        /// 10 ms.
-        Ms10 = 2,
-        /// 15 ms.
-        Ms15 = 3,
-        /// 20 ms.
-        Ms20 = 4,
-        /// 30 ms.
-        Ms30 = 5,
-        /// 50 ms.
-        Ms50 = 6,
-        /// 100 ms.
-        Ms100 = 7,
-        /// 500 ms.
-        Ms500 = 8,
-        /// 1 s.
-        Ms1000 = 9,
-    }
-}
-
-field! {
-    /// What starts a conversion in the modes that wait for one.
-    pub enum Trigger at 9, mask 0x0600 {
-        /// CMD0 of a frame.
-        #[default]
-        Command = 0,
-        /// A pulse on /CS.
-        ChipSelect = 1,
-        /// A pulse on ALERT.
-        Alert = 2,
-    }
-}
-
-field! {
-    /// What a reply carries: a register, or twelve bits of each of two channels.
-    pub enum DataType at 6, mask 0x01C0 {
-        /// The register asked for.
-        #[default]
-        Register = 0,
-        /// X, then Y.
-        Xy = 1,
-        /// X, then Z.
-        Xz = 2,
-        /// Z, then Y.
-        Zy = 3,
-        /// X, then temperature.
-        Xt = 4,
-        /// Y, then temperature.
-        Yt = 5,
-        /// Z, then temperature.
-        Zt = 6,
-        /// Angle, then magnitude.
-        AngleMagnitude = 7,
-    }
-}
-
-field! {
-    /// What kind of pin ALERT is.
-    pub enum AlertMode at 12, mask 0x1000 {
-        /// An interrupt, or the trigger of conversions.
-        #[default]
-        Interrupt = 0,
-        /// A switch that follows the thresholds.
-        Switch = 1,
-    }
-}
-
-/// Checks of the analogue part, whose findings are [`StatusFaults`](crate::StatusFaults): the sensor's
-/// own switch (DIAG_EN) and its choice (DIAG_SEL) in one.
+/// Checks of the analogue part, whose findings are [`StatusFaults`](crate::StatusFaults): the
+/// sensor's own switch (DIAG_EN) and its choice (DIAG_SEL) in one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Diagnostics {
     /// None.
     #[default]
-    Off,
+    Off = 0x0000,
     /// All of them at once.
-    All,
+    All = 0x0020,
     /// Those of the enabled channels at once.
-    Enabled,
+    Enabled = 0x1020,
     /// All of them, one a set of conversions.
-    AllInTurn,
+    AllInTurn = 0x2020,
     /// Those of the enabled channels, one a set of conversions.
-    EnabledInTurn,
+    EnabledInTurn = 0x3020,
 }
 
 impl Diagnostics {
     /// In its place in the register.
-    #[inline]
     pub const fn bits(self) -> u16 {
-        match self {
-            Diagnostics::Off => 0x0000,
-            Diagnostics::All => 0x0020,
-            Diagnostics::Enabled => 0x1020,
-            Diagnostics::AllInTurn => 0x2020,
-            Diagnostics::EnabledInTurn => 0x3020,
-        }
+        self as u16
     }
 }

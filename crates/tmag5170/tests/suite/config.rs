@@ -9,22 +9,17 @@ use tmag5170::{
 #[test]
 fn a_default_is_what_a_reset_leaves() {
     let config = Config::default();
-    let bits = [
-        (Register::DeviceConfig, config.device.bits()),
-        (Register::SensorConfig, config.sensor.bits()),
-        (Register::SystemConfig, config.system.bits()),
-        (Register::AlertConfig, config.alert.bits()),
-        (Register::XThresholds, config.thresholds[0].bits()),
-        (Register::YThresholds, config.thresholds[1].bits()),
-        (Register::ZThresholds, config.thresholds[2].bits()),
-    ];
-    for (register, bits) in bits {
+    let [x, y, z] = config.thresholds.map(AxisThresholds::bits);
+    let [device, sensor] = [config.device.bits(), config.sensor.bits()];
+    let [system, alert] = [config.system.bits(), config.alert.bits()];
+    let settings = [device, sensor, system, alert, x, y, z];
+    for (register, bits) in Register::ALL.into_iter().zip(settings) {
         assert_eq!(bits, register.after_reset(), "{register:?}");
     }
 }
 
 #[test]
-fn device_by_hand() {
+fn registers_by_hand() {
     let device = DeviceConfig {
         average: Average::X32,
         magnet: MagnetType::Ferrite,
@@ -39,22 +34,7 @@ fn device_by_hand() {
         ..DeviceConfig::default()
     };
     assert_eq!(once.bits(), 0x0004);
-}
 
-#[test]
-fn the_settings_of_a_thread() {
-    // TI's forum, thread 958418, for ±100 mT on all axes and channels X, Y, Z: 0x19EA, of
-    // which the upper bits are a sleep time.
-    let sensor = SensorConfig {
-        channels: Channels::Xyz,
-        ranges: [Range::Wide; 3],
-        ..SensorConfig::default()
-    };
-    assert_eq!(sensor.bits(), 0x19EA & 0x03FF);
-}
-
-#[test]
-fn sensor_by_hand() {
     let sensor = SensorConfig {
         angle: AnglePair::Xz,
         sleep: SleepTime::Ms1000,
@@ -62,29 +42,26 @@ fn sensor_by_hand() {
         ranges: [Range::Narrow, Range::Wide, Range::Middle],
     };
     assert_eq!(sensor.bits(), 0xC000 | 0x2400 | 0x03C0 | 0x0001 | 0x0008);
-}
+    // TI's forum, thread 958418, for ±100 mT on all axes and channels X, Y, Z: 0x19EA, of
+    // which the upper bits are a sleep time.
+    let forum = SensorConfig {
+        channels: Channels::Xyz,
+        ranges: [Range::Wide; 3],
+        ..SensorConfig::default()
+    };
+    assert_eq!(forum.bits(), 0x19EA & 0x03FF);
 
-#[test]
-fn system_by_hand() {
     let system = SystemConfig {
         diagnostics: Diagnostics::EnabledInTurn,
         trigger: Trigger::Alert,
         data_type: DataType::Zy,
         limits: [true, false, true],
     };
-    assert_eq!(
-        system.bits(),
-        0x3000 | 0x0020 | 0x0400 | 0x00C0 | 0x0004 | 0x0001
-    );
-    let selected = [0x0000, 0x0020, 0x1020, 0x2020, 0x3020];
-    let all = [
-        Diagnostics::Off,
-        Diagnostics::All,
-        Diagnostics::Enabled,
-        Diagnostics::AllInTurn,
-        Diagnostics::EnabledInTurn,
-    ];
-    assert_eq!(all.map(Diagnostics::bits), selected);
+    assert_eq!(system.bits(), 0x3020 | 0x0400 | 0x00C0 | 0x0004 | 0x0001);
+
+    // TI's 50 % of full scale, both ways.
+    let half = AxisThresholds { high: 64, low: -64 };
+    assert_eq!(half.bits(), 0x40C0);
 }
 
 #[test]
@@ -97,66 +74,48 @@ fn alert_by_hand() {
         crossings: 3,
         thresholds: [false, true, false, true],
     };
-    assert_eq!(
-        alert.bits(),
-        0x2000 | 0x0800 | 0x0100 | 0x0020 | 0x0002 | 0x0008
-    );
-    let crossings = |crossings| {
-        let alert = AlertConfig {
-            crossings,
-            ..AlertConfig::default()
-        };
-        alert.bits()
-    };
-    assert_eq!(
-        [0, 1, 2, 3, 4, 255].map(crossings),
-        [0, 0, 0x10, 0x20, 0x30, 0x30]
-    );
     let switch = AlertConfig {
         mode: AlertMode::Switch,
         thresholds: [true, false, true, false],
         ..AlertConfig::default()
     };
     assert_eq!(switch.bits(), 0x1000 | 0x0001 | 0x0004);
-}
-
-#[test]
-fn thresholds_by_hand() {
-    // TI's 50 % of full scale, both ways.
-    let half = AxisThresholds { high: 64, low: -64 };
-    assert_eq!(half.bits(), 0x40C0);
+    let rest = 0x2000 | 0x0800 | 0x0100 | 0x0002 | 0x0008;
+    for (crossings, bits) in [(0, 0), (1, 0), (2, 0x10), (3, 0x20), (4, 0x30), (255, 0x30)] {
+        assert_eq!(AlertConfig { crossings, ..alert }.bits(), rest | bits);
+    }
 }
 
 #[test]
 fn fields_come_back_and_others_are_refused() {
-    for &average in Average::ALL {
-        assert_eq!(Average::of(average.bits() | 0x8FFF), Some(average));
-        assert_eq!(average.count(), 1 << (average.bits() >> 12));
+    // With every bit beside the field set.
+    macro_rules! come_back {
+        ($($field:ident $mask:literal),+) => {$(
+            for &value in $field::ALL {
+                assert_eq!($field::of(value.bits() | !$mask), Some(value));
+            }
+        )+};
     }
-    for &channels in Channels::ALL {
-        assert_eq!(Channels::of(channels.bits() | 0xFC3F), Some(channels));
-    }
-    for &data_type in DataType::ALL {
-        assert_eq!(DataType::of(data_type.bits() | 0xFE3F), Some(data_type));
-    }
-    for &mode in OperatingMode::ALL {
-        assert_eq!(OperatingMode::of(mode.bits() | 0xFF8F), Some(mode));
-    }
+    come_back!(
+        Average 0x7000, MagnetType 0x0300, OperatingMode 0x0070, AnglePair 0xC000,
+        SleepTime 0x3C00, Channels 0x03C0, Range 0x0003, Trigger 0x0600, DataType 0x01C0,
+        AlertMode 0x1000, Version 0x0030
+    );
     assert_eq!(Average::of(0x6000), None);
     assert_eq!(OperatingMode::of(0x0070), None);
     assert_eq!(Range::of(0x0003), None);
     assert_eq!(SleepTime::of(0x2800), None);
     assert_eq!(Trigger::of(0x0600), None);
-    assert_eq!(Version::of(0x0040), Some(Version::A1));
-    assert_eq!(Version::of(0x0054), Some(Version::A2));
     assert_eq!(Version::of(0x0060), None);
 }
 
 #[test]
-fn channels_are_their_letters() {
+fn averages_and_channels_are_their_names() {
+    for average in Average::ALL {
+        assert_eq!(format!("{average:?}"), format!("X{}", average.count()));
+    }
     for channels in Channels::ALL {
-        let name = format!("{channels:?}").to_lowercase();
-        let name = if name == "off" { String::new() } else { name };
+        let name = format!("{channels:?}").to_lowercase().replace("off", "");
         let axes = ['x', 'y', 'z'].map(|axis| name.contains(axis));
         assert_eq!(channels.axes(), axes, "{name}");
         assert_eq!(channels.count() as usize, name.len(), "{name}");

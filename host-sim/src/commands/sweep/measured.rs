@@ -5,7 +5,7 @@ use scene::Scene;
 
 use crate::Error;
 use crate::bench::HostModule;
-use crate::columns::{self, Column, column};
+use crate::columns::{self, Column, columns};
 use crate::decisions::{Decided, Score, Verdict};
 use crate::output::Output;
 use crate::run::Run;
@@ -90,40 +90,19 @@ impl Measured {
 }
 
 /// The columns after those of the keys and the seed.
-pub(crate) const COLUMNS: [Column; 8] = [
-    column(
-        "right",
-        "",
-        "decisions that name what was touched, or say `unknown` of what the model does not know",
-    ),
-    column("wrong", "", "decisions that name something else"),
-    column(
-        "refused",
-        "",
-        "decisions that say `unknown` of what the model knows",
-    ),
-    column(
-        "error_rate",
-        "",
-        "share of `wrong` in `right` and `wrong`; empty without either",
-    ),
-    column(
-        "decision_time_s",
-        "s",
-        "mean time of contact of a right or wrong decision; empty without one",
-    ),
-    column(
-        "touches",
-        "",
-        "touches that began, of all whiskers that are heard",
-    ),
-    column("faults", "", "faults of sensors and motors that began"),
-    column(
-        "tracking_rms_deg",
-        "degrees",
-        "root mean square of angle less setpoint, first whisker of each side; empty without `[whisking]`",
-    ),
-];
+pub(crate) const COLUMNS: [Column; 8] = columns! {
+    "right", "",
+        "decisions that name what was touched, or say `unknown` of what the model does not know";
+    "wrong", "", "decisions that name something else";
+    "refused", "", "decisions that say `unknown` of what the model knows";
+    "error_rate", "", "share of `wrong` in `right` and `wrong`; empty without either";
+    "decision_time_s", "s", "mean time of contact of a right or wrong decision; empty without one";
+    "touches", "", "touches that began, of all whiskers that are heard";
+    "faults", "", "faults of sensors and motors that began";
+    "tracking_rms_deg", "degrees",
+        "root mean square of angle less setpoint, first whisker of each side; empty without \
+        `[whisking]`";
+};
 
 /// Writes the table: of each run the values of the keys, its seed and its figures.
 pub(super) fn write<'r>(

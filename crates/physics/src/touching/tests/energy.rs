@@ -98,22 +98,7 @@ fn released(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// Released bent, over, on or under a smooth plate, with the base at rest.
-    #[test]
-    fn energy_never_rises(
-        shaft in any_shaft(),
-        stiffness in 0.0..9.0_f64,
-        damping in prop_oneof![Just(0.0), 0.0..2.0_f64],
-        friction in prop_oneof![Just(0.0), 0.0..2.0_f64],
-        extra in 1.0..2.0_f64,
-        release in any_release(),
-        dt in -4.5..-2.5_f64,
-    ) {
-        let surface = flat(10.0_f64.powf(stiffness), damping, extra * friction, friction);
-        released(&shaft, surface, release, 10.0_f64.powf(dt))?;
-    }
-
-    /// The same on every material.
+    /// Released bent, over, on or under a plate of every material, with the base at rest.
     #[test]
     fn energy_never_rises_on_any_material(
         shaft in any_shaft(),
@@ -125,11 +110,11 @@ proptest! {
         released(&shaft, Surface::of(material).piece(seed), release, dt_s)?;
     }
 
-    /// The same on surfaces that no material has, slippery and undamped too.
+    /// The same on surfaces that no material has, smooth, slippery and undamped too.
     #[test]
     fn energy_never_rises_on_any_surface(
         shaft in any_shaft(),
-        height in -7.0..-2.0_f64,
+        height in prop_oneof![Just(f64::NEG_INFINITY), -7.0..-2.0_f64],
         grain in -6.0..-1.0_f64,
         stiffness in 0.0..9.0_f64,
         damping in prop_oneof![Just(0.0), 0.0..2.0_f64],
