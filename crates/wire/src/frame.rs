@@ -87,7 +87,7 @@ mod tests {
     }
 
     /// See the test.
-    const PYTHON: u32 = 0x7EF270B7;
+    const PYTHON: u32 = 0x7EF2_70B7;
 
     #[test]
     fn what_does_not_fit_has_no_frame() {

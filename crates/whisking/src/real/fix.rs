@@ -198,18 +198,17 @@ impl Real for Fix {
 fn fixed_point(value: f32, fraction: u32) -> i32 {
     const MANTISSA_BITS: u32 = 23;
     let bits = value.to_bits();
-    let biased = bits >> MANTISSA_BITS & 0xFF;
+    let biased = (bits >> MANTISSA_BITS) & 0xFF;
     let (leading, exponent) = (u32::from(biased > 0), biased.max(1));
-    let mantissa = u64::from(bits % (1 << MANTISSA_BITS) | leading << MANTISSA_BITS);
-    // 127 is the bias of the exponent.
+    let mantissa = u64::from((bits % (1 << MANTISSA_BITS)) | (leading << MANTISSA_BITS));
+    // By how much it is shifted to the left; 127 is the bias of the exponent.
     let shift = exponent + fraction;
-    let magnitude = match shift.checked_sub(127 + MANTISSA_BITS) {
-        // More bits than a word has, whatever the mantissa: below they are exact.
-        Some(left) => mantissa << left.min(8),
-        None => {
-            let right = 127 + MANTISSA_BITS - shift;
-            ((mantissa << 1 >> right.min(62)) + 1) >> 1
-        }
+    let magnitude = if let Some(left) = shift.checked_sub(127 + MANTISSA_BITS) {
+        // By 8 the leading one is beyond a word: what is more is limited alike.
+        mantissa << left.min(8)
+    } else {
+        let right = 127 + MANTISSA_BITS - shift;
+        (((mantissa << 1) >> right.min(62)) + 1) >> 1
     };
     let limit = if value.is_sign_negative() {
         1 << 31
