@@ -1,16 +1,15 @@
 //! Generated documents: written by commands, never by hand.
 
+#[cfg(test)]
+mod by_hand;
 mod faults;
-mod harness;
 mod main_job;
-mod mount;
 
 use crate::firmware::Board;
 use crate::run::{
     Fault, cargo, document, output, read, read_bytes, target, top, workspace_program,
 };
 use crate::{cost, descriptions, emulate, studies};
-use harness::Drawn;
 use main_job::DECISIONS;
 
 /// Writes the documents that follow from the source alone, or checks that they are up to date.
@@ -20,15 +19,6 @@ use main_job::DECISIONS;
 pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
-    for (name, drawn) in [
-        ("docs/harness.svg", Drawn::F446re),
-        ("docs/harness-f103rb.svg", Drawn::F103rb),
-        ("docs/harness-g071rb.svg", Drawn::G071rb),
-    ] {
-        document(name, harness::svg(drawn)?.as_bytes(), check)?;
-    }
-    document("docs/mount.md", mount::page().as_bytes(), check)?;
-    document("docs/mount.svg", mount::svg().as_bytes(), check)?;
     document(
         "docs/files.md",
         output(workspace_program("host-sim").arg("columns"))?.as_bytes(),

@@ -170,7 +170,7 @@ enum Command {
         /// Only say whether they are up to date
         #[arg(long)]
         check: bool,
-        /// Only those that need no run: of keys, of faults, of wires
+        /// Only those that need no run: of keys, of faults, of columns
         #[arg(long)]
         quick: bool,
     },
