@@ -47,9 +47,6 @@ struct Dependency {
 }
 
 /// Checks the workspace.
-///
-/// # Errors
-/// Every dependency that does not point down, and every package without a row.
 pub(crate) fn all() -> Result<(), Fault> {
     let ask = ["metadata", "--no-deps", "--format-version=1", "--offline"];
     let said = output(&mut cargo(&ask))?;

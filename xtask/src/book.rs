@@ -3,9 +3,6 @@
 use crate::run::{Fault, cargo, run, target, top};
 
 /// Follows every link and image, then writes the book to target/book.
-///
-/// # Errors
-/// If a link is broken, a page is not named, or the book cannot be built.
 pub(crate) fn build() -> Result<(), Fault> {
     let build = [
         "run",
@@ -20,9 +17,6 @@ pub(crate) fn build() -> Result<(), Fault> {
 }
 
 /// The tests of the package, which are not the workspace's.
-///
-/// # Errors
-/// If one fails.
 pub(crate) fn test() -> Result<(), Fault> {
     let test = [
         "test",

@@ -32,9 +32,6 @@ const MINUTES: f64 = 0.25;
 
 /// Measures everything and writes the table (to `csv`, where one is named) and the
 /// page; or counts again and checks that no kernel and no stage has become dearer.
-///
-/// # Errors
-/// If something cannot be built or run, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     if check {
         count::all(None, true)?;
@@ -57,9 +54,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 }
 
 /// Checks the first scene that is measured on the board.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
     let mut scenes = stages.chunk_by(Stage::goes_with);
@@ -71,9 +65,6 @@ pub(crate) fn short() -> Result<(), Fault> {
 
 /// Ten minutes of the noisiest scene on the emulated board; writes
 /// docs/measured/deadlines.csv and the page.
-///
-/// # Errors
-/// If a tick is missed, or nothing can be built or run.
 pub(crate) fn deadlines() -> Result<(), Fault> {
     let board = firmware::Board::named("nucleo-f446re")?;
     let said = emulate::deadlines(board, Path::new("scenes/full.toml"), 10.0)?;
@@ -84,9 +75,6 @@ pub(crate) fn deadlines() -> Result<(), Fault> {
 
 /// Writes docs/measured/cost.md from the committed tables, or checks that it is up
 /// to date.
-///
-/// # Errors
-/// If a table is missing or, checking, the page differs.
 pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
     let text = |name: &str| read(&top().join(name));
     let sizes = text(crate::size::TABLE.file)?;

@@ -52,9 +52,6 @@ const PROCESSORS: [Processor; 2] = [
 
 /// Counts everything and writes the table (to `csv`, where one is named), or checks
 /// that no kernel has become dearer than it says.
-///
-/// # Errors
-/// If something cannot be built or run, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let files = listing(&top().join("xtask/count/src/bin"), "rs")?;
     let names = files.iter().filter_map(|file| file.file_stem()?.to_str());
@@ -68,9 +65,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 }
 
 /// Checks [`SHORT`] on the first processor.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let found = count(&PROCESSORS[..1], &SHORT)?;
     print!("{}", columns(&found, |_| String::new()));

@@ -21,17 +21,11 @@ fn facts(board: Option<Board>) -> Result<String, Fault> {
 }
 
 /// Writes the page, or checks that it is up to date.
-///
-/// # Errors
-/// If it cannot be written, or, checking, differs.
 pub(crate) fn page(check: bool) -> Result<(), Fault> {
     document(PAGE, facts(None)?.as_bytes(), check)
 }
 
 /// Holds every fact of every board against the description of its chip.
-///
-/// # Errors
-/// What is not as described.
 pub(crate) fn compare() -> Result<(), Fault> {
     Board::ALL.into_iter().try_for_each(of_board)
 }

@@ -30,9 +30,6 @@ struct OfPage {
 }
 
 /// Measures both, and writes the page and the picture of the README.
-///
-/// # Errors
-/// If one cannot be built, or a test of the page fails.
 pub(crate) fn measure() -> Result<(), Fault> {
     page::build()?;
     page::test(Some(top().join("docs/page.png")))?;

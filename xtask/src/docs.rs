@@ -13,9 +13,6 @@ use crate::{cost, descriptions, emulate, studies};
 use main_job::DECISIONS;
 
 /// Writes the documents that follow from the source alone, or checks that they are up to date.
-///
-/// # Errors
-/// If a file cannot be written, or, checking, differs.
 pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
@@ -27,9 +24,6 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
 }
 
 /// Writes every generated document, or checks that they are up to date.
-///
-/// # Errors
-/// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     of_boards(check)?;
     // The main job's page quotes what it measures over many runs.
@@ -40,9 +34,6 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
 
 /// Checks that every generated document is up to date but the two pages of the studies, which
 /// take longer than all others: those are only made, in short. The nightly run checks them.
-///
-/// # Errors
-/// If one differs, or cannot be made.
 pub(crate) fn short() -> Result<(), Fault> {
     of_boards(true)?;
     of_runs(true)?;

@@ -68,9 +68,6 @@ impl Emulated {
     }
 
     /// Builds the program to which any scene is deployed.
-    ///
-    /// # Errors
-    /// If it cannot be built.
     pub(crate) fn deployed(board: Board) -> Result<Self, Fault> {
         let any_scene = firmware::kept(|| firmware::build_any_scene(board))?;
         Ok(Self {
@@ -89,9 +86,6 @@ impl Emulated {
 }
 
 /// Does `tasks` with `scene`, one after the other.
-///
-/// # Errors
-/// If its program cannot be built, or the emulated board says that something is wrong.
 pub(crate) fn emulate(on: &Emulated, scene: &Path, tasks: &[Task]) -> Result<(), Fault> {
     let program = on.program(scene)?;
     let mut done = tasks.iter().map(|task| match task {
@@ -169,9 +163,6 @@ fn serial(on: &Emulated, scene: &Path, without: &Path) -> Result<(), Fault> {
 }
 
 /// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
-///
-/// # Errors
-/// As [`emulate`].
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("picture");
@@ -183,9 +174,6 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
 }
 
 /// What [`Task::Deadlines`] measures, as `what,mean,worst` lines.
-///
-/// # Errors
-/// As [`emulate`].
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
     let mut command = workspace_program("emulator");
@@ -197,9 +185,6 @@ pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<Stri
 /// Compares every scene in `scenes` that the board takes with host-sim; one with several
 /// whiskers a side by the first of each. [`IN_FIXED_POINT`] are compared in fixed point
 /// too, where a board has a choice and scenes are linked.
-///
-/// # Errors
-/// The first scene that differs, or that cannot be built.
 pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
     let board = on.board;
     for scene in listing(&top().join("scenes"), "toml")? {
@@ -231,9 +216,6 @@ pub(crate) const CIA: &str = "scenes/cia.toml";
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
 
 /// Compares [`IN_FIXED_POINT`] with host-sim in fixed point, which takes programs of their own.
-///
-/// # Errors
-/// If one differs or cannot be built.
 pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
     for scene in IN_FIXED_POINT {
         let fixed = variants::in_fixed_point(&top().join(scene), &target().join("fixed"))?;
@@ -244,27 +226,18 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
 
 /// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at
 /// half its clock for them.
-///
-/// # Errors
-/// If it differs or cannot be built.
 pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     let slow = variants::with_slow_sensors(&top().join(FULL), &target().join("slow"))?;
     emulate(on, &slow, COMPARE)
 }
 
 /// Compares [`CIA`] with host-sim where the sensors find their zeros.
-///
-/// # Errors
-/// If it differs or cannot be built.
 pub(crate) fn compare_with_zeros(on: &Emulated) -> Result<(), Fault> {
     let zeros = variants::with_zeros(&top().join(CIA), &target().join("zeros"))?;
     emulate(on, &zeros, COMPARE)
 }
 
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
-///
-/// # Errors
-/// If it cannot be written.
 pub(crate) fn noisiest() -> Result<PathBuf, Fault> {
     variants::on_both_sides(&top().join(FULL), &target().join("both"))
 }

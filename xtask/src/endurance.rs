@@ -186,9 +186,6 @@ fn begin(resume: bool) -> Result<(), Fault> {
 }
 
 /// All hours of `choice`, and docs/measured/endurance.md from them.
-///
-/// # Errors
-/// Shards that did not end well, and what cannot be built.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     begin(choice.resume)?;
     let scenes = listing(&top().join("scenes"), "toml")?;
@@ -203,9 +200,6 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 
 /// The form of the night: the week on the PC, and an hour on the boards, where a day takes
 /// more than one.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn nightly() -> Result<(), Fault> {
     begin(false)?;
     let scenes = listing(&top().join("scenes"), "toml")?;
@@ -216,9 +210,6 @@ pub(crate) fn nightly() -> Result<(), Fault> {
 
 /// The short form of CI: minutes of every scene on the PC, and the wraps of all counters on
 /// one board.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     begin(false)?;
     let scenes = listing(&top().join("scenes"), "toml")?;

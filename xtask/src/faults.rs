@@ -57,8 +57,6 @@ fn has_mlx90333(scene: &PathBuf) -> bool {
 }
 
 impl Subject {
-    /// # Errors
-    /// An unknown name, and what cannot be built.
     fn of(name: &str, runs: u64) -> Result<Self, Fault> {
         let scenes = listing(&top().join("scenes"), "toml")?;
         match name {
@@ -170,9 +168,6 @@ fn folder() -> PathBuf {
 
 /// The campaign, or what `choice` leaves of it; writes docs/measured/reliability.md where
 /// nothing is left out.
-///
-/// # Errors
-/// Harmful runs, and what cannot be built.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if let (Some(name), Some(number)) = (&choice.subject, choice.again) {
         return again(name, number);
@@ -203,9 +198,6 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 }
 
 /// The whole campaign, as the command without options makes it.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn whole() -> Result<(), Fault> {
     all(&Choice {
         runs: RUNS,
@@ -247,9 +239,6 @@ fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 }
 
 /// The short form of CI: some runs on the PC, and a few as the program of a board.
-///
-/// # Errors
-/// Harmful runs, and what cannot be built.
 pub(crate) fn short() -> Result<(), Fault> {
     forget()?;
     let mut tables = Subject::of(PC, 1000)?.run(2)?;

@@ -50,18 +50,12 @@ pub(crate) struct Table {
 
 impl Table {
     /// Reads it, or what stands in its place at `csv`.
-    ///
-    /// # Errors
-    /// If it is missing or is no such table.
     pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
         self.parse(&read(&self.place(csv))?)
     }
 
     /// Prints `shown`, which is for a person to read, and writes `figures`, to `csv` or to
     /// its own file; for a `csv` of `-` prints the table alone.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub(crate) fn write(
         &self,
         figures: &[Figure],
@@ -111,9 +105,6 @@ impl Table {
 
     /// Names everything in `found` that has become dearer than `known` says or is
     /// new there; where `found` `is_all`, also what is gone.
-    ///
-    /// # Errors
-    /// If there is any.
     pub(crate) fn compare(
         &self,
         known: &[Figure],

@@ -46,10 +46,7 @@ const LIMITS: [&str; 3] = ["-timeout=10", "-rss_limit_mb=1024", "-malloc_limit_m
 /// Of the words of the scenes, those for the dictionary have so many bytes.
 const WORD: std::ops::Range<usize> = 2..40;
 
-/// Feeds every target, or those named, for so many minutes each.
-///
-/// # Errors
-/// The first finding: its file, and what it does.
+/// Feeds every target, or those named, for so many minutes each, up to the first finding.
 pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Fault> {
     if let Some(name) = names
         .iter()
@@ -73,9 +70,6 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
 }
 
 /// Feeds every target but [`SLOW`] for a few seconds.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let names = TARGETS.map(|target| target.0).into_iter();
     let quick: Vec<String> = names

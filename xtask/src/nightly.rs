@@ -18,9 +18,6 @@ use crate::{
 const NIGHTS: u64 = 7;
 
 /// Everything, or the steps whose names contain one of `only`.
-///
-/// # Errors
-/// All checks that fail.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.try_run("lints of every board", lints);

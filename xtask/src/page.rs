@@ -12,9 +12,6 @@ pub(crate) fn path() -> PathBuf {
 }
 
 /// Builds target/page/whisker.html.
-///
-/// # Errors
-/// If the core or the packer cannot be built.
 pub(crate) fn build() -> Result<(), Fault> {
     let core = [
         "build",
@@ -44,9 +41,6 @@ pub(crate) fn build() -> Result<(), Fault> {
 
 /// Opens it in headless Chromium and uses it as a person would; `picture` is where the one of the
 /// README goes.
-///
-/// # Errors
-/// If something does not work, or the browser's console has an error.
 pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
     let mut tests = Command::new(python::with_browser()?);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);

@@ -38,9 +38,6 @@ pub(crate) struct Proven {
 
 /// Checks the scenes, or every one, on `board`, or on every one, and sees that a panic
 /// would be found.
-///
-/// # Errors
-/// Every way to a panic; or if something cannot be built or read.
 pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault> {
     let every = listing(&top().join("scenes"), "toml")?;
     let scenes = if scenes.is_empty() { &every } else { scenes };
@@ -70,9 +67,6 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
 }
 
 /// Checks a program.
-///
-/// # Errors
-/// Every way to a panic, or if the file cannot be read.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     let program = Program::of(elf)?;
     let tasks = program.calls.tasks()?;
@@ -96,9 +90,6 @@ pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
 }
 
 /// Builds [`CONTROL`] with checks of overflow and sees panics found in its interrupts.
-///
-/// # Errors
-/// If none is found, or it cannot be built.
 pub(crate) fn control(board: Board) -> Result<(), Fault> {
     let elf = firmware::build_checked(board, Path::new(CONTROL))?;
     let program = Program::of(&elf)?;

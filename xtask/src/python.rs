@@ -27,9 +27,6 @@ fn place(name: &str) -> PathBuf {
 }
 
 /// An environment that is made anew with these packages.
-///
-/// # Errors
-/// If Python has no venv, or a package cannot be had.
 pub(crate) fn environment(python: &Path, name: &str, packages: &[&str]) -> Result<PathBuf, Fault> {
     let folder = place(name);
     run(Command::new(python)
@@ -102,9 +99,6 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
 
 /// The wheel in a clean environment of the oldest and of the newest Python of this machine, where
 /// its tests are run.
-///
-/// # Errors
-/// If there is no Python for it, the wheel cannot be built, or a test fails.
 pub(crate) fn test() -> Result<(), Fault> {
     let pythons = pythons();
     let (Some(oldest), Some(newest)) = (pythons.first(), pythons.last()) else {
@@ -133,9 +127,6 @@ pub(crate) fn test() -> Result<(), Fault> {
 
 /// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;
 /// every notebook.
-///
-/// # Errors
-/// If one of them fails.
 pub(crate) fn whole() -> Result<(), Fault> {
     let pythons = pythons();
     let (_, python) = pythons.last().ok_or("no Python")?;
@@ -176,9 +167,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
 }
 
 /// The figures of the wheel that `pip install` would make, as JSON.
-///
-/// # Errors
-/// If it cannot be built or measured.
 pub(crate) fn figures() -> Result<String, Fault> {
     let pythons = pythons();
     let (_, python) = pythons.last().ok_or("no Python")?;
@@ -194,9 +182,6 @@ pub(crate) fn figures() -> Result<String, Fault> {
 }
 
 /// A file that a Python program has written.
-///
-/// # Errors
-/// If it is not there.
 pub(crate) fn written(name: &str) -> Result<String, Fault> {
     read(&place(name))
 }
@@ -207,9 +192,6 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
 }
 
 /// The program that runs the page's tests, with Selenium.
-///
-/// # Errors
-/// If there is no Python, or a package cannot be had.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
     let pythons = pythons();
     let (_, python) = pythons.last().ok_or("no Python")?;

@@ -17,9 +17,6 @@ const LOADED: u64 = object::elf::SHF_ALLOC as u64;
 
 /// Builds the firmware of `scene` for `board` twice and compares what is flashed, and the
 /// whole ELF file.
-///
-/// # Errors
-/// If they differ, or cannot be built.
 pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
     let [first, second] = COPIES.map(|name| copy(&target().join(name)));
     let [first, second] = [

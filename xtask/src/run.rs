@@ -20,33 +20,21 @@ pub(crate) fn target() -> PathBuf {
 }
 
 /// `path` from the root, so that a program that runs elsewhere finds it.
-///
-/// # Errors
-/// If there is no such path.
 pub(crate) fn absolute(path: &Path) -> Result<PathBuf, Fault> {
     std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The text of a file.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn read(path: &Path) -> Result<String, Fault> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The bytes of a file.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Writes a file, and the folder it stands in.
-///
-/// # Errors
-/// If it cannot be written.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, content));
@@ -54,9 +42,6 @@ pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault>
 }
 
 /// Writes a document, or checks that it is up to date.
-///
-/// # Errors
-/// If it cannot be written, or, checking, differs.
 pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Fault> {
     let path = top().join(name);
     if !check {
@@ -70,9 +55,6 @@ pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Faul
 }
 
 /// The files in `folder` whose names end so, sorted.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fault> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -124,9 +106,6 @@ pub(crate) fn workspace_program(package: &str) -> Command {
 }
 
 /// Runs `command` and prints it first.
-///
-/// # Errors
-/// If it cannot be started or does not end well.
 pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     let text = line(command);
     println!("$ {text}");
@@ -141,9 +120,6 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
 }
 
 /// Installs a subcommand of cargo, unless it is there.
-///
-/// # Errors
-/// If it cannot be built.
 pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
     if output(&mut cargo(&[subcommand, "--version"])).is_ok() {
         return Ok(());
@@ -153,9 +129,6 @@ pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
 }
 
 /// What `command` prints.
-///
-/// # Errors
-/// If it cannot be started or does not end well.
 pub(crate) fn output(command: &mut Command) -> Result<String, Fault> {
     let text = line(command);
     let output = command

@@ -32,9 +32,6 @@ const TWO_SIDES: &str = "scenes/both.toml";
 /// committed one; `-`: prints the table alone), or checks that no program has
 /// grown beyond what it says or beyond a limit. Checks in any case that each
 /// program holds what its scene names and nothing else.
-///
-/// # Errors
-/// If something cannot be built or read, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let quiet = csv == Some(Path::new("-"));
     let mut measured = Measured::default();
@@ -64,9 +61,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
 }
 
 /// Prints flash, static RAM and the stack's bound of an ELF file in bytes.
-///
-/// # Errors
-/// If it cannot be read, or its stack has no bound.
 pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> {
     let Size { flash, ram } = Size::of(elf)?;
     println!(
@@ -80,9 +74,6 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
 }
 
 /// Checks [`SHORT`] on every board and [`TWO_SIDES`] on one, and what a program holds.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
     for scene in SHORT {

@@ -28,9 +28,6 @@ pub(crate) struct Choice {
 
 /// Builds host-sim for release and prints times a tick, and how many times as fast
 /// as the other program it is.
-///
-/// # Errors
-/// If host-sim cannot be built, or a program cannot be run.
 pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
     let build = ["build", "--release", "--locked"];
     run(cargo(&build).args(["-p", "host-sim"]))?;

@@ -23,9 +23,6 @@ impl Steps {
     }
 
     /// Runs a step, if it is wanted, and notes its time.
-    ///
-    /// # Errors
-    /// The step's, after the table of times.
     pub(crate) fn run(
         &mut self,
         name: &'static str,
@@ -53,9 +50,6 @@ impl Steps {
     }
 
     /// Prints the table of times.
-    ///
-    /// # Errors
-    /// All failures that [`Steps::try_run`] went over.
     pub(crate) fn end(self) -> Result<(), Fault> {
         self.print();
         if self.faults.is_empty() {

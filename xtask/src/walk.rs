@@ -37,26 +37,16 @@ pub(crate) struct Choice {
 }
 
 /// What CI runs of all pages.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     with(&[], false)
 }
 
 /// All that can be run without hardware.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn nightly() -> Result<(), Fault> {
     with(&[], true)
 }
 
 /// Runs the blocks of the pages that are chosen, or lists them.
-///
-/// # Errors
-/// The first command that fails or says something else than its page, and a block that is
-/// marked as none of `sh`, `sh nightly` and `sh hardware`.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if !choice.list {
         return with(&choice.pages, choice.nightly);

@@ -8,9 +8,6 @@ use crate::run::Fault;
 use crate::size;
 
 /// Mean and worst of `what` in `what,mean,worst` lines.
-///
-/// # Errors
-/// If it is not there.
 pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
     let line = said.lines().find_map(|line| {
         let fields: Vec<&str> = line.split(',').collect();
@@ -25,9 +22,6 @@ pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
 }
 
 /// The bytes of stack that the board of docs/measured/deadlines.csv has used.
-///
-/// # Errors
-/// If they are not there.
 fn painted(deadlines: &str) -> Result<f64, Fault> {
     let start = "bytes of stack by its paint,,";
     let bytes = deadlines.lines().find_map(|line| line.strip_prefix(start));
@@ -65,10 +59,7 @@ pub(super) fn note(stages: &[Stage], stage: &Figure) -> String {
     format!("{goal:>16}  {verdict:6}  {others}")
 }
 
-/// What misses its goal and why.
-///
-/// # Errors
-/// If something misses its goal without a reason.
+/// What misses its goal and why; to miss one without a reason is a fault.
 fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
     let goal = |figure: &Figure| beside(stages, figure)[0];
     let mut missed: Vec<&Figure> = figures.iter().collect();
@@ -95,10 +86,6 @@ fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
 }
 
 /// The page.
-///
-/// # Errors
-/// If a table of another command is not what it should be, or a goal is missed
-/// without a reason.
 pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &str) -> Result<String, Fault> {
     let stages = stages()?;
     let mut table = String::new();

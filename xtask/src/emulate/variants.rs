@@ -14,9 +14,6 @@ const SLOW_HZ: i64 = 500;
 
 /// Writes the first whisker of each side of `path` as a scene of its own into
 /// `folder` and returns its path; `None` if the scene has no more than that.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(crate) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
     let (scene, mut table) = read(path)?;
     let whiskers = scene.head.whiskers_per_side;
@@ -30,9 +27,6 @@ pub(crate) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Faul
 
 /// Writes `path`, which has the left side alone, as a scene with both sides alike and
 /// coupled into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     set(&mut table, "head", "sides", "both".into());
@@ -44,9 +38,6 @@ pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault
 }
 
 /// Writes `path` as a scene in fixed point into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     set(&mut table, "whisking", "numbers", "fixed".into());
@@ -55,9 +46,6 @@ pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Faul
 
 /// Writes `path` as a scene whose sensors are in their slow mode into `folder` and returns its
 /// path. It classifies nothing: models are of another rate.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     table.insert("tick_hz".to_owned(), SLOW_HZ.into());
@@ -69,9 +57,6 @@ pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, F
 
 /// Writes `path` as a scene whose sensors find their zeros, which are not at mid-scale, into
 /// `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn with_zeros(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     let found = Table::from_iter([("zero_after_s".to_owned(), Value::from(0.5))]);
@@ -85,9 +70,6 @@ pub(super) fn with_zeros(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// Writes `path` as a scene without telemetry into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn without_telemetry(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     let rtt = Table::from_iter([("rtt".to_owned(), Value::from(false))]);
@@ -96,18 +78,12 @@ pub(super) fn without_telemetry(path: &Path, folder: &Path) -> Result<PathBuf, F
 }
 
 /// The whiskers of the scene in `path`.
-///
-/// # Errors
-/// If it is wrong.
 pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
     read(path).map(|(scene, _)| scene.whiskers())
 }
 
 /// Writes `path` as a scene with a serial port at `baud`, and with pins where it classifies,
 /// into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(super) fn with_serial(path: &Path, baud: u32, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     let telemetry = Table::from_iter([
@@ -119,9 +95,6 @@ pub(super) fn with_serial(path: &Path, baud: u32, folder: &Path) -> Result<PathB
 }
 
 /// Writes `path` as a scene with another seed into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
 pub(crate) fn with_seed(path: &Path, seed: u64, folder: &Path) -> Result<PathBuf, Fault> {
     let (scene, mut table) = read(path)?;
     let seed = i64::try_from(seed).map_err(|error| error.to_string())?;

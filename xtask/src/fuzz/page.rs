@@ -25,9 +25,6 @@ pub(super) struct Found {
 
 impl Found {
     /// From what libFuzzer says.
-    ///
-    /// # Errors
-    /// If a figure is missing.
     pub(super) fn read(name: &str, said: &str) -> Result<Self, Fault> {
         // The first number behind `label` in the last line that has it.
         let number = |label: &str| -> Result<u64, Fault> {
@@ -68,9 +65,6 @@ impl Found {
 }
 
 /// Writes the page.
-///
-/// # Errors
-/// If it cannot be written.
 pub(super) fn write(found: &[Found]) -> Result<(), Fault> {
     let mut text = format!(
         "<!-- written by cargo xtask fuzz --page -->\n\

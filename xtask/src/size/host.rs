@@ -16,9 +16,6 @@ const RUNS: usize = 3;
 const TICKS: u32 = 100_000;
 
 /// Nanoseconds a tick, with the writing of its files.
-///
-/// # Errors
-/// If host-sim cannot be built or run.
 pub(super) fn ns_per_tick(path: &Path, scene: &Scene) -> Result<u64, Fault> {
     let build = ["build", "--release", "--quiet", "--locked"];
     output(cargo(&build).args(["-p", "host-sim"]))?;

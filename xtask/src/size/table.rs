@@ -44,9 +44,6 @@ pub(crate) fn limits() -> String {
 
 /// The committed table as lines of a page, with the goals, and with the flash of the program that
 /// takes any scene beside that of the scene's own.
-///
-/// # Errors
-/// If the text is no such table.
 pub(crate) fn beside_goals(csv: &str) -> Result<String, Fault> {
     let figures = TABLE.parse(csv)?;
     let mut lines = String::new();
@@ -134,9 +131,6 @@ pub(super) fn columns(rows: &[Row]) -> String {
 
 /// Names every program in `found` that has grown, is new or exceeds a limit; where
 /// `found` `is_all`, also what is gone.
-///
-/// # Errors
-/// If there is one.
 pub(super) fn compare(known: &[Figure], found: &[Row], is_all: bool) -> Result<(), Fault> {
     let mut faults: Vec<String> = found.iter().flat_map(Row::beyond_limits).collect();
     let figures: Vec<Figure> = found.iter().map(Row::figure).collect();
