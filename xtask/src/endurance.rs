@@ -45,7 +45,7 @@ pub(crate) struct Choice {
 /// A scene with a seed for some hours.
 struct Shard {
     scene: PathBuf,
-    seed: u64,
+    seed: u32,
     hours: f64,
     board: Option<(Board, PathBuf)>,
 }
@@ -95,7 +95,7 @@ fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
     let (count, hours) = cut(hours, SHARD_H[0], scenes.len());
     let shard = |(n, scene): (usize, &PathBuf)| Shard {
         scene: scene.clone(),
-        seed: 1 + (n / scenes.len()) as u64,
+        seed: 1 + (n / scenes.len()) as u32,
         hours,
         board: None,
     };
@@ -116,8 +116,7 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
     let wanted = if hours > 0.0 { scenes } else { &[] };
     for scene in wanted {
         for &board in boards {
-            let single = variants::single(scene, &folder().join("single"))?;
-            let scene = single.unwrap_or_else(|| scene.clone());
+            let scene = variants::single(scene)?;
             if counts_all(&scene)? && firmware::try_build(board, &scene)?.is_ok() {
                 taken.push((board, scene));
             }
@@ -126,22 +125,19 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
     let (count, hours) = cut(hours, SHARD_H[1], taken.len());
     let mut shards = Vec::new();
     for (n, (board, scene)) in taken.iter().cycle().take(count).enumerate() {
-        let seed = 1 + (n / taken.len()) as u64;
-        let kept = folder().join(format!("{}-{seed}", board.name));
-        let scene = variants::with_seed(scene, seed, &kept)?;
-        let program = scene.with_extension("elf");
+        let seed = 1 + (n / taken.len()) as u32;
+        let scene = variants::with_seed(scene, seed)?;
+        let stem = scene.file_stem().unwrap_or_default().display();
+        let program = folder().join(format!("{}-{stem}.elf", board.name));
         let shard = Shard {
-            scene,
+            scene: scene.clone(),
             seed,
             hours,
             board: Some((*board, program.clone())),
         };
         if !shard.file().exists() {
             // The next build takes the place of the last.
-            write(
-                &program,
-                read_bytes(&firmware::build(*board, &shard.scene)?)?,
-            )?;
+            write(&program, read_bytes(&firmware::build(*board, &scene)?)?)?;
         }
         shards.push(shard);
     }

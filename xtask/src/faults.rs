@@ -86,8 +86,7 @@ impl Subject {
             runs: Some(runs),
         };
         for scene in scenes {
-            let single = variants::single(scene, &folder)?;
-            let scene = single.unwrap_or_else(|| scene.clone());
+            let scene = variants::single(scene)?;
             if let Ok(built) = firmware::try_build(board, &scene)? {
                 let name = scene.file_stem().unwrap_or_default();
                 let kept = folder.join(name).with_extension("elf");
