@@ -12,11 +12,11 @@ use std::path::Path;
 use scene::Scene;
 
 use crate::elf::contents;
+use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::panics;
 use crate::run::{Fault, listing, read_bytes, top};
 use parts::{Named, Seen};
-use table::Row;
 pub(crate) use table::{ANY_SCENE, TABLE, beside_goals, limits};
 use tactile::ModelBuf;
 
@@ -50,14 +50,13 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
         measured.control(board)?;
         measured.any_scene(board)?;
     }
-    let rows = measured.proven()?;
-    let shown = table::columns(&rows);
+    let found = measured.proven()?;
+    TABLE.take(&found, csv, check)?;
     if check {
-        print!("{shown}");
-        return table::compare(&TABLE.read(csv)?, &rows, true);
+        table::within_limits(&found)
+    } else {
+        Ok(())
     }
-    let figures: Vec<_> = rows.iter().map(Row::figure).collect();
-    TABLE.write(&figures, csv, &shown)
 }
 
 /// Prints flash, static RAM and the stack's bound of an ELF file in bytes.
@@ -90,15 +89,15 @@ pub(crate) fn short() -> Result<(), Fault> {
     measured.control(board)?;
     let [.., smallest] = Board::ALL;
     measured.any_scene(smallest)?;
-    let rows = measured.proven()?;
-    print!("{}", table::columns(&rows));
-    table::compare(&TABLE.read(None)?, &rows, false)
+    let found = measured.proven()?;
+    TABLE.check_part(&found)?;
+    table::within_limits(&found)
 }
 
 /// What the programs built so far take and hold.
 #[derive(Default)]
 struct Measured {
-    rows: Vec<Row>,
+    figures: Vec<Figure>,
     seen: Seen,
     wrong: Vec<String>,
 }
@@ -120,7 +119,7 @@ impl Measured {
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
         self.wrong.extend(misfits);
         self.check_panics(board, &path.display().to_string(), &elf);
-        self.rows.push(measured(board, &scene.name, &elf, host)?);
+        self.figures.push(measured(board, &scene.name, &elf, host)?);
         Ok(None)
     }
 
@@ -135,7 +134,7 @@ impl Measured {
     fn any_scene(&mut self, board: Board) -> Result<(), Fault> {
         let elf = firmware::build_any_scene(board)?;
         self.check_panics(board, ANY_SCENE, &elf);
-        self.rows.push(measured(board, ANY_SCENE, &elf, None)?);
+        self.figures.push(measured(board, ANY_SCENE, &elf, None)?);
         Ok(())
     }
 
@@ -151,14 +150,14 @@ impl Measured {
 
     /// The lines, if every program holds what its scene names and nothing else, and
     /// every part was once there and once absent.
-    fn proven(mut self) -> Result<Vec<Row>, Fault> {
+    fn proven(mut self) -> Result<Vec<Figure>, Fault> {
         let told = self
             .seen
             .unproven()
             .map(|part| format!("{part}: never there, or never absent"));
         self.wrong.extend(told);
         if self.wrong.is_empty() {
-            Ok(self.rows)
+            Ok(self.figures)
         } else {
             Err(self.wrong.join("\n"))
         }
@@ -170,14 +169,14 @@ fn load(path: &Path) -> Result<Scene, Fault> {
     Scene::load(top().join(path)).map_err(|error| error.to_string())
 }
 
-fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<Row, Fault> {
-    Ok(Row {
-        scene: scene.to_owned(),
-        board: board.name.to_owned(),
-        size: Size::of(elf)?,
-        stack: stack::worst(board, elf)?,
-        scene_bytes: Size::of_scene(elf)?,
-        host_ns: host,
+fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<Figure, Fault> {
+    let Size { flash, ram } = Size::of(elf)?;
+    let numbers = [flash, ram, stack::worst(board, elf)?].map(|bytes| bytes as f64);
+    let host = host.map_or_else(String::new, |ns| format!(", host-sim {ns} ns a tick"));
+    let note = format!("scene and model {}{host}", Size::of_scene(elf)?);
+    Ok(Figure {
+        note,
+        ..Figure::new(&[scene, board.name], &numbers)
     })
 }
 
