@@ -2,14 +2,14 @@
 //! counters of coverage, and with checks on. What is interesting is kept in `target/fuzz`
 //! from run to run, and so is each finding.
 
-mod page;
+mod found;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Fault, cargo, listing, read, run, target, top, write};
-use page::Found;
+use crate::run::{Fault, cargo, document, listing, output, read, run, target, top, write};
+use found::Found;
 
 /// What is fed, and the folders, from the top, of its first inputs.
 const TARGETS: [(&str, &[&str]); 7] = [
@@ -63,10 +63,17 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
         println!("{}", line.text());
         found.push(line);
     }
-    if page {
-        page::write(&found)?;
+    if !page {
+        return Ok(());
     }
-    Ok(())
+    let compiler = output(Command::new("rustc").arg("--version"))?;
+    let rows: Vec<String> = found.iter().map(Found::row).collect();
+    let page = format!(
+        include_str!("fuzz/page.md"),
+        compiler = compiler.trim(),
+        rows = rows.join("\n"),
+    );
+    document("docs/measured/fuzz.md", page.as_bytes(), false)
 }
 
 /// Feeds every target but [`SLOW`] for a few seconds.
