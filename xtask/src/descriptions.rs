@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::Stdio;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, document, output, target, workspace_program};
+use crate::run::{Fault, cargo_apart, document, output, workspace_program};
 
 /// The page.
 const PAGE: &str = "docs/registers.md";
@@ -33,17 +33,9 @@ pub(crate) fn compare() -> Result<(), Fault> {
 /// By a program that is built for the chip alone (`description`).
 fn of_board(board: Board) -> Result<(), Fault> {
     let facts = facts(Some(board))?;
-    let build = [
-        "run",
-        "--quiet",
-        "--locked",
-        "--manifest-path",
-        "description/Cargo.toml",
-    ];
-    let mut command = cargo(&build);
+    let mut command = cargo_apart("run", "description", "description");
     command
-        .args(["--features", board.name, "--target-dir"])
-        .arg(target().join("description"))
+        .args(["--features", board.name])
         .stdin(Stdio::piped());
     let wrong = |error: std::io::Error| format!("{}: {error}", board.name);
     let mut described = command.spawn().map_err(wrong)?;

@@ -1,12 +1,9 @@
 //! Scenes for hours: a week on the PC, and a day as the boards' own programs with every
 //! counter started just below its wrap, in shards.
 
-use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::thread;
 
 use clap::Args;
 use scene::Scene;
@@ -14,7 +11,8 @@ use scene::Scene;
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
 use crate::run::{
-    Fault, built, cargo, listing, read_bytes, run, target, top, workspace_program, write,
+    Fault, built, cargo, listing, read_bytes, remove, run, run_at_once, target, top,
+    workspace_program, write,
 };
 
 /// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
@@ -151,39 +149,14 @@ fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
         run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
     }
     let left = shards.iter().filter(|shard| !shard.file().exists());
-    let left = Mutex::new(left);
-    let faults = Mutex::new(Vec::new());
-    let next = || left.lock().ok()?.next();
-    let work = || {
-        while let Some(shard) = next() {
-            if let (Err(fault), Ok(mut faults)) = (run(&mut shard.command()), faults.lock()) {
-                faults.push(fault);
-            }
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..at_once.get() {
-            scope.spawn(work);
-        }
-    });
-    let faults = faults.into_inner().unwrap_or_default();
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults.join("\n"))
-    }
-}
-
-fn begin(resume: bool) -> Result<(), Fault> {
-    if !resume && folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
-    Ok(())
+    run_at_once(left.map(Shard::command).collect(), at_once.get())
 }
 
 /// All hours of `choice`, and docs/measured/endurance.md from them.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
-    begin(choice.resume)?;
+    if !choice.resume {
+        remove(&folder())?;
+    }
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, choice.hours);
     shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
@@ -197,7 +170,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 /// The form of the night: the week on the PC, and an hour on the boards, where a day takes
 /// more than one.
 pub(crate) fn nightly() -> Result<(), Fault> {
-    begin(false)?;
+    remove(&folder())?;
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, 168.0);
     shards.extend(on_boards(&Board::ALL, &scenes, 1.0)?);
@@ -207,7 +180,7 @@ pub(crate) fn nightly() -> Result<(), Fault> {
 /// The short form of CI: minutes of every scene on the PC, and the wraps of all counters on
 /// one board.
 pub(crate) fn short() -> Result<(), Fault> {
-    begin(false)?;
+    remove(&folder())?;
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, SHORT_H[0]);
     let full = [top().join(emulate::FULL)];

@@ -2,14 +2,17 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command};
+use std::process::Command;
 
 use clap::Args;
 use scene::{Scene, SensorModel};
 
 use crate::emulate::variants;
 use crate::firmware::{self, Board};
-use crate::run::{Fault, listing, read, read_bytes, run, target, top, workspace_program, write};
+use crate::run::{
+    Fault, listing, read, read_bytes, remove, run, run_at_once, target, top, workspace_program,
+    write,
+};
 
 /// What the rows call a run on this PC.
 const PC: &str = "host-sim";
@@ -144,19 +147,10 @@ impl Subject {
         println!("{}: {runs} in {} scenes", self.name, self.scenes.len());
         let table = |shard| folder().join(format!("{}-{shard}.csv", self.name));
         let tables: Vec<PathBuf> = (0..shards).map(table).collect();
-        let started: Result<Vec<Child>, Fault> = (0..shards)
-            .zip(&tables)
-            .map(|(shard, out)| {
-                let mut command = self.command(0, self.runs, [shard, shards], out);
-                command.spawn().map_err(|error| error.to_string())
-            })
-            .collect();
-        for mut shard in started? {
-            let status = shard.wait().map_err(|error| error.to_string())?;
-            if !status.success() {
-                return Err(format!("{}: a shard ended with {status}", self.name));
-            }
-        }
+        let shard =
+            |(shard, out): (u64, &PathBuf)| self.command(0, self.runs, [shard, shards], out);
+        let commands = (0..shards).zip(&tables).map(shard);
+        run_at_once(commands.collect(), tables.len())?;
         Ok(tables)
     }
 }
@@ -186,7 +180,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
         None => everywhere,
     };
     if !choice.resume {
-        forget()?;
+        remove(&folder())?;
     }
     let mut tables = Vec::new();
     for (name, runs) in wanted {
@@ -205,14 +199,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
         shards: 2,
         resume: false,
     })
-}
-
-/// Deletes all tables and programs of earlier campaigns.
-fn forget() -> Result<(), Fault> {
-    if folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
-    Ok(())
 }
 
 /// One run again.
@@ -239,7 +225,7 @@ fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 
 /// The short form of CI: some runs on the PC, and a few as the program of a board.
 pub(crate) fn short() -> Result<(), Fault> {
-    forget()?;
+    remove(&folder())?;
     let mut tables = Subject::of(PC, 1000)?.run(2)?;
     let one = [top().join(crate::emulate::FULL)];
     tables.extend(Subject::on(Board::ALL[0], &one, 24)?.run(2)?);

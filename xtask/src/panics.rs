@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use crate::elf::calls::Calls;
 use crate::elf::contents::{self, Piece};
 use crate::firmware::{self, Board};
-use crate::run::{Fault, listing, top};
+use crate::run::{Fault, listing, no_faults, top};
 
 /// Where every panic goes.
 const PANICS: [&str; 2] = ["core::panicking::", "rust_begin_unwind"];
@@ -77,16 +77,13 @@ pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     wrong.extend(idle.ends);
     let handlers = program.walk(&program.calls.named(MEANT))?;
     wrong.extend(handlers.ends);
-    if wrong.is_empty() {
-        Ok(Proven {
-            tick: tick.functions,
-            interrupts: tasks.len(),
-            idle: idle.functions,
-            handlers: handlers.functions,
-        })
-    } else {
-        Err(wrong.join("\n"))
-    }
+    no_faults(&wrong)?;
+    Ok(Proven {
+        tick: tick.functions,
+        interrupts: tasks.len(),
+        idle: idle.functions,
+        handlers: handlers.functions,
+    })
 }
 
 /// Builds [`CONTROL`] with checks of overflow and sees panics found in its interrupts.

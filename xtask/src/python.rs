@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use crate::run::{Fault, output, read, run, target, top};
+use crate::run::{Fault, listing, output, read, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -77,7 +77,7 @@ fn pythons() -> Vec<(u32, PathBuf)> {
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
     let wheels = place("wheels");
-    let _ = fs::remove_dir_all(&wheels);
+    remove(&wheels)?;
     let mut build = Command::new(tools);
     build
         .args(["-m", "maturin", "build", "--locked", "--out"])
@@ -90,7 +90,7 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
         build.arg("--release");
     }
     run(&mut build)?;
-    let built = crate::run::listing(&wheels, "whl")?;
+    let built = listing(&wheels, "whl")?;
     built
         .into_iter()
         .next()
@@ -132,11 +132,11 @@ pub(crate) fn whole() -> Result<(), Fault> {
     let (_, python) = pythons.last().ok_or("no Python")?;
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
     let sources = place("sources");
-    let _ = fs::remove_dir_all(&sources);
+    remove(&sources)?;
     let mut pack = Command::new(tools);
     pack.args(["-m", "maturin", "sdist", "--out"]).arg(&sources);
     run(pack.current_dir(top().join("python")))?;
-    let packed = crate::run::listing(&sources, "gz")?;
+    let packed = listing(&sources, "gz")?;
     let packed = packed.first().ok_or("no source distribution was made")?;
     let packages = [
         "dask[distributed]",

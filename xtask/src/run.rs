@@ -1,9 +1,11 @@
 //! Running other programs from the top of the workspace, and its files.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
+use std::thread;
 
 /// What went wrong, for a person to read.
 pub(crate) type Fault = String;
@@ -54,6 +56,25 @@ pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Faul
     }
 }
 
+/// Deletes a folder and all in it, if it is there.
+pub(crate) fn remove(folder: &Path) -> Result<(), Fault> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(format!("{}: {error}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Fails with every fault of a list, a line each, if there is one.
+pub(crate) fn no_faults(faults: &[Fault]) -> Result<(), Fault> {
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.join("\n"))
+    }
+}
+
 /// The files in `folder` whose names end so, sorted.
 pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fault> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -68,6 +89,15 @@ pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fa
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(top());
+    command
+}
+
+/// `cargo` with a command for a package outside the workspace, which is built in a folder of its
+/// own.
+pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command {
+    let mut command = cargo(&[command, "--quiet", "--locked", "--manifest-path"]);
+    command.arg(format!("{package}/Cargo.toml"));
+    command.arg("--target-dir").arg(target().join(folder));
     command
 }
 
@@ -117,6 +147,26 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     } else {
         Err(format!("{text}: {status}"))
     }
+}
+
+/// Runs `commands`, so many at once, to the last, whichever fail.
+pub(crate) fn run_at_once(commands: Vec<Command>, at_once: usize) -> Result<(), Fault> {
+    let left = Mutex::new(commands.into_iter());
+    let faults = Mutex::new(Vec::new());
+    let next = || left.lock().ok()?.next();
+    let work = || {
+        while let Some(mut command) = next() {
+            if let (Err(fault), Ok(mut faults)) = (run(&mut command), faults.lock()) {
+                faults.push(fault);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..at_once {
+            scope.spawn(work);
+        }
+    });
+    no_faults(&faults.into_inner().unwrap_or_default())
 }
 
 /// Installs a subcommand of cargo, unless it is there.

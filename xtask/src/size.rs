@@ -15,7 +15,7 @@ use crate::elf::contents;
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::panics;
-use crate::run::{Fault, listing, read_bytes, top};
+use crate::run::{Fault, listing, no_faults, read_bytes, top};
 use parts::{Named, Seen};
 pub(crate) use table::{ANY_SCENE, TABLE, beside_goals, limits};
 use tactile::ModelBuf;
@@ -156,11 +156,7 @@ impl Measured {
             .unproven()
             .map(|part| format!("{part}: never there, or never absent"));
         self.wrong.extend(told);
-        if self.wrong.is_empty() {
-            Ok(self.figures)
-        } else {
-            Err(self.wrong.join("\n"))
-        }
+        no_faults(&self.wrong).map(|()| self.figures)
     }
 }
 

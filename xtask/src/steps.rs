@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::run::Fault;
+use crate::run::{Fault, no_faults};
 
 /// Steps run so far.
 #[derive(Default)]
@@ -52,11 +52,7 @@ impl Steps {
     /// Prints the table of times.
     pub(crate) fn end(self) -> Result<(), Fault> {
         self.print();
-        if self.faults.is_empty() {
-            Ok(())
-        } else {
-            Err(self.faults.join("\n"))
-        }
+        no_faults(&self.faults)
     }
 
     fn print(&self) {

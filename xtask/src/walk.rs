@@ -6,9 +6,8 @@ mod blocks;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
-use std::{fs, io};
 
-use crate::run::{Fault, built, listing, read, read_bytes, top, write};
+use crate::run::{Fault, built, listing, read, read_bytes, remove, top, write};
 use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
@@ -124,12 +123,7 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
     let folder = top()
         .join("target/walk")
         .join(name.replace(['/', '\\'], "-"));
-    match fs::remove_dir_all(&folder) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            return Err(format!("{}: {error}", folder.display()));
-        }
-        _ => {}
-    }
+    remove(&folder)?;
     for (from, extension) in FOUND {
         for file in listing(&top().join(from), extension)? {
             let name = file.file_name().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! The table of sizes, its limits and its goals.
 
 use crate::figures::{Figure, Table};
-use crate::run::Fault;
+use crate::run::{Fault, no_faults};
 
 /// The committed table.
 pub(crate) const TABLE: Table = Table {
@@ -78,11 +78,7 @@ pub(super) fn within_limits(found: &[Figure]) -> Result<(), Fault> {
             }
         }
     }
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults.join("\n"))
-    }
+    no_faults(&faults)
 }
 
 #[cfg(test)]
