@@ -174,7 +174,7 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
         }
         emulate(on, &taken, COMPARE)?;
     }
-    if board.has_fpu && on.any_scene.is_none() {
+    if board.facts.has_fpu && on.any_scene.is_none() {
         compare_in_fixed_point(board)?;
     }
     compare_with_slow_sensors(on)

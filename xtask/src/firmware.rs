@@ -18,13 +18,7 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 pub(crate) struct Board {
     /// Its name, and its feature in `firmware/Cargo.toml`.
     pub(crate) name: &'static str,
-    /// The program in `firmware/src/bin`.
-    program: &'static str,
     target: &'static str,
-    /// Whether its core computes f32 by itself.
-    pub(crate) has_fpu: bool,
-    /// Whether it carries a whisker a side, and not the left alone.
-    pub(crate) has_both_sides: bool,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
 }
@@ -34,29 +28,25 @@ impl Board {
     pub(crate) const ALL: [Self; 3] = [
         Self {
             name: "nucleo-f446re",
-            program: "nucleo_f446re",
             target: "thumbv7em-none-eabihf",
-            has_fpu: true,
-            has_both_sides: true,
             facts: &boards::NUCLEO_F446RE,
         },
         Self {
             name: "nucleo-f103rb",
-            program: "nucleo_f103rb",
             target: "thumbv7m-none-eabi",
-            has_fpu: false,
-            has_both_sides: false,
             facts: &boards::NUCLEO_F103RB,
         },
         Self {
             name: "nucleo-g071rb",
-            program: "nucleo_g071rb",
             target: "thumbv6m-none-eabi",
-            has_fpu: false,
-            has_both_sides: false,
             facts: &boards::NUCLEO_G071RB,
         },
     ];
+
+    /// The program in `firmware/src/bin`.
+    fn program(self) -> String {
+        self.name.replace('-', "_")
+    }
 
     /// The board of that name.
     pub(crate) fn named(name: &str) -> Result<Self, Fault> {
@@ -78,7 +68,7 @@ impl Board {
             "--features",
             &features,
             "--bin",
-            self.program,
+            &self.program(),
             "--target",
             self.target,
         ];
@@ -233,7 +223,7 @@ pub(crate) fn elf_in(board: Board, built: &Path) -> PathBuf {
     built
         .join(board.target)
         .join("firmware")
-        .join(board.program)
+        .join(board.program())
 }
 
 /// Bytes that a program takes.

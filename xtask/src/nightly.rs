@@ -79,7 +79,7 @@ fn boards() -> Result<(), Fault> {
             emulate::emulate(on, Path::new(emulate::BENCH), &[Task::Deploying])?;
         }
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
-        if board.has_both_sides {
+        if board.facts.max_sides > 1 {
             emulate::emulate(&linked, Path::new(emulate::CIA), &[Task::Latency])?;
             let both = emulate::noisiest()?;
             emulate::emulate(&linked, &both, &[Task::Compare(Probe::Attached)])?;

@@ -73,6 +73,11 @@ fn pythons() -> Vec<(u32, PathBuf)> {
     (OLDEST..NEWEST).filter_map(of).collect()
 }
 
+fn newest() -> Result<PathBuf, Fault> {
+    let (_, python) = pythons().pop().ok_or("no Python")?;
+    Ok(python)
+}
+
 /// Builds the wheel and returns its path.
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
@@ -168,10 +173,9 @@ pub(crate) fn whole() -> Result<(), Fault> {
 
 /// The figures of the wheel that `pip install` would make, as JSON.
 pub(crate) fn figures() -> Result<String, Fault> {
-    let pythons = pythons();
-    let (_, python) = pythons.last().ok_or("no Python")?;
-    let wheel = wheel(python, Profile::Release)?;
-    let inside = environment(python, "speeds", &["gymnasium"])?;
+    let python = newest()?;
+    let wheel = wheel(&python, Profile::Release)?;
+    let inside = environment(&python, "speeds", &["gymnasium"])?;
     run(pip(&inside).arg(&wheel))?;
     let bytes = fs::metadata(&wheel)
         .map_err(|error| error.to_string())?
@@ -193,7 +197,5 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
 
 /// The program that runs the page's tests, with Selenium.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
-    let pythons = pythons();
-    let (_, python) = pythons.last().ok_or("no Python")?;
-    environment(python, "browser", &["pytest", "selenium"])
+    environment(&newest()?, "browser", &["pytest", "selenium"])
 }

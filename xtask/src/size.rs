@@ -2,7 +2,6 @@
 //! stack; that it holds what the scene names and nothing else; and that no panic can be
 //! reached in it. The table is committed, so that a program cannot grow unseen.
 
-mod host;
 mod parts;
 mod stack;
 mod table;
@@ -14,8 +13,8 @@ use scene::Scene;
 use crate::elf::contents;
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
-use crate::panics;
 use crate::run::{Fault, listing, no_faults, read_bytes, top};
+use crate::{panics, speed};
 use parts::{Named, Seen};
 pub(crate) use table::{ANY_SCENE, TABLE, beside_goals, limits};
 use tactile::ModelBuf;
@@ -37,8 +36,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let mut measured = Measured::default();
     for path in listing(&top().join("scenes"), "toml")? {
         let path = Path::new("scenes").join(path.file_name().unwrap_or_default());
-        let scene = load(&path)?;
-        let host = Some(host::ns_per_tick(&path, &scene)?);
+        let host = Some(speed::ns_per_tick(&top().join(&path))?);
         for board in Board::ALL {
             match measured.take(board, &path, host)? {
                 Some(reason) if !quiet => println!("{}: {reason}", board.name),
@@ -201,7 +199,7 @@ fn misfits(
         scene,
         model: model.as_ref(),
     };
-    let mut wrong = seen.compare(&functions, holds, board.has_fpu)?;
+    let mut wrong = seen.compare(&functions, holds, board.facts.has_fpu)?;
     for path in listing(&top().join("scenes/models"), "model")? {
         let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;

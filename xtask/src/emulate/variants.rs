@@ -1,4 +1,4 @@
-//! Scenes made from others for the emulated board, each in a file of its own in target/variants.
+//! Scenes made from others, most for the emulated board, each in a file of its own in target/variants.
 
 use std::path::{Path, PathBuf};
 
@@ -82,6 +82,14 @@ pub(super) fn with_serial(path: &Path, baud: u32) -> Result<PathBuf, Fault> {
 pub(crate) fn with_seed(path: &Path, seed: u32) -> Result<PathBuf, Fault> {
     variant(path, &format!("seed-{seed}"), |_, table| {
         table.insert("seed".to_owned(), seed.into());
+    })
+}
+
+/// The scene with so many ticks.
+pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
+    variant(path, "long", |scene, table| {
+        let duration_s = f64::from(ticks) / f64::from(scene.tick_hz);
+        table.insert("duration_s".to_owned(), duration_s.into());
     })
 }
 

@@ -28,7 +28,7 @@ pub(super) fn worst(board: Board, elf: &Path) -> Result<u64, Fault> {
         for task in calls.tasks()? {
             interrupt = depth(&calls, task, &mut Vec::new())?.max(interrupt);
         }
-        let exception = if board.has_fpu {
+        let exception = if board.facts.has_fpu {
             EXCEPTION_FPU
         } else {
             EXCEPTION
