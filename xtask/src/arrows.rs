@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use crate::run::{Fault, cargo, output};
+use crate::run::{Fault, cargo, no_faults, output};
 
 /// The packages of the workspace: each may depend only on rows below its own.
 /// `physics` depends on none and serves what simulates; `studies` is no member, and none may
@@ -47,19 +47,11 @@ struct Dependency {
 }
 
 /// Checks the workspace.
-///
-/// # Errors
-/// Every dependency that does not point down, and every package without a row.
 pub(crate) fn all() -> Result<(), Fault> {
     let ask = ["metadata", "--no-deps", "--format-version=1", "--offline"];
     let said = output(&mut cargo(&ask))?;
     let said: Metadata = serde_json::from_str(&said).map_err(|error| error.to_string())?;
-    let faults = against_the_order(&said.packages);
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults.join("\n"))
-    }
+    no_faults(&against_the_order(&said.packages))
 }
 
 fn against_the_order(packages: &[Package]) -> Vec<String> {

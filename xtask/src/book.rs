@@ -1,36 +1,14 @@
 //! The book of docs/, by the package in `book`.
 
-use crate::run::{Fault, cargo, run, target, top};
+use crate::run::{Fault, cargo_apart, run, top};
 
 /// Follows every link and image, then writes the book to target/book.
-///
-/// # Errors
-/// If a link is broken, a page is not named, or the book cannot be built.
 pub(crate) fn build() -> Result<(), Fault> {
-    let build = [
-        "run",
-        "--quiet",
-        "--locked",
-        "--manifest-path",
-        "book/Cargo.toml",
-    ];
-    let mut command = cargo(&build);
-    command.arg("--target-dir").arg(target().join("bookbinder"));
-    run(command.arg("--").arg(top()))
+    let mut build = cargo_apart("run", "book", "bookbinder");
+    run(build.arg("--").arg(top()))
 }
 
 /// The tests of the package, which are not the workspace's.
-///
-/// # Errors
-/// If one fails.
 pub(crate) fn test() -> Result<(), Fault> {
-    let test = [
-        "test",
-        "--quiet",
-        "--locked",
-        "--manifest-path",
-        "book/Cargo.toml",
-    ];
-    let mut command = cargo(&test);
-    run(command.arg("--target-dir").arg(target().join("bookbinder")))
+    run(&mut cargo_apart("test", "book", "bookbinder"))
 }

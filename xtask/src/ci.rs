@@ -36,9 +36,6 @@ const LINTED: &str = "host-sim/cli,fuzz/shards,fuzz/engine,mlx90333/defmt,tmag51
 const SEED: &str = "1";
 
 /// Everything, or the steps whose names contain one of `only`.
-///
-/// # Errors
-/// The first check that fails.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.run("format", format)?;

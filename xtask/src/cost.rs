@@ -7,9 +7,9 @@ mod stages;
 
 use std::path::Path;
 
-use crate::figures::{Figure, INSTRUCTIONS, Table, columns};
+use crate::figures::{Figure, INSTRUCTIONS, Table};
 use crate::run::{Fault, document, read, top, write};
-use crate::{count, emulate, firmware};
+use crate::{count, emulate, firmware, size};
 use stages::{Stage, stages};
 
 /// The committed table.
@@ -32,48 +32,32 @@ const MINUTES: f64 = 0.25;
 
 /// Measures everything and writes the table (to `csv`, where one is named) and the
 /// page; or counts again and checks that no kernel and no stage has become dearer.
-///
-/// # Errors
-/// If something cannot be built or run, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     if check {
         count::all(None, true)?;
     }
-    let stages = stages()?;
     let mut found = Vec::new();
-    for group in stages.chunk_by(Stage::goes_with) {
+    for group in stages()?.chunk_by(Stage::goes_with) {
         found.extend(measured(group)?);
     }
-    let shown = columns(&found, |figure| page::note(&stages, figure));
-    if check {
-        print!("{shown}");
-        return TABLE.compare(&TABLE.read(csv)?, &found, true);
+    TABLE.take(&found, csv, check)?;
+    if check || csv.is_some() {
+        return Ok(());
     }
-    TABLE.write(&found, csv, &shown)?;
-    match csv {
-        Some(_) => Ok(()),
-        None => write_page(false),
-    }
+    write_page(false)
 }
 
 /// Checks the first scene that is measured on the board.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
     let mut scenes = stages.chunk_by(Stage::goes_with);
     let first = scenes.find(|group| group[0].is_on_board());
-    let found = measured(first.ok_or("no stage is measured on the board")?)?;
-    print!("{}", columns(&found, |figure| page::note(&stages, figure)));
-    TABLE.compare(&TABLE.read(None)?, &found, false)
+    let first = first.ok_or("no stage is measured on the board")?;
+    TABLE.check_part(&measured(first)?)
 }
 
 /// Ten minutes of the noisiest scene on the emulated board; writes
 /// docs/measured/deadlines.csv and the page.
-///
-/// # Errors
-/// If a tick is missed, or nothing can be built or run.
 pub(crate) fn deadlines() -> Result<(), Fault> {
     let board = firmware::Board::named("nucleo-f446re")?;
     let said = emulate::deadlines(board, Path::new("scenes/full.toml"), 10.0)?;
@@ -84,13 +68,9 @@ pub(crate) fn deadlines() -> Result<(), Fault> {
 
 /// Writes docs/measured/cost.md from the committed tables, or checks that it is up
 /// to date.
-///
-/// # Errors
-/// If a table is missing or, checking, the page differs.
 pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
-    let text = |name: &str| read(&top().join(name));
-    let sizes = text(crate::size::TABLE.file)?;
-    let page = page::page(&TABLE.read(None)?, &text(DEADLINES)?, &sizes)?;
+    let deadlines = read(&top().join(DEADLINES))?;
+    let page = page::page(&TABLE.read(None)?, &deadlines, &size::TABLE.read(None)?)?;
     document(PAGE, page.as_bytes(), check)
 }
 
@@ -100,26 +80,30 @@ fn measured(stages: &[Stage]) -> Result<Vec<Figure>, Fault> {
     let Some(first) = stages.first() else {
         return Ok(Vec::new());
     };
+    let figure = |stage: &Stage, [mean, worst]: [f64; 2]| {
+        let mut figure = Figure::instructions(&[&stage.name, &stage.target], mean, worst);
+        figure.note = page::note(stage, &figure.numbers);
+        figure
+    };
     if first.is_on_board() {
         let board = firmware::Board::named(&first.target)?;
         let said = emulate::deadlines(board, Path::new(&first.from), MINUTES)?;
-        let figure = |stage: &Stage| {
-            let [mean, worst] = page::figures(&said, &stage.counts)?;
-            Ok(Figure::new(&[&stage.name, &stage.target], mean, worst))
-        };
-        return stages.iter().map(figure).collect();
+        let figures = stages.iter().map(|stage| {
+            let found = page::figures(&said, &stage.counts)?;
+            Ok(figure(stage, found))
+        });
+        return figures.collect();
     }
     let counted = count::TABLE.read(None)?;
-    let figure = |stage: &Stage| {
-        let (mut mean, mut worst) = (0.0, 0.0);
+    let figures = stages.iter().map(|stage| {
+        let mut sums = [0.0; 2];
         for (kernel, sign) in stage.kernels() {
             let key = [kernel, &stage.format, &stage.from];
             let found = counted.iter().find(|figure| *figure.key == key);
             let found = found.ok_or_else(|| format!("{} is not counted", key.join(",")))?;
-            mean += sign * found.numbers[0];
-            worst += sign * found.numbers[1];
+            sums = [0, 1].map(|n| sums[n] + sign * found.numbers[n]);
         }
-        Ok(Figure::new(&[&stage.name, &stage.target], mean, worst))
-    };
-    stages.iter().map(figure).collect()
+        Ok(figure(stage, sums))
+    });
+    figures.collect()
 }

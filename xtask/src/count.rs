@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::figures::{Figure, INSTRUCTIONS, Table, columns};
+use crate::figures::{Figure, INSTRUCTIONS, Table};
 use crate::run::{Fault, cargo, listing, output, run, target, top};
 
 /// The committed table.
@@ -52,29 +52,16 @@ const PROCESSORS: [Processor; 2] = [
 
 /// Counts everything and writes the table (to `csv`, where one is named), or checks
 /// that no kernel has become dearer than it says.
-///
-/// # Errors
-/// If something cannot be built or run, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let files = listing(&top().join("xtask/count/src/bin"), "rs")?;
     let names = files.iter().filter_map(|file| file.file_stem()?.to_str());
     let found = count(&PROCESSORS, &names.collect::<Vec<_>>())?;
-    let shown = columns(&found, |_| String::new());
-    if !check {
-        return TABLE.write(&found, csv, &shown);
-    }
-    print!("{shown}");
-    TABLE.compare(&TABLE.read(csv)?, &found, true)
+    TABLE.take(&found, csv, check)
 }
 
 /// Checks [`SHORT`] on the first processor.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
-    let found = count(&PROCESSORS[..1], &SHORT)?;
-    print!("{}", columns(&found, |_| String::new()));
-    TABLE.compare(&TABLE.read(None)?, &found, false)
+    TABLE.check_part(&count(&PROCESSORS[..1], &SHORT)?)
 }
 
 fn count(processors: &[Processor], programs: &[&str]) -> Result<Vec<Figure>, Fault> {
@@ -144,7 +131,8 @@ fn counted(line: &str, processor: &str) -> Result<Figure, Fault> {
         return Err(wrong());
     }
     let key = [kernel, format, processor];
-    Ok(Figure::new(&key, sum as f64 / calls as f64, worst as f64))
+    let mean = sum as f64 / calls as f64;
+    Ok(Figure::instructions(&key, mean, worst as f64))
 }
 
 #[cfg(test)]
@@ -155,7 +143,7 @@ mod tests {
     fn a_printed_line_becomes_mean_and_worst() {
         let found = counted("drive,f32,1000,21250,22", "cortex-m0");
         let key = ["drive", "f32", "cortex-m0"];
-        assert_eq!(found, Ok(Figure::new(&key, 21.3, 22.0)));
+        assert_eq!(found, Ok(Figure::instructions(&key, 21.3, 22.0)));
     }
 
     #[test]

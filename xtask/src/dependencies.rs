@@ -21,9 +21,6 @@ fn deny(what: &[&str]) -> Result<(), Fault> {
 }
 
 /// Checks licences, duplicates and sources, if cargo-deny is there.
-///
-/// # Errors
-/// What breaks a rule.
 pub(crate) fn check() -> Result<(), Fault> {
     if output(&mut cargo(&["deny", "--version"])).is_err() {
         println!("not checked: cargo-deny is not installed; cargo xtask nightly installs it");
@@ -34,9 +31,6 @@ pub(crate) fn check() -> Result<(), Fault> {
 
 /// The same wherever it is run, and what is known against a version, as far as the
 /// database of advisories can be had.
-///
-/// # Errors
-/// What breaks a rule, or is known.
 pub(crate) fn install_and_check() -> Result<(), Fault> {
     installed("deny")?;
     check()?;

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::process::Stdio;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, document, output, target, workspace_program};
+use crate::run::{Fault, cargo_apart, document, output, workspace_program};
 
 /// The page.
 const PAGE: &str = "docs/registers.md";
@@ -21,17 +21,11 @@ fn facts(board: Option<Board>) -> Result<String, Fault> {
 }
 
 /// Writes the page, or checks that it is up to date.
-///
-/// # Errors
-/// If it cannot be written, or, checking, differs.
 pub(crate) fn page(check: bool) -> Result<(), Fault> {
     document(PAGE, facts(None)?.as_bytes(), check)
 }
 
 /// Holds every fact of every board against the description of its chip.
-///
-/// # Errors
-/// What is not as described.
 pub(crate) fn compare() -> Result<(), Fault> {
     Board::ALL.into_iter().try_for_each(of_board)
 }
@@ -39,17 +33,9 @@ pub(crate) fn compare() -> Result<(), Fault> {
 /// By a program that is built for the chip alone (`description`).
 fn of_board(board: Board) -> Result<(), Fault> {
     let facts = facts(Some(board))?;
-    let build = [
-        "run",
-        "--quiet",
-        "--locked",
-        "--manifest-path",
-        "description/Cargo.toml",
-    ];
-    let mut command = cargo(&build);
+    let mut command = cargo_apart("run", "description", "description");
     command
-        .args(["--features", board.name, "--target-dir"])
-        .arg(target().join("description"))
+        .args(["--features", board.name])
         .stdin(Stdio::piped());
     let wrong = |error: std::io::Error| format!("{}: {error}", board.name);
     let mut described = command.spawn().map_err(wrong)?;

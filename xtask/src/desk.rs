@@ -1,7 +1,5 @@
 //! docs/measured/desk.md: sizes and speeds of the Python module and of the page.
 
-use std::fmt::Write;
-
 use serde::Deserialize;
 
 use crate::run::{Fault, document, top};
@@ -30,9 +28,6 @@ struct OfPage {
 }
 
 /// Measures both, and writes the page and the picture of the README.
-///
-/// # Errors
-/// If one cannot be built, or a test of the page fails.
 pub(crate) fn measure() -> Result<(), Fault> {
     page::build()?;
     page::test(Some(top().join("docs/page.png")))?;
@@ -48,79 +43,21 @@ pub(crate) fn measure() -> Result<(), Fault> {
 }
 
 fn written(python: &OfPython, page: &OfPage) -> String {
-    let mut text = String::from(
-        "# Sizes and speeds at the desk\n\n\
-         <!-- Written by `cargo xtask desk`; do not edit by hand. -->\n\n\
-         What the Python module and the page take, measured by `cargo xtask desk` on a virtual \
-         machine with two cores; in brackets the least and the largest of seven runs.\n\n\
-         | what | found | goal |\n|---|---|---|\n",
-    );
     let spread = |[median, least, most]: Spread, digits: usize| {
         format!("{median:.digits$} ({least:.digits$} to {most:.digits$})")
     };
-    let [steps, least, most] = python.env_steps_s.map(|steps| steps / 1000.0);
-    let rows = [
-        (
-            format!(
-                "Python {}: import to first trace, main scene, s",
-                python.python
-            ),
-            spread(python.first_trace_s, 2),
-            "1",
-        ),
-        (
-            "one run of the main scene with all rows, s".to_owned(),
-            spread(python.run_s, 3),
-            "",
-        ),
-        (
-            "100 seeds of the main scene, `run_many`, s".to_owned(),
-            spread(python.hundred_s, 2),
-            "2",
-        ),
-        (
-            "most memory of the process until then, MiB".to_owned(),
-            format!("{:.0}", python.peak_mib),
-            "200",
-        ),
-        (
-            "128 environments, thousand steps a second".to_owned(),
-            format!("{steps:.0} ({least:.0} to {most:.0})"),
-            "400",
-        ),
-        (
-            "wheel, kB".to_owned(),
-            format!("{:.0}", python.wheel_bytes as f64 / 1e3),
-            "",
-        ),
-        (
-            "page, kB".to_owned(),
-            format!("{:.0}", page.bytes as f64 / 1e3),
-            "1500",
-        ),
-        (
-            "page: first frame after opening, s".to_owned(),
-            format!("{:.2}", page.first_frame_s),
-            "1",
-        ),
-        (
-            "page: frames a second, one elastic whisker".to_owned(),
-            format!("{:.1}", page.frames_s),
-            "60",
-        ),
-        (
-            "page: a tick of the elastic whisker with its points, µs".to_owned(),
-            format!("{:.1}", page.tick_us),
-            "",
-        ),
-    ];
-    for (what, found, goal) in rows {
-        // Writing to a string does not fail.
-        let _ = writeln!(text, "| {what} | {found} | {goal} |");
-    }
-    text.push_str(
-        "\nTraces of the scenes `both`, `cia`, `textures` and `whisker` have the same SHA-256 from \
-         `host-sim run`, from Python and on the page; the tests of both compare them.\n",
-    );
-    text
+    format!(
+        include_str!("desk.md"),
+        python = python.python,
+        first_trace_s = spread(python.first_trace_s, 2),
+        run_s = spread(python.run_s, 3),
+        hundred_s = spread(python.hundred_s, 2),
+        peak_mib = python.peak_mib,
+        env_steps = spread(python.env_steps_s.map(|steps| steps / 1e3), 0),
+        wheel_kb = python.wheel_bytes as f64 / 1e3,
+        page_kb = page.bytes as f64 / 1e3,
+        first_frame_s = page.first_frame_s,
+        frames_s = page.frames_s,
+        tick_us = page.tick_us,
+    )
 }

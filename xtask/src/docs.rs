@@ -1,34 +1,21 @@
 //! Generated documents: written by commands, never by hand.
 
+#[cfg(test)]
+mod by_hand;
 mod faults;
-mod harness;
 mod main_job;
-mod mount;
 
 use crate::firmware::Board;
 use crate::run::{
     Fault, cargo, document, output, read, read_bytes, target, top, workspace_program,
 };
 use crate::{cost, descriptions, emulate, studies};
-use harness::Drawn;
 use main_job::DECISIONS;
 
 /// Writes the documents that follow from the source alone, or checks that they are up to date.
-///
-/// # Errors
-/// If a file cannot be written, or, checking, differs.
 pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
-    for (name, drawn) in [
-        ("docs/harness.svg", Drawn::F446re),
-        ("docs/harness-f103rb.svg", Drawn::F103rb),
-        ("docs/harness-g071rb.svg", Drawn::G071rb),
-    ] {
-        document(name, harness::svg(drawn)?.as_bytes(), check)?;
-    }
-    document("docs/mount.md", mount::page().as_bytes(), check)?;
-    document("docs/mount.svg", mount::svg().as_bytes(), check)?;
     document(
         "docs/files.md",
         output(workspace_program("host-sim").arg("columns"))?.as_bytes(),
@@ -37,9 +24,6 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
 }
 
 /// Writes every generated document, or checks that they are up to date.
-///
-/// # Errors
-/// If a file cannot be written, or, checking, differs.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     of_boards(check)?;
     // The main job's page quotes what it measures over many runs.
@@ -50,9 +34,6 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
 
 /// Checks that every generated document is up to date but the two pages of the studies, which
 /// take longer than all others: those are only made, in short. The nightly run checks them.
-///
-/// # Errors
-/// If one differs, or cannot be made.
 pub(crate) fn short() -> Result<(), Fault> {
     of_boards(true)?;
     of_runs(true)?;
@@ -82,8 +63,9 @@ fn of_runs(check: bool) -> Result<(), Fault> {
         let made = read_bytes(&top().join("out/textures").join(made))?;
         document(name, &made, check)?;
     }
-    for scene in TRAINED {
-        document(scene.model, &scene.train()?, check)?;
+    for (scene, options) in TRAINED {
+        let model = trained(scene, options)?;
+        document(&format!("scenes/models/{scene}.model"), &model, check)?;
     }
     at_the_bench(check)
 }
@@ -91,25 +73,30 @@ fn of_runs(check: bool) -> Result<(), Fault> {
 /// Draws what `whisker` shows and leaves at the bench, of the simulated module.
 fn at_the_bench(check: bool) -> Result<(), Fault> {
     let folder = target().join("bench");
-    let whisker = || workspace_program("whisker");
-    let monitor = "monitor --sim scenes/textures.toml --frames 162 --size 110x36 --snapshot";
     let monitored = folder.join("monitor.svg");
-    output(whisker().args(monitor.split(' ')).arg(&monitored))?;
-    document("docs/monitor.svg", &read_bytes(&monitored)?, check)?;
-    let calibrate = "calibrate --sim scenes/bench.toml --out";
-    output(whisker().args(calibrate.split(' ')).arg(&folder))?;
-    document(
-        "docs/steps.svg",
-        &read_bytes(&folder.join("steps.svg"))?,
-        check,
-    )?;
-    let watched = "check --sim scenes/bench.toml --seconds 12 --out";
-    output(whisker().args(watched.split(' ')).arg(&folder))?;
-    document(
-        "docs/check.svg",
-        &read_bytes(&folder.join("check.svg"))?,
-        check,
-    )
+    for (drawing, command, out) in [
+        (
+            "monitor.svg",
+            "monitor --sim scenes/textures.toml --frames 162 --size 110x36 --snapshot",
+            &monitored,
+        ),
+        (
+            "steps.svg",
+            "calibrate --sim scenes/bench.toml --out",
+            &folder,
+        ),
+        (
+            "check.svg",
+            "check --sim scenes/bench.toml --seconds 12 --out",
+            &folder,
+        ),
+    ] {
+        let mut whisker = workspace_program("whisker");
+        output(whisker.args(command.split(' ')).arg(out))?;
+        let drawn = read_bytes(&folder.join(drawing))?;
+        document(&format!("docs/{drawing}"), &drawn, check)?;
+    }
+    Ok(())
 }
 
 /// Draws contact-induced asymmetry without CIA and with it, from the emulated board.
@@ -120,58 +107,30 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
     document("docs/asymmetry.svg", &read_bytes(&drawn)?, check)
 }
 
-/// A scene whose model is trained on a run of it with another seed, as its first lines say.
-struct Trained {
-    scene: &'static str,
-    model: &'static str,
-    /// How, unless by default.
-    options: &'static [&'static str],
-}
-
-/// Those but the main job.
-const TRAINED: [Trained; 5] = [
-    Trained {
-        scene: "scenes/whisker.toml",
-        model: "scenes/models/whisker.model",
-        options: &[],
-    },
-    Trained {
-        scene: "scenes/both.toml",
-        model: "scenes/models/both.model",
-        options: &[],
-    },
-    Trained {
-        scene: "scenes/unknown.toml",
-        model: "scenes/models/unknown.model",
-        options: &["--unknown", "carpet"],
-    },
-    Trained {
-        scene: "scenes/tmag5170.toml",
-        model: "scenes/models/tmag5170.model",
-        options: &[],
-    },
-    Trained {
-        scene: "scenes/papers.toml",
-        model: "scenes/models/papers.model",
-        options: &["--tables", "single"],
-    },
+/// The scenes whose models are trained on a run with another seed, as their first lines say, but
+/// the main job's; with the options of that training.
+const TRAINED: [(&str, &[&str]); 5] = [
+    ("whisker", &[]),
+    ("both", &[]),
+    ("unknown", &["--unknown", "carpet"]),
+    ("tmag5170", &[]),
+    ("papers", &["--tables", "single"]),
 ];
 
-impl Trained {
-    /// The bytes of its model.
-    fn train(&self) -> Result<Vec<u8>, Fault> {
-        let folder = target().join("models");
-        let (heard, model) = (folder.join("heard.csv"), folder.join("the.model"));
-        let simulator = |command: &str| {
-            let mut simulator = workspace_program("host-sim");
-            simulator.args(["--quiet", command]);
-            simulator
-        };
-        let record = ["--seed", "3", "--out"];
-        output(simulator("record").arg(self.scene).args(record).arg(&heard))?;
-        let mut train = simulator("train");
-        train.arg("--data").arg(&heard).arg("--out").arg(&model);
-        output(train.args(self.options))?;
-        read_bytes(&model)
-    }
+/// The bytes of the model of a scene.
+fn trained(scene: &str, options: &[&str]) -> Result<Vec<u8>, Fault> {
+    let folder = target().join("models");
+    let (recording, model) = (folder.join("recording.csv"), folder.join("the.model"));
+    let simulator = |command: &str| {
+        let mut simulator = workspace_program("host-sim");
+        simulator.args(["--quiet", command]);
+        simulator
+    };
+    let mut record = simulator("record");
+    record.arg(format!("scenes/{scene}.toml"));
+    output(record.args(["--seed", "3", "--out"]).arg(&recording))?;
+    let mut train = simulator("train");
+    train.arg("--data").arg(&recording).arg("--out").arg(&model);
+    output(train.args(options))?;
+    read_bytes(&model)
 }

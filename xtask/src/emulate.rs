@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, absolute, listing, output, run, target, top, workspace_program};
+use crate::run::{Fault, absolute, listing, output, run, top, workspace_program};
 
 /// Who fetches the log from a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -68,9 +68,6 @@ impl Emulated {
     }
 
     /// Builds the program to which any scene is deployed.
-    ///
-    /// # Errors
-    /// If it cannot be built.
     pub(crate) fn deployed(board: Board) -> Result<Self, Fault> {
         let any_scene = firmware::kept(|| firmware::build_any_scene(board))?;
         Ok(Self {
@@ -89,59 +86,41 @@ impl Emulated {
 }
 
 /// Does `tasks` with `scene`, one after the other.
-///
-/// # Errors
-/// If its program cannot be built, or the emulated board says that something is wrong.
 pub(crate) fn emulate(on: &Emulated, scene: &Path, tasks: &[Task]) -> Result<(), Fault> {
     let program = on.program(scene)?;
-    let mut done = tasks.iter().map(|task| match task {
-        Task::Serial => serial(on, scene, &program),
-        _ => one(on, scene, (&program, task)),
-    });
-    done.try_for_each(|done| done)
+    tasks
+        .iter()
+        .try_for_each(|task| one(on, scene, (&program, task)))
 }
 
 /// Does a task with a scene and its program.
 fn one(on: &Emulated, scene: &Path, (program, task): (&Path, &Task)) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
-    let task_name = match task {
-        Task::Run(_) => "run",
-        Task::Compare(_) => "compare",
-        Task::Deadlines(_) => "deadlines",
-        Task::Overload => "overload",
-        Task::Starting => "starting",
-        Task::Supply => "supply",
-        Task::Telemetry => "telemetry",
-        Task::Serial => "serial",
-        Task::Damage => "damage",
-        Task::SensorLoss => "sensor-loss",
-        Task::Latency => "latency",
-        Task::Deploying => "deploying",
-    };
-    command.arg(task_name).arg(absolute(scene)?);
     match task {
-        Task::Run(out) => command.arg("--out").arg(absolute(out)?),
-        Task::Compare(Probe::Absent) => command.args(["--probe", "absent"]),
-        Task::Compare(Probe::Pulled) => command.args(["--probe", "pulled"]),
-        Task::Deadlines(minutes) => command.arg("--minutes").arg(minutes.to_string()),
+        Task::Run(out) => command.args(["run", "--out"]).arg(absolute(out)?),
+        Task::Compare(Probe::Attached) => command.arg("compare"),
+        Task::Compare(Probe::Absent) => command.args(["compare", "--probe", "absent"]),
+        Task::Compare(Probe::Pulled) => command.args(["compare", "--probe", "pulled"]),
+        Task::Deadlines(minutes) => command.args(["deadlines", "--minutes", &minutes.to_string()]),
+        Task::Overload => command.arg("overload"),
+        Task::Starting => command.arg("starting"),
+        Task::Supply => command.arg("supply"),
         Task::Telemetry => {
-            let without = variants::without_telemetry(scene, &target().join("telemetry"))?;
-            command.arg("--without").arg(on.program(&without)?)
+            let without = on.program(&variants::without_telemetry(scene)?)?;
+            command.args(["telemetry", "--without"]).arg(without)
         }
+        Task::Serial => return serial(on, scene, program),
+        Task::Damage => command.arg("damage"),
+        Task::SensorLoss => command.arg("sensor-loss"),
+        Task::Latency => command.arg("latency"),
         Task::Deploying => {
-            let (world, model) = (top().join(WORLD), top().join(MODEL));
-            command.arg("--world").arg(world).arg("--model").arg(model)
+            command
+                .args(["deploying", "--world"])
+                .arg(top().join(WORLD));
+            command.arg("--model").arg(top().join(MODEL))
         }
-        Task::Compare(Probe::Attached)
-        | Task::Overload
-        | Task::Starting
-        | Task::Supply
-        | Task::Serial
-        | Task::Damage
-        | Task::SensorLoss
-        | Task::Latency => &mut command,
     };
-    run(command.arg("--program").arg(program))
+    run(command.arg(absolute(scene)?).arg("--program").arg(program))
 }
 
 /// Bits a second that carry the records of one whisker at 2 kHz, and of two; and the
@@ -151,27 +130,18 @@ const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];
 /// Talks with a board over its serial line at two of [`SERIAL_BAUDS`]; `without` is the program
 /// of the scene itself.
 fn serial(on: &Emulated, scene: &Path, without: &Path) -> Result<(), Fault> {
-    let folder = target().join("serial");
-    let whiskers = variants::whiskers(scene)?;
     let [one, two, slow] = SERIAL_BAUDS;
-    let bauds = [if whiskers > 1 { two } else { one }, slow];
+    let is_one = variants::whiskers(scene)? == 1;
+    let fast = variants::with_serial(scene, if is_one { one } else { two })?;
+    let slow = variants::with_serial(scene, slow)?;
     let mut command = workspace_program("emulator");
-    command.arg("serial");
-    let [fast, slow] = bauds.map(|baud| {
-        let folder = folder.join(baud.to_string());
-        variants::with_serial(scene, baud, &folder)
-    });
-    let fast = fast?;
-    command.arg(absolute(&fast)?);
+    command.arg("serial").arg(absolute(&fast)?);
     command.arg("--program").arg(on.program(&fast)?);
-    command.arg("--slow").arg(on.program(&slow?)?);
+    command.arg("--slow").arg(on.program(&slow)?);
     run(command.arg("--without").arg(without))
 }
 
 /// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
-///
-/// # Errors
-/// As [`emulate`].
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("picture");
@@ -183,9 +153,6 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
 }
 
 /// What [`Task::Deadlines`] measures, as `what,mean,worst` lines.
-///
-/// # Errors
-/// As [`emulate`].
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
     let mut command = workspace_program("emulator");
@@ -197,20 +164,17 @@ pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<Stri
 /// Compares every scene in `scenes` that the board takes with host-sim; one with several
 /// whiskers a side by the first of each. [`IN_FIXED_POINT`] are compared in fixed point
 /// too, where a board has a choice and scenes are linked.
-///
-/// # Errors
-/// The first scene that differs, or that cannot be built.
 pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
     let board = on.board;
     for scene in listing(&top().join("scenes"), "toml")? {
-        let taken = variants::single(&scene, &target().join("single"))?.unwrap_or(scene);
+        let taken = variants::single(&scene)?;
         if let Err(reason) = firmware::linked(board, &taken)? {
             println!("not on the {}: {}: {reason}", board.name, taken.display());
             continue;
         }
         emulate(on, &taken, COMPARE)?;
     }
-    if board.has_fpu && on.any_scene.is_none() {
+    if board.facts.has_fpu && on.any_scene.is_none() {
         compare_in_fixed_point(board)?;
     }
     compare_with_slow_sensors(on)
@@ -231,12 +195,9 @@ pub(crate) const CIA: &str = "scenes/cia.toml";
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
 
 /// Compares [`IN_FIXED_POINT`] with host-sim in fixed point, which takes programs of their own.
-///
-/// # Errors
-/// If one differs or cannot be built.
 pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
     for scene in IN_FIXED_POINT {
-        let fixed = variants::in_fixed_point(&top().join(scene), &target().join("fixed"))?;
+        let fixed = variants::in_fixed_point(&top().join(scene))?;
         emulate(&Emulated::linked(board), &fixed, COMPARE)?;
     }
     Ok(())
@@ -244,27 +205,18 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
 
 /// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at
 /// half its clock for them.
-///
-/// # Errors
-/// If it differs or cannot be built.
 pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
-    let slow = variants::with_slow_sensors(&top().join(FULL), &target().join("slow"))?;
+    let slow = variants::with_slow_sensors(&top().join(FULL))?;
     emulate(on, &slow, COMPARE)
 }
 
 /// Compares [`CIA`] with host-sim where the sensors find their zeros.
-///
-/// # Errors
-/// If it differs or cannot be built.
 pub(crate) fn compare_with_zeros(on: &Emulated) -> Result<(), Fault> {
-    let zeros = variants::with_zeros(&top().join(CIA), &target().join("zeros"))?;
+    let zeros = variants::with_zeros(&top().join(CIA))?;
     emulate(on, &zeros, COMPARE)
 }
 
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
-///
-/// # Errors
-/// If it cannot be written.
 pub(crate) fn noisiest() -> Result<PathBuf, Fault> {
-    variants::on_both_sides(&top().join(FULL), &target().join("both"))
+    variants::on_both_sides(&top().join(FULL))
 }

@@ -1,12 +1,9 @@
 //! Scenes for hours: a week on the PC, and a day as the boards' own programs with every
 //! counter started just below its wrap, in shards.
 
-use std::fs;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::thread;
 
 use clap::Args;
 use scene::Scene;
@@ -14,7 +11,8 @@ use scene::Scene;
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
 use crate::run::{
-    Fault, built, cargo, listing, read_bytes, run, target, top, workspace_program, write,
+    Fault, built, cargo, listing, read_bytes, remove, run, run_at_once, target, top,
+    workspace_program, write,
 };
 
 /// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
@@ -45,7 +43,7 @@ pub(crate) struct Choice {
 /// A scene with a seed for some hours.
 struct Shard {
     scene: PathBuf,
-    seed: u64,
+    seed: u32,
     hours: f64,
     board: Option<(Board, PathBuf)>,
 }
@@ -95,7 +93,7 @@ fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
     let (count, hours) = cut(hours, SHARD_H[0], scenes.len());
     let shard = |(n, scene): (usize, &PathBuf)| Shard {
         scene: scene.clone(),
-        seed: 1 + (n / scenes.len()) as u64,
+        seed: 1 + (n / scenes.len()) as u32,
         hours,
         board: None,
     };
@@ -116,8 +114,7 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
     let wanted = if hours > 0.0 { scenes } else { &[] };
     for scene in wanted {
         for &board in boards {
-            let single = variants::single(scene, &folder().join("single"))?;
-            let scene = single.unwrap_or_else(|| scene.clone());
+            let scene = variants::single(scene)?;
             if counts_all(&scene)? && firmware::try_build(board, &scene)?.is_ok() {
                 taken.push((board, scene));
             }
@@ -126,22 +123,19 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
     let (count, hours) = cut(hours, SHARD_H[1], taken.len());
     let mut shards = Vec::new();
     for (n, (board, scene)) in taken.iter().cycle().take(count).enumerate() {
-        let seed = 1 + (n / taken.len()) as u64;
-        let kept = folder().join(format!("{}-{seed}", board.name));
-        let scene = variants::with_seed(scene, seed, &kept)?;
-        let program = scene.with_extension("elf");
+        let seed = 1 + (n / taken.len()) as u32;
+        let scene = variants::with_seed(scene, seed)?;
+        let stem = scene.file_stem().unwrap_or_default().display();
+        let program = folder().join(format!("{}-{stem}.elf", board.name));
         let shard = Shard {
-            scene,
+            scene: scene.clone(),
             seed,
             hours,
             board: Some((*board, program.clone())),
         };
         if !shard.file().exists() {
             // The next build takes the place of the last.
-            write(
-                &program,
-                read_bytes(&firmware::build(*board, &shard.scene)?)?,
-            )?;
+            write(&program, read_bytes(&firmware::build(*board, &scene)?)?)?;
         }
         shards.push(shard);
     }
@@ -155,42 +149,14 @@ fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
         run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
     }
     let left = shards.iter().filter(|shard| !shard.file().exists());
-    let left = Mutex::new(left);
-    let faults = Mutex::new(Vec::new());
-    let next = || left.lock().ok()?.next();
-    let work = || {
-        while let Some(shard) = next() {
-            if let (Err(fault), Ok(mut faults)) = (run(&mut shard.command()), faults.lock()) {
-                faults.push(fault);
-            }
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..at_once.get() {
-            scope.spawn(work);
-        }
-    });
-    let faults = faults.into_inner().unwrap_or_default();
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults.join("\n"))
-    }
-}
-
-fn begin(resume: bool) -> Result<(), Fault> {
-    if !resume && folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
-    Ok(())
+    run_at_once(left.map(Shard::command).collect(), at_once.get())
 }
 
 /// All hours of `choice`, and docs/measured/endurance.md from them.
-///
-/// # Errors
-/// Shards that did not end well, and what cannot be built.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
-    begin(choice.resume)?;
+    if !choice.resume {
+        remove(&folder())?;
+    }
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, choice.hours);
     shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
@@ -203,11 +169,8 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 
 /// The form of the night: the week on the PC, and an hour on the boards, where a day takes
 /// more than one.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn nightly() -> Result<(), Fault> {
-    begin(false)?;
+    remove(&folder())?;
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, 168.0);
     shards.extend(on_boards(&Board::ALL, &scenes, 1.0)?);
@@ -216,11 +179,8 @@ pub(crate) fn nightly() -> Result<(), Fault> {
 
 /// The short form of CI: minutes of every scene on the PC, and the wraps of all counters on
 /// one board.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
-    begin(false)?;
+    remove(&folder())?;
     let scenes = listing(&top().join("scenes"), "toml")?;
     let mut shards = on_pc(&scenes, SHORT_H[0]);
     let full = [top().join(emulate::FULL)];

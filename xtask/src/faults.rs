@@ -2,14 +2,17 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command};
+use std::process::Command;
 
 use clap::Args;
 use scene::{Scene, SensorModel};
 
 use crate::emulate::variants;
 use crate::firmware::{self, Board};
-use crate::run::{Fault, listing, read, read_bytes, run, target, top, workspace_program, write};
+use crate::run::{
+    Fault, listing, read, read_bytes, remove, run, run_at_once, target, top, workspace_program,
+    write,
+};
 
 /// What the rows call a run on this PC.
 const PC: &str = "host-sim";
@@ -57,8 +60,6 @@ fn has_mlx90333(scene: &PathBuf) -> bool {
 }
 
 impl Subject {
-    /// # Errors
-    /// An unknown name, and what cannot be built.
     fn of(name: &str, runs: u64) -> Result<Self, Fault> {
         let scenes = listing(&top().join("scenes"), "toml")?;
         match name {
@@ -88,8 +89,7 @@ impl Subject {
             runs: Some(runs),
         };
         for scene in scenes {
-            let single = variants::single(scene, &folder)?;
-            let scene = single.unwrap_or_else(|| scene.clone());
+            let scene = variants::single(scene)?;
             if let Ok(built) = firmware::try_build(board, &scene)? {
                 let name = scene.file_stem().unwrap_or_default();
                 let kept = folder.join(name).with_extension("elf");
@@ -147,19 +147,10 @@ impl Subject {
         println!("{}: {runs} in {} scenes", self.name, self.scenes.len());
         let table = |shard| folder().join(format!("{}-{shard}.csv", self.name));
         let tables: Vec<PathBuf> = (0..shards).map(table).collect();
-        let started: Result<Vec<Child>, Fault> = (0..shards)
-            .zip(&tables)
-            .map(|(shard, out)| {
-                let mut command = self.command(0, self.runs, [shard, shards], out);
-                command.spawn().map_err(|error| error.to_string())
-            })
-            .collect();
-        for mut shard in started? {
-            let status = shard.wait().map_err(|error| error.to_string())?;
-            if !status.success() {
-                return Err(format!("{}: a shard ended with {status}", self.name));
-            }
-        }
+        let shard =
+            |(shard, out): (u64, &PathBuf)| self.command(0, self.runs, [shard, shards], out);
+        let commands = (0..shards).zip(&tables).map(shard);
+        run_at_once(commands.collect(), tables.len())?;
         Ok(tables)
     }
 }
@@ -170,9 +161,6 @@ fn folder() -> PathBuf {
 
 /// The campaign, or what `choice` leaves of it; writes docs/measured/reliability.md where
 /// nothing is left out.
-///
-/// # Errors
-/// Harmful runs, and what cannot be built.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if let (Some(name), Some(number)) = (&choice.subject, choice.again) {
         return again(name, number);
@@ -192,7 +180,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
         None => everywhere,
     };
     if !choice.resume {
-        forget()?;
+        remove(&folder())?;
     }
     let mut tables = Vec::new();
     for (name, runs) in wanted {
@@ -203,9 +191,6 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 }
 
 /// The whole campaign, as the command without options makes it.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn whole() -> Result<(), Fault> {
     all(&Choice {
         runs: RUNS,
@@ -214,14 +199,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
         shards: 2,
         resume: false,
     })
-}
-
-/// Deletes all tables and programs of earlier campaigns.
-fn forget() -> Result<(), Fault> {
-    if folder().exists() {
-        fs::remove_dir_all(folder()).map_err(|error| error.to_string())?;
-    }
-    Ok(())
 }
 
 /// One run again.
@@ -247,11 +224,8 @@ fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 }
 
 /// The short form of CI: some runs on the PC, and a few as the program of a board.
-///
-/// # Errors
-/// Harmful runs, and what cannot be built.
 pub(crate) fn short() -> Result<(), Fault> {
-    forget()?;
+    remove(&folder())?;
     let mut tables = Subject::of(PC, 1000)?.run(2)?;
     let one = [top().join(crate::emulate::FULL)];
     tables.extend(Subject::on(Board::ALL[0], &one, 24)?.run(2)?);

@@ -13,15 +13,22 @@ pub(crate) struct Figure {
     pub(crate) key: Vec<String>,
     /// How much, in one number for each of the table's decimals.
     pub(crate) numbers: Vec<f64>,
+    /// What a person reads beside it, and no file has.
+    pub(crate) note: String,
 }
 
 impl Figure {
-    /// Instructions: the mean, to a tenth, and the most.
-    pub(crate) fn new(key: &[&str], mean: f64, worst: f64) -> Self {
+    pub(crate) fn new(key: &[&str], numbers: &[f64]) -> Self {
         Self {
             key: key.iter().map(|&field| field.to_owned()).collect(),
-            numbers: vec![(mean * 10.0).round() / 10.0, worst],
+            numbers: numbers.to_vec(),
+            note: String::new(),
         }
+    }
+
+    /// Instructions: the mean, to a tenth, and the most.
+    pub(crate) fn instructions(key: &[&str], mean: f64, worst: f64) -> Self {
+        Self::new(key, &[(mean * 10.0).round() / 10.0, worst])
     }
 
     /// Its numbers with so many decimals each.
@@ -50,30 +57,33 @@ pub(crate) struct Table {
 
 impl Table {
     /// Reads it, or what stands in its place at `csv`.
-    ///
-    /// # Errors
-    /// If it is missing or is no such table.
     pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
         self.parse(&read(&self.place(csv))?)
     }
 
-    /// Prints `shown`, which is for a person to read, and writes `figures`, to `csv` or to
-    /// its own file; for a `csv` of `-` prints the table alone.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub(crate) fn write(
+    /// Prints all `found` and writes it, to `csv` or to the table's own file, or, checking,
+    /// compares it; for a `csv` of `-` prints the table alone.
+    pub(crate) fn take(
         &self,
-        figures: &[Figure],
+        found: &[Figure],
         csv: Option<&Path>,
-        shown: &str,
+        check: bool,
     ) -> Result<(), Fault> {
         if csv == Some(Path::new("-")) {
-            print!("{}", self.text(figures));
+            print!("{}", self.text(found));
             return Ok(());
         }
-        print!("{shown}");
-        write(&self.place(csv), self.text(figures))
+        print!("{}", self.columns(found));
+        if check {
+            return self.compare(&self.read(csv)?, found, true);
+        }
+        write(&self.place(csv), self.text(found))
+    }
+
+    /// Prints a part of the table and compares it.
+    pub(crate) fn check_part(&self, found: &[Figure]) -> Result<(), Fault> {
+        print!("{}", self.columns(found));
+        self.compare(&self.read(None)?, found, false)
     }
 
     fn place(&self, csv: Option<&Path>) -> PathBuf {
@@ -81,7 +91,7 @@ impl Table {
     }
 
     /// The table as it is committed.
-    pub(crate) fn text(&self, figures: &[Figure]) -> String {
+    fn text(&self, figures: &[Figure]) -> String {
         let mut text = format!("{}\n", self.header);
         for figure in figures {
             let numbers = figure.text(self.decimals, ",");
@@ -90,7 +100,7 @@ impl Table {
         text
     }
 
-    pub(crate) fn parse(&self, text: &str) -> Result<Vec<Figure>, Fault> {
+    fn parse(&self, text: &str) -> Result<Vec<Figure>, Fault> {
         let mut lines = text.lines();
         if lines.next() != Some(self.header) {
             return Err(format!("{} does not begin with {}", self.file, self.header));
@@ -100,26 +110,45 @@ impl Table {
             let fields: Vec<&str> = line.split(',').collect();
             let (key, numbers) = fields.split_at_checked(width - self.decimals.len())?;
             let numbers: Option<Vec<f64>> = numbers.iter().map(|n| n.parse().ok()).collect();
-            let key = key.iter().map(|&field| field.to_owned()).collect();
-            let numbers = numbers?;
-            (fields.len() == width).then_some(Figure { key, numbers })
+            let figure = Figure::new(key, &numbers?);
+            (fields.len() == width).then_some(figure)
         };
         lines
             .map(|line| figure(line).ok_or_else(|| format!("{} has a line {line:?}", self.file)))
             .collect()
     }
 
+    /// The figures in columns, each with its note.
+    fn columns(&self, figures: &[Figure]) -> String {
+        let names: Vec<&str> = self.header.split(',').collect();
+        let width = |field: usize, name: &str| {
+            let keys = figures.iter().filter_map(|figure| figure.key.get(field));
+            let longest = keys.map(String::len).max().unwrap_or(0);
+            longest.max(name.len()).max(7)
+        };
+        let widths = names.iter().enumerate();
+        let widths: Vec<usize> = widths.map(|(field, name)| width(field, name)).collect();
+        let mut text = String::new();
+        for (name, width) in names.iter().zip(&widths) {
+            let _ = write!(text, "{name:width$}  ");
+        }
+        for Figure { key, numbers, note } in figures {
+            text += "\n";
+            for (field, width) in key.iter().zip(&widths) {
+                let _ = write!(text, "{field:width$}  ");
+            }
+            let numbers = numbers.iter().zip(self.decimals);
+            for ((number, &decimals), width) in numbers.zip(&widths[key.len()..]) {
+                let _ = write!(text, "{number:>width$.decimals$}  ");
+            }
+            text += note;
+        }
+        text + "\n"
+    }
+
     /// Names everything in `found` that has become dearer than `known` says or is
     /// new there; where `found` `is_all`, also what is gone.
-    ///
-    /// # Errors
-    /// If there is any.
-    pub(crate) fn compare(
-        &self,
-        known: &[Figure],
-        found: &[Figure],
-        is_all: bool,
-    ) -> Result<(), Fault> {
+    fn compare(&self, known: &[Figure], found: &[Figure], is_all: bool) -> Result<(), Fault> {
         let mut faults = String::new();
         for now in found {
             let name = now.key.join(",");
@@ -149,32 +178,9 @@ impl Table {
     }
 }
 
-/// Instructions in columns for a person to read, each with its note.
-pub(crate) fn columns(figures: &[Figure], note: impl Fn(&Figure) -> String) -> String {
-    let fields = figures.iter().map(|figure| figure.key.len()).max();
-    let width = |field: usize| {
-        let lengths = figures.iter().filter_map(|figure| figure.key.get(field));
-        lengths.map(String::len).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..fields.unwrap_or(0)).map(width).collect();
-    let mut text = String::new();
-    for figure in figures {
-        let mut line = String::new();
-        for (field, width) in figure.key.iter().zip(&widths) {
-            let _ = write!(line, "{field:width$}  ");
-        }
-        for (number, &decimals) in figure.numbers.iter().zip(INSTRUCTIONS) {
-            let _ = write!(line, "{number:>9.decimals$}  ");
-        }
-        line += &note(figure);
-        let _ = writeln!(text, "{}", line.trim_end());
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Figure, INSTRUCTIONS, Table, columns};
+    use super::{Figure, INSTRUCTIONS, Table};
 
     const TABLE: Table = Table {
         file: "a.csv",
@@ -185,7 +191,7 @@ mod tests {
     };
 
     fn figure(name: &str, mean: f64, worst: f64) -> Figure {
-        Figure::new(&[name, "f32"], mean, worst)
+        Figure::instructions(&[name, "f32"], mean, worst)
     }
 
     #[test]
@@ -197,7 +203,7 @@ mod tests {
             let wrong = TABLE.text(&figures) + line;
             assert!(TABLE.parse(&wrong).is_err(), "{line}");
         }
-        assert_eq!(columns(&figures, |_| String::new()).lines().count(), 2);
+        assert_eq!(TABLE.columns(&figures).lines().count(), 3);
     }
 
     #[test]

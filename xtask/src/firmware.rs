@@ -18,13 +18,7 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 pub(crate) struct Board {
     /// Its name, and its feature in `firmware/Cargo.toml`.
     pub(crate) name: &'static str,
-    /// The program in `firmware/src/bin`.
-    program: &'static str,
     target: &'static str,
-    /// Whether its core computes f32 by itself.
-    pub(crate) has_fpu: bool,
-    /// Whether it carries a whisker a side, and not the left alone.
-    pub(crate) has_both_sides: bool,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
 }
@@ -34,29 +28,25 @@ impl Board {
     pub(crate) const ALL: [Self; 3] = [
         Self {
             name: "nucleo-f446re",
-            program: "nucleo_f446re",
             target: "thumbv7em-none-eabihf",
-            has_fpu: true,
-            has_both_sides: true,
             facts: &boards::NUCLEO_F446RE,
         },
         Self {
             name: "nucleo-f103rb",
-            program: "nucleo_f103rb",
             target: "thumbv7m-none-eabi",
-            has_fpu: false,
-            has_both_sides: false,
             facts: &boards::NUCLEO_F103RB,
         },
         Self {
             name: "nucleo-g071rb",
-            program: "nucleo_g071rb",
             target: "thumbv6m-none-eabi",
-            has_fpu: false,
-            has_both_sides: false,
             facts: &boards::NUCLEO_G071RB,
         },
     ];
+
+    /// The program in `firmware/src/bin`.
+    fn program(self) -> String {
+        self.name.replace('-', "_")
+    }
 
     /// The board of that name.
     pub(crate) fn named(name: &str) -> Result<Self, Fault> {
@@ -78,7 +68,7 @@ impl Board {
             "--features",
             &features,
             "--bin",
-            self.program,
+            &self.program(),
             "--target",
             self.target,
         ];
@@ -91,17 +81,11 @@ pub(crate) const EVERY_PART: &[&str] = &["default"];
 
 /// Builds the firmware of `scene` with warnings as errors, the scene linked and of the parts that
 /// it needs; gives the ELF file.
-///
-/// # Errors
-/// If the scene does not exist, the board does not take it, or the build fails.
 pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     built(board, scene, &[])
 }
 
 /// Builds the program that takes any scene, and brings none with it.
-///
-/// # Errors
-/// If the build fails.
 pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
     run(&mut compiler(board, EVERY_PART))?;
     Ok(elf(board))
@@ -117,17 +101,11 @@ fn built(board: Board, scene: &Path, more: &[&str]) -> Result<PathBuf, Fault> {
 
 /// The same, kept apart: the next program is built in the place of the last. Several threads
 /// may ask for programs, which are built one after the other.
-///
-/// # Errors
-/// As [`build`], and if it cannot be kept.
 pub(crate) fn build_kept(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     kept(|| build(board, scene))
 }
 
 /// Builds a program and keeps it apart.
-///
-/// # Errors
-/// That of `build`, and if it cannot be kept.
 pub(crate) fn kept(build: impl FnOnce() -> Result<PathBuf, Fault>) -> Result<PathBuf, Fault> {
     static BUILT: Mutex<u32> = Mutex::new(0);
     // A build that has panicked has left nothing that another needs.
@@ -140,18 +118,12 @@ pub(crate) fn kept(build: impl FnOnce() -> Result<PathBuf, Fault>) -> Result<Pat
 }
 
 /// As [`build`], with checks of overflow, which panic.
-///
-/// # Errors
-/// As [`build`].
 pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     let checks = ["--config", "profile.firmware.overflow-checks=true"];
     built(board, scene, &checks)
 }
 
 /// As [`build`], or why the board does not take the scene.
-///
-/// # Errors
-/// If the scene does not exist or is wrong, or the build fails.
 pub(crate) fn try_build(board: Board, scene: &Path) -> Result<Result<PathBuf, String>, Fault> {
     let scene = find(scene)?;
     match linked(board, &scene)? {
@@ -164,9 +136,6 @@ pub(crate) fn try_build(board: Board, scene: &Path) -> Result<Result<PathBuf, St
 }
 
 /// Flashes a program onto a NUCLEO-F446RE and shows its log.
-///
-/// # Errors
-/// If there is no probe-rs, or no probe.
 pub(crate) fn flash(elf: &Path) -> Result<(), Fault> {
     let mut probe = Command::new("probe-rs");
     run(probe.args(["run", "--chip", "STM32F446RETx"]).arg(elf))
@@ -198,9 +167,6 @@ impl Linked {
 }
 
 /// Makes what is linked for the scene at `path`; or why the board does not take it.
-///
-/// # Errors
-/// If the scene or its model is wrong, or cannot be read.
 pub(crate) fn linked(board: Board, path: &Path) -> Result<Result<Linked, String>, Fault> {
     let scene = Scene::load(path).map_err(|error| error.to_string())?;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -257,7 +223,7 @@ pub(crate) fn elf_in(board: Board, built: &Path) -> PathBuf {
     built
         .join(board.target)
         .join("firmware")
-        .join(board.program)
+        .join(board.program())
 }
 
 /// Bytes that a program takes.
@@ -278,9 +244,6 @@ impl Size {
     const SCENE: [&str; 3] = [".scene", ".model", ".scene_b"];
 
     /// Of an ELF file.
-    ///
-    /// # Errors
-    /// If it cannot be read or has no code.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
         with_elf(elf, |file| {
             match (sum(file, &Self::FLASH), sum(file, &Self::RAM)) {
@@ -291,9 +254,6 @@ impl Size {
     }
 
     /// Bytes of the scene and the model that an ELF file brings with it.
-    ///
-    /// # Errors
-    /// If it cannot be read.
     pub(crate) fn of_scene(elf: &Path) -> Result<u64, Fault> {
         with_elf(elf, |file| Ok::<_, Fault>(sum(file, &Self::SCENE)))
     }
@@ -308,9 +268,6 @@ fn sum(file: &object::File<'_>, names: &[&str]) -> u64 {
 }
 
 /// What `ask` says of an ELF file.
-///
-/// # Errors
-/// If it cannot be read, or `ask`'s own.
 pub(crate) fn with_elf<T, E: Display>(
     elf: &Path,
     ask: impl FnOnce(&object::File<'_>) -> Result<T, E>,

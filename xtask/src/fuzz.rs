@@ -2,14 +2,14 @@
 //! counters of coverage, and with checks on. What is interesting is kept in `target/fuzz`
 //! from run to run, and so is each finding.
 
-mod page;
+mod found;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Fault, cargo, listing, read, run, target, top, write};
-use page::Found;
+use crate::run::{Fault, cargo, document, listing, output, read, run, target, top, write};
+use found::Found;
 
 /// What is fed, and the folders, from the top, of its first inputs.
 const TARGETS: [(&str, &[&str]); 7] = [
@@ -46,10 +46,7 @@ const LIMITS: [&str; 3] = ["-timeout=10", "-rss_limit_mb=1024", "-malloc_limit_m
 /// Of the words of the scenes, those for the dictionary have so many bytes.
 const WORD: std::ops::Range<usize> = 2..40;
 
-/// Feeds every target, or those named, for so many minutes each.
-///
-/// # Errors
-/// The first finding: its file, and what it does.
+/// Feeds every target, or those named, for so many minutes each, up to the first finding.
 pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Fault> {
     if let Some(name) = names
         .iter()
@@ -66,16 +63,20 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
         println!("{}", line.text());
         found.push(line);
     }
-    if page {
-        page::write(&found)?;
+    if !page {
+        return Ok(());
     }
-    Ok(())
+    let compiler = output(Command::new("rustc").arg("--version"))?;
+    let rows: Vec<String> = found.iter().map(Found::row).collect();
+    let page = format!(
+        include_str!("fuzz/page.md"),
+        compiler = compiler.trim(),
+        rows = rows.join("\n"),
+    );
+    document("docs/measured/fuzz.md", page.as_bytes(), false)
 }
 
 /// Feeds every target but [`SLOW`] for a few seconds.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let names = TARGETS.map(|target| target.0).into_iter();
     let quick: Vec<String> = names

@@ -98,24 +98,13 @@ enum Command {
     },
     /// Counts the instructions of every kernel on emulated processors
     /// (needs qemu-system-arm) and writes docs/measured/instructions.csv
-    Count {
-        /// The table to write or to check
-        #[arg(long)]
-        csv: Option<PathBuf>,
-        /// Only say whether a kernel has become dearer than the table says
-        #[arg(long)]
-        check: bool,
-    },
+    Count(OfTable),
     /// Says what each stage of a tick costs, beside its goal and what others take
     /// (from docs/measured/instructions.csv and the emulated board); writes docs/measured/cost.csv and
     /// docs/measured/cost.md
     Cost {
-        /// The table to write or to check; - prints it alone
-        #[arg(long)]
-        csv: Option<PathBuf>,
-        /// Count everything anew and only say whether a stage has become dearer
-        #[arg(long)]
-        check: bool,
+        #[command(flatten)]
+        table: OfTable,
         /// Instead: measure ten minutes of the noisiest scene (docs/measured/deadlines.csv)
         #[arg(long, conflicts_with_all = ["csv", "check"])]
         deadlines: bool,
@@ -123,15 +112,7 @@ enum Command {
     /// Builds the firmware of every scene for every board that takes it, and
     /// prints flash, static RAM, stack, and the time that host-sim takes; writes
     /// docs/measured/sizes.csv
-    Size {
-        /// The table to write or to check; - prints it alone
-        #[arg(long)]
-        csv: Option<PathBuf>,
-        /// Only say whether a program has grown, misses a goal or holds what its
-        /// scene leaves out
-        #[arg(long)]
-        check: bool,
-    },
+    Size(OfTable),
     /// Shows from the binaries that no panic can be reached: from the interrupts of the
     /// tick none at all, from the start and idle none but the logger's own check
     Panics {
@@ -170,7 +151,7 @@ enum Command {
         /// Only say whether they are up to date
         #[arg(long)]
         check: bool,
-        /// Only those that need no run: of keys, of faults, of wires
+        /// Only those that need no run: of keys, of faults, of columns
         #[arg(long)]
         quick: bool,
     },
@@ -180,6 +161,16 @@ enum Command {
 struct Only {
     /// Only the steps with one of these in their name
     steps: Vec<String>,
+}
+
+#[derive(clap::Args)]
+struct OfTable {
+    /// The table to write or to check; - prints it alone
+    #[arg(long)]
+    csv: Option<PathBuf>,
+    /// Measure everything again and only say what has become dearer or has grown
+    #[arg(long)]
+    check: bool,
 }
 
 #[derive(clap::Args)]
@@ -321,9 +312,9 @@ fn main() -> ExitCode {
         Command::Cost {
             deadlines: true, ..
         } => cost::deadlines(),
-        Command::Cost { csv, check, .. } => cost::all(csv.as_deref(), check),
-        Command::Count { csv, check } => count::all(csv.as_deref(), check),
-        Command::Size { csv, check } => size::all(csv.as_deref(), check),
+        Command::Cost { table, .. } => cost::all(table.csv.as_deref(), table.check),
+        Command::Count(table) => count::all(table.csv.as_deref(), table.check),
+        Command::Size(table) => size::all(table.csv.as_deref(), table.check),
         Command::Panics { scenes, board } => panics::all(board, &scenes),
         Command::Fuzz {
             targets,

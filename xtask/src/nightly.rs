@@ -18,9 +18,6 @@ use crate::{
 const NIGHTS: u64 = 7;
 
 /// Everything, or the steps whose names contain one of `only`.
-///
-/// # Errors
-/// All checks that fail.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.try_run("lints of every board", lints);
@@ -82,7 +79,7 @@ fn boards() -> Result<(), Fault> {
             emulate::emulate(on, Path::new(emulate::BENCH), &[Task::Deploying])?;
         }
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
-        if board.has_both_sides {
+        if board.facts.max_sides > 1 {
             emulate::emulate(&linked, Path::new(emulate::CIA), &[Task::Latency])?;
             let both = emulate::noisiest()?;
             emulate::emulate(&linked, &both, &[Task::Compare(Probe::Attached)])?;

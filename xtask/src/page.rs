@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::run::{Fault, cargo, run, target, top};
+use crate::run::{Fault, cargo, cargo_apart, run, target, top};
 use crate::{python, traces};
 
 /// The file.
@@ -12,41 +12,18 @@ pub(crate) fn path() -> PathBuf {
 }
 
 /// Builds target/page/whisker.html.
-///
-/// # Errors
-/// If the core or the packer cannot be built.
 pub(crate) fn build() -> Result<(), Fault> {
-    let core = [
-        "build",
-        "--locked",
-        "-p",
-        "page",
-        "--lib",
-        "--profile",
-        "page",
-    ];
-    run(cargo(&core).args(["--target", "wasm32-unknown-unknown"]))?;
-    let pack = [
-        "run",
-        "--quiet",
-        "--locked",
-        "--manifest-path",
-        "web/pack/Cargo.toml",
-    ];
-    let mut command = cargo(&pack);
-    command
-        .arg("--target-dir")
-        .arg(target().join("packer"))
-        .arg("--");
-    command.arg(target().join("wasm32-unknown-unknown/page/page.wasm"));
-    run(command.arg(top().join("web/page")).arg(path()))
+    let core = ["build", "--locked", "-p", "page", "--lib"];
+    let web = ["--profile", "page", "--target", "wasm32-unknown-unknown"];
+    run(cargo(&core).args(web))?;
+    let mut pack = cargo_apart("run", "web/pack", "packer");
+    pack.arg("--");
+    pack.arg(target().join("wasm32-unknown-unknown/page/page.wasm"));
+    run(pack.arg(top().join("web/page")).arg(path()))
 }
 
 /// Opens it in headless Chromium and uses it as a person would; `picture` is where the one of the
 /// README goes.
-///
-/// # Errors
-/// If something does not work, or the browser's console has an error.
 pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
     let mut tests = Command::new(python::with_browser()?);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use crate::elf::calls::Calls;
 use crate::elf::contents::{self, Piece};
 use crate::firmware::{self, Board};
-use crate::run::{Fault, listing, top};
+use crate::run::{Fault, listing, no_faults, top};
 
 /// Where every panic goes.
 const PANICS: [&str; 2] = ["core::panicking::", "rust_begin_unwind"];
@@ -38,9 +38,6 @@ pub(crate) struct Proven {
 
 /// Checks the scenes, or every one, on `board`, or on every one, and sees that a panic
 /// would be found.
-///
-/// # Errors
-/// Every way to a panic; or if something cannot be built or read.
 pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault> {
     let every = listing(&top().join("scenes"), "toml")?;
     let scenes = if scenes.is_empty() { &every } else { scenes };
@@ -70,9 +67,6 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
 }
 
 /// Checks a program.
-///
-/// # Errors
-/// Every way to a panic, or if the file cannot be read.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     let program = Program::of(elf)?;
     let tasks = program.calls.tasks()?;
@@ -83,22 +77,16 @@ pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     wrong.extend(idle.ends);
     let handlers = program.walk(&program.calls.named(MEANT))?;
     wrong.extend(handlers.ends);
-    if wrong.is_empty() {
-        Ok(Proven {
-            tick: tick.functions,
-            interrupts: tasks.len(),
-            idle: idle.functions,
-            handlers: handlers.functions,
-        })
-    } else {
-        Err(wrong.join("\n"))
-    }
+    no_faults(&wrong)?;
+    Ok(Proven {
+        tick: tick.functions,
+        interrupts: tasks.len(),
+        idle: idle.functions,
+        handlers: handlers.functions,
+    })
 }
 
 /// Builds [`CONTROL`] with checks of overflow and sees panics found in its interrupts.
-///
-/// # Errors
-/// If none is found, or it cannot be built.
 pub(crate) fn control(board: Board) -> Result<(), Fault> {
     let elf = firmware::build_checked(board, Path::new(CONTROL))?;
     let program = Program::of(&elf)?;

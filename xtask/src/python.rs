@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use crate::run::{Fault, output, read, run, target, top};
+use crate::run::{Fault, listing, output, read, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -27,9 +27,6 @@ fn place(name: &str) -> PathBuf {
 }
 
 /// An environment that is made anew with these packages.
-///
-/// # Errors
-/// If Python has no venv, or a package cannot be had.
 pub(crate) fn environment(python: &Path, name: &str, packages: &[&str]) -> Result<PathBuf, Fault> {
     let folder = place(name);
     run(Command::new(python)
@@ -76,11 +73,16 @@ fn pythons() -> Vec<(u32, PathBuf)> {
     (OLDEST..NEWEST).filter_map(of).collect()
 }
 
+fn newest() -> Result<PathBuf, Fault> {
+    let (_, python) = pythons().pop().ok_or("no Python")?;
+    Ok(python)
+}
+
 /// Builds the wheel and returns its path.
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
     let wheels = place("wheels");
-    let _ = fs::remove_dir_all(&wheels);
+    remove(&wheels)?;
     let mut build = Command::new(tools);
     build
         .args(["-m", "maturin", "build", "--locked", "--out"])
@@ -93,7 +95,7 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
         build.arg("--release");
     }
     run(&mut build)?;
-    let built = crate::run::listing(&wheels, "whl")?;
+    let built = listing(&wheels, "whl")?;
     built
         .into_iter()
         .next()
@@ -102,9 +104,6 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
 
 /// The wheel in a clean environment of the oldest and of the newest Python of this machine, where
 /// its tests are run.
-///
-/// # Errors
-/// If there is no Python for it, the wheel cannot be built, or a test fails.
 pub(crate) fn test() -> Result<(), Fault> {
     let pythons = pythons();
     let (Some(oldest), Some(newest)) = (pythons.first(), pythons.last()) else {
@@ -133,19 +132,16 @@ pub(crate) fn test() -> Result<(), Fault> {
 
 /// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;
 /// every notebook.
-///
-/// # Errors
-/// If one of them fails.
 pub(crate) fn whole() -> Result<(), Fault> {
     let pythons = pythons();
     let (_, python) = pythons.last().ok_or("no Python")?;
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
     let sources = place("sources");
-    let _ = fs::remove_dir_all(&sources);
+    remove(&sources)?;
     let mut pack = Command::new(tools);
     pack.args(["-m", "maturin", "sdist", "--out"]).arg(&sources);
     run(pack.current_dir(top().join("python")))?;
-    let packed = crate::run::listing(&sources, "gz")?;
+    let packed = listing(&sources, "gz")?;
     let packed = packed.first().ok_or("no source distribution was made")?;
     let packages = [
         "dask[distributed]",
@@ -176,14 +172,10 @@ pub(crate) fn whole() -> Result<(), Fault> {
 }
 
 /// The figures of the wheel that `pip install` would make, as JSON.
-///
-/// # Errors
-/// If it cannot be built or measured.
 pub(crate) fn figures() -> Result<String, Fault> {
-    let pythons = pythons();
-    let (_, python) = pythons.last().ok_or("no Python")?;
-    let wheel = wheel(python, Profile::Release)?;
-    let inside = environment(python, "speeds", &["gymnasium"])?;
+    let python = newest()?;
+    let wheel = wheel(&python, Profile::Release)?;
+    let inside = environment(&python, "speeds", &["gymnasium"])?;
     run(pip(&inside).arg(&wheel))?;
     let bytes = fs::metadata(&wheel)
         .map_err(|error| error.to_string())?
@@ -194,9 +186,6 @@ pub(crate) fn figures() -> Result<String, Fault> {
 }
 
 /// A file that a Python program has written.
-///
-/// # Errors
-/// If it is not there.
 pub(crate) fn written(name: &str) -> Result<String, Fault> {
     read(&place(name))
 }
@@ -207,11 +196,6 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
 }
 
 /// The program that runs the page's tests, with Selenium.
-///
-/// # Errors
-/// If there is no Python, or a package cannot be had.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
-    let pythons = pythons();
-    let (_, python) = pythons.last().ok_or("no Python")?;
-    environment(python, "browser", &["pytest", "selenium"])
+    environment(&newest()?, "browser", &["pytest", "selenium"])
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use object::{Object, ObjectSection, SectionFlags};
 
 use crate::firmware::{self, Board, with_elf};
-use crate::run::{Fault, cargo, output, read_bytes, run, target, top};
+use crate::run::{Fault, cargo, output, read_bytes, remove, run, target, top};
 
 /// Where the copies stand, below the target folder: names of other lengths.
 const COPIES: [&str; 2] = ["reproducible/a", "reproducible/another/place"];
@@ -17,9 +17,6 @@ const LOADED: u64 = object::elf::SHF_ALLOC as u64;
 
 /// Builds the firmware of `scene` for `board` twice and compares what is flashed, and the
 /// whole ELF file.
-///
-/// # Errors
-/// If they differ, or cannot be built.
 pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
     let [first, second] = COPIES.map(|name| copy(&target().join(name)));
     let [first, second] = [
@@ -49,9 +46,7 @@ pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
 /// Copies what is committed, or would be, to `folder`.
 fn copy(folder: &Path) -> Result<PathBuf, Fault> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
-    if folder.exists() {
-        fs::remove_dir_all(folder).map_err(wrong)?;
-    }
+    remove(folder)?;
     let mut git = std::process::Command::new("git");
     let files = ["ls-files", "--cached", "--others", "--exclude-standard"];
     for file in output(git.args(files).current_dir(top()))?.lines() {

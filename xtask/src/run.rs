@@ -1,9 +1,11 @@
 //! Running other programs from the top of the workspace, and its files.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
+use std::thread;
 
 /// What went wrong, for a person to read.
 pub(crate) type Fault = String;
@@ -20,33 +22,21 @@ pub(crate) fn target() -> PathBuf {
 }
 
 /// `path` from the root, so that a program that runs elsewhere finds it.
-///
-/// # Errors
-/// If there is no such path.
 pub(crate) fn absolute(path: &Path) -> Result<PathBuf, Fault> {
     std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The text of a file.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn read(path: &Path) -> Result<String, Fault> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The bytes of a file.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Writes a file, and the folder it stands in.
-///
-/// # Errors
-/// If it cannot be written.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, content));
@@ -54,9 +44,6 @@ pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault>
 }
 
 /// Writes a document, or checks that it is up to date.
-///
-/// # Errors
-/// If it cannot be written, or, checking, differs.
 pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Fault> {
     let path = top().join(name);
     if !check {
@@ -69,10 +56,26 @@ pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Faul
     }
 }
 
+/// Deletes a folder and all in it, if it is there.
+pub(crate) fn remove(folder: &Path) -> Result<(), Fault> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(format!("{}: {error}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Fails with every fault of a list, a line each, if there is one.
+pub(crate) fn no_faults(faults: &[Fault]) -> Result<(), Fault> {
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(faults.join("\n"))
+    }
+}
+
 /// The files in `folder` whose names end so, sorted.
-///
-/// # Errors
-/// If it cannot be read.
 pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fault> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -86,6 +89,15 @@ pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fa
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(top());
+    command
+}
+
+/// `cargo` with a command for a package outside the workspace, which is built in a folder of its
+/// own.
+pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command {
+    let mut command = cargo(&[command, "--quiet", "--locked", "--manifest-path"]);
+    command.arg(format!("{package}/Cargo.toml"));
+    command.arg("--target-dir").arg(target().join(folder));
     command
 }
 
@@ -124,9 +136,6 @@ pub(crate) fn workspace_program(package: &str) -> Command {
 }
 
 /// Runs `command` and prints it first.
-///
-/// # Errors
-/// If it cannot be started or does not end well.
 pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     let text = line(command);
     println!("$ {text}");
@@ -140,10 +149,27 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     }
 }
 
+/// Runs `commands`, so many at once, to the last, whichever fail.
+pub(crate) fn run_at_once(commands: Vec<Command>, at_once: usize) -> Result<(), Fault> {
+    let left = Mutex::new(commands.into_iter());
+    let faults = Mutex::new(Vec::new());
+    let next = || left.lock().ok()?.next();
+    let work = || {
+        while let Some(mut command) = next() {
+            if let (Err(fault), Ok(mut faults)) = (run(&mut command), faults.lock()) {
+                faults.push(fault);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..at_once {
+            scope.spawn(work);
+        }
+    });
+    no_faults(&faults.into_inner().unwrap_or_default())
+}
+
 /// Installs a subcommand of cargo, unless it is there.
-///
-/// # Errors
-/// If it cannot be built.
 pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
     if output(&mut cargo(&[subcommand, "--version"])).is_ok() {
         return Ok(());
@@ -153,9 +179,6 @@ pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
 }
 
 /// What `command` prints.
-///
-/// # Errors
-/// If it cannot be started or does not end well.
 pub(crate) fn output(command: &mut Command) -> Result<String, Fault> {
     let text = line(command);
     let output = command

@@ -2,7 +2,6 @@
 //! stack; that it holds what the scene names and nothing else; and that no panic can be
 //! reached in it. The table is committed, so that a program cannot grow unseen.
 
-mod host;
 mod parts;
 mod stack;
 mod table;
@@ -12,11 +11,11 @@ use std::path::Path;
 use scene::Scene;
 
 use crate::elf::contents;
+use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
-use crate::panics;
-use crate::run::{Fault, listing, read_bytes, top};
+use crate::run::{Fault, listing, no_faults, read_bytes, top};
+use crate::{panics, speed};
 use parts::{Named, Seen};
-use table::Row;
 pub(crate) use table::{ANY_SCENE, TABLE, beside_goals, limits};
 use tactile::ModelBuf;
 
@@ -32,16 +31,12 @@ const TWO_SIDES: &str = "scenes/both.toml";
 /// committed one; `-`: prints the table alone), or checks that no program has
 /// grown beyond what it says or beyond a limit. Checks in any case that each
 /// program holds what its scene names and nothing else.
-///
-/// # Errors
-/// If something cannot be built or read, or, checking, differs.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     let quiet = csv == Some(Path::new("-"));
     let mut measured = Measured::default();
     for path in listing(&top().join("scenes"), "toml")? {
         let path = Path::new("scenes").join(path.file_name().unwrap_or_default());
-        let scene = load(&path)?;
-        let host = Some(host::ns_per_tick(&path, &scene)?);
+        let host = Some(speed::ns_per_tick(&top().join(&path))?);
         for board in Board::ALL {
             match measured.take(board, &path, host)? {
                 Some(reason) if !quiet => println!("{}: {reason}", board.name),
@@ -53,20 +48,16 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
         measured.control(board)?;
         measured.any_scene(board)?;
     }
-    let rows = measured.proven()?;
-    let shown = table::columns(&rows);
+    let found = measured.proven()?;
+    TABLE.take(&found, csv, check)?;
     if check {
-        print!("{shown}");
-        return table::compare(&TABLE.read(csv)?, &rows, true);
+        table::within_limits(&found)
+    } else {
+        Ok(())
     }
-    let figures: Vec<_> = rows.iter().map(Row::figure).collect();
-    TABLE.write(&figures, csv, &shown)
 }
 
 /// Prints flash, static RAM and the stack's bound of an ELF file in bytes.
-///
-/// # Errors
-/// If it cannot be read, or its stack has no bound.
 pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> {
     let Size { flash, ram } = Size::of(elf)?;
     println!(
@@ -80,9 +71,6 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
 }
 
 /// Checks [`SHORT`] on every board and [`TWO_SIDES`] on one, and what a program holds.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
     for scene in SHORT {
@@ -99,15 +87,15 @@ pub(crate) fn short() -> Result<(), Fault> {
     measured.control(board)?;
     let [.., smallest] = Board::ALL;
     measured.any_scene(smallest)?;
-    let rows = measured.proven()?;
-    print!("{}", table::columns(&rows));
-    table::compare(&TABLE.read(None)?, &rows, false)
+    let found = measured.proven()?;
+    TABLE.check_part(&found)?;
+    table::within_limits(&found)
 }
 
 /// What the programs built so far take and hold.
 #[derive(Default)]
 struct Measured {
-    rows: Vec<Row>,
+    figures: Vec<Figure>,
     seen: Seen,
     wrong: Vec<String>,
 }
@@ -129,7 +117,7 @@ impl Measured {
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
         self.wrong.extend(misfits);
         self.check_panics(board, &path.display().to_string(), &elf);
-        self.rows.push(measured(board, &scene.name, &elf, host)?);
+        self.figures.push(measured(board, &scene.name, &elf, host)?);
         Ok(None)
     }
 
@@ -144,7 +132,7 @@ impl Measured {
     fn any_scene(&mut self, board: Board) -> Result<(), Fault> {
         let elf = firmware::build_any_scene(board)?;
         self.check_panics(board, ANY_SCENE, &elf);
-        self.rows.push(measured(board, ANY_SCENE, &elf, None)?);
+        self.figures.push(measured(board, ANY_SCENE, &elf, None)?);
         Ok(())
     }
 
@@ -160,17 +148,13 @@ impl Measured {
 
     /// The lines, if every program holds what its scene names and nothing else, and
     /// every part was once there and once absent.
-    fn proven(mut self) -> Result<Vec<Row>, Fault> {
+    fn proven(mut self) -> Result<Vec<Figure>, Fault> {
         let told = self
             .seen
             .unproven()
             .map(|part| format!("{part}: never there, or never absent"));
         self.wrong.extend(told);
-        if self.wrong.is_empty() {
-            Ok(self.rows)
-        } else {
-            Err(self.wrong.join("\n"))
-        }
+        no_faults(&self.wrong).map(|()| self.figures)
     }
 }
 
@@ -179,14 +163,14 @@ fn load(path: &Path) -> Result<Scene, Fault> {
     Scene::load(top().join(path)).map_err(|error| error.to_string())
 }
 
-fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<Row, Fault> {
-    Ok(Row {
-        scene: scene.to_owned(),
-        board: board.name.to_owned(),
-        size: Size::of(elf)?,
-        stack: stack::worst(board, elf)?,
-        scene_bytes: Size::of_scene(elf)?,
-        host_ns: host,
+fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<Figure, Fault> {
+    let Size { flash, ram } = Size::of(elf)?;
+    let numbers = [flash, ram, stack::worst(board, elf)?].map(|bytes| bytes as f64);
+    let host = host.map_or_else(String::new, |ns| format!(", host-sim {ns} ns a tick"));
+    let note = format!("scene and model {}{host}", Size::of_scene(elf)?);
+    Ok(Figure {
+        note,
+        ..Figure::new(&[scene, board.name], &numbers)
     })
 }
 
@@ -215,7 +199,7 @@ fn misfits(
         scene,
         model: model.as_ref(),
     };
-    let mut wrong = seen.compare(&functions, holds, board.has_fpu)?;
+    let mut wrong = seen.compare(&functions, holds, board.facts.has_fpu)?;
     for path in listing(&top().join("scenes/models"), "model")? {
         let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;

@@ -7,9 +7,11 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Instant;
 
 use scene::Scene;
 
+use crate::emulate::variants;
 use crate::run::{Fault, cargo, output, run, target, top};
 
 /// What runs, from the top of the workspace.
@@ -28,13 +30,8 @@ pub(crate) struct Choice {
 
 /// Builds host-sim for release and prints times a tick, and how many times as fast
 /// as the other program it is.
-///
-/// # Errors
-/// If host-sim cannot be built, or a program cannot be run.
 pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
-    let build = ["build", "--release", "--locked"];
-    run(cargo(&build).args(["-p", "host-sim"]))?;
-    let own = target().join("release/host-sim");
+    let own = released()?;
     println!(
         "µs a tick, least and median of {}: this tree{}",
         choice.rounds,
@@ -49,9 +46,9 @@ pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
         let (mut ours, mut theirs) = (Vec::new(), Vec::new());
         for _ in 0..choice.rounds {
             if let Some(other) = &choice.vs {
-                theirs.push(user_s(other, path)?);
+                theirs.push(user_s(other, Path::new(path))?);
             }
-            ours.push(user_s(&own, path)?);
+            ours.push(user_s(&own, Path::new(path))?);
         }
         let a_tick = 1e6 / scene.ticks() as f64;
         let ours = least_and_median(ours).map(|s| s * a_tick);
@@ -66,18 +63,43 @@ pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
     Ok(())
 }
 
+/// The time that host-sim takes for a tick of a scene on the wall's clock, ns: the least of three
+/// runs of so many ticks that the start of the program does not count.
+pub(crate) fn ns_per_tick(scene: &Path) -> Result<u64, Fault> {
+    let ticks = 100_000;
+    let (program, long) = (released()?, variants::with_ticks(scene, ticks)?);
+    let mut least = f64::INFINITY;
+    for _ in 0..3 {
+        let begun = Instant::now();
+        let mut run = Command::new(&program);
+        run.args(["run", "--quiet"]).arg(&long).arg("--out");
+        output(run.arg(target().join("speed")).current_dir(top()))?;
+        least = least.min(begun.elapsed().as_secs_f64());
+    }
+    Ok((1e9 * least / f64::from(ticks)) as u64)
+}
+
+/// host-sim, built for release.
+fn released() -> Result<PathBuf, Fault> {
+    let build = ["build", "--release", "--locked", "--quiet"];
+    run(cargo(&build).args(["-p", "host-sim"]))?;
+    Ok(target().join("release/host-sim"))
+}
+
 fn pair([least, median]: [f64; 2]) -> String {
     format!("{least:6.3} {median:6.3}")
 }
 
 /// User time of one run of a scene, s.
-fn user_s(program: &Path, scene: &str) -> Result<f64, Fault> {
+fn user_s(program: &Path, scene: &Path) -> Result<f64, Fault> {
     let out = target().join("speed");
     let mut command = Command::new("sh");
     command
         .args(["-c", r#""$0" "$@" > /dev/null && times"#])
         .arg(std::path::absolute(program).map_err(|error| error.to_string())?)
-        .args(["run", "--quiet", scene, "--out"])
+        .args(["run", "--quiet"])
+        .arg(scene)
+        .arg("--out")
         .arg(out)
         .current_dir(top());
     let text = output(&mut command)?;

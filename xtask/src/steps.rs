@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::run::Fault;
+use crate::run::{Fault, no_faults};
 
 /// Steps run so far.
 #[derive(Default)]
@@ -23,9 +23,6 @@ impl Steps {
     }
 
     /// Runs a step, if it is wanted, and notes its time.
-    ///
-    /// # Errors
-    /// The step's, after the table of times.
     pub(crate) fn run(
         &mut self,
         name: &'static str,
@@ -53,16 +50,9 @@ impl Steps {
     }
 
     /// Prints the table of times.
-    ///
-    /// # Errors
-    /// All failures that [`Steps::try_run`] went over.
     pub(crate) fn end(self) -> Result<(), Fault> {
         self.print();
-        if self.faults.is_empty() {
-            Ok(())
-        } else {
-            Err(self.faults.join("\n"))
-        }
+        no_faults(&self.faults)
     }
 
     fn print(&self) {

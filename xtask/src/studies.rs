@@ -21,17 +21,11 @@ fn program() -> Command {
 }
 
 /// Checks their format.
-///
-/// # Errors
-/// If a file is formatted otherwise.
 pub(crate) fn format() -> Result<(), Fault> {
     run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
 }
 
 /// Lints and tests; with a seed, properties are tried on the same cases in each run.
-///
-/// # Errors
-/// The first lint or test that fails.
 pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
     let lints = ["--all-targets", "--", "-D", "warnings"];
     run(in_workspace("clippy").args(lints))?;
@@ -39,9 +33,6 @@ pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
 }
 
 /// The experiments cut short. PSIK's 33 vibrissae take minutes, and are the nightly run's.
-///
-/// # Errors
-/// If one fails.
 pub(crate) fn experiments_in_short() -> Result<(), Fault> {
     let papers = ["lep10", "lep12", "biotact", "pose"];
     let mut experiments = program();
@@ -51,9 +42,6 @@ pub(crate) fn experiments_in_short() -> Result<(), Fault> {
 }
 
 /// All experiments.
-///
-/// # Errors
-/// If one fails.
 pub(crate) fn experiments() -> Result<(), Fault> {
     let all = ["--release", "--quiet", "--", "--quiet"];
     let mut experiments = in_workspace("run");
@@ -63,17 +51,11 @@ pub(crate) fn experiments() -> Result<(), Fault> {
 
 /// Makes a page, `decisions` or `report`, or checks that it is up to date. They show
 /// docs/measured/instructions.csv, which `cargo xtask count` writes.
-///
-/// # Errors
-/// If it cannot be made, or, checking, differs.
 pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
     run(program().arg(page).args(check.then_some("--check")))
 }
 
 /// Makes both pages in short, in a folder of their own.
-///
-/// # Errors
-/// If one cannot be made.
 pub(crate) fn pages_in_short() -> Result<(), Fault> {
     let folder = target().join("studies");
     let counted = "instructions.csv";

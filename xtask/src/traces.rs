@@ -8,9 +8,6 @@ use crate::run::{Fault, output, run, target, top, workspace_program, write};
 const SCENES: [&str; 4] = ["both", "cia", "textures", "whisker"];
 
 /// Writes NAME.sha256 of each scene's trace; returns the folder.
-///
-/// # Errors
-/// If a scene cannot be run.
 pub(crate) fn written() -> Result<PathBuf, Fault> {
     let folder = target().join("traces");
     for name in SCENES {

@@ -6,9 +6,8 @@ mod blocks;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
-use std::{fs, io};
 
-use crate::run::{Fault, built, listing, read, read_bytes, top, write};
+use crate::run::{Fault, built, listing, read, read_bytes, remove, top, write};
 use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
@@ -37,26 +36,16 @@ pub(crate) struct Choice {
 }
 
 /// What CI runs of all pages.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn short() -> Result<(), Fault> {
     with(&[], false)
 }
 
 /// All that can be run without hardware.
-///
-/// # Errors
-/// As [`all`].
 pub(crate) fn nightly() -> Result<(), Fault> {
     with(&[], true)
 }
 
 /// Runs the blocks of the pages that are chosen, or lists them.
-///
-/// # Errors
-/// The first command that fails or says something else than its page, and a block that is
-/// marked as none of `sh`, `sh nightly` and `sh hardware`.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if !choice.list {
         return with(&choice.pages, choice.nightly);
@@ -134,12 +123,7 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
     let folder = top()
         .join("target/walk")
         .join(name.replace(['/', '\\'], "-"));
-    match fs::remove_dir_all(&folder) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => {
-            return Err(format!("{}: {error}", folder.display()));
-        }
-        _ => {}
-    }
+    remove(&folder)?;
     for (from, extension) in FOUND {
         for file in listing(&top().join(from), extension)? {
             let name = file.file_name().unwrap_or_default();

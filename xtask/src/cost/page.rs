@@ -8,9 +8,6 @@ use crate::run::Fault;
 use crate::size;
 
 /// Mean and worst of `what` in `what,mean,worst` lines.
-///
-/// # Errors
-/// If it is not there.
 pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
     let line = said.lines().find_map(|line| {
         let fields: Vec<&str> = line.split(',').collect();
@@ -25,9 +22,6 @@ pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
 }
 
 /// The bytes of stack that the board of docs/measured/deadlines.csv has used.
-///
-/// # Errors
-/// If they are not there.
 fn painted(deadlines: &str) -> Result<f64, Fault> {
     let start = "bytes of stack by its paint,,";
     let bytes = deadlines.lines().find_map(|line| line.strip_prefix(start));
@@ -44,14 +38,14 @@ fn goals(goal: &str) -> Vec<f64> {
 
 /// Whether the mean, and the worst where that has a goal, are within the goal;
 /// `None` without one.
-fn met(stage: &Figure, goal: &str) -> Option<bool> {
+fn met(numbers: &[f64], goal: &str) -> Option<bool> {
     let goals = goals(goal);
     let within = |(goal, found): (&f64, &f64)| found <= goal;
-    (!goals.is_empty()).then(|| goals.iter().zip(&stage.numbers).all(within))
+    (!goals.is_empty()).then(|| goals.iter().zip(numbers).all(within))
 }
 
-fn verdict(stage: &Figure, goal: &str) -> &'static str {
-    match met(stage, goal) {
+fn verdict(numbers: &[f64], goal: &str) -> &'static str {
+    match met(numbers, goal) {
         None => "",
         Some(true) => "met",
         Some(false) => "**missed**",
@@ -59,20 +53,17 @@ fn verdict(stage: &Figure, goal: &str) -> &'static str {
 }
 
 /// Goal, verdict and peers beside a stage.
-pub(super) fn note(stages: &[Stage], stage: &Figure) -> String {
-    let [goal, others] = beside(stages, stage);
-    let verdict = verdict(stage, goal).trim_matches('*');
+pub(super) fn note(stage: &Stage, numbers: &[f64]) -> String {
+    let Stage { goal, others, .. } = stage;
+    let verdict = verdict(numbers, goal).trim_matches('*');
     format!("{goal:>16}  {verdict:6}  {others}")
 }
 
-/// What misses its goal and why.
-///
-/// # Errors
-/// If something misses its goal without a reason.
+/// What misses its goal and why; to miss one without a reason is a fault.
 fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
     let goal = |figure: &Figure| beside(stages, figure)[0];
     let mut missed: Vec<&Figure> = figures.iter().collect();
-    missed.retain(|figure| met(figure, goal(figure)) == Some(false));
+    missed.retain(|figure| met(&figure.numbers, goal(figure)) == Some(false));
     let mut text = String::new();
     for reason in reasons()? {
         let lines = missed.extract_if(.., |figure| reason.stages.contains(&figure.key[0]));
@@ -95,58 +86,51 @@ fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
 }
 
 /// The page.
-///
-/// # Errors
-/// If a table of another command is not what it should be, or a goal is missed
-/// without a reason.
-pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &str) -> Result<String, Fault> {
+pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Result<String, Fault> {
     let stages = stages()?;
-    let mut table = String::new();
-    for figure in figures {
+    let rows = figures.iter().map(|figure| {
         let [goal, others] = beside(&stages, figure);
         let [key, numbers] = [figure.key.join(" | "), figure.text(INSTRUCTIONS, " | ")];
-        let verdict = verdict(figure, goal);
-        let _ = writeln!(
-            table,
-            "| {key} | {numbers} | {goal} | {verdict} | {others} |"
-        );
-    }
-    let rows = |csv: &str| {
-        let rows = csv.lines().skip(1);
-        let rows = rows.map(|line| format!("| {} |", line.replace(',', " | ")));
-        rows.collect::<Vec<_>>().join("\n")
-    };
+        let verdict = verdict(&figure.numbers, goal);
+        format!("| {key} | {numbers} | {goal} | {verdict} | {others} |")
+    });
+    let deadline = |line: &str| format!("| {} |", line.replace(',', " | "));
     let used = painted(deadlines)?;
-    for line in sizes.lines() {
-        let bound = line.strip_prefix("full,nucleo-f446re,");
-        let bound = bound.and_then(|rest| rest.rsplit(',').next()?.parse::<f64>().ok());
-        if bound.is_some_and(|bound| used > bound) {
-            return Err(format!(
-                "{used} bytes of stack were used: the bound is wrong: {line}"
-            ));
-        }
+    let full = sizes
+        .iter()
+        .find(|size| size.key == ["full", "nucleo-f446re"]);
+    if full.is_some_and(|size| used > size.numbers[2]) {
+        return Err(format!(
+            "{used} bytes of stack were used: its bound is wrong"
+        ));
     }
-    Ok(include_str!("page.md")
-        .replace("{stages}", table.trim_end())
-        .replace("{reasons}", missed(&stages, figures)?.trim_end())
-        .replace("{deadlines}", &rows(deadlines))
-        .replace("{limits}", &size::limits())
-        .replace("{sizes}", size::beside_goals(sizes)?.trim_end()))
+    Ok(format!(
+        include_str!("page.md"),
+        stages = rows.collect::<Vec<_>>().join("\n"),
+        reasons = missed(&stages, figures)?.trim_end(),
+        deadlines = deadlines
+            .lines()
+            .skip(1)
+            .map(deadline)
+            .collect::<Vec<_>>()
+            .join("\n"),
+        limits = size::limits(),
+        sizes = size::beside_goals(sizes)?,
+    ))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Figure, figures, met};
+    use super::{figures, met};
 
     #[test]
     fn a_goal_is_for_the_mean_and_a_second_one_for_the_worst() {
-        let stage = |mean, worst| Figure::new(&[], mean, worst);
-        assert_eq!(met(&stage(24.0, 30.0), "24"), Some(true));
-        assert_eq!(met(&stage(24.1, 24.1), "24"), Some(false));
+        assert_eq!(met(&[24.0, 30.0], "24"), Some(true));
+        assert_eq!(met(&[24.1, 24.1], "24"), Some(false));
         let both = "600 (worst 1000)";
-        assert_eq!(met(&stage(600.0, 1001.0), both), Some(false));
-        assert_eq!(met(&stage(600.0, 1000.0), both), Some(true));
-        assert_eq!(met(&stage(1.0, 1.0), ""), None);
+        assert_eq!(met(&[600.0, 1001.0], both), Some(false));
+        assert_eq!(met(&[600.0, 1000.0], both), Some(true));
+        assert_eq!(met(&[1.0, 1.0], ""), None);
     }
 
     #[test]

@@ -43,9 +43,6 @@ impl Stage {
 }
 
 /// All stages, those of one processor or scene side by side.
-///
-/// # Errors
-/// If stages.csv is no such table.
 pub(super) fn stages() -> Result<Vec<Stage>, Fault> {
     let mut reader = csv::ReaderBuilder::new();
     let reader = reader.comment(Some(b'#'));
@@ -69,9 +66,6 @@ pub(super) struct Reason {
 }
 
 /// All that is known.
-///
-/// # Errors
-/// If reasons.toml is no such list.
 pub(super) fn reasons() -> Result<Vec<Reason>, Fault> {
     #[derive(Deserialize)]
     struct Reasons {

@@ -40,9 +40,6 @@ pub(crate) struct Calls {
 
 impl Calls {
     /// Of an ELF file.
-    ///
-    /// # Errors
-    /// If the file cannot be read.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
         with_elf(elf, |file| {
             Ok::<_, object::Error>(Self {
@@ -63,27 +60,18 @@ impl Calls {
     }
 
     /// The function that begins there.
-    ///
-    /// # Errors
-    /// If there is none.
     pub(crate) fn at(&self, begin: u64) -> Result<&Function, Fault> {
         let unknown = || format!("{begin:#x} is called, and no function begins there");
         self.functions.get(&begin).ok_or_else(unknown)
     }
 
     /// Where the program begins.
-    ///
-    /// # Errors
-    /// If it has no vectors.
     pub(crate) fn reset(&self) -> Result<u64, Fault> {
         let reset = self.vectors.get(RESET).copied();
         reset.ok_or_else(|| "no vectors".to_owned())
     }
 
     /// Where the interrupts of tasks begin.
-    ///
-    /// # Errors
-    /// If there are none.
     pub(crate) fn tasks(&self) -> Result<Vec<u64>, Fault> {
         // Interrupts without a task share one handler, which is a fault.
         let vectors = self.vectors.get(CORE_VECTORS..).unwrap_or_default();

@@ -32,9 +32,6 @@ const REFERENCES: usize = 8;
 
 /// Names of the functions of `elf` that have instructions: paths without their
 /// generic arguments, such as `whisking::gate::Rcp<R>::step`.
-///
-/// # Errors
-/// If the file cannot be read or has no debug information.
 pub(crate) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
     let names = entries(elf, |dwarf, units, unit, entry| {
         let is_code = [gimli::DW_TAG_subprogram, gimli::DW_TAG_inlined_subroutine];
@@ -52,9 +49,6 @@ pub(crate) fn functions(elf: &Path) -> Result<BTreeSet<String>, Fault> {
 
 /// Where the code of functions stands that are inside others, of those whose names
 /// `are_meant`: begin and end of each piece.
-///
-/// # Errors
-/// If the file cannot be read.
 pub(crate) fn inlined(elf: &Path, are_meant: impl Fn(&str) -> bool) -> Result<Vec<Piece>, Fault> {
     let pieces = entries(elf, |dwarf, units, unit, entry| {
         if entry.tag() != gimli::DW_TAG_inlined_subroutine {
@@ -69,9 +63,6 @@ pub(crate) fn inlined(elf: &Path, are_meant: impl Fn(&str) -> bool) -> Result<Ve
 }
 
 /// How often `bytes` stand in flash.
-///
-/// # Errors
-/// If the file cannot be read.
 pub(crate) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
     with_elf(elf, |file| {
         let mut found = 0;

@@ -1,173 +1,142 @@
-//! Scenes made from others for the emulated board: one with a single whisker a side,
-//! which is what a board carries; one in fixed point; one with slow sensors; one with a serial
-//! port; one with both sides; one with another seed.
+//! Scenes made from others, most for the emulated board, each in a file of its own in target/variants.
 
 use std::path::{Path, PathBuf};
 
 use scene::Scene;
 use toml::{Table, Value};
 
-use crate::run::{self, Fault, absolute};
+use crate::run::{Fault, absolute, read, target, write};
 
 /// As often as sensors in their slow mode compute a value, about, Hz.
 const SLOW_HZ: i64 = 500;
 
-/// Writes the first whisker of each side of `path` as a scene of its own into
-/// `folder` and returns its path; `None` if the scene has no more than that.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(crate) fn single(path: &Path, folder: &Path) -> Result<Option<PathBuf>, Fault> {
-    let (scene, mut table) = read(path)?;
-    let whiskers = scene.head.whiskers_per_side;
+/// The scene at `path` with one whisker a side, the first, which is what a board carries.
+pub(crate) fn single(path: &Path) -> Result<PathBuf, Fault> {
+    let whiskers = load(path)?.head.whiskers_per_side;
     if whiskers == 1 {
-        return Ok(None);
+        return Ok(path.to_owned());
     }
-    set(&mut table, "head", "whiskers_per_side", 1.into());
-    keep_first_of(whiskers, &mut table, "whisking", "gain");
-    write(path, &scene, table, folder).map(Some)
+    variant(path, "single", |_, table| {
+        set(table, "head", "whiskers_per_side", 1);
+        if let Some(gains) = list(table, "whisking", "gain") {
+            *gains = gains.iter().step_by(whiskers).cloned().collect();
+        }
+    })
 }
 
-/// Writes `path`, which has the left side alone, as a scene with both sides alike and
-/// coupled into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn on_both_sides(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    set(&mut table, "head", "sides", "both".into());
-    set(&mut table, "whisking", "coupling", true.into());
-    for (part, key) in [("whisking", "start"), ("plant", "obstacle_deg")] {
-        double(&mut table, part, key);
-    }
-    write(path, &scene, table, folder)
+/// The scene, which has the left side alone, with both sides alike and coupled.
+pub(super) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
+    variant(path, "both", |_, table| {
+        set(table, "head", "sides", "both");
+        set(table, "whisking", "coupling", true);
+        for (part, key) in [("whisking", "start"), ("plant", "obstacle_deg")] {
+            if let Some(list) = list(table, part, key) {
+                list.extend_from_within(..);
+            }
+        }
+    })
 }
 
-/// Writes `path` as a scene in fixed point into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn in_fixed_point(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    set(&mut table, "whisking", "numbers", "fixed".into());
-    write(path, &scene, table, folder)
+/// The scene in fixed point.
+pub(super) fn in_fixed_point(path: &Path) -> Result<PathBuf, Fault> {
+    variant(path, "fixed", |_, table| {
+        set(table, "whisking", "numbers", "fixed");
+    })
 }
 
-/// Writes `path` as a scene whose sensors are in their slow mode into `folder` and returns its
-/// path. It classifies nothing: models are of another rate.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn with_slow_sensors(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    table.insert("tick_hz".to_owned(), SLOW_HZ.into());
-    let mode = Table::from_iter([("mode".to_owned(), Value::from("slow"))]);
-    table.insert("sensor".to_owned(), mode.into());
-    table.remove("classifier");
-    write(path, &scene, table, folder)
+/// The scene with sensors in their slow mode. It classifies nothing: models are of another rate.
+pub(super) fn with_slow_sensors(path: &Path) -> Result<PathBuf, Fault> {
+    variant(path, "slow", |_, table| {
+        table.insert("tick_hz".to_owned(), SLOW_HZ.into());
+        replace(table, "sensor", [("mode", "slow".into())]);
+        table.remove("classifier");
+    })
 }
 
-/// Writes `path` as a scene whose sensors find their zeros, which are not at mid-scale, into
-/// `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn with_zeros(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    let found = Table::from_iter([("zero_after_s".to_owned(), Value::from(0.5))]);
-    table.insert("sensor".to_owned(), found.into());
-    let pair = |codes: [f64; 2]| Value::from(codes.to_vec());
-    let zeros = Value::from(vec![pair([40.0, -60.0]), pair([-90.0, 30.0])]);
-    let plant = table.get_mut("plant").and_then(Value::as_table_mut);
-    let plant = plant.ok_or("the scene has no plant")?;
-    plant.insert("zero_codes".to_owned(), zeros);
-    write(path, &scene, table, folder)
+/// The scene with sensors that find their zeros, which are not at mid-scale.
+pub(super) fn with_zeros(path: &Path) -> Result<PathBuf, Fault> {
+    variant(path, "zeros", |_, table| {
+        replace(table, "sensor", [("zero_after_s", 0.5.into())]);
+        let pairs = [[40.0, -60.0], [-90.0, 30.0]].map(|codes| Value::from(codes.to_vec()));
+        set(table, "plant", "zero_codes", pairs.to_vec());
+    })
 }
 
-/// Writes `path` as a scene without telemetry into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn without_telemetry(path: &Path, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    let rtt = Table::from_iter([("rtt".to_owned(), Value::from(false))]);
-    table.insert("telemetry".to_owned(), rtt.into());
-    write(path, &scene, table, folder)
+/// The scene without telemetry.
+pub(super) fn without_telemetry(path: &Path) -> Result<PathBuf, Fault> {
+    variant(path, "silent", |_, table| {
+        replace(table, "telemetry", [("rtt", false.into())]);
+    })
 }
 
-/// The whiskers of the scene in `path`.
-///
-/// # Errors
-/// If it is wrong.
+/// The scene with a serial port, and with pins where it classifies.
+pub(super) fn with_serial(path: &Path, baud: u32) -> Result<PathBuf, Fault> {
+    variant(path, &format!("{baud}-baud"), |scene, table| {
+        let pins = scene.classifier.is_some();
+        let keys = [("serial_baud", baud.into()), ("pins", pins.into())];
+        replace(table, "telemetry", keys);
+    })
+}
+
+/// The scene with another seed.
+pub(crate) fn with_seed(path: &Path, seed: u32) -> Result<PathBuf, Fault> {
+    variant(path, &format!("seed-{seed}"), |_, table| {
+        table.insert("seed".to_owned(), seed.into());
+    })
+}
+
+/// The scene with so many ticks.
+pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
+    variant(path, "long", |scene, table| {
+        let duration_s = f64::from(ticks) / f64::from(scene.tick_hz);
+        table.insert("duration_s".to_owned(), duration_s.into());
+    })
+}
+
+/// The whiskers of the scene at `path`.
 pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
-    read(path).map(|(scene, _)| scene.whiskers())
+    load(path).map(|scene| scene.whiskers())
 }
 
-/// Writes `path` as a scene with a serial port at `baud`, and with pins where it classifies,
-/// into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(super) fn with_serial(path: &Path, baud: u32, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    let telemetry = Table::from_iter([
-        ("serial_baud".to_owned(), Value::from(i64::from(baud))),
-        ("pins".to_owned(), scene.classifier.is_some().into()),
-    ]);
-    table.insert("telemetry".to_owned(), telemetry.into());
-    write(path, &scene, table, folder)
+fn load(path: &Path) -> Result<Scene, Fault> {
+    Scene::load(path).map_err(|problems| problems.to_string())
 }
 
-/// Writes `path` as a scene with another seed into `folder` and returns its path.
-///
-/// # Errors
-/// If the scene is wrong or the other cannot be written.
-pub(crate) fn with_seed(path: &Path, seed: u64, folder: &Path) -> Result<PathBuf, Fault> {
-    let (scene, mut table) = read(path)?;
-    let seed = i64::try_from(seed).map_err(|error| error.to_string())?;
-    table.insert("seed".to_owned(), seed.into());
-    write(path, &scene, table, folder)
-}
-
-fn read(path: &Path) -> Result<(Scene, Table), Fault> {
-    let scene = Scene::load(path).map_err(|problems| problems.to_string())?;
-    let table = run::read(path)?.parse();
-    let table = table.map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok((scene, table))
-}
-
-/// Writes `table`, made from `scene` in `path`, under the same name into `folder`.
-fn write(path: &Path, scene: &Scene, mut table: Table, folder: &Path) -> Result<PathBuf, Fault> {
-    let written = folder.join(path.file_name().unwrap_or(path.as_os_str()));
+/// Writes the scene at `path` after a `change`, which its file's name gets added, and gives the
+/// new path.
+fn variant(
+    path: &Path,
+    name: &str,
+    change: impl FnOnce(&Scene, &mut Table),
+) -> Result<PathBuf, Fault> {
+    let scene = load(path)?;
+    let table = read(path)?.parse();
+    let mut table: Table = table.map_err(|error| format!("{}: {error}", path.display()))?;
+    change(&scene, &mut table);
+    // The model stands beside the first scene.
     if let Some(model) = scene.model_path(path.parent().unwrap_or(Path::new("."))) {
         let model = absolute(&model)?;
-        let model = model.to_string_lossy().into_owned();
-        set(&mut table, "classifier", "model", model.into());
+        set(&mut table, "classifier", "model", &*model.to_string_lossy());
     }
-    run::write(&written, table.to_string())?;
+    let stem = path.file_stem().unwrap_or_default().display();
+    let written = target().join(format!("variants/{stem}-{name}.toml"));
+    write(&written, table.to_string())?;
     Ok(written)
 }
 
-fn set(table: &mut Table, part: &str, key: &str, value: Value) {
+/// Sets a key of a part, if the scene has the part.
+fn set(table: &mut Table, part: &str, key: &str, value: impl Into<Value>) {
     if let Some(part) = table.get_mut(part).and_then(Value::as_table_mut) {
-        part.insert(key.to_owned(), value);
+        part.insert(key.to_owned(), value.into());
     }
+}
+
+/// Puts these keys in the place of a part.
+fn replace<const N: usize>(table: &mut Table, part: &str, keys: [(&str, Value); N]) {
+    let keys = keys.map(|(key, value)| (key.to_owned(), value));
+    table.insert(part.to_owned(), Table::from_iter(keys).into());
 }
 
 fn list<'t>(table: &'t mut Table, part: &str, key: &str) -> Option<&'t mut Vec<Value>> {
     table.get_mut(part)?.get_mut(key)?.as_array_mut()
-}
-
-/// Leaves the first of every so many `whiskers` of a list that has an element for each.
-fn keep_first_of(whiskers: usize, table: &mut Table, part: &str, key: &str) {
-    if let Some(list) = list(table, part, key) {
-        *list = list.iter().step_by(whiskers).cloned().collect();
-    }
-}
-
-/// Repeats a list.
-fn double(table: &mut Table, part: &str, key: &str) {
-    if let Some(list) = list(table, part, key) {
-        list.extend_from_within(..);
-    }
 }

@@ -80,9 +80,6 @@ pub(super) struct Seen(BTreeMap<String, [bool; 2]>);
 impl Seen {
     /// Compares a program with its scene, and says what is there or absent
     /// against the scene.
-    ///
-    /// # Errors
-    /// If nobody says which scenes have a part.
     pub(super) fn compare(
         &mut self,
         functions: &BTreeSet<String>,

@@ -19,11 +19,8 @@ const EXCEPTION_FPU: u64 = EXCEPTION + 18 * 4;
 /// Functions that no way comes back from: a panic or another fault.
 const FAULTS: [&str; 3] = ["core::panicking::", "rust_begin_unwind", "board::faults::"];
 
-/// The most bytes of stack that `elf` takes on `board`.
-///
-/// # Errors
-/// If the file cannot be read, or holds something that has no bound: a
-/// recursion, a call through a pointer.
+/// The most bytes of stack that `elf` takes on `board`. A recursion and a call through a pointer
+/// have no bound, and fail.
 pub(super) fn worst(board: Board, elf: &Path) -> Result<u64, Fault> {
     let calls = Calls::of(elf)?;
     let bound = || -> Result<u64, Fault> {
@@ -31,7 +28,7 @@ pub(super) fn worst(board: Board, elf: &Path) -> Result<u64, Fault> {
         for task in calls.tasks()? {
             interrupt = depth(&calls, task, &mut Vec::new())?.max(interrupt);
         }
-        let exception = if board.has_fpu {
+        let exception = if board.facts.has_fpu {
             EXCEPTION_FPU
         } else {
             EXCEPTION

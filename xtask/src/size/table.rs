@@ -1,10 +1,7 @@
-//! The table of sizes: as it is committed, for a person to read, and compared.
-
-use std::fmt::Write as _;
+//! The table of sizes, its limits and its goals.
 
 use crate::figures::{Figure, Table};
-use crate::firmware::Size;
-use crate::run::Fault;
+use crate::run::{Fault, no_faults};
 
 /// The committed table.
 pub(crate) const TABLE: Table = Table {
@@ -44,20 +41,16 @@ pub(crate) fn limits() -> String {
 
 /// The committed table as lines of a page, with the goals, and with the flash of the program that
 /// takes any scene beside that of the scene's own.
-///
-/// # Errors
-/// If the text is no such table.
-pub(crate) fn beside_goals(csv: &str) -> Result<String, Fault> {
-    let figures = TABLE.parse(csv)?;
-    let mut lines = String::new();
-    for figure in &figures {
+pub(crate) fn beside_goals(figures: &[Figure]) -> Result<String, Fault> {
+    let line = |figure: &Figure| {
         let [scene, board] = &figure.key[..] else {
             return Err(format!("{}: no scene and board", TABLE.file));
         };
-        let (flash, any) = (figure.numbers[0], [ANY_SCENE.to_owned(), board.clone()]);
-        let any = figures.iter().find(|figure| figure.key == any);
+        let any = figures
+            .iter()
+            .find(|figure| figure.key == [ANY_SCENE, board]);
         let any = any.ok_or_else(|| format!("{}: {ANY_SCENE} on {board}?", TABLE.file))?;
-        let any = any.numbers[0];
+        let (flash, any) = (figure.numbers[0], any.numbers[0]);
         let mut goals = GOALS.iter();
         let goal = goals.find(|(of, on, _)| (*of, *on) == (scene.as_str(), board.as_str()));
         let goal = goal.map_or_else(String::new, |(.., goal)| {
@@ -65,147 +58,52 @@ pub(crate) fn beside_goals(csv: &str) -> Result<String, Fault> {
             format!("{goal} {}", if is_met { "met" } else { "**missed**" })
         });
         let (ram, stack) = (figure.numbers[1], figure.numbers[2]);
-        let _ = writeln!(
-            lines,
+        Ok(format!(
             "| {scene} | {board} | {flash} | {goal} | {any} | {ram} | {stack} |"
-        );
-    }
-    Ok(lines)
+        ))
+    };
+    let lines: Result<Vec<String>, Fault> = figures.iter().map(line).collect();
+    Ok(lines?.join("\n"))
 }
 
-/// What the firmware of a scene takes on a board.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Row {
-    pub(super) scene: String,
-    pub(super) board: String,
-    pub(super) size: Size,
-    /// Worst stack.
-    pub(super) stack: u64,
-    // Not in the committed table:
-    /// Bytes of flash that are the scene and its model.
-    pub(super) scene_bytes: u64,
-    /// What host-sim takes a tick, where that was timed.
-    pub(super) host_ns: Option<u64>,
-}
-
-impl Row {
-    /// Its line in the committed table.
-    pub(super) fn figure(&self) -> Figure {
-        let numbers = [self.size.flash, self.size.ram, self.stack];
-        Figure {
-            key: vec![self.scene.clone(), self.board.clone()],
-            numbers: numbers.map(|bytes| bytes as f64).to_vec(),
+/// Names every program that exceeds a limit.
+pub(super) fn within_limits(found: &[Figure]) -> Result<(), Fault> {
+    let limits = [("flash", FLASH), ("static RAM", RAM), ("stack", STACK)];
+    let mut faults = Vec::new();
+    for Figure { key, numbers, .. } in found {
+        for ((what, limit), number) in limits.iter().zip(numbers) {
+            if *number > *limit as f64 {
+                let place = key.join(" on ");
+                faults.push(format!("{place}: {what} {number}, limit {limit}"));
+            }
         }
     }
-
-    fn beyond_limits(&self) -> impl Iterator<Item = String> {
-        let limits = [
-            ("flash", self.size.flash, FLASH),
-            ("static RAM", self.size.ram, RAM),
-            ("stack", self.stack, STACK),
-        ];
-        let place = format!("{} on {}", self.scene, self.board);
-        limits
-            .into_iter()
-            .filter(|(_, found, limit)| found > limit)
-            .map(move |(what, found, limit)| format!("{place}: {what} {found}, limit {limit}"))
-    }
-}
-
-/// The table for a person to read, with what scene and model take and what host-sim takes.
-pub(super) fn columns(rows: &[Row]) -> String {
-    let mut lines = format!(
-        "{:<12} {:<14} {:>7} {:>16} {:>6} {:>6} {:>12}\n",
-        "scene", "board", "flash", "scene and model", "RAM", "stack", "host ns/tick"
-    );
-    for row in rows {
-        let Size { flash, ram } = row.size;
-        let host_ns = row
-            .host_ns
-            .map_or_else(|| "-".to_owned(), |ns| ns.to_string());
-        let _ = writeln!(
-            lines,
-            "{:<12} {:<14} {flash:>7} {:>16} {ram:>6} {:>6} {host_ns:>12}",
-            row.scene, row.board, row.scene_bytes, row.stack
-        );
-    }
-    lines
-}
-
-/// Names every program in `found` that has grown, is new or exceeds a limit; where
-/// `found` `is_all`, also what is gone.
-///
-/// # Errors
-/// If there is one.
-pub(super) fn compare(known: &[Figure], found: &[Row], is_all: bool) -> Result<(), Fault> {
-    let mut faults: Vec<String> = found.iter().flat_map(Row::beyond_limits).collect();
-    let figures: Vec<Figure> = found.iter().map(Row::figure).collect();
-    faults.extend(TABLE.compare(known, &figures, is_all).err());
-    if faults.is_empty() {
-        Ok(())
-    } else {
-        Err(faults.join("\n"))
-    }
+    no_faults(&faults)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ANY_SCENE, FLASH, GOALS, RAM, Row, STACK, Size, TABLE, beside_goals, compare};
-
-    fn row(scene: &str, flash: u64, ram: u64, stack: u64) -> Row {
-        Row {
-            scene: scene.to_owned(),
-            board: "b".to_owned(),
-            size: Size { flash, ram },
-            stack,
-            scene_bytes: 0,
-            host_ns: None,
-        }
-    }
+    use super::{ANY_SCENE, FLASH, GOALS, RAM, STACK, beside_goals, within_limits};
+    use crate::figures::Figure;
 
     #[test]
-    fn a_table_is_read_back_as_it_was_written() {
-        let rows = [row("a", 10_000, 1_000, 500), row("b", 1, 2, 3)];
-        let text = TABLE.text(&rows.each_ref().map(Row::figure));
-        assert_eq!(
-            TABLE.parse(&text),
-            Ok(rows.each_ref().map(Row::figure).to_vec())
-        );
-        assert!(TABLE.parse("scene,board\n").is_err());
-        assert!(TABLE.parse(&(text + "c,b,1,x,-\n")).is_err());
-    }
-
-    #[test]
-    fn two_per_cent_are_borne_and_no_more() {
-        let known = [row("a", 10_000, 1_000, 500).figure()];
-        let check = |flash, ram, stack| compare(&known, &[row("a", flash, ram, stack)], true);
-        assert_eq!(check(10_200, 1_020, 510), Ok(()));
-        assert_eq!(check(5_000, 500, 100), Ok(()));
-        assert!(check(10_201, 1_000, 500).is_err());
-        assert!(check(10_000, 1_021, 500).is_err());
-        assert!(check(10_000, 1_000, 511).is_err());
-    }
-
-    #[test]
-    fn new_and_lost_programs_and_those_beyond_a_limit_are_named() {
-        let (a, b) = (row("a", 1, 1, 1), row("b", 1, 1, 1));
-        let fault = compare(&[a.figure()], std::slice::from_ref(&b), true).unwrap_err();
-        assert!(fault.contains("b,b is not in the table"));
-        assert!(fault.contains("a,b is no longer measured"));
-        assert_eq!(compare(&[a.figure(), b.figure()], &[b], false), Ok(()));
-        let big = row("c", FLASH + 1, RAM + 1, STACK + 1);
-        let fault = compare(&[big.figure()], std::slice::from_ref(&big), true).unwrap_err();
+    fn programs_beyond_a_limit_are_named() {
+        let limits = [FLASH, RAM, STACK].map(|limit| limit as f64);
+        let program = |more: f64| Figure::new(&["c", "b"], &limits.map(|limit| limit + more));
+        assert_eq!(within_limits(&[program(0.0)]), Ok(()));
+        let fault = within_limits(&[program(1.0)]).unwrap_err();
         assert_eq!(fault.matches("limit").count(), 3, "{fault}");
     }
 
     #[test]
     fn a_page_says_which_goals_are_met() {
         let (scene, board, goal) = GOALS[0];
-        let head = TABLE.header;
-        let line =
-            |flash| format!("{head}\n{scene},{board},{flash},1,2\n{ANY_SCENE},{board},1,1,1\n");
-        let met = |flash| beside_goals(&line(flash)).unwrap().contains("met");
+        let program = |scene, flash: u64| Figure::new(&[scene, board], &[flash as f64, 1.0, 2.0]);
+        let met = |flash| {
+            let lines = beside_goals(&[program(scene, flash), program(ANY_SCENE, 1)]);
+            lines.unwrap().contains("met")
+        };
         assert!(met(goal) && !met(goal + 1));
-        assert!(beside_goals(&format!("{head}\n{scene},{board},1,1,2\n")).is_err());
+        assert!(beside_goals(&[program(scene, goal)]).is_err());
     }
 }

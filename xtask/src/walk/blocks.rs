@@ -36,11 +36,7 @@ pub(crate) struct Block {
     pub(crate) shown: Option<String>,
 }
 
-/// The command blocks of `text`, in their order.
-///
-/// # Errors
-/// A block that is marked as another shell, or as run at another time, and an output without
-/// commands; begins with the line.
+/// The command blocks of `text`, in their order. A fault begins with its line.
 pub(crate) fn blocks(text: &str) -> Result<Vec<Block>, Fault> {
     let mut found: Vec<Block> = Vec::new();
     let mut events = Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter();
