@@ -342,7 +342,7 @@ impl Idle {
         if !Part::Deploy.is_built() {
             return;
         }
-        let Some((load, answer, is_by_serial)) = self.exchange.to_load() else {
+        let Some((load, answer, is_by_serial)) = self.exchange.load_due() else {
             return;
         };
         let line = match &mut self.serial {

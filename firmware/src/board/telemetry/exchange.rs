@@ -146,7 +146,7 @@ impl Exchange {
     }
 
     /// What is to be loaded, once it may be, and whether that was asked for at the serial port.
-    pub(crate) fn to_load(&mut self) -> Option<(Load, Answer, bool)> {
+    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, bool)> {
         let (pending, answer) = self.answered()?;
         let load = pending.load(&answer)?;
         Some((load, answer, pending.origin != Origin::Probe))

@@ -65,7 +65,7 @@ impl Exchange {
 
     pub(crate) fn take_from_probe(&mut self, _: &Names) {}
 
-    pub(crate) fn to_load(&mut self) -> Option<(Load, Answer, bool)> {
+    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, bool)> {
         None
     }
 
