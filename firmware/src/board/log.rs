@@ -144,20 +144,13 @@ pub(crate) fn brown_out_is_low() {
 }
 
 /// By which model it decides, or why by none.
-pub(crate) fn model(state: ModelState) {
+pub(crate) fn model(state: ModelState, names: &Names) {
     match state {
         ModelState::Runs { crc, classes } if Part::Classifier.is_built() => {
             defmt::info!("decides by model {=u32:08x}, {=u8} classes", crc, classes);
         }
         ModelState::Refused(refusal) if Part::Classifier.is_built() => {
-            let [name, causes] = texts(number::NO_MODEL);
-            say!(
-                warn,
-                "limit {=u8} {=istr} ({=istr}?)",
-                number::NO_MODEL,
-                name,
-                causes
-            );
+            event(&Event::Limit(number::NO_MODEL), names);
             defmt::warn!("- {=str}", refusal.text());
         }
         _ => {}

@@ -116,7 +116,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let integrity = Integrity::new(settings, inner);
     let names = Names::of(inner);
     let model = perception::state(inner);
-    log::model(model);
+    log::model(model, &names);
     let Some(configs) = Configs::start(deployed.ok_or(reason), gate, settings_ways) else {
         faults::die(number::SETTINGS, || {})
     };
