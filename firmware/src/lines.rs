@@ -166,7 +166,7 @@ pub fn percent(decision: tactile::Decision) -> u32 {
 }
 
 /// A line that begins with the time at which so many ticks had passed since the start, in
-/// seconds, which begin anew with the count of ticks.
+/// seconds, which wrap around with the count of ticks.
 #[inline(never)]
 pub fn at(ticks: u32, tick_hz: u32) -> Line {
     let (whole, part) = (ticks / tick_hz.max(1), ticks % tick_hz.max(1));

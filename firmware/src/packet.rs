@@ -208,7 +208,10 @@ mod tests {
     use proptest::prelude::*;
     use tactile::Decision;
     use whisking::motor;
-    use wire::{Answer, CommandStatus, FRAME_BYTES, Piece, Splitter, TickRecord};
+    use wire::{
+        Answer, Command, CommandStatus, FRAME_BYTES, Piece, Splitter, TaggedCommand, TickRecord,
+        WhiskerId,
+    };
 
     use super::{EventRecord, Packet};
     use crate::{Event, Health, Place, SensorFault};
@@ -324,6 +327,52 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// The bytes are those of a Python program that follows docs/telemetry.md, with zlib's sum and
+    /// a COBS of its own.
+    #[test]
+    fn frames_are_those_of_another_program() {
+        let sequence = 0x0403_0201;
+        let touch = Packet::Event(EventRecord {
+            sequence,
+            event: Event::Touch {
+                place: Place::new(1, 3),
+                number: 0x0102,
+            },
+        });
+        assert_eq!(
+            wire::frame(&touch)[..],
+            [
+                0x00, 0x06, 0x02, 0x01, 0x02, 0x03, 0x04, 0x03, 0x01, 0x03, 0x03, 0x02, 0x01, 0x01,
+                0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x80, 0xBC, 0xB2, 0xC5, 0x00
+            ]
+        );
+        let answer = Packet::Answer(Answer {
+            sequence,
+            tag: 7,
+            command: 8,
+            status: CommandStatus::OutOfRange,
+            values: [-2, 5],
+        });
+        assert_eq!(
+            wire::frame(&answer)[..],
+            [
+                0x00, 0x07, 0x01, 0x01, 0x02, 0x03, 0x04, 0x07, 0x08, 0x08, 0x03, 0xFE, 0xFF, 0xFF,
+                0xFF, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x19, 0x70, 0x86, 0x72, 0x00
+            ]
+        );
+        // 700 and -2 are varints, the latter in zigzag.
+        let gain = TaggedCommand {
+            tag: 700,
+            command: Command::Gain(WhiskerId { side: 1, number: 2 }, -2),
+        };
+        assert_eq!(
+            wire::frame(&gain)[..],
+            [
+                0x00, 0x0B, 0xBC, 0x05, 0x08, 0x01, 0x02, 0x03, 0x3D, 0x8C, 0x63, 0x7B, 0x00
+            ]
+        );
     }
 
     #[test]
