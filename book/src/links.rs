@@ -234,12 +234,12 @@ mod tests {
     fn links_are_found_with_what_they_are_shown_as() {
         let text = "See [the `a` b](c.md#d), ![e](f.svg) and [g].\n\n```sh\n[no](no.md)\n```\n\n[g]: h.rs\n";
         let found = links(text);
-        let told = found
+        let parts = found
             .iter()
             .map(|link| (link.to.as_str(), link.shown.as_str(), link.is_image));
-        let told: Vec<_> = told.collect();
+        let parts: Vec<_> = parts.collect();
         assert_eq!(
-            told,
+            parts,
             [
                 ("c.md#d", "the `a` b", false),
                 ("f.svg", "e", true),

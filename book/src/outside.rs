@@ -69,9 +69,9 @@ mod tests {
     fn a_link_out_of_the_book_becomes_the_name_of_the_file() {
         let text = "[`crates/wire`](../crates/wire), [this](../x/y.rs), [a](b.md), \
                     [c](https://d.org/) and [front](README.md#e)";
-        let told = named(text, Path::new("docs/page.md"), Path::new("docs"));
+        let renamed = named(text, Path::new("docs/page.md"), Path::new("docs"));
         assert_eq!(
-            told,
+            renamed,
             "`crates/wire`, this (`x/y.rs`), [a](b.md), [c](https://d.org/) and [front](index.md#e)"
         );
     }

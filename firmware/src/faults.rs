@@ -20,7 +20,7 @@ pub enum Reaction {
 /// How it ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Recovery {
-    /// The motor is tried again after a rest; after too many faults, only once told.
+    /// The motor is tried again after a rest; after too many faults, only on command.
     Retry,
     /// Once frames have been good for a while.
     GoodFrames,
@@ -63,7 +63,7 @@ macro_rules! rows {
             )*
         }
 
-        /// What is wrong, and likely causes, of a number; for who has no room for the rest.
+        /// What is wrong, and likely causes, of a number, where there is no room for the rest.
         // Once in the program.
         #[inline(never)]
         pub const fn texts(number: u8) -> [&'static str; 2] {

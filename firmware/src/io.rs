@@ -14,8 +14,8 @@ pub struct BusError;
 /// Reading takes most of a tick (64 bits at 400 kHz are 160 µs), so a board
 /// reads by DMA or interrupt while the tick works on the frame before.
 ///
-/// Between two frames that were good the sensor is deselected for some time; after one that
-/// was not, [`start`](Self::start) comes some ticks later, so that it begins anew.
+/// The sensor is deselected for some time between two good frames; after a bad one
+/// [`start`](Self::start) comes some ticks later, so that the sensor resynchronises.
 pub trait FrameSource {
     /// The frame that was started last, if it is finished, without waiting. Afterwards
     /// there is none under way.

@@ -57,7 +57,7 @@ impl StartCause {
 pub enum NotArmed {
     /// The chip started after the fault with this number.
     After(u8),
-    /// Nobody knows why the chip started.
+    /// The reason why the chip started is unknown.
     Unknown,
     /// The scene waits for a command.
     OnCommand,
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_is_told_at_the_next_start_and_stays_known() {
+    fn a_fault_is_reported_at_the_next_start_and_stays_known() {
         for fault in [number::PANIC, number::HARD_FAULT, number::SUPPLY] {
             let mut record = powered();
             record.note(fault);

@@ -266,7 +266,7 @@ struct Tick<'a, R: Real, H: Hardware> {
     config: &'a Config<R>,
     /// Its number since the start.
     sequence: u32,
-    /// What is so in it, and the whiskers that touch something.
+    /// The flags of it, and the whiskers that touch something.
     said: Flags,
     touching: u32,
 }

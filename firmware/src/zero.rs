@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touch_begins_the_silence_anew() {
+    fn a_touch_restarts_the_silence() {
         let mut zero = Zero::default();
         for _ in 0..20 {
             assert_eq!(pass(&mut zero, [20, 20], 99), [[0; 2]; 0]);

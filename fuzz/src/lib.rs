@@ -1,4 +1,4 @@
-//! What reads data that nobody vouches for: frames of a sensor, configurations, models,
+//! Readers of untrusted data: frames of a sensor, configurations, models,
 //! scenes, recordings and the tables of a campaign's shards. Whatever the bytes, each target ends
 //! soon, in little memory, without a panic; and what it takes holds what the rest relies on.
 //!

@@ -10,7 +10,7 @@ use crate::decisions::{self, Columns, Decided};
 use crate::loaded::model_of;
 use crate::output::Output;
 use crate::recording::{self, Stream};
-use crate::trace::{Told, TraceShape, TraceWriter};
+use crate::trace::{TraceLine, TraceShape, TraceWriter};
 
 /// Reads a recording whose channels are the columns `channels`.
 ///
@@ -80,12 +80,12 @@ impl TraceFile {
         })
     }
 
-    /// One row.
+    /// One line.
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub fn row(&mut self, told: &Told<'_>) -> Result<(), Error> {
-        let written = self.trace.row(told);
+    pub fn line(&mut self, line: &TraceLine<'_>) -> Result<(), Error> {
+        let written = self.trace.line(line);
         written.map_err(|source| Error::write(&self.path, source))
     }
 

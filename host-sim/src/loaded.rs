@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_that_is_missing_or_broken_is_told_at_its_line() {
+    fn a_model_that_is_missing_or_broken_is_reported_at_its_line() {
         let line = TEXT.lines().position(|line| line.starts_with("model"));
         let place = format!("mine.toml:{}: classifier.model: ", line.unwrap() + 1);
         let found = [Err("not given".to_owned()), Ok(MODEL[..40].to_vec())];

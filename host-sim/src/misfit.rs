@@ -45,12 +45,12 @@ pub fn misfits(
         found.push((sample, "warning", said));
     }
     let classes = classifier::names(model);
-    let mut told: Vec<&str> = Vec::new();
+    let mut unknown: Vec<&str> = Vec::new();
     let mut first = 0;
     for stream in streams {
         let label = stream.label.as_str();
-        if !classes.iter().any(|class| class == label) && !told.contains(&label) {
-            told.push(label);
+        if !classes.iter().any(|class| class == label) && !unknown.contains(&label) {
+            unknown.push(label);
             let classes = classes.join(", ");
             let said = format!("label {label:?} is none of the model's classes: {classes}");
             found.push((first, "note", said));
@@ -67,7 +67,8 @@ pub fn misfits(
         Some(line) => format!("{}:{line}", path.display()),
         None => path.display().to_string(),
     };
-    let told = found.into_iter();
-    told.map(|(sample, kind, said)| format!("{kind}: {}: {said}", place(sample)))
+    let found = found.into_iter();
+    found
+        .map(|(sample, kind, said)| format!("{kind}: {}: {said}", place(sample)))
         .collect()
 }

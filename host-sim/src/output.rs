@@ -153,7 +153,7 @@ pub fn check(path: &Path) -> Result<(), Error> {
     if path.file_name().is_none() {
         return Err(Error::file(path, "not a file name"));
     }
-    // What cannot be looked at is told when it is created.
+    // If the path cannot be looked at, creating it reports why.
     if let Ok(found) = fs::symlink_metadata(path)
         && !found.is_file()
     {

@@ -98,8 +98,8 @@ pub struct SharedProgress {
 }
 
 impl SharedProgress {
-    /// Steps that a run counts before it tells them.
-    const TOLD: u64 = 1024;
+    /// Steps that a run counts before it reports them.
+    const REPORTED: u64 = 1024;
 
     /// Work of `total` steps in all runs together.
     pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
@@ -114,8 +114,8 @@ impl SharedProgress {
         let mut steps = 0;
         move || {
             steps += 1;
-            if steps % Self::TOLD == 0 {
-                let done = self.done.fetch_add(Self::TOLD, Ordering::Relaxed) + Self::TOLD;
+            if steps % Self::REPORTED == 0 {
+                let done = self.done.fetch_add(Self::REPORTED, Ordering::Relaxed) + Self::REPORTED;
                 if let Ok(mut bar) = self.bar.lock() {
                     bar.set(done);
                 }

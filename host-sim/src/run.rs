@@ -16,7 +16,7 @@ use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::Classifier;
 use crate::decisions::{self, Decided};
 use crate::motor::{PWM_COUNTS, SimMotor};
-use crate::trace::{Row, Told, WhiskerRow};
+use crate::trace::{Row, TraceLine, WhiskerRow};
 use crate::world::World;
 use flaws::Flaws;
 use presented::Presented;
@@ -289,7 +289,7 @@ impl<B: Bench + ?Sized> Run<B> {
         self.row
     }
 
-    /// The same for a tick whose row nobody asks for: events, decisions and samples are of this
+    /// The same for a tick whose row is not needed: events, decisions and samples are of this
     /// tick, while row, whiskers and line of the trace stay those of the last [`Run::tick`].
     pub fn pass(&mut self) {
         self.events.clear();
@@ -390,8 +390,12 @@ impl<B: Bench + ?Sized> Run<B> {
 
     /// The line of the trace of the last tick, in which `decided` fell; `whiskers` as
     /// [`Run::look_at_whiskers`] fills them in.
-    pub fn told<'a>(&'a self, decided: &'a [Decided], whiskers: &'a [WhiskerRow]) -> Told<'a> {
-        Told {
+    pub fn trace_line<'a>(
+        &'a self,
+        decided: &'a [Decided],
+        whiskers: &'a [WhiskerRow],
+    ) -> TraceLine<'a> {
+        TraceLine {
             row: &self.row,
             decisions: by_side(decided),
             presented: self.presented(),

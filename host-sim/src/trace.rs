@@ -46,7 +46,7 @@ impl Row {
     }
 }
 
-/// One whisker after a tick. What it does not have, or nobody knows, is NaN.
+/// One whisker after a tick. What it does not have, or is unknown, is NaN.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WhiskerRow {
     /// Setpoint θ', degrees.
@@ -65,9 +65,9 @@ pub struct WhiskerRow {
     pub fault: f64,
 }
 
-/// Everything that a trace tells of a tick.
+/// Everything that a trace has of a tick.
 #[derive(Debug, Clone, Copy)]
-pub struct Told<'a> {
+pub struct TraceLine<'a> {
     /// Of sides and their first whiskers.
     pub row: &'a Row,
     /// What a whisker of each side decided.
@@ -100,16 +100,16 @@ impl<W: Write> TraceWriter<W> {
         })
     }
 
-    /// One row. Nine decimals show the error of the integrators; the cells of a side that
+    /// One line. Nine decimals show the error of the integrators; the cells of a side that
     /// does not exist are empty, and so is that of a decision where none fell.
     ///
     /// # Errors
     /// Any error of the writer.
-    pub fn row(&mut self, told: &Told<'_>) -> io::Result<()> {
+    pub fn line(&mut self, of: &TraceLine<'_>) -> io::Result<()> {
         let (line, shape) = (&mut self.line, self.shape);
         line.clear();
-        decimals::append(line, told.row.t_s, 9);
-        let pairs = told.row.pairs();
+        decimals::append(line, of.row.t_s, 9);
+        let pairs = of.row.pairs();
         let (precise, codes) = pairs.as_flattened().split_at(10);
         for value in precise {
             cell(line, *value, 9);
@@ -117,16 +117,16 @@ impl<W: Write> TraceWriter<W> {
         for value in codes {
             cell(line, *value, 0);
         }
-        let sides = told.row.touch.into_iter().zip(told.decisions);
+        let sides = of.row.touch.into_iter().zip(of.decisions);
         for (touch, decision) in sides.take(1 + usize::from(shape.hears_right)) {
             cell(line, touch.into(), 0);
             line.push(b',');
             text(line, decision.unwrap_or_default());
         }
         line.push(b',');
-        text(line, told.presented.0);
-        cell(line, told.presented.1 as f64, 0);
-        let whisker = |n: usize| told.whiskers.get(n);
+        text(line, of.presented.0);
+        cell(line, of.presented.1 as f64, 0);
+        let whisker = |n: usize| of.whiskers.get(n);
         let first = [0, 1].map(|side| {
             let is_there = side < shape.sides;
             whisker(side * shape.whiskers_per_side).filter(|_| is_there)
@@ -140,7 +140,7 @@ impl<W: Write> TraceWriter<W> {
         pair(|whisker| whisker.duty, 6);
         pair(|whisker| whisker.fault, 0);
         let further = shape.whiskers_per_side.saturating_sub(1);
-        for side in told.whiskers.chunks(shape.whiskers_per_side.max(1)) {
+        for side in of.whiskers.chunks(shape.whiskers_per_side.max(1)) {
             for whisker in side.iter().skip(1).take(further) {
                 cell(line, whisker.theta_deg, 6);
                 cell(line, whisker.angle_deg, 6);
@@ -183,7 +183,7 @@ fn text(line: &mut Vec<u8>, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::{FIRST, OF_WHISKER, Row, SECOND, Told, TraceShape, TraceWriter, WhiskerRow};
+    use super::{FIRST, OF_WHISKER, Row, SECOND, TraceLine, TraceShape, TraceWriter, WhiskerRow};
 
     const ALONE: TraceShape = TraceShape {
         sides: 1,
@@ -203,10 +203,13 @@ mod tests {
         }
     }
 
-    fn written<'t>(shape: TraceShape, told: impl IntoIterator<Item = Told<'t>>) -> Vec<String> {
+    fn written<'t>(
+        shape: TraceShape,
+        lines: impl IntoIterator<Item = TraceLine<'t>>,
+    ) -> Vec<String> {
         let mut table = TraceWriter::new(Vec::new(), shape).unwrap();
-        for told in told {
-            table.row(&told).unwrap();
+        for line in lines {
+            table.line(&line).unwrap();
         }
         let text = String::from_utf8(table.into_inner()).unwrap();
         text.lines().map(str::to_owned).collect()
@@ -226,13 +229,13 @@ mod tests {
             touch: [7, 0],
         };
         let whiskers = [whisker(3.0)];
-        let told = [None, Some("unknown"), Some("sand, \"wet\"")].map(|decision| Told {
+        let ticks = [None, Some("unknown"), Some("sand, \"wet\"")].map(|decision| TraceLine {
             row: &row,
             decisions: [decision, None],
             presented: ("sand", 2),
             whiskers: &whiskers,
         });
-        let lines = written(ALONE, told);
+        let lines = written(ALONE, ticks);
         assert_eq!(
             lines[0],
             "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
@@ -260,13 +263,13 @@ mod tests {
             ..Row::default()
         };
         let whiskers = [0.0, 1.0, 2.0, 3.0].map(whisker);
-        let told = [[None, Some("ice")], [Some("loam"), None]].map(|decisions| Told {
+        let ticks = [[None, Some("ice")], [Some("loam"), None]].map(|decisions| TraceLine {
             row: &row,
             decisions,
             presented: ("free", 0),
             whiskers: &whiskers,
         });
-        let lines = written(shape, told);
+        let lines = written(shape, ticks);
         let header: Vec<&str> = lines[0].split(',').collect();
         let count = FIRST.len() + 2 + SECOND.len() + 2 * OF_WHISKER.len();
         assert_eq!(header.len(), count);

@@ -26,7 +26,7 @@ def play(envs: WhiskerVectorEnv, lines: np.ndarray, seed: int) -> np.ndarray:
     return total / STEPS
 
 
-def told(rewards: np.ndarray) -> str:
+def with_error(rewards: np.ndarray) -> str:
     return f"{rewards.mean():.3f} ± {rewards.std(ddof=1) / np.sqrt(len(rewards)):.3f}"
 
 
@@ -43,7 +43,7 @@ def main() -> tuple[float, float]:
         best = lines[np.argsort(rewards)[-ENVS // 10 :]]
         mean, spread = best.mean(axis=0), best.std(axis=0) + 0.2
     last = play(envs, np.tile(mean, (ENVS, 1)), seed=20_000)
-    print(f"before: {told(first)} a step; after: {told(last)}")
+    print(f"before: {with_error(first)} a step; after: {with_error(last)}")
     print(f"setpoint = {mean[0]:.1f}° {mean[1]:+.1f}° × contact; {time.perf_counter() - begun:.1f} s")
     return first.mean(), last.mean()
 

@@ -145,7 +145,7 @@ impl Envs {
         })
     }
 
-    /// Starts those anew that `begin` names, with their `seeds`; the others act, `actions` having
+    /// Restarts those that `begin` names, with their `seeds`; the others act, `actions` having
     /// the shape (envs, whiskers). Returns what each whisker then feels, of shape
     /// (envs, 4 × whiskers), and whether the scene has ended.
     fn step<'py>(

@@ -26,21 +26,21 @@ fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<D
     let mut row = Packed::default();
     let mut places = rows.chunks_exact_mut(width);
     for n in 1..=run.ticks() {
-        let is_told = every > 0 && n.is_multiple_of(every);
-        if is_told {
+        let is_kept = every > 0 && n.is_multiple_of(every);
+        if is_kept {
             run.tick();
         } else {
             run.pass();
         }
         let first = decided.len();
         decided.extend(run.decisions());
-        if !is_told {
+        if !is_kept {
             continue;
         }
         run.look_at_whiskers(&mut whiskers);
         row.bytes.clear();
         let fell = decided.get(first..).unwrap_or_default();
-        tables.row(&mut row, &run.told(fell, &whiskers));
+        tables.row(&mut row, &run.trace_line(fell, &whiskers));
         if let Some(place) = places.next() {
             place.copy_from_slice(&row.bytes);
         }

@@ -29,9 +29,9 @@ struct State {
 }
 
 impl State {
-    /// One tick, whose row is told or not; what it decided begins at the index that is returned.
-    fn tick(&mut self, is_told: bool) -> usize {
-        if is_told {
+    /// One tick, with a row or without; its decisions begin at the index that is returned.
+    fn tick(&mut self, has_row: bool) -> usize {
+        if has_row {
             self.run.tick();
         } else {
             self.run.pass();
@@ -58,12 +58,12 @@ impl State {
         };
         for n in 1..=ticks {
             outside::heed(n)?;
-            let is_told = n.is_multiple_of(every);
-            let first = self.tick(is_told);
-            if is_told {
+            let has_row = n.is_multiple_of(every);
+            let first = self.tick(has_row);
+            if has_row {
                 self.run.look_at_whiskers(&mut self.whiskers);
                 let fell = self.decided.get(first..).unwrap_or_default();
-                tables.row(&mut rows, &self.run.told(fell, &self.whiskers));
+                tables.row(&mut rows, &self.run.trace_line(fell, &self.whiskers));
             }
         }
         Ok(rows.bytes)
@@ -216,7 +216,7 @@ impl Sim {
                 let first = state.tick(true);
                 state.run.look_at_whiskers(&mut state.whiskers);
                 let fell = state.decided.get(first..).unwrap_or_default();
-                table.row(&state.run.told(fell, &state.whiskers))?;
+                table.line(&state.run.trace_line(fell, &state.whiskers))?;
             }
             PyResult::Ok(table.into_inner())
         });

@@ -3,7 +3,7 @@
 
 use host_sim::bench;
 use host_sim::decisions::{COLUMNS, Columns, Decided};
-use host_sim::trace::{Told, TraceShape, WhiskerRow};
+use host_sim::trace::{TraceLine, TraceShape, WhiskerRow};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -173,18 +173,18 @@ impl RunTables {
     }
 
     /// A row of the trace, in the order of its columns.
-    pub(crate) fn row(&self, rows: &mut Packed, told: &Told<'_>) {
-        rows.number(told.row.t_s);
-        rows.numbers(told.row.pairs().into_iter().flatten());
-        let sides = told.row.touch.into_iter().zip(told.decisions);
+    pub(crate) fn row(&self, rows: &mut Packed, line: &TraceLine<'_>) {
+        rows.number(line.row.t_s);
+        rows.numbers(line.row.pairs().into_iter().flatten());
+        let sides = line.row.touch.into_iter().zip(line.decisions);
         for (touch, decision) in sides.take(1 + usize::from(self.shape.hears_right)) {
             rows.whole(touch.into());
             rows.text(decision.unwrap_or_default(), self.decision);
         }
-        rows.text(told.presented.0, self.label);
-        rows.whole(told.presented.1 as i64);
+        rows.text(line.presented.0, self.label);
+        rows.whole(line.presented.1 as i64);
         let each = self.shape.whiskers_per_side.max(1);
-        let mut sides = told.whiskers.chunks(each);
+        let mut sides = line.whiskers.chunks(each);
         let firsts = [sides.next(), sides.next()].map(|side| side.and_then(<[_]>::first));
         let mut pair = |value: fn(&WhiskerRow) -> f64| {
             for first in firsts {
@@ -194,7 +194,7 @@ impl RunTables {
         pair(|w| w.speed_deg_s);
         pair(|w| w.duty);
         pair(|w| w.fault);
-        for w in told
+        for w in line
             .whiskers
             .chunks(each)
             .flat_map(|side| side.iter().skip(1))

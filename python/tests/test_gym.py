@@ -42,7 +42,7 @@ def test_an_observation_is_the_trace_s():
     assert np.allclose(observation, [row[name] for name in names], rtol=1e-6)
 
 
-def test_environments_side_by_side_are_single_ones_and_begin_anew():
+def test_environments_side_by_side_are_single_ones_and_restart():
     many = WhiskerVectorEnv(3, set=SHORT, ticks=300, reward=find_the_edge)
     first, _ = many.reset(seed=np.int64(5))
     one = WhiskerEnv(set=SHORT, ticks=300)

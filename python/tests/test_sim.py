@@ -126,7 +126,7 @@ def test_a_scene_is_a_path_a_text_or_a_dictionary():
     assert "x_left_2" in whisker.Sim(nested).step().dtype.names
 
 
-def test_problems_are_told_with_line_or_place():
+def test_problems_are_reported_with_line_or_place():
     with pytest.raises(whisker.SceneError) as caught:
         whisker.Sim({**STILL, "head": {"whiskers_per_side": 13}})
     (problem,) = caught.value.problems

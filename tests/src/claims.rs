@@ -58,7 +58,7 @@ pub struct Claim {
     /// Its value.
     pub value: f64,
     /// Its value with eq. 7 as printed (`Reading::mass_misprint`), where known:
-    /// by this an implementation is told from one that follows the misprint.
+    /// this separates an implementation from one that follows the misprint.
     pub misprinted: Option<f64>,
 }
 

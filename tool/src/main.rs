@@ -75,9 +75,9 @@ enum Command {
     Arm(commands::order::ToAll),
     /// Drives no motor of a module until it is armed
     Stop(commands::order::ToAll),
-    /// Runs a motor that rests after faults, or was given up, again
+    /// Runs a motor again that is off after faults, or was given up
     Clear(commands::order::ToSide),
-    /// Finds a whisker's rest anew, where motor.rest is "find"
+    /// Finds a whisker's rest again, where motor.rest is "find"
     Home(commands::order::ToSide),
     /// Says what a module is and what it has lost and missed
     Status(commands::order::ToAll),

@@ -1,5 +1,5 @@
-//! Bringing whiskers to rest, and their motors off: before a module is started anew, which takes
-//! where its whiskers are then for their rest.
+//! Brings whiskers to rest and stops their motors before a module is restarted, which takes the
+//! position of its whiskers then for their rest.
 
 use firmware::Packet;
 use host_sim::Error;
@@ -46,12 +46,12 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<Vec<String>, Error> {
         return Ok(lines);
     }
     Err(Error::Work(format!(
-        "a motor is still driven {PATIENCE_S} s after it was told to stop; nothing was written"
+        "a motor is still driven {PATIENCE_S} s after the command to stop; nothing was written"
     )))
 }
 
-/// Waits until the records of each whisker have been such for so many ticks; whether that is so
-/// in time.
+/// Waits until the records of each whisker have been such for so many ticks; `false` if that
+/// takes too long.
 fn until(
     module: &mut Conversation,
     whiskers: usize,

@@ -11,7 +11,7 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 /// [`Error::Input`] for values that the scene refuses.
 pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String, Error> {
     let refused = |problems: scene::Problems| Error::Input(problems.to_string());
-    // What is wrong is told by its key and value.
+    // A refusal names key and value.
     let (wanted, _) = Scene::from_str_with(file, text, values).map_err(refused)?;
     config::check(&wanted).map_err(|fault| Error::Input(format!("{file}: {fault}")))?;
     let wrong = |fault: String| Error::Work(format!("{file}: {fault}; nothing was saved"));
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_scene_refuses_is_told_by_its_key() {
+    fn what_the_scene_refuses_is_reported_by_its_key() {
         let fault = edited(&["whisking.frequency_hz=99"]).unwrap_err();
         assert!(
             fault.contains("whisking.frequency_hz: found 99; allowed: a number from 0.05 to 25"),

@@ -67,12 +67,12 @@ pub(crate) trait Source {
         self.laying().map_or(Ok(()), |laying| laying.lay(sample))
     }
 
-    /// Whether it lies there. Waits for nobody.
+    /// Whether it lies there. Does not wait.
     fn is_laid(&mut self) -> Result<bool, Error> {
         self.laying().map_or(Ok(true), Laying::is_laid)
     }
 
-    /// Whether somebody lays it who takes their time, and is told when it counts.
+    /// Whether a person lays it, who takes their time and gets a message when it counts.
     fn is_laid_by_hand(&mut self) -> bool {
         self.laying().is_some()
     }

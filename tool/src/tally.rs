@@ -9,7 +9,7 @@ pub(crate) enum Before {
     Nothing,
     /// So many records that were lost.
     Lost(u32),
-    /// Ticks are counted anew: the module has started again.
+    /// Ticks are counted from zero: the module has started again.
     Restart,
 }
 
@@ -61,7 +61,7 @@ impl Tally {
     }
 }
 
-/// Ticks since a module's first start, from numbers that wrap around and begin anew.
+/// Ticks since a module's first start, from numbers that wrap around and restart.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TickCount {
     ticks: u64,
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn ticks_go_on_where_numbers_wrap_and_begin_anew() {
+    fn ticks_go_on_where_numbers_wrap_and_restart() {
         let mut ticks = TickCount::default();
         let numbers = [u32::MAX - 1, u32::MAX - 1, 1, 0x7000_0000, 1, 2];
         let first = u64::from(u32::MAX - 1);

@@ -71,7 +71,7 @@
     }));
   }
 
-  // Starts the scene anew as text and sliders say; what is wrong leaves the last one there.
+  // Restarts the scene as text and sliders say; after an error the last scene stays.
   function start() {
     let next;
     const keys = asked();
@@ -306,9 +306,9 @@
     stale = false;
   }
 
-  // Frames a second, for whoever measures; the core's share of them.
-  const told = { frames: 0, firstFrame: 0, ticks: 0, coreMs: 0 };
-  window.whisker = told;
+  // Frames a second, and the core's share of them, for measurements.
+  const measured = { frames: 0, firstFrame: 0, ticks: 0, coreMs: 0 };
+  window.whisker = measured;
   let last = null;
   function frame(now) {
     const passed = last === null ? 0 : Math.min(now - last, 100);
@@ -319,16 +319,16 @@
       owed -= ticks;
       const before = performance.now();
       if (ticks > 0) advance(ticks);
-      told.coreMs += performance.now() - before;
-      told.ticks += ticks;
+      measured.coreMs += performance.now() - before;
+      measured.ticks += ticks;
     }
     if (stale) draw();
     traceOn();
-    if (!told.frames) {
-      told.firstFrame = performance.now();
+    if (!measured.frames) {
+      measured.firstFrame = performance.now();
       document.documentElement.dataset.ready = "yes";
     }
-    told.frames += 1;
+    measured.frames += 1;
     requestAnimationFrame(frame);
   }
 
@@ -451,6 +451,6 @@
   restyle();
   play(playing);
   if (!fromAddress()) edited(text);
-  told.core = performance.now() - begun;
+  measured.core = performance.now() - begun;
   requestAnimationFrame(frame);
 })();

@@ -31,8 +31,9 @@ impl Player {
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str, set: &str) -> Result<Self, String> {
         let loaded = loaded(text, set)?;
-        let told = |error: host_sim::Error| error.to_string();
-        let run = Run::new(&loaded.scene, loaded.classifier().map_err(told)?).map_err(told)?;
+        let text_of = |error: host_sim::Error| error.to_string();
+        let run =
+            Run::new(&loaded.scene, loaded.classifier().map_err(text_of)?).map_err(text_of)?;
         Ok(Self {
             run,
             scene: loaded.scene,

@@ -48,8 +48,9 @@ impl Tracer {
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str, set: &str, keeps: bool) -> Result<Self, String> {
         let loaded = loaded(text, set)?;
-        let told = |error: host_sim::Error| error.to_string();
-        let run = Run::new(&loaded.scene, loaded.classifier().map_err(told)?).map_err(told)?;
+        let text_of = |error: host_sim::Error| error.to_string();
+        let run =
+            Run::new(&loaded.scene, loaded.classifier().map_err(text_of)?).map_err(text_of)?;
         let sink = Sink {
             keeps,
             ..Sink::default()
@@ -75,7 +76,7 @@ impl Tracer {
             let decided: Vec<_> = self.run.decisions().collect();
             self.run.look_at_whiskers(&mut self.whiskers);
             // A sink of this kind refuses nothing.
-            let _ = table.row(&self.run.told(&decided, &self.whiskers));
+            let _ = table.line(&self.run.trace_line(&decided, &self.whiskers));
         }
         if self.left == 0
             && let Some(table) = self.table.take()

@@ -2,9 +2,9 @@
 //!
 //! The papers' integrator is explicit: with too long a tick its oscillators
 //! leave their circle, its muscles swing up, its gates overshoot. The tick's
-//! clamps keep every state in bounds even then. Muscles that swing up are no
-//! longer the equations, so such a scene is refused; oscillators and gates that
-//! live by the clamps are the papers' integrator as it is, and are only told.
+//! clamps keep every state in bounds even then. Muscles that swing up no longer
+//! follow the equations, so such a scene is refused. Oscillators and gates that
+//! the clamps hold are still the papers' integrator; they get a warning.
 //! The limits follow from the constants of the tick itself (f64), not from a
 //! second copy of them:
 //!

@@ -141,7 +141,7 @@ impl Frame {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrameError {
-    /// All bytes 0xFF: nobody drove the line. Likely cause: /SS or the data
+    /// All bytes 0xFF: nothing drove the line. Likely cause: /SS or the data
     /// line open, no supply, or the sensor still starting up.
     NoSensor,
     /// All bytes 0x00. Likely cause: no pull-up, a short to ground, or a

@@ -29,7 +29,7 @@ pub enum Step {
 /// let mut send = transfer.start();
 /// let bytes = loop {
 ///     assert_eq!(send, 0xFF);
-///     let received = 0xFF; // from the data register; here nobody answers
+///     let received = 0xFF; // from the data register; here no sensor answers
 ///     match transfer.on_byte(received) {
 ///         Step::Send(next) => send = next,
 ///         Step::Done(bytes) => break bytes,

@@ -91,7 +91,7 @@ impl Ring {
         ram.write(self.at + MODE, &BLOCK_IF_FULL.to_le_bytes())
     }
 
-    /// Leaves no room, as if nobody had fetched anything for long.
+    /// Leaves no room, as if the probe had fetched nothing for long.
     ///
     /// # Errors
     /// Any of `ram`.

@@ -22,7 +22,7 @@ pub(crate) struct Table<T> {
     /// The section with which it comes; `None`: it stands for itself.
     with: Option<&'static str>,
     entries: &'static [Entry],
-    /// Reads it, told whether it is there.
+    /// Reads it; the flag says whether it is in the file.
     read: fn(Part<'_>, bool) -> Option<T>,
 }
 

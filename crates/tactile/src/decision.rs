@@ -66,7 +66,7 @@ impl Decision {
         (self.packed >> ODDS_BITS) as usize
     }
 
-    /// The number of the touch it fell in, wrapping; 0 where touches are not told.
+    /// The number of the touch it fell in, wrapping; 0 where touches are not detected.
     pub fn touch(&self) -> u16 {
         self.touch as u16
     }

@@ -16,7 +16,7 @@ pub enum ModelError {
     #[error("not a likelihood model: it does not begin with WLIK")]
     BadMagic,
     /// Written by another version of the format.
-    #[error("model format version {0}; version {VERSION} is understood: train it anew")]
+    #[error("model format version {0}; version {VERSION} is understood: train it again")]
     UnknownVersion(u16),
     /// More bytes than its header announces.
     #[error("bytes follow the end of the model")]

@@ -9,7 +9,7 @@
 use crate::exp2::{INDEX_BITS, ONE, TERM_BITS, exp2_neg};
 use crate::format::ENTRIES_PER_BIT;
 
-/// Largest deficit that is told apart: 2²⁹ − 1 units, 52 bit of evidence in
+/// Largest deficit that is distinguished: 2²⁹ − 1 units, 52 bit of evidence in
 /// blocks of 10000 samples and 26214 bit in blocks of 20. Classes further
 /// behind are held there. It keeps the evidence of a stream that never
 /// decides in a word: 2²⁹ + 65535 · 20480 < 2³¹.

@@ -7,7 +7,7 @@
 //! - **code**: a sample as an integer, in the units of the model's
 //!   [`Quantiser`]; for a model trained on integer sensor codes, that code.
 //! - **bin**: one of the equal cells that a channel's range is cut into.
-//! - **class**: what is to be told apart (a texture, a distance, a terrain).
+//! - **class**: what is to be distinguished (a texture, a distance, a terrain).
 //! - **likelihood**: the probability of a bin given a class, trained on a
 //!   recording (LEP10; LEP12 eq. 3; BIOTACT section IV).
 //! - **table**: the likelihoods of the cells of one channel or of two together.

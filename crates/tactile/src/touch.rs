@@ -53,15 +53,15 @@
 //! | whisker, 6 | 100 % | 0.48, 1.0 | 0 | 0.1 | 0.9 |
 //! | whisker, 8 | 100 % | 0.56, 1.0 | 0 | 0 | 0.7 |
 //!
-//! It still learns in the first 40 s. Late is carpet on the textured plant, which gives way.
-//! Up to a sixth of the elastic whisker's contacts at 2 Hz are told as two touches. With CIA
-//! alone, which leaves 47 ms of air between contacts at 8 Hz, 88 % are told within 2 ms and
+//! It still learns in the first 40 s. Carpet on the textured plant is late, as it gives way.
+//! Up to a sixth of the elastic whisker's contacts at 2 Hz are split into two touches. With CIA
+//! alone, which leaves 47 ms of air between contacts at 8 Hz, 88 % are detected within 2 ms and
 //! a tenth are missed.
 //!
-//! Not seen: a touch in the first second, in which a, b and levels are learnt; in the next
-//! ten some false ones may be told. Touches that all bend the whisker by less than an eighth
-//! of the sensor's range count as none, and are told later and later. What does not move is
-//! let go after some twenty seconds.
+//! A touch in the first second, in which a, b and levels are learnt, is not seen; in the next
+//! ten some false ones may be reported. Touches that all bend the whisker by less than an eighth
+//! of the sensor's range count as none, and are reported later and later. A touch that does not
+//! move ends after some twenty seconds.
 
 mod level;
 mod quick;
@@ -106,7 +106,7 @@ const WEIGHT_MOST: i32 = 2 << WEIGHT_FRACTION;
 /// The rest moves by 2^−n of the difference a sample.
 const REST: u32 = 12;
 const REST_AT_START: u32 = 8;
-/// Samples at the start in which nothing is told.
+/// Samples at the start in which no touch is reported.
 const START: u16 = 2000;
 
 /// What a whisker touches.
@@ -195,8 +195,8 @@ impl TouchDetector {
         self.touching
     }
 
-    /// Whether the touch that goes on has risen far enough to be one. What is told falsely
-    /// in the air does not.
+    /// Whether the present touch has risen far enough to be a real one; a false one in the air
+    /// does not.
     pub const fn is_sure(&self) -> bool {
         self.touching.number != 0 && self.is_sure
     }

@@ -1,4 +1,4 @@
-//! What is so or not in a tick.
+//! Flags of a tick.
 
 use core::ops::BitOr;
 
@@ -27,7 +27,7 @@ impl Flags {
     pub const TOUCHING: Self = Self(1 << 7);
     /// A decision fell in this tick.
     pub const DECIDED: Self = Self(1 << 8);
-    /// A fault was told of in this tick.
+    /// A fault was reported in this tick.
     pub const FAULT: Self = Self(1 << 9);
     /// Records were lost before this one, for want of room.
     pub const LOST: Self = Self(1 << 10);

@@ -21,7 +21,7 @@ pub struct TickRecord {
     pub z: i16,
     /// Contact π of the whisker (BIOTACT eq. 9), 0 to 1: Q13.
     pub contact: i16,
-    /// What is so.
+    /// Flags.
     pub flags: Flags,
 }
 

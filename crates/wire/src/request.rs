@@ -32,9 +32,9 @@ pub enum Command {
     Arm,
     /// Motors off, until they are armed.
     Stop,
-    /// Runs a motor that rests after faults, or was given up, again.
+    /// Runs a motor again that is off after faults, or was given up.
     Clear(WhiskerId),
-    /// Finds the whisker's rest anew, where the scene says that it is found.
+    /// Finds the whisker's rest again, where the scene says that it is found.
     Home(WhiskerId),
     /// Sets the nominal gain g (BIOTACT eq. 12), Q24, 0 to 2.
     Gain(WhiskerId, i32),

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn after_a_zero_that_nobody_meant_a_line_is_understood() {
+    fn after_a_stray_zero_a_line_is_understood() {
         let mut splitter = Splitter::<20>::new();
         assert_eq!(
             pieces(&mut splitter, b"\0stop\n"),
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_long_is_told_once() {
+    fn what_is_too_long_is_reported_once() {
         let mut splitter = Splitter::<4>::new();
         let found = pieces(&mut splitter, b"status\narm\n");
         assert_eq!(found, [('L', Vec::new()), ('l', b"arm".to_vec())]);

@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_none_is_told_why() {
+    fn a_refusal_says_why() {
         for (line, fault) in [
             ("jump", NotSpoken::Unknown),
             ("Stop", NotSpoken::Unknown),

@@ -66,8 +66,8 @@ fn panic(info: &PanicInfo<'_>) -> ! {
 #[allow(unsafe_code, reason = "a handler that needs no stack is no function")]
 mod vector {
     //! The vector of the hard fault, in place of that of cortex-m-rt, which pushes. A stack
-    //! without room has no frame, and none for a handler: that begins on a new one, as nobody
-    //! comes back to the old.
+    //! without room has no frame, and none for a handler: that begins on a new one, as no code
+    //! returns to the old.
 
     // SAFETY: run by the hardware only; it hands `hard_fault` what it expects, a frame or zero,
     // and a stack with room. MSP is the only stack pointer in use.

@@ -71,7 +71,7 @@ impl Writer {
                 };
                 write_pair(pair(address), words)
             }
-            // Nobody sends half of a pair.
+            // The caller never sends half of a pair.
             Some(_) => false,
         }
     }

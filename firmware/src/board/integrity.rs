@@ -1,6 +1,6 @@
 //! What nothing writes after the start, the settings, the model and what the classifier has
 //! made of it: checked by a sum while the core is idle. A mismatch is a fault of the board,
-//! and a reset makes anew what is in RAM.
+//! and a reset reconstructs what is in RAM.
 //!
 //! Other settings may take the place of these, and change the rule of the classifier with them.
 //! Then the tick that takes them over holds both against their sums just before, and gives them
@@ -74,7 +74,7 @@ impl Region {
         self.add(0, 0..self.span.words) == self.sum
     }
 
-    /// Begins anew with another sum.
+    /// Begins again with another sum.
     const fn renew(&mut self, sum: u32) {
         self.sum = sum;
         self.next = 0;
@@ -134,7 +134,7 @@ impl Changed {
 )]
 fn word(address: usize) -> u32 {
     let word;
-    // SAFETY: reads a word of a region, which lives for ever and which nobody writes.
+    // SAFETY: reads a word of a region, which lives for ever and which nothing writes.
     unsafe {
         core::arch::asm!(
             "ldr {word}, [{address}]",

@@ -25,7 +25,7 @@ use super::{pace, serial};
 defmt::timestamp!("{=u32:ms}", {
     let (ticks, tick_hz) = (TICKS.get(), pace::tick_hz());
     let (whole, part) = (ticks / tick_hz, ticks % tick_hz);
-    // Begins anew with the count of ticks: at 2 kHz after 24.8 days.
+    // Wraps with the count of ticks: at 2 kHz after 24.8 days.
     whole
         .wrapping_mul(1_000)
         .wrapping_add(part * 1_000 / tick_hz)

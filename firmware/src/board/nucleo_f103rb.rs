@@ -245,7 +245,7 @@ mod chip {
 
     /// What the core says of a hard fault: CFSR and HFSR.
     pub(crate) fn fault_status() -> [u32; 2] {
-        #[allow(unsafe_code, reason = "nobody owns the SCB in a fault")]
+        #[allow(unsafe_code, reason = "the SCB has no owner in a fault")]
         // SAFETY: status registers; reading them has no effect.
         unsafe {
             [(*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()]

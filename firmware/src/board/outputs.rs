@@ -11,7 +11,7 @@ use crate::here::clock_ports;
 /// The pins become plain outputs, so that no timer can raise them again.
 ///
 /// For the start and for fault handlers: no locks, nothing that can fail, and
-/// calling it again changes nothing. The motor drivers are not told: after it
+/// calling it again changes nothing. The motor drivers do not notice: after it
 /// the chip must be reset.
 #[inline(never)]
 pub(crate) fn off() {

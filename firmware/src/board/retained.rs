@@ -30,7 +30,7 @@ impl Retained {
 
     fn store(&self, record: &Record) {
         #[allow(unsafe_code, reason = "RAM for the next run")]
-        // SAFETY: see `load`; nobody holds a reference to the words.
+        // SAFETY: see `load`; there is no reference to the words.
         unsafe {
             let words = self.0.get().cast::<[u32; RECORD_WORDS]>();
             words.write_volatile(record.words());

@@ -35,7 +35,7 @@ pub(crate) struct Ring {
     /// Offsets, below `bytes`.
     writer: AtomicU32,
     reader: AtomicU32,
-    /// What is done where there is no room. A probe may ask to be waited for; nobody does.
+    /// What is done where there is no room. A probe may ask the writer to wait; none does.
     mode: AtomicU32,
 }
 

@@ -38,7 +38,7 @@ impl SerialTransfers {
         Self { rx, tx }
     }
 
-    /// How many bytes of the ring are left until it begins anew.
+    /// How many bytes of the ring are left until it wraps.
     pub(crate) fn left(&self) -> u16 {
         self.rx.ndtr().read().ndt()
     }

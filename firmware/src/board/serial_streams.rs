@@ -51,7 +51,7 @@ impl SerialTransfers {
         }
     }
 
-    /// How many bytes of the ring are left until it begins anew.
+    /// How many bytes of the ring are left until it wraps.
     pub(crate) fn left(&self) -> u16 {
         self.rx.ndtr().read().ndt()
     }

@@ -35,8 +35,8 @@ fn contents(region: Region) -> &'static [u8] {
     let start = core::ptr::with_exposed_provenance::<u8>(region.start as usize);
     #[allow(unsafe_code, reason = "flash beside the program is no variable")]
     // SAFETY: a region of the board's flash, of which a test says that the memory map has it
-    // beside the program's; it is there for ever, and nobody writes it while this slice is read:
-    // the loader, which does, has the chip for itself, and ends with a reset.
+    // beside the program's; it is there for ever, and only the loader writes it, which has the
+    // chip for itself and ends with a reset, so never while this slice is read.
     unsafe {
         core::slice::from_raw_parts(start, region.bytes as usize)
     }

@@ -1,4 +1,4 @@
-//! Words of memory that nobody writes.
+//! Words of memory that nothing writes.
 
 /// Words that stay where and as they are.
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ impl Span {
         words: 0,
     };
 
-    /// Those of something which stays where it is and which nobody writes from now on. A part
+    /// Those of something which stays where it is and which nothing writes from now on. A part
     /// of a word at its end is left out; there is none.
     pub(crate) fn of<T: ?Sized>(constant: &T) -> Self {
         Self {

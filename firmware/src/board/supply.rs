@@ -32,7 +32,7 @@ pub(crate) fn start() {
     }
     EXTI.imr(0).modify(|w| w.set_line(power::LINE, true));
     #[allow(unsafe_code, reason = "cortex-m asks for it")]
-    // SAFETY: its handler does not return, so nobody's data are at stake; its priority, that
+    // SAFETY: its handler does not return, so no data are at stake; its priority, that
     // after a reset, is above every mask of a task.
     unsafe {
         NVIC::unmask(Interrupt::PVD);

@@ -54,8 +54,8 @@ fn key(key: Key) {
 /// millisecond: a quarter of a second and more, for the probe to fetch the log.
 const LAST_FEEDS: u32 = 1_000;
 
-/// Cycles that a Cortex-M0+, M3 or M4 takes for each that the delay is told: its loop takes
-/// three, or four with a slow branch.
+/// Cycles that a Cortex-M0+, M3 or M4 takes for each cycle of delay that is asked for: the
+/// loop takes three, or four with a slow branch.
 const DELAY_CYCLES: u32 = 3;
 
 /// Gives the probe time to fetch the last line, then waits for the watchdog,

@@ -86,7 +86,7 @@ fn operations_of_one_transaction_walk_through_one_frame() {
     assert_eq!(
         read(&mut slave)[2],
         0xA0,
-        "the next transaction starts anew"
+        "the next transaction starts with its first byte"
     );
     assert_eq!(slave.traffic().transactions, 2);
 }

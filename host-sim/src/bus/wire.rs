@@ -2,7 +2,7 @@
 
 use embedded_hal::spi::{ErrorKind, Operation};
 
-/// What a line reads when nobody pulls it low.
+/// What a line reads when nothing pulls it low.
 pub(super) const RELEASED: u8 = 0xFF;
 
 /// What the master sends where embedded-hal leaves it open (reads, and a

@@ -53,7 +53,7 @@ pub fn classify(
         Columns::OfRecording,
     )?;
     let score = Score::new(replay.classes(), &decided);
-    let mut told = vec![Summary(&score, None).to_string()];
-    told.extend(misfits);
-    Ok(told.join("\n"))
+    let mut lines = vec![Summary(&score, None).to_string()];
+    lines.extend(misfits);
+    Ok(lines.join("\n"))
 }

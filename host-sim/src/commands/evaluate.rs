@@ -90,27 +90,27 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         misfits: misfits(data, channels, &model, &streams),
     };
     let figures = Figures(&evaluation, tick_hz);
-    let mut told = vec![format!("{figures}\n{doubts}")];
+    let mut sections = vec![format!("{figures}\n{doubts}")];
     if error_rate.is_none() && time.is_none() {
-        return Ok(told.concat());
+        return Ok(sections.concat());
     }
 
     let mut progress = Progress::new(verbosity, "thresholds", THRESHOLDS.len() as u64);
     let scan = evaluation::scan(&model, &streams, |done| progress.set(done)).map_err(wrong)?;
     drop(progress);
-    told.push(format!("\n\n{}\n", Thresholds(&scan, tick_hz)));
+    sections.push(format!("\n\n{}\n", Thresholds(&scan, tick_hz)));
     if let Some(rate) = error_rate {
         let found = evaluation::for_error(&scan, *rate);
         let percent = 100.0 * rate;
         let wanted = format!("at most {percent} % of decisions wrong");
-        told.push(suggestion(found, &wanted));
+        sections.push(suggestion(found, &wanted));
     }
     if let Some(seconds) = time {
         let found = evaluation::for_samples(&scan, seconds * tick_hz);
         let wanted = format!("decisions within {seconds} s in the mean");
-        told.push(suggestion(found, &wanted));
+        sections.push(suggestion(found, &wanted));
     }
-    Ok(told.concat())
+    Ok(sections.concat())
 }
 
 fn wanted(option: &str, value: Option<f64>, most: f64) -> Result<(), Error> {

@@ -81,7 +81,7 @@ fn train(scene: &Scene, streams: Vec<Stream>) -> Result<ModelBuf, Error> {
     Ok(trained.model)
 }
 
-/// A run with decisions, which are told as they fall.
+/// A run with decisions, which are printed as they fall.
 fn decide(
     scene: &Scene,
     model: ModelBuf,

@@ -110,10 +110,10 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
             output.whole(picture.svg()?.as_bytes())?;
         }
     }
-    let mut told = played.summary().map_or(String::new(), |score| score + "\n");
+    let mut summary = played.summary().map_or(String::new(), |score| score + "\n");
     // Writing to a string does not fail.
     let _ = write!(
-        told,
+        summary,
         "{}: {} s simulated, {} ticks, seed {}\nin {}: trace.csv",
         scene.name,
         scene.duration_s,
@@ -122,16 +122,16 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
         out.display()
     );
     if !played.classes.is_empty() {
-        told.push_str(", decisions.csv");
+        summary.push_str(", decisions.csv");
     }
     if !no_plot {
-        told.push_str(", trace.svg, trace.png");
+        summary.push_str(", trace.svg, trace.png");
     }
     if let Some(picture) = pictures.last() {
-        let _ = write!(told, "\nto look at next: {}", picture.display());
-        told.push_str("; what each column is: host-sim columns");
+        let _ = write!(summary, "\nto look at next: {}", picture.display());
+        summary.push_str("; what each column is: host-sim columns");
     }
-    Ok(told)
+    Ok(summary)
 }
 
 impl Loaded {
@@ -234,7 +234,7 @@ pub fn play<B: Bench + ?Sized>(
         decided.extend(run.decisions());
         run.look_at_whiskers(&mut whiskers);
         let fell = decided.get(first..).unwrap_or_default();
-        trace.row(&run.told(fell, &whiskers))?;
+        trace.line(&run.trace_line(fell, &whiskers))?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }

@@ -104,13 +104,13 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         .iter()
         .flat_map(|run| run.presentations.iter().cloned())
         .collect();
-    let told = OverRuns {
+    let over_runs = OverRuns {
         runs: &runs,
         together: &Evaluation::new(classifier.classes(), &presentations),
         tick_hz: f64::from(scene.tick_hz),
     };
     Ok(format!(
-        "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{told}",
+        "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{over_runs}",
         scene.name,
         runs.len(),
         SeedRange(seeds)

@@ -82,21 +82,21 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
-    let told = format!(
+    let summary = format!(
         "{}: {samples} samples in {} streams, {} bytes",
         out.display(),
         streams().count(),
         trained.model.as_bytes().len()
     );
     let Some(joint) = &trained.joint else {
-        return Ok(told);
+        return Ok(summary);
     };
     if let Some(picture) = picture {
         let points = joint.report.calibration.iter();
         let points: Vec<_> = points.map(|at| (at.stated, at.found)).collect();
         picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
     }
-    Ok(format!("{told}\n\n{}", TrainingReport(joint)))
+    Ok(format!("{summary}\n\n{}", TrainingReport(joint)))
 }
 
 /// Leaves out what is of this label.

@@ -105,7 +105,7 @@ impl Textured {
         free
     }
 
-    /// Puts any surface before all whiskers; those in contact land anew. Its
+    /// Puts any surface before all whiskers; those in contact land again. Its
     /// values are limited to 0 to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of
     /// grip and softness and 10 of friction; one that is not a number counts as
     /// the lowest.

@@ -5,7 +5,7 @@ use std::fmt;
 use tactile::score::{Calibration, Interval};
 use tactile::train::joint::Warning;
 
-use super::warnings::Told;
+use super::warnings::InWords;
 use crate::evaluation::{Candidate, ClassFigures, Evaluation};
 
 /// A share in percent, with its interval.
@@ -114,8 +114,8 @@ pub struct Doubts<'a> {
 
 /// Presentations of a class below which a warning is due.
 const FEW: usize = 3;
-/// Share of its decisions by which a class may be taken for another before they cannot
-/// be told.
+/// Share of its decisions by which a class may be taken for another before the two cannot be
+/// distinguished.
 const MISTAKEN: f64 = 0.25;
 
 impl fmt::Display for Doubts<'_> {
@@ -146,7 +146,7 @@ impl fmt::Display for Doubts<'_> {
                     write!(
                         f,
                         "\nwarning: {}",
-                        Told(&Warning::FewTrials { name, trials })
+                        InWords(&Warning::FewTrials { name, trials })
                     )?;
                 }
                 _ => {}
@@ -159,14 +159,14 @@ impl fmt::Display for Doubts<'_> {
                 write!(
                     f,
                     "\nwarning: {}",
-                    Told(&Warning::Alike { names, mistaken })
+                    InWords(&Warning::Alike { names, mistaken })
                 )?;
             }
         }
         for misfit in misfits {
             write!(f, "\n{misfit}")?;
         }
-        write!(f, "\nwarning: {}", Told(&Warning::OneRecording))
+        write!(f, "\nwarning: {}", InWords(&Warning::OneRecording))
     }
 }
 

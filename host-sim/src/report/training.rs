@@ -5,7 +5,7 @@ use std::fmt;
 use tactile::train::joint::JointModel;
 
 use super::evaluation::Percent;
-use super::warnings::Told;
+use super::warnings::InWords;
 
 /// What held-out trials say of a model.
 #[derive(Debug)]
@@ -77,7 +77,7 @@ impl fmt::Display for TrainingReport<'_> {
             )?;
         }
         for warning in &report.warnings {
-            write!(f, "\nwarning: {}", Told(warning))?;
+            write!(f, "\nwarning: {}", InWords(warning))?;
         }
         Ok(())
     }

@@ -15,9 +15,9 @@ impl fmt::Display for Count {
 }
 
 /// A warning in words.
-pub(super) struct Told<'a>(pub(super) &'a Warning);
+pub(super) struct InWords<'a>(pub(super) &'a Warning);
 
-impl fmt::Display for Told<'_> {
+impl fmt::Display for InWords<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Warning::FewTrials { name, trials } => {
@@ -44,7 +44,7 @@ impl fmt::Display for Told<'_> {
             ),
             Warning::Alike { names, mistaken } => write!(
                 f,
-                "{} and {} cannot be told apart: in {:.0} % the other one wins",
+                "{} and {} cannot be distinguished: in {:.0} % the other one wins",
                 names[0],
                 names[1],
                 100.0 * mistaken

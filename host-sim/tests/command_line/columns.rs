@@ -49,9 +49,9 @@ fn every_column_that_is_written_is_on_the_page() {
             let further = further
                 .replacen("right_2", "*", 1)
                 .replacen("right_3", "*", 1);
-            let is_told = page.contains(&format!("| `{title}` |"))
+            let is_documented = page.contains(&format!("| `{title}` |"))
                 || page.contains(&format!("| `{further}` |"));
-            assert!(is_told || title == "rcp.gain", "{file}: {title}");
+            assert!(is_documented || title == "rcp.gain", "{file}: {title}");
         }
         let widths = cells(&text).into_iter().map(|row| row.len());
         let widths: std::collections::BTreeSet<_> = widths.collect();
@@ -140,8 +140,12 @@ fn a_fault_stands_in_the_trace_by_its_number() {
         .position(|fault| *fault != "0")
         .expect("a fault");
     let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
-    let told = format!("{t_s:.4} s: whisker 1: fault left {} ", faults[first]);
-    assert!(ran.stderr.starts_with(&told), "{told}: {}", ran.stderr);
+    let expected = format!("{t_s:.4} s: whisker 1: fault left {} ", faults[first]);
+    assert!(
+        ran.stderr.starts_with(&expected),
+        "{expected}: {}",
+        ran.stderr
+    );
     // Its motor is off meanwhile.
     assert_eq!(
         column(&rows, "duty_left")[first + 1]

@@ -63,7 +63,7 @@ obstacle_deg = [80.0, 90.0]
 stiffness = 0.1
 "#;
 
-/// Two classes of sensor codes, told apart by x.
+/// Two classes of sensor codes, distinguished by x.
 pub(crate) const RECORDING: &str = "label,trial,x,y\n\
     low,0,100,8000\nlow,0,120,8100\nlow,1,140,8000\nlow,1,110,8100\n\
     high,0,9000,8000\nhigh,0,9100,8100\nhigh,1,9050,8000\nhigh,1,9020,8100\n";

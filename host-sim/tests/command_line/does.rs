@@ -24,10 +24,10 @@ fn classifying() -> Place {
 fn run_writes_a_row_a_tick() {
     let place = Place::with(&[("ideal.toml", IDEAL)]);
     let ran = place.done("run ideal.toml --out deep/er");
-    let told = "ideal: 0.1 s simulated, 200 ticks, seed 1\n\
+    let expected = "ideal: 0.1 s simulated, 200 ticks, seed 1\n\
                 in deep/er: trace.csv, trace.svg, trace.png\n\
                 to look at next: deep/er/trace.png; what each column is: host-sim columns\n";
-    assert_eq!(ran.stdout, told);
+    assert_eq!(ran.stdout, expected);
     let text = place.text("deep/er/trace.csv");
     let rows = cells(&text);
     assert_eq!(
@@ -77,20 +77,20 @@ fn run_writes_decisions_where_the_scene_classifies() {
         assert!(d.samples > 0 && d.samples % 20 == 0);
         assert!(d.posterior > 0.9 && d.posterior <= 1.0);
     }
-    let told = format!("\n{} decisions, hit rate ", decided.len());
-    assert!(ran.stdout.contains(&told), "{}", ran.stdout);
+    let expected = format!("\n{} decisions, hit rate ", decided.len());
+    assert!(ran.stdout.contains(&expected), "{}", ran.stdout);
     let trace = place.text("out/trace.csv");
     let trace = cells(&trace);
     assert_eq!(trace.len(), 1 + 6000);
     // The trace has each decision in its tick.
     let fallen = trace[1..].iter().filter(|row| !row[16].is_empty());
     let fallen: Vec<_> = fallen.map(|row| (row[0].parse().ok(), row[16])).collect();
-    let told: Vec<_> = decided
+    let decided: Vec<_> = decided
         .iter()
         .map(|d| (d.t_s, d.decision.as_str()))
         .collect();
     assert_eq!(trace[0][16], "decision");
-    assert_eq!(fallen, told);
+    assert_eq!(fallen, decided);
 
     // The model is looked for beside the scene first, then from where one stands.
     let beside = place.bytes("out/decisions.csv");
@@ -148,12 +148,12 @@ fn train_and_classify_say_and_write_what_they_did() {
     let place = Place::with(&[("r.csv", RECORDING), ("d.csv", "older")]);
     let ran = place.done("train --tables single --data r.csv --out m --block 2");
     let size = place.bytes("m").len();
-    let told = format!("m: 8 samples in 4 streams, {size} bytes\n");
-    assert_eq!(ran.stdout, told);
+    let expected = format!("m: 8 samples in 4 streams, {size} bytes\n");
+    assert_eq!(ran.stdout, expected);
     let classify = "classify --model m --data r.csv --rule window --window 2 --out d.csv";
     let ran = place.done(classify);
-    let told = "4 decisions, hit rate 100.0 % (mean over classes), mean 2 samples\n";
-    assert!(ran.stdout.ends_with(told), "{}", ran.stdout);
+    let expected = "4 decisions, hit rate 100.0 % (mean over classes), mean 2 samples\n";
+    assert!(ran.stdout.ends_with(expected), "{}", ran.stdout);
     let decided = decisions(&place.text("d.csv"));
     let rows: Vec<_> = decided
         .iter()

@@ -35,9 +35,9 @@ fn evaluate_states_finds_and_counts() {
     let test = "a,0,0,0\na,0,0,0\na,0,0,0\na,0,100,0\nb,0,100,0\nb,0,100,0\nc,0,0,0\n";
     let place = evaluating(test);
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold";
-    let told = place.done(&format!("{evaluate} 0.8")).stdout;
+    let printed = place.done(&format!("{evaluate} 0.8")).stdout;
     let says = |name: &str, what: &str| {
-        let line = line(&told, name);
+        let line = line(&printed, name);
         assert!(line.contains(what), "{line}");
     };
     says("hit rate", " 87.5 % (mean over classes)");
@@ -49,12 +49,12 @@ fn evaluate_states_finds_and_counts() {
     says("refused, new", " of 1");
     says("without a decision", " of 2");
     // Two samples of a class state 49/50.
-    let told = place.done(&format!("{evaluate} 0.9")).stdout;
-    assert!(line(&told, "decision time").contains(" 2 samples (2 ms)"));
-    assert!(line(&told, "stated").contains(" 98.00 %"), "{told}");
-    let told = place.done(&format!("{evaluate} 0.999")).stdout;
-    assert!(told.contains("no decision for a class"), "{told}");
-    assert!(line(&told, "without a decision").contains("100.0 %"));
+    let printed = place.done(&format!("{evaluate} 0.9")).stdout;
+    assert!(line(&printed, "decision time").contains(" 2 samples (2 ms)"));
+    assert!(line(&printed, "stated").contains(" 98.00 %"), "{printed}");
+    let printed = place.done(&format!("{evaluate} 0.999")).stdout;
+    assert!(printed.contains("no decision for a class"), "{printed}");
+    assert!(line(&printed, "without a decision").contains("100.0 %"));
 }
 
 #[test]
@@ -63,18 +63,18 @@ fn evaluate_suggests_a_threshold() {
     let test = "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(8);
     let place = evaluating(&test);
     let evaluate = "evaluate --model m --data test.csv";
-    let told = |wish: &str| {
-        let told = place.done(&format!("{evaluate} {wish}")).stdout;
-        let lines = told.lines().filter(|line| line.starts_with("for "));
+    let suggested = |wish: &str| {
+        let printed = place.done(&format!("{evaluate} {wish}")).stdout;
+        let lines = printed.lines().filter(|line| line.starts_with("for "));
         lines
             .map(|line| line.rsplit(": ").next().unwrap().to_owned())
             .collect::<Vec<_>>()
     };
-    assert_eq!(told("--error-rate 0.3"), ["--threshold 0.5"]);
-    assert_eq!(told("--error-rate 0.1"), ["--threshold 0.9"]);
-    assert_eq!(told("--time 0.0005"), ["--threshold 0.85"]);
-    assert_eq!(told("--time 0.0001"), ["no threshold of these"]);
-    let both = told("--time 0.0005 --error-rate 0.1");
+    assert_eq!(suggested("--error-rate 0.3"), ["--threshold 0.5"]);
+    assert_eq!(suggested("--error-rate 0.1"), ["--threshold 0.9"]);
+    assert_eq!(suggested("--time 0.0005"), ["--threshold 0.85"]);
+    assert_eq!(suggested("--time 0.0001"), ["no threshold of these"]);
+    let both = suggested("--time 0.0005 --error-rate 0.1");
     assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
 }
 
@@ -83,15 +83,15 @@ fn score_is_the_same_whatever_the_cores() {
     let text = TEXTURED.replace("duration_s = 0.5", "duration_s = 4.0");
     let place = Place::with(&[("s.toml", &text)]);
     let score = "score s.toml --seeds 10..14 --tables single --threshold 0.9";
-    let told = place.done(score).stdout;
-    assert!(told.starts_with("textured: trained on seed 2, 4 runs with seeds 10 to 13\n"));
-    assert!(line(&told, "without a decision").contains(" of 128"));
+    let printed = place.done(score).stdout;
+    assert!(printed.starts_with("textured: trained on seed 2, 4 runs with seeds 10 to 13\n"));
+    assert!(line(&printed, "without a decision").contains(" of 128"));
     let one = place.command(score).env("RAYON_NUM_THREADS", "1").output();
-    assert_eq!(String::from_utf8(one.unwrap().stdout).unwrap(), told);
+    assert_eq!(String::from_utf8(one.unwrap().stdout).unwrap(), printed);
     let quiet = place.done(&format!("{score} --quiet")).stdout;
-    assert_eq!(quiet, told);
+    assert_eq!(quiet, printed);
     let other = place.done(&format!("{score} --train-seed 3")).stdout;
-    assert_ne!(other, told);
+    assert_ne!(other, printed);
 }
 
 /// A run of its own with the model of the training seed decides as `score` counts.
@@ -103,15 +103,15 @@ fn score_is_of_what_run_decides() {
     place.done("train --tables single --data recorded.csv --out the.model");
     place.write("ten.toml", text.replace("seed = 1", "seed = 10"));
     let ran = place.done("run ten.toml --out out").stdout;
-    let told = place
+    let printed = place
         .done("score s.toml --seeds 10..11 --tables single")
         .stdout;
     let rows = |text: &str| {
         let rows = text.lines().filter(|line| line.contains(" | "));
         rows.map(str::to_owned).collect::<Vec<_>>()
     };
-    assert_eq!(rows(&told), rows(&ran));
-    assert!(!rows(&told).is_empty());
+    assert_eq!(rows(&printed), rows(&ran));
+    assert!(!rows(&printed).is_empty());
 }
 
 #[test]
@@ -122,14 +122,17 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
         .replace("[\"smooth\", \"carpet\"]", three);
     let place = Place::with(&[("s.toml", &text)]);
     let score = "score s.toml --seeds 10..12 --threshold 0.9 --unknown p240";
-    let told = place.done(score).stdout;
-    let header = told.lines().find(|line| line.contains("true |")).unwrap();
+    let printed = place.done(score).stdout;
+    let header = printed
+        .lines()
+        .find(|line| line.contains("true |"))
+        .unwrap();
     assert!(
-        !header.contains("p240") && told.contains("   p240 | "),
-        "{told}"
+        !header.contains("p240") && printed.contains("   p240 | "),
+        "{printed}"
     );
-    line(&told, "refused of the unknown texture, %");
-    line(&told, "refused, unknown");
+    line(&printed, "refused of the unknown texture, %");
+    line(&printed, "refused, unknown");
 }
 
 /// By class, with a picture, and with what is doubtful.
@@ -137,9 +140,9 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
 fn evaluate_warns_and_draws() {
     let place = evaluating("a,0,0,0\na,0,0,0\na,1,0,0\na,2,100,0\nc,0,900,0\n");
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold 0.8";
-    let told = place.done(&format!("{evaluate} --plot p.svg")).stdout;
-    assert!(line(&told, "a: ").contains("right 75.0 % (30.1 to 95.4) of 4; after 1 ± 0.0 ms"));
-    let warnings: Vec<_> = told
+    let printed = place.done(&format!("{evaluate} --plot p.svg")).stdout;
+    assert!(line(&printed, "a: ").contains("right 75.0 % (30.1 to 95.4) of 4; after 1 ± 0.0 ms"));
+    let warnings: Vec<_> = printed
         .lines()
         .filter(|line| line.starts_with("warning: "))
         .collect();
@@ -148,7 +151,7 @@ fn evaluate_warns_and_draws() {
         "20 % of samples lie outside",
         "one recording",
     ];
-    assert_eq!(warnings.len(), about.len(), "{told}");
+    assert_eq!(warnings.len(), about.len(), "{printed}");
     for (warning, about) in warnings.iter().zip(about) {
         assert!(warning.contains(about), "{warning}");
     }
@@ -160,13 +163,13 @@ fn evaluate_warns_and_draws() {
         "test.csv",
         "label,trial,x,y\na,0,0,0\na,1,100,0\na,2,0,0\nb,0,0,0\nb,1,100,0\n",
     );
-    let told = place.done(evaluate).stdout;
-    line(&told, "warning: b: too few to judge by, 2 trials");
-    line(&told, "warning: b and a cannot be told apart");
+    let printed = place.done(evaluate).stdout;
+    line(&printed, "warning: b: too few to judge by, 2 trials");
+    line(&printed, "warning: b and a cannot be distinguished");
     place.write("test.csv", "label,trial,x,y\np,0,0,0\n");
-    let told = place.done(evaluate).stdout;
+    let printed = place.done(evaluate).stdout;
     line(
-        &told,
+        &printed,
         "warning: none of the labels is a class of the model, which knows b, a",
     );
 }
@@ -178,8 +181,8 @@ fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
         .replace("duration_s = 0.5", "duration_s = 4.0");
     let place = Place::with(&[("s.toml", &text)]);
     place.done("record s.toml --out r.csv");
-    let told = place.done("train --data r.csv --gate 0.2 --gap 0.05 --out the.model --plot p.svg");
-    assert!(told.stdout.contains(" samples in 32 streams"), "{told:?}");
+    let ran = place.done("train --data r.csv --gate 0.2 --gap 0.05 --out the.model --plot p.svg");
+    assert!(ran.stdout.contains(" samples in 32 streams"), "{ran:?}");
     assert!(place.text("p.svg").contains("held out"));
     let model = ModelBuf::from_bytes(&place.bytes("the.model")).unwrap();
     let TouchRule { gate, gap, .. } = model.touch_rule().unwrap();
@@ -247,12 +250,12 @@ fn a_scene_shows_an_unknown_texture() {
             "{label}: {right}"
         );
     }
-    let told = format!(
+    let expected = format!(
         "carpet is none of the model's classes: \"unknown\" is right, and was \
                         decided {noticed} times of {}",
         carpet.len()
     );
-    line(&ran.stdout, &told);
+    line(&ran.stdout, &expected);
     let rest = decided.iter().filter(|d| d.decision == "unknown").count() - noticed;
     line(&ran.stdout, &format!("{rest} more said \"unknown\""));
     let trace = place.text("out/trace.csv");

@@ -1,5 +1,5 @@
 //! The core as a program of one's own uses it: a run owns all that it needs,
-//! moves to another thread, and starts anew.
+//! moves to another thread, and starts again.
 
 use std::thread;
 
@@ -108,7 +108,7 @@ fn the_largest_seed_is_one_like_any_other() {
 }
 
 #[test]
-fn ticks_whose_rows_nobody_asks_for_change_nothing() {
+fn ticks_without_a_row_change_nothing() {
     for text in scenes() {
         let all = see(&mut run(&scene(&text, 1)));
         let mut few = run(&scene(&text, 1));
@@ -132,7 +132,7 @@ fn ticks_whose_rows_nobody_asks_for_change_nothing() {
 }
 
 #[test]
-fn every_whisker_is_told_by_what_its_sensor_was_given() {
+fn every_whisker_is_classified_by_what_its_sensor_was_given() {
     let shifted = IDEAL.replace("kind =", "zero_codes = [[500, -300], [0, 0]]\nkind =");
     let mut run = run(&scene(&shifted, 1));
     // In the first tick no frame has come yet.

@@ -5,7 +5,7 @@ use crate::common::{Place, cells, decisions};
 const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 
 #[test]
-fn textures_are_told_apart_as_surely_as_is_said() {
+fn textures_are_distinguished_as_surely_as_is_said() {
     let place = Place::new();
     let ran = place.done("");
     let mut files: Vec<_> = std::fs::read_dir(place.path("out/textures"))
@@ -45,20 +45,20 @@ fn textures_are_told_apart_as_surely_as_is_said() {
         "{stated} stated, {found} found"
     );
 
-    let told = ran
+    let summary = ran
         .stdout
         .lines()
         .find(|line| line.contains("hit rate"))
         .unwrap();
     let expected = format!("{} decisions, hit rate {rate:.1} %", named.count());
-    assert!(told.starts_with(&expected), "{told}");
+    assert!(summary.starts_with(&expected), "{summary}");
     for texture in TEXTURES {
         let row = |line: &&str| line.trim_start().starts_with(&format!("{texture} |"));
         let row = ran.stdout.lines().find(row).unwrap();
         // The texture, the line, a count for each and one of what was unknown.
         assert_eq!(row.split_whitespace().count(), 3 + TEXTURES.len(), "{row}");
     }
-    // Decisions are told as they fall.
+    // Decisions are printed as they fall.
     let falls = ran
         .stdout
         .lines()

@@ -46,7 +46,7 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 }
 
 #[test]
-fn classes_that_never_overlap_are_told_apart_in_one_block() {
+fn classes_that_never_overlap_are_distinguished_in_one_block() {
     let test = stream("a", 7, &[0; 6]) + &stream("b", 7, &[100; 4]);
     let decided = decide(
         APART,

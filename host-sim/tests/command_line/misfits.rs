@@ -1,4 +1,4 @@
-//! Recordings that do not fit the model: told with file and line, and done all the same.
+//! Recordings that do not fit the model are reported with file and line, and classified.
 
 use crate::common::{Place, RECORDING};
 
@@ -15,28 +15,31 @@ fn place() -> Place {
 }
 
 #[test]
-fn what_does_not_fit_is_told_with_file_and_line() {
+fn what_does_not_fit_is_reported_with_file_and_line() {
     let place = place();
     let evaluate = "evaluate --model m --data other.csv";
     for line in [format!("{CLASSIFY} other.csv"), evaluate.to_owned()] {
-        let told = place.done(&line).stdout;
+        let printed = place.done(&line).stdout;
         for naming in [
             "\nwarning: other.csv:9: x is -0.5; the model was trained on ",
             " 33 % of samples lie outside of the range",
             "\nnote: other.csv:7: label \"mud\" is none of the model's classes: low, high",
         ] {
-            assert!(told.contains(naming), "{line}: no {naming:?} in {told}");
+            assert!(
+                printed.contains(naming),
+                "{line}: no {naming:?} in {printed}"
+            );
         }
-        assert_eq!(told.matches("other.csv:").count(), 2, "{told}");
+        assert_eq!(printed.matches("other.csv:").count(), 2, "{printed}");
     }
     // In the units of the samples.
-    let told = place.done(&format!("{CLASSIFY} other.csv")).stdout;
-    assert!(told.contains("trained on 100 to 9100."), "{told}");
+    let printed = place.done(&format!("{CLASSIFY} other.csv")).stdout;
+    assert!(printed.contains("trained on 100 to 9100."), "{printed}");
 }
 
 #[test]
 fn of_what_fits_nothing_is_said() {
     let place = place();
-    let told = place.done(&format!("{CLASSIFY} r.csv")).stdout;
-    assert!(!told.contains("r.csv"), "{told}");
+    let printed = place.done(&format!("{CLASSIFY} r.csv")).stdout;
+    assert!(!printed.contains("r.csv"), "{printed}");
 }

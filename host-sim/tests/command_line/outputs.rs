@@ -180,10 +180,10 @@ fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
         assert!(killed.unwrap().success());
         let ended = child.wait_with_output().unwrap();
         assert_eq!(ended.status.signal(), Some(number), "{ended:?}");
-        // How much it would have been was told beforehand.
-        let told = String::from_utf8(ended.stderr).unwrap();
+        // The size of the trace is announced beforehand.
+        let announced = String::from_utf8(ended.stderr).unwrap();
         let size = "textured: 100000 s to simulate, 200000000 ticks; the trace will have about ";
-        assert!(told.starts_with(size), "{told}");
+        assert!(announced.starts_with(size), "{announced}");
         assert_eq!(partial(&place), []);
         assert!(place.content() == before, "{signal}");
     }

@@ -51,7 +51,7 @@ stiffness = 0.1 -> -> stiffness"#;
 }
 
 #[test]
-fn every_fault_is_told_at_once() {
+fn every_fault_is_reported_at_once() {
     let scene = IDEAL.replace("2000", "2").replace("= 0.7", "= -0.7");
     refuses(scene, &["s.toml:2: tick_hz", "s.toml:15: rcp.gain"]);
 }

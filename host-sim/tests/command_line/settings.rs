@@ -57,7 +57,7 @@ fn keys_are_checked_as_in_the_file() {
     ] {
         place.refuses_to_write(&format!("run s.toml {set}"), naming);
     }
-    // What the file says wrongly is told with its line beside it.
+    // A fault of the file is reported beside it, with its line.
     place.write("wrong.toml", IDEAL.replace("= 0.7", "= -0.7"));
     let naming = ["wrong.toml:15: rcp.gain", "--set seed=-1: seed"];
     place.refuses_to_write("run wrong.toml --set seed=-1", &naming);

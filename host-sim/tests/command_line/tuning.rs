@@ -348,7 +348,7 @@ fn what_is_no_configuration_for_it_changes_nothing() {
 /// An answer may be lost: asking again changes nothing. A module says that it differs, until
 /// it has the scene's configuration again.
 #[test]
-fn a_request_may_be_repeated_and_the_difference_is_told() {
+fn a_request_may_be_repeated_and_the_difference_is_shown() {
     let (old, new) = (scene("fixed", &[]), scene("fixed", &["motor.kd=0.0009"]));
     let [from, to] = [&old, &new].map(|scene| bytes_of::<Fix>(scene).to_vec());
     let mut module = run(&old);

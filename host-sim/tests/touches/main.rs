@@ -52,8 +52,7 @@ fn excited(text: &str, alone: bool) -> String {
 struct Found {
     /// Ticks from when a contact can be noticed to the onset.
     delays: Vec<u64>,
-    /// Contacts without an onset: one that was told before the contact still went on, or
-    /// none came.
+    /// Contacts without an onset: an earlier touch still went on, or none came.
     missed: u64,
     /// Onsets where nothing was touched for 20 ms, and further ones in a contact.
     false_ones: u64,
@@ -92,7 +91,7 @@ impl Found {
         let mut run = Run::new(scene, None).unwrap();
         let mut free = in_the_air(&whisker);
         let (mut label, mut still, mut last) = ("", u64::MAX, 0);
-        // Since when a contact goes on, and can be noticed, that has not been told.
+        // Since when a contact that has not been reported goes on, and can be noticed.
         let (mut contact, mut noticeable) = (false, None);
         for n in 0..run.ticks() {
             let touches = run.touches();
@@ -135,7 +134,7 @@ impl Found {
         }
     }
 
-    /// Share of the contacts that is told within 2 ms.
+    /// Share of the contacts that is reported within 2 ms.
     fn soon(&self) -> f64 {
         let soon = self.delays.iter().filter(|ticks| **ticks <= SOON).count();
         soon as f64 / (self.delays.len() as u64 + self.missed) as f64
@@ -169,22 +168,22 @@ fn texture(scene: &Scene, label: &str) -> Texture {
     *textures.find(|texture| texture.name() == label).unwrap()
 }
 
-/// When touches are told in the air, s.
+/// When touches are reported in the air, s.
 fn in_air(scene: &Scene) -> Vec<f64> {
     let mut run = Run::new(scene, None).unwrap();
-    let (mut last, mut told) = (0, Vec::new());
+    let (mut last, mut onsets) = (0, Vec::new());
     for _ in 0..run.ticks() {
         let row = run.tick();
         if row.touch[0] != 0 && row.touch[0] != last {
-            told.push(row.t_s);
+            onsets.push(row.t_s);
         }
         last = row.touch[0];
     }
-    told
+    onsets
 }
 
 #[test]
-fn touches_are_told_within_2_ms() {
+fn touches_are_reported_within_2_ms() {
     // Plant, mean delay in ms at most, and share within 2 ms at least: twice as late fails.
     for ((name, text), mean, share) in [(PLANTS[0], 2.0, 0.9), (PLANTS[1], 0.8, 0.99)] {
         for hz in [2.0, 8.0] {
@@ -243,7 +242,7 @@ fn nothing_is_decided_in_the_air() {
 #[ignore = "minutes: prints the measurement"]
 fn measurement() {
     println!(
-        "| plant, Hz | contacts | within 2 ms | mean, ms | 95 %, ms | missed | told again | told where nothing was |"
+        "| plant, Hz | contacts | within 2 ms | mean, ms | 95 %, ms | missed | again | in the air |"
     );
     for (name, text) in PLANTS {
         let gates = [
@@ -270,11 +269,11 @@ fn measurement() {
     for (name, text) in PLANTS {
         for hz in FREQUENCIES {
             for seed in [421, 422] {
-                let told = in_air(&scene(text, hz, 300.0, 600.0, seed));
-                let early = told.iter().filter(|t_s| **t_s < 10.0).count();
+                let onsets = in_air(&scene(text, hz, 300.0, 600.0, seed));
+                let early = onsets.iter().filter(|t_s| **t_s < 10.0).count();
                 println!(
                     "| {name}, {hz} Hz | ten minutes of air: {early} in the first 10 s, then {} |",
-                    told.len() - early
+                    onsets.len() - early
                 );
             }
         }

@@ -104,7 +104,7 @@ class WhiskerEnv(gymnasium.Env):
 
 
 class WhiskerVectorEnv(VectorEnv):
-    """So many of them on all cores; one that has ended begins anew with its next step."""
+    """So many of them on all cores; one that has ended restarts with its next step."""
 
     metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
 

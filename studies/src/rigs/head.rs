@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_is_placed_anew_for_each_whisk() {
+    fn the_surface_is_placed_again_for_each_whisk() {
         let apart = |peaks: &[i16]| {
             let sorted = peaks
                 .iter()

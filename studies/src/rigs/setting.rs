@@ -64,7 +64,7 @@ mod tests {
     use crate::rigs::{Floor, load};
 
     #[test]
-    fn a_setting_that_is_none_is_told() {
+    fn a_setting_that_is_none_is_refused() {
         for text in ["press_m=1", "floor.press_m", "floor.press_m=deep"] {
             let wrong = text.parse::<Setting>().unwrap_err();
             assert!(wrong.contains("allowed: RIG.KEY=VALUE"), "{wrong}");

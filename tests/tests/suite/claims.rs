@@ -150,7 +150,7 @@ fn whisk(settings: &Settings, mass: f64, excite: Excite) -> Vec<Row> {
 
 #[test]
 fn the_misprinted_mass_fails_the_claims_it_fails_on_paper() {
-    let mut told_apart = 0;
+    let mut separated = 0;
     for claim in &TABLE {
         let settings = claim.figure.settings();
         let right = 1.0 / (settings.frequency_hz * settings.frequency_hz) / 100.0;
@@ -170,10 +170,10 @@ fn the_misprinted_mass_fails_the_claims_it_fails_on_paper() {
         );
         if expected != claim.value {
             assert!(!claim.is_near(value, claim.value), "{value} for {claim:?}");
-            told_apart += 1;
+            separated += 1;
         }
     }
-    assert!(told_apart >= 8, "{told_apart} rows tell the misprint apart");
+    assert!(separated >= 8, "{separated} rows separate the misprint");
 }
 
 #[test]

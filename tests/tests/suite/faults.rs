@@ -136,7 +136,7 @@ fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
 }
 
 #[test]
-fn the_sensor_s_own_report_is_told_bit_by_bit() {
+fn the_sensor_s_own_report_is_logged_bit_by_bit() {
     let scene = touching();
     for bit in 0..16 {
         let faults = Faults::new(1 << bit);
@@ -186,15 +186,19 @@ fn a_faulty_sensor_feels_nothing() {
             "{fault:?}"
         );
         let contact = |tick: u64| played.rows[tick as usize].contact[0];
-        // The last good reading is held, then there is none, and contact begins anew.
+        // The last good reading is held, then there is none, and contact starts from zero.
         let (lost, back) = (start + HOLD, start + 300 + RECOVER - 1);
         assert!(contact(lost - 1) > 0.5);
         assert!((lost..back).all(|tick| contact(tick) == 0.0), "{fault:?}");
         assert!((lost..lost + 100).all(|tick| sound.rows[tick as usize].contact[0] > 0.5));
         right_is_unaffected(&played, &sound);
-        // Nothing is heard while the sensor is not believed.
-        let deaf = |tick| (lost..back).contains(&tick);
-        let heard = played.heard.iter().filter(|(tick, _)| deaf(*tick)).count();
+        // The classifier gets nothing while the sensor is not believed.
+        let is_lost = |tick| (lost..back).contains(&tick);
+        let heard = played
+            .heard
+            .iter()
+            .filter(|(tick, _)| is_lost(*tick))
+            .count();
         assert_eq!(heard, 0);
         assert_eq!(played.heard.len() as u64, 2000 - (300 - HOLD + RECOVER - 1));
     }

@@ -131,7 +131,7 @@ fn a_motor_that_stalls_feels_nothing_while_it_rests() {
 
 /// The right whisker touches nothing: what excites it comes from the left.
 #[test]
-fn a_lost_side_excites_nobody() {
+fn a_lost_side_excites_no_other() {
     let plant = "kind = \"ideal\"\nobstacle_deg = [60.0, 300.0]\nstiffness = 0.02\n";
     let scene = scene(1, plant, CIA);
     let sound = undisturbed(&scene, 3000);
@@ -192,7 +192,7 @@ fn a_fault_of_one_stops_all_where_the_scene_says_so() {
 #[test]
 fn a_touch_is_over_when_its_sensor_is_lost() {
     let scene = touching("");
-    let told = |run: &Run| -> Vec<Event> {
+    let touches = |run: &Run| -> Vec<Event> {
         let is_touch =
             |event: &&Event| matches!(event, Event::Touch { .. } | Event::TouchEnd { .. });
         run.events().iter().filter(is_touch).copied().collect()
@@ -200,7 +200,7 @@ fn a_touch_is_over_when_its_sensor_is_lost() {
     let mut run = Run::new(&scene, None).unwrap();
     let number = loop {
         run.tick();
-        if let [Event::Touch { number: 3, .. }] = told(&run)[..] {
+        if let [Event::Touch { number: 3, .. }] = touches(&run)[..] {
             break 3;
         }
         assert!(run.row().t_s < 5.0);
@@ -211,16 +211,16 @@ fn a_touch_is_over_when_its_sensor_is_lost() {
         run.tick();
         let is_last = tick == of(HOLD_S);
         let expected = is_last.then_some(Event::TouchEnd { place, number });
-        assert_eq!(told(&run), Vec::from_iter(expected));
+        assert_eq!(touches(&run), Vec::from_iter(expected));
     }
     for _ in 0..500 {
         run.tick();
-        assert_eq!((run.row().touch[0], told(&run).len()), (0, 0));
+        assert_eq!((run.row().touch[0], touches(&run).len()), (0, 0));
     }
     run.slave_mut(0).unwrap().set_fault(None);
     let next = loop {
         run.tick();
-        if let [event] = told(&run)[..] {
+        if let [event] = touches(&run)[..] {
             break event;
         }
         assert!(run.row().t_s < 7.0);

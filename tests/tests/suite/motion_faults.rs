@@ -60,7 +60,7 @@ fn sound_motors_have_no_fault_at_any_frequency() {
     }
 }
 
-/// At 8 Hz the drive turns round before a guard that begins anew at each turn can trip.
+/// At 8 Hz the drive turns round before a guard that is reset at each turn can trip.
 #[test]
 fn an_encoder_that_stands_still_is_found_at_any_frequency() {
     for frequency_hz in [0.5, 2.0, 8.0] {
@@ -117,14 +117,14 @@ fn a_motor_wired_backwards_is_given_up() {
 }
 
 #[test]
-fn a_motor_that_was_given_up_runs_when_it_is_told() {
+fn a_motor_that_was_given_up_runs_when_it_is_cleared() {
     let scene = free_at(2.0, "");
-    let (held, told) = (3 * TICK_HZ, 15 * TICK_HZ);
+    let (held, cleared) = (3 * TICK_HZ, 15 * TICK_HZ);
     let played = play(&scene, 20 * TICK_HZ, |tick, run| {
         run.motor_mut(0)
             .unwrap()
-            .block((held..told).contains(&tick));
-        if tick == told {
+            .block((held..cleared).contains(&tick));
+        if tick == cleared {
             let done = run.module_mut().command(0, firmware::Command::Clear);
             done.unwrap();
         }
@@ -132,10 +132,13 @@ fn a_motor_that_was_given_up_runs_when_it_is_told() {
     assert_eq!(faults(&played).len(), FAULTS);
     let last = played.events.last().unwrap();
     assert!(
-        last.0 < told && last.1 == Event::MotorGivenUp(LEFT),
+        last.0 < cleared && last.1 == Event::MotorGivenUp(LEFT),
         "{last:?}"
     );
-    assert!(turned_by(&played, told + TICK_HZ) > 20.0, "it whisks again");
+    assert!(
+        turned_by(&played, cleared + TICK_HZ) > 20.0,
+        "it whisks again"
+    );
 }
 
 /// A whisker that is held is let go within the time of the following error and a tick.
@@ -171,5 +174,5 @@ fn a_winding_that_is_driven_for_ever_is_spared() {
     let found = faults(&played);
     assert_eq!(found.first().map(|(_, fault)| *fault), Some(Fault::Heat));
     let sound = undisturbed(&scene, 20 * TICK_HZ);
-    assert_eq!(sound.events, [], "whisking is borne for ever");
+    assert_eq!(sound.events, [], "whisking trips no guard");
 }

@@ -61,7 +61,7 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
     played
 }
 
-/// As [`play`], with nobody's hand on it.
+/// As [`play`], with no disturbance.
 pub(crate) fn undisturbed(scene: &Scene, ticks: u64) -> Played {
     play(scene, ticks, |_, _| {})
 }

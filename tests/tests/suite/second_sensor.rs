@@ -163,8 +163,8 @@ fn each_line_fault_switches_the_whisker_off_until_it_is_mended() {
         let mut whisker = Whisker::new(60.0);
         whisker.tick([0.05, 0.0]);
         whisker.slave().set_fault(Some(fault));
-        let told = lost(&mut whisker);
-        assert_eq!((told, told.code()), (expected, number), "{fault:?}");
+        let reported = lost(&mut whisker);
+        assert_eq!((reported, reported.code()), (expected, number), "{fault:?}");
         whisker.slave().set_fault(None);
         // One more where what the sensor noticed is read first.
         let ticks = back(&mut whisker);
@@ -176,7 +176,7 @@ fn each_line_fault_switches_the_whisker_off_until_it_is_mended() {
 }
 
 #[test]
-fn each_fault_that_the_sensor_reports_is_told_by_name() {
+fn each_fault_that_the_sensor_reports_is_logged_by_name() {
     for known in StatusFaults::KNOWN {
         if known.bit == StatusFaults::RESTARTED {
             continue;
@@ -184,10 +184,10 @@ fn each_fault_that_the_sensor_reports_is_told_by_name() {
         let mut whisker = Whisker::new(60.0);
         whisker.tick([0.05, 0.0]);
         whisker.slave().set_report(known.bit);
-        let told = lost(&mut whisker);
-        assert_eq!(told, SensorFault::Tilt(TiltFault::Reported(known.bit)));
+        let reported = lost(&mut whisker);
+        assert_eq!(reported, SensorFault::Tilt(TiltFault::Reported(known.bit)));
         assert_eq!(
-            told.to_string(),
+            reported.to_string(),
             format!("the TMAG5170 reports an error: {}", known.name)
         );
         whisker.slave().set_report(StatusFaults::NONE);

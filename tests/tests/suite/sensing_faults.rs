@@ -28,7 +28,7 @@ fn befallen(scene: &Scene, length: u64, fault: impl Fn(u64) -> Option<WireFault>
     play(scene, length, |tick, run| slave(run).set_fault(fault(tick)))
 }
 
-/// The only fault, when it was told, and whether the sensor came back.
+/// The only fault, its tick, and the tick in which the sensor came back, if it did.
 #[track_caller]
 fn lost(played: &Played) -> (u64, SensorFault, Option<u64>) {
     match played.events[..] {
@@ -57,10 +57,10 @@ fn frozen_frames_are_a_fault_until_they_change() {
     assert_eq!((tick, fault), (START + FROZEN, SensorFault::Frozen));
     assert_eq!(back, Some(mended + RECOVER - 1));
     is_off(&played, tick..mended);
-    // A repeat is heard for as long as a reading is held, and then none is.
-    let deaf = START + HOLD..mended;
+    // A repeat counts for as long as a reading is held, and then none does.
+    let is_lost = START + HOLD..mended;
     let heard = played.heard.iter();
-    assert_eq!(heard.filter(|(tick, _)| deaf.contains(tick)).count(), 0);
+    assert_eq!(heard.filter(|(tick, _)| is_lost.contains(tick)).count(), 0);
 }
 
 /// A sensor without noise above its resolution, before nothing and where nothing moves.

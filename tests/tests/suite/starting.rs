@@ -87,14 +87,14 @@ fn a_whisker_sets_off_softly_from_where_it_is() {
             run.motor_mut(0).unwrap().turn_to_deg(150.0);
         }
     });
-    let told = played.events.iter().map(|(_, event)| event);
+    let events = played.events.iter().map(|(_, event)| event);
     assert!(
-        !told
+        !events
             .clone()
             .any(|event| matches!(event, Event::MotorFault(..)))
     );
     assert!(matches!(
-        told.clone().next_back(),
+        events.clone().next_back(),
         Some(Event::SensorBack(LEFT))
     ));
     let after = speeds(&played).split_off(turned as usize + 1);
@@ -174,7 +174,7 @@ fn homing_ends_by_a_fault_where_the_encoder_does_not_tell_the_truth() {
 }
 
 #[test]
-fn homing_begins_anew_after_a_sensor_was_lost() {
+fn homing_restarts_after_a_sensor_was_lost() {
     let scene = free("rest = \"find\"\n");
     let (lost, back) = (100, 400);
     let played = play(&scene, 4 * TICK_HZ, |tick, run| {

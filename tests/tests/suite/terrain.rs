@@ -138,7 +138,7 @@ fn agree(what: &str, product: &[Decision], reference: &[Decision], within: f64) 
 }
 
 #[test]
-fn streams_are_told_apart_by_label_and_trial() {
+fn streams_are_separated_by_label_and_trial() {
     let test = recording("terrain-test.csv");
     let mut names: Vec<_> = streams(&test)
         .map(|stream| (&stream[0].label, &stream[0].trial))
@@ -166,11 +166,11 @@ fn sequential_decisions_have_the_known_figures_and_agree_with_the_reference() {
         assert!((samples - known_samples).abs() <= 1.0, "{samples}");
         assert_eq!(decided.len(), known_count as usize);
         assert!(decided.iter().all(|d| d.posterior > threshold));
-        let told = format!(
+        let summary = format!(
             "{} decisions, hit rate {percent:.1} % (mean over classes), mean {samples:.0} samples",
             decided.len()
         );
-        assert!(said.ends_with(&told), "{said}");
+        assert!(said.ends_with(&summary), "{said}");
 
         let rule = bayes::Rule::Sequential(threshold);
         let reference = bayes::classify(&terrain.reference, &terrain.test, rule);

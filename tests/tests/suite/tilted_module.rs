@@ -78,13 +78,13 @@ fn a_cut_wire_switches_it_off_until_it_is_mended() {
     let fault = SensorFault::Tilt(TiltFault::Reply(ReplyError::NoSensor));
     assert_eq!(fault.code(), 27);
     let sensors = |event: &Event| matches!(event, Event::SensorLost(..) | Event::SensorBack(_));
-    let told: Vec<_> = played
+    let of_sensor: Vec<_> = played
         .events
         .iter()
         .filter(|(_, event)| sensors(event))
         .collect();
-    let [(lost, loss), (back, recovery)] = told[..] else {
-        panic!("{told:?}");
+    let [(lost, loss), (back, recovery)] = of_sensor[..] else {
+        panic!("{of_sensor:?}");
     };
     assert_eq!(
         (*lost, *loss),

@@ -1,4 +1,4 @@
-//! A sensor whose zero has moved, in a module that finds it anew by itself.
+//! A sensor whose zero has moved, in a module that finds the new one by itself.
 
 use std::ops::Range;
 

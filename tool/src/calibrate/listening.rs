@@ -23,7 +23,7 @@ pub(crate) struct Sample {
     pub(crate) measured_deg: f64,
     /// What drives its motor, −1 to 1.
     pub(crate) duty: f64,
-    /// What is so.
+    /// Flags.
     pub(crate) flags: Flags,
 }
 
@@ -153,7 +153,7 @@ impl Listening {
     /// it with `false`.
     ///
     /// # Errors
-    /// [`Error::Work`] if nothing comes, the module starts anew, or the program is interrupted.
+    /// [`Error::Work`] if nothing comes, the module restarts, or the program is interrupted.
     pub(crate) fn watch(
         &mut self,
         seconds: f64,
@@ -203,7 +203,7 @@ impl Listening {
                 match self.tally.take(record) {
                     Before::Restart => {
                         return Err(Error::Work(
-                            "the module has started anew; whisker log tells why".to_owned(),
+                            "the module has restarted; whisker log says why".to_owned(),
                         ));
                     }
                     Before::Lost(ticks) => self.ticks += u64::from(ticks),

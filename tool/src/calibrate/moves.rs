@@ -9,7 +9,7 @@ pub(crate) const REST_DEG: f64 = 50.0;
 /// The small push, degrees, and by how much it must move the whisker.
 const PUSH_DEG: f64 = 3.0;
 const MOVED_DEG: f64 = 1.0;
-/// How fast the whisker is led through its range, degrees/s, and how often it is told to go on, s.
+/// How fast the whisker is led through its range, degrees/s, and how often a setpoint is sent, s.
 const LED_DEG_S: f64 = 100.0;
 const LED_EACH_S: f64 = 0.02;
 /// A whisker that is so far behind for so long has met something.

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_later_half_that_bends_more_is_told() {
+    fn a_later_half_that_bends_more_is_reported() {
         let bend = |n| if n < 10 { 9000 } else { 9200 };
         let touches: Vec<_> = (0..20).map(|n| touch(n, bend(n), 40)).collect();
         let (sign, [early, late]) = drift(&touches).unwrap();

@@ -1,4 +1,4 @@
-//! What is wrong with what comes while a label is captured: told at once, and counted.
+//! Faults of the records while a label is captured: reported at once, and counted.
 
 use host_sim::recording::GATE;
 use wire::{Flags, TickRecord};
@@ -11,7 +11,7 @@ use crate::tally::Before;
 /// The last codes before either end at which a sensor no longer tells how far it is bent.
 const ENDS: [u16; 2] = [8, 16375];
 
-/// Samples of contact at an end from which it is told: 5 ms at 2 kHz.
+/// Samples of contact at an end from which it is reported: 5 ms at 2 kHz.
 const SATURATED: u64 = 10;
 
 /// By what share the ticks may come too fast or too slow: a ceramic resonator's, and the PC's
@@ -21,7 +21,7 @@ const RATE: f64 = 0.01;
 /// Over how long the rate is measured, s.
 const RATE_S: f64 = 2.0;
 
-/// What has been told of a label, each kind once, and how often it was so.
+/// What has been reported of a label, each kind once, and how often it happened.
 #[derive(Debug)]
 pub(crate) struct Checks {
     label: String,
@@ -33,7 +33,7 @@ pub(crate) struct Checks {
     saturated: [u64; 2],
     /// Sequence and time from which the rate is measured.
     since: Option<(u32, f64)>,
-    is_rate_told: bool,
+    is_rate_reported: bool,
 }
 
 impl Checks {
@@ -48,7 +48,7 @@ impl Checks {
             in_fault: false,
             saturated: [0; 2],
             since: None,
-            is_rate_told: false,
+            is_rate_reported: false,
         }
     }
 
@@ -116,7 +116,7 @@ impl Checks {
     pub(crate) fn time(&mut self, sequence: u32, now_s: f64) -> Option<String> {
         let (first, then_s) = *self.since.get_or_insert((sequence, now_s));
         let passed = now_s - then_s;
-        if passed < RATE_S || self.is_rate_told {
+        if passed < RATE_S || self.is_rate_reported {
             return None;
         }
         let rate = f64::from(sequence.wrapping_sub(first)) / passed;
@@ -124,7 +124,7 @@ impl Checks {
         if (rate / self.tick_hz - 1.0).abs() <= RATE {
             return None;
         }
-        self.is_rate_told = true;
+        self.is_rate_reported = true;
         Some(format!(
             "{}: {rate:.0} ticks a second, the module says {:.0}: is its program of another \
              scene, or its clock wrong? What is learnt from this holds at this rate only",
@@ -132,8 +132,8 @@ impl Checks {
         ))
     }
 
-    /// What there is to say of the label as a whole: how often what has been told was so, and
-    /// whether its touches are alike.
+    /// What there is to say of the label as a whole: how often each report happened, and whether
+    /// its touches are alike.
     pub(crate) fn end(&self, touches: &Touches) -> Vec<String> {
         let mut said = Vec::new();
         let [x, y] = self.saturated;
@@ -152,7 +152,7 @@ impl Checks {
             said.push(format!(
                 "{}: its touches differ: {sign} {early:.2} in the first half, {late:.2} in the \
                  second. Did the sample slip, or the magnet? Fasten it, and capture the label \
-                 anew",
+                 again",
                 self.label
             ));
         }
@@ -175,19 +175,22 @@ mod tests {
     }
 
     #[test]
-    fn losses_and_faults_are_told_once_and_counted() {
+    fn losses_and_faults_are_reported_once_and_counted() {
         let mut checks = Checks::new("felt", 2000);
         let good = |n| record(n, Flags::VALID);
         assert_eq!(checks.record(&good(1), Before::Nothing), None);
-        let told = checks.record(&good(5), Before::Lost(3)).unwrap();
+        let reported = checks.record(&good(5), Before::Lost(3)).unwrap();
         assert!(
-            told.starts_with("felt: records lost before tick 5: 3."),
-            "{told}"
+            reported.starts_with("felt: records lost before tick 5: 3."),
+            "{reported}"
         );
         assert_eq!(checks.record(&good(9), Before::Lost(3)), None);
         let bad = |n| record(n, Flags::default());
-        let told = checks.record(&bad(10), Before::Nothing).unwrap();
-        assert!(told.contains("no valid reading at tick 10"), "{told}");
+        let reported = checks.record(&bad(10), Before::Nothing).unwrap();
+        assert!(
+            reported.contains("no valid reading at tick 10"),
+            "{reported}"
+        );
         assert_eq!(checks.record(&bad(11), Before::Nothing), None);
         assert_eq!(checks.record(&good(12), Before::Nothing), None);
         assert_eq!(checks.record(&bad(13), Before::Nothing), None);
@@ -202,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn codes_at_their_ends_are_told_where_there_is_contact() {
+    fn codes_at_their_ends_are_reported_where_there_is_contact() {
         let mut checks = Checks::new("felt", 2000);
         let mut take = |contact, x| {
             checks.sample(&Sampled {
@@ -219,11 +222,11 @@ mod tests {
     }
 
     #[test]
-    fn another_rate_than_the_module_s_is_told() {
+    fn another_rate_than_the_module_s_is_reported() {
         let feed = |hz: u32| {
             let mut checks = Checks::new("felt", 2000);
-            let told = (0..10 * hz).find_map(|n| checks.time(n, f64::from(n) / f64::from(hz)));
-            told.unwrap_or_default()
+            let reported = (0..10 * hz).find_map(|n| checks.time(n, f64::from(n) / f64::from(hz)));
+            reported.unwrap_or_default()
         };
         assert_eq!(feed(2000), "");
         assert_eq!(feed(2010), "");

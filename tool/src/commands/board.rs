@@ -89,13 +89,13 @@ impl Terminal {
         std::os::unix::fs::symlink(path, link).map_err(wrong)
     }
 
-    /// What somebody has written; what the board says is theirs, or nobody's.
+    /// Sends what the board says to the port, if it is open, and returns what was written to it.
     fn exchange(&mut self, said: &[u8]) -> Result<Vec<u8>, Error> {
         let mut received = vec![0; 1024];
         match rustix::io::read(&self.master, &mut received) {
             Ok(count) => received.truncate(count),
             Err(Errno::AGAIN) => received.clear(),
-            // Nobody has it open.
+            // No program has it open.
             Err(Errno::IO) => {
                 self.waiting.clear();
                 return Ok(Vec::new());
@@ -104,7 +104,7 @@ impl Terminal {
         }
         self.waiting.extend(said);
         if self.waiting.len() > MOST_WAITING {
-            // As much as nobody will read.
+            // Too much for any reader.
             self.waiting.clear();
         }
         match rustix::io::write(&self.master, &self.waiting) {

@@ -225,7 +225,7 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
         if share > MOST_SWING {
             report::warn(format_args!(
                 "range: {name} swings too far for free air: take away what the whisker touches and \
-                 calibrate anew, or it is loose in its hub"
+                 calibrate again, or it is loose in its hub"
             ));
         }
         if is_at_end(low) || is_at_end(high) {

@@ -70,10 +70,10 @@ pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         return Ok(());
     }
     let source = arguments.source.open(recording.all_touches() as u64)?;
-    let told = complete(recording, &missing, source, arguments, verbosity)?;
-    if told > 0 {
+    let warnings = complete(recording, &missing, source, arguments, verbosity)?;
+    if warnings > 0 {
         report::warn(format_args!(
-            "told on standard error: {told}; look at it before you train"
+            "warnings on standard error: {warnings}; look at them before you train"
         ));
     }
     Ok(())
@@ -122,7 +122,7 @@ fn complete(
         progress: Progress::new(verbosity, "touches", total as u64),
         done: 0,
         first: None,
-        told: 0,
+        warnings: 0,
     };
     for (n, label) in missing.iter().enumerate() {
         if n > 0 {
@@ -151,7 +151,7 @@ fn complete(
         mut module,
         tally,
         first,
-        told,
+        warnings,
         ..
     } = capture;
     module.ask(Command::Stream(false))?;
@@ -168,7 +168,7 @@ fn complete(
         tally.records + tally.lost,
         about.tick_hz
     ));
-    Ok(told)
+    Ok(warnings)
 }
 
 /// What a calibration says, as a recording has it in its header.
@@ -203,11 +203,11 @@ struct Capture {
     /// When the first ended: by the module's clock, s, and by the PC's.
     first: Option<(f64, Timestamp)>,
     /// Lines about what is wrong.
-    told: usize,
+    warnings: usize,
 }
 
 impl Capture {
-    /// Hears until the sample that is being laid was touched so often.
+    /// Listens until the sample that is being laid was touched so often.
     fn label(
         &mut self,
         label: &Label,
@@ -251,8 +251,8 @@ impl Capture {
                 if !counts && sampled.is_in_the_air() {
                     counts = true;
                     if is_by_hand {
-                        let told = format!("{}: counts from now on", label.name);
-                        self.progress.pause(|| report::warn(told));
+                        let line = format!("{}: counts from now on", label.name);
+                        self.progress.pause(|| report::warn(line));
                     }
                 }
                 // What has come with the last touch is taken too, lest it counts as lost.
@@ -279,7 +279,7 @@ impl Capture {
 
     fn tell(&mut self, line: Option<String>) {
         if let Some(line) = line {
-            self.told += 1;
+            self.warnings += 1;
             self.progress.pause(|| report::warn(line));
         }
     }

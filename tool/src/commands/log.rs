@@ -55,7 +55,7 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     }
     if lines == 0 {
         report::warn(
-            "nothing was logged; touches and decisions are told by modules whose scene has a \
+            "nothing was logged; touches and decisions are logged by modules whose scene has a \
              [classifier]",
         );
     }

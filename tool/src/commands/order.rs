@@ -66,12 +66,12 @@ pub(crate) fn stop(to: &ToAll) -> Result<(), Error> {
     order(&to.source, Command::Stop, "motors off until armed")
 }
 
-/// Runs a motor again that rests.
+/// Runs a motor again that is off after faults.
 pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Clear(to.whisker()), "faults cleared")
 }
 
-/// Finds rest anew.
+/// Finds rest again.
 pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Home(to.whisker()), "is being homed")
 }

@@ -52,7 +52,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         if let Some(scene) = table.origin.get("scene") {
             report::say(format_args!("scene {scene}"));
         }
-        report::say(summary.told(table.tick_hz));
+        report::say(summary.text(table.tick_hz));
         return Ok(());
     }
     let Some(out) = &arguments.out else {
@@ -119,7 +119,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     say(format!(
         "{}: {}",
         out.display(),
-        summary.told(Some(about.tick_hz))
+        summary.text(Some(about.tick_hz))
     ));
     let own = lost.wrapping_sub(lost_before).cast_unsigned();
     if summary.tally.lost > 0 || own > 0 {
@@ -156,7 +156,7 @@ impl Summary {
     }
 
     /// In words, at so many ticks a second.
-    fn told(&self, tick_hz: Option<u32>) -> String {
+    fn text(&self, tick_hz: Option<u32>) -> String {
         let Tally {
             records,
             lost,
@@ -166,22 +166,22 @@ impl Summary {
         let rate = tick_hz.map_or(String::new(), |hz| format!(" at {hz} ticks a second"));
         let touches: u64 = self.touches.iter().sum();
         let decisions = self.decisions;
-        let mut told = vec![format!(
+        let mut lines = vec![format!(
             "{records} records{rate}, {lost} lost, {touches} touches, {decisions} records with \
              decisions"
         )];
         if restarts > 0 {
-            told.push(format!(
+            lines.push(format!(
                 "starts of the module meanwhile: {restarts}; whisker log tells why"
             ));
         }
         if self.invalid > 0 {
-            told.push(format!(
+            lines.push(format!(
                 "records without a valid reading: {}, with a fault: {}; whisker log names it, \
                  docs/faults.md says what to do",
                 self.invalid, self.faults
             ));
         }
-        told.join("\n")
+        lines.join("\n")
     }
 }

@@ -139,7 +139,7 @@ fn room(facts: &Facts) -> Finding {
                 ROOM_MIB / 1024
             ),
         ),
-        None => finding("free disk, which cannot be told here", true, ""),
+        None => finding("free disk, which is unknown here", true, ""),
     }
 }
 
@@ -156,7 +156,7 @@ fn probes(facts: &Facts, board: BoardName) -> impl Iterator<Item = Finding> {
             seen.iter().all(|probe| probe.may_open)
         };
         let mend = if facts.has_rules {
-            "sudo usermod -aG plugdev $USER, then log in anew, and plug the board in anew"
+            "sudo usermod -aG plugdev $USER, then log in again, and plug the board in again"
         } else {
             RULES
         };
@@ -210,7 +210,7 @@ fn ports(facts: &Facts) -> impl Iterator<Item = Finding> {
         found.push(finding(
             format!("serial port {}", port.path.display()),
             port.may_open,
-            "sudo usermod -aG dialout $USER, then log in anew",
+            "sudo usermod -aG dialout $USER, then log in again",
         ));
     }
     found.into_iter()

@@ -21,7 +21,7 @@ pub(crate) struct Facts {
     /// Toolchains, and the targets of the one that is asked for.
     pub(super) toolchains: Vec<String>,
     pub(super) fetched: Vec<String>,
-    /// Free on the disk of the workspace, MiB, where that can be told.
+    /// Free on the disk of the workspace, MiB, where that is known.
     pub(super) free_mib: Option<u64>,
     /// Whether devices have owners and rules.
     pub(super) is_linux: bool,

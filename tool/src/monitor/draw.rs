@@ -1,4 +1,4 @@
-//! The window: what is shown, as characters. Nothing is told by colour alone.
+//! The window: what is shown, as characters. Colour alone carries no information.
 
 mod charts;
 mod panes;

@@ -57,8 +57,8 @@ pub(crate) struct History {
     pub(crate) health: Option<Health>,
     /// Ticks in which the module decided, and in how many of them so did the PC.
     pub(crate) agreed: [u64; 2],
-    /// When the PC's classifier has started anew, and why.
-    pub(crate) anew: Option<Said<&'static str>>,
+    /// When the PC's classifier restarted last, and why.
+    pub(crate) restarted: Option<Said<&'static str>>,
     listener: Option<Listener>,
     ticks: TickCount,
     /// Whether module and PC have decided in the tick that is under way.
@@ -81,7 +81,7 @@ impl History {
             decided: [VecDeque::new(), VecDeque::new()],
             health: None,
             agreed: [0; 2],
-            anew: None,
+            restarted: None,
             listener,
             ticks: TickCount::default(),
             deciding: [false; 2],
@@ -165,7 +165,7 @@ impl History {
             Before::Restart => Some("the module started again"),
         };
         if let Some(what) = why {
-            self.anew = Some(Said { ticks, what });
+            self.restarted = Some(Said { ticks, what });
         }
         self.deciding[0] |= record.flags.contains(Flags::DECIDED);
         let decided = listener.take(record, before);

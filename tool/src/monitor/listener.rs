@@ -1,9 +1,9 @@
-//! The module's classifier on this PC, over the records: a module tells its decisions, and not
-//! how sure it is meanwhile.
+//! The module's classifier on this PC, over the records: a module reports its decisions, but not
+//! its posteriors meanwhile.
 //!
-//! Contact is computed anew from the sensor's words, by the module's own filter: that of a
-//! record has 13 bits, so that now and then a sample near the least contact would count on one
-//! side only, and decisions come apart. Numbers are `f32`, as on a board with an FPU.
+//! Contact is computed again from the sensor's words, by the module's own filter. The contact of
+//! a record has 13 bits: now and then a sample near the least contact would count on one side
+//! only, and the decisions would differ. Numbers are `f32`, as on a board with an FPU.
 
 use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
@@ -132,8 +132,8 @@ impl Listener {
         posteriors.to_f64().map(|p| p as f32).collect()
     }
 
-    /// Takes a record and what is before it; after records that were lost, or another start of
-    /// the module, it starts anew. Returns what was decided in its tick.
+    /// Takes a record and what is before it; restarts after lost records or another start of the
+    /// module. Returns what was decided in its tick.
     pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<Decided> {
         if before != Before::Nothing {
             self.perception = self.perception.take().map(Perception::restarted);

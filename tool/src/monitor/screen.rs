@@ -16,12 +16,12 @@ pub(crate) type Window = Terminal<CrosstermBackend<Stdout>>;
 pub(crate) struct Screen;
 
 impl Screen {
-    /// Takes it; a panic anywhere gives it back before it is told.
+    /// Takes it; a panic anywhere gives it back before its message.
     pub(crate) fn take() -> io::Result<(Self, Window)> {
-        let told = std::panic::take_hook();
+        let report = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |panic| {
             give_back();
-            told(panic);
+            report(panic);
         }));
         terminal::enable_raw_mode()?;
         let screen = Self;

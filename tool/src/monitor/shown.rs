@@ -42,7 +42,7 @@ pub(crate) struct Shown {
     pub(crate) load: Vec<String>,
     /// Where the PC's classifier stands.
     pub(crate) classifying: Vec<String>,
-    /// What is to be told at the bottom.
+    /// The message at the bottom.
     pub(crate) message: String,
 }
 
@@ -200,7 +200,7 @@ impl History {
                     health.missed, health.dropped
                 ));
             }
-            None => load.push("longest tick: not told".to_owned()),
+            None => load.push("longest tick: unknown".to_owned()),
         }
         load.push(format!(
             "records {}, lost {}",
@@ -228,11 +228,11 @@ impl History {
                 ));
             }
         }
-        let [told, same] = self.agreed;
-        lines.push(format!("with the module: {same} of {told}"));
-        if let Some(anew) = &self.anew {
-            let at_s = anew.ticks as f64 / hz;
-            lines.push(format!("anew at {at_s:.1} s: {}", anew.what));
+        let [all, same] = self.agreed;
+        lines.push(format!("with the module: {same} of {all}"));
+        if let Some(restarted) = &self.restarted {
+            let at_s = restarted.ticks as f64 / hz;
+            lines.push(format!("again from {at_s:.1} s: {}", restarted.what));
         }
         lines
     }

@@ -24,8 +24,8 @@ const PICTURE: Duration = Duration::from_millis(50);
 /// For how long the last picture may take, once all else has ended.
 const LAST: Duration = Duration::from_millis(500);
 
-/// For how long something is told at the bottom, s.
-const TOLD_S: f64 = 4.0;
+/// For how long a message stays at the bottom, s.
+const MESSAGE_S: f64 = 4.0;
 
 /// What a window is about.
 pub(crate) struct About {
@@ -76,7 +76,7 @@ pub(crate) fn open(
             if done.is_err() {
                 let _ = draws_wishes.send(Wish::StopAndEnd);
             }
-            // Nobody may wait for it any more.
+            // The receiver may be gone.
             let _ = ended.send(done);
         });
     let drawing = drawing.map_err(failed);
@@ -91,14 +91,14 @@ pub(crate) fn open(
         Ok(done) => done.map_err(failed),
         Err(RecvTimeoutError::Disconnected) => Err(Error::Work("drawing has failed".to_owned())),
         Err(RecvTimeoutError::Timeout) => {
-            // The terminal takes nothing: it can be told nothing either.
+            // The terminal takes nothing, no message either.
             screen::restore_modes();
             std::process::exit(1);
         }
     };
     drop(screen);
     ended
-        .and(signal?.told())
+        .and(signal?.end())
         .and(drawn)
         .and(watched.map(drop))
         .and(drawing.map(drop))
@@ -137,7 +137,7 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
             }
             Ok(Event::Resize(..)) => Look::Resized,
             Ok(_) => continue,
-            // Nobody is there to stop the motors by a key.
+            // No key can stop the motors any more.
             Err(_) => {
                 let _ = wishes.send(Wish::StopAndEnd);
                 return;
@@ -163,7 +163,7 @@ fn pictures(
         let (shown, has_ended) = {
             let shared = lock(shared);
             let now = shared.history.now();
-            let lasts = shared.history.ticks_of(TOLD_S);
+            let lasts = shared.history.ticks_of(MESSAGE_S);
             let message = shared.message.as_ref();
             let message = message.filter(|(since, _)| now <= since + lasts);
             let message = message.map_or(String::new(), |(_, text)| text.clone());
@@ -213,7 +213,7 @@ struct Signals(Arc<Mutex<Option<i32>>>);
 
 impl Signals {
     /// An error if one has ended the program.
-    fn told(&self) -> Result<(), Error> {
+    fn end(&self) -> Result<(), Error> {
         let signal = *self
             .0
             .lock()
@@ -234,10 +234,10 @@ fn signals(wishes: Sender<Wish>) -> std::io::Result<Signals> {
 
     let come = Arc::new(Mutex::new(None));
     let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
-    let told = come.clone();
+    let last = come.clone();
     let wait = move || {
         for signal in signals.forever() {
-            *told
+            *last
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner) = Some(signal);
             let _ = wishes.send(Wish::StopAndEnd);

@@ -16,7 +16,7 @@ pub(super) fn seen_as(item: &ProbeListItem) -> SeenProbe {
     }
 }
 
-/// Fails as [`open`] does, as far as can be told without opening.
+/// Fails as [`open`] does, as far as is known without opening.
 ///
 /// # Errors
 /// [`Error::Work`] if it is not there or not the only one, or this user may not open it.
@@ -44,8 +44,8 @@ pub(super) fn open(selector: &str) -> Result<Probe, Error> {
 
 /// Which of the probes is meant.
 fn chosen(seen: &[SeenProbe], selector: &str) -> Result<usize, String> {
-    let told = |probe: &SeenProbe| format!("{} ({})", probe.serial, probe.name);
-    let all = seen.iter().map(told).collect::<Vec<_>>().join(", ");
+    let name = |probe: &SeenProbe| format!("{} ({})", probe.serial, probe.name);
+    let all = seen.iter().map(name).collect::<Vec<_>>().join(", ");
     let mut fit = (0..seen.len()).filter(|n| seen[*n].serial.starts_with(selector));
     match (fit.next(), fit.next()) {
         (None, _) if seen.is_empty() => Err(
@@ -61,7 +61,7 @@ fn chosen(seen: &[SeenProbe], selector: &str) -> Result<usize, String> {
         )),
         (Some(n), None) if !seen[n].may_open => Err(format!(
             "{}: this user may not open it; whisker doctor says what mends that",
-            told(&seen[n])
+            name(&seen[n])
         )),
         (Some(n), None) => Ok(n),
     }
@@ -94,8 +94,8 @@ mod tests {
             (&two[..], "1", "begins with \"1\""),
             (&[probe("0661FF", false)], "", "may not open it"),
         ] {
-            let told = chosen(seen, selector).unwrap_err();
-            assert!(told.contains(says), "{selector:?}: {told}");
+            let refusal = chosen(seen, selector).unwrap_err();
+            assert!(refusal.contains(says), "{selector:?}: {refusal}");
         }
     }
 }

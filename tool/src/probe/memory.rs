@@ -31,11 +31,11 @@ impl MemoryPort {
                  both jumpers of CN2 in place?"
             ))
         };
-        let told = |error: probe_rs::Error| silent(chain(&error));
+        let no_answer = |error: probe_rs::Error| silent(chain(&error));
         probe
             .select_protocol(WireProtocol::Swd)
             .map_err(|error| silent(chain(&error)))?;
-        probe.attach_to_unspecified().map_err(told)?;
+        probe.attach_to_unspecified().map_err(no_answer)?;
         let interface = probe.try_into_arm_debug_interface(DefaultArmSequence::create());
         let mut interface = interface.map_err(|(_, error)| silent(chain(&error)))?;
         let port = interface.select_debug_port(DpAddress::Default);

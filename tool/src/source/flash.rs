@@ -11,7 +11,7 @@ use host_sim::output::write_whole;
 /// A byte of flash that is erased.
 const ERASED: u8 = 0xFF;
 
-/// Such a file, or flash that nobody keeps.
+/// Such a file, or flash that is not kept.
 #[derive(Debug)]
 pub(crate) struct Flash {
     path: Option<PathBuf>,

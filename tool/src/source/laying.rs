@@ -53,10 +53,10 @@ impl Laying {
         Ok(())
     }
 
-    /// Whether it lies there. Waits for nobody.
+    /// Whether it lies there. Does not wait.
     ///
     /// # Errors
-    /// [`Error::Work`] if nobody can answer, or the command has failed.
+    /// [`Error::Work`] if the input is closed, or the command has failed.
     pub(super) fn is_laid(&mut self) -> Result<bool, Error> {
         let (line, running) = match self {
             Self::Person(person) => return person.is_laid(),
@@ -121,11 +121,11 @@ mod tests {
     }
 
     #[test]
-    fn a_command_that_fails_is_told() {
-        let told = laid("exit 3", "felt").unwrap_err().to_string();
+    fn a_command_that_fails_is_reported() {
+        let failure = laid("exit 3", "felt").unwrap_err().to_string();
         assert!(
-            told.starts_with("--lay-by exit 3, for felt: exit status: 3"),
-            "{told}"
+            failure.starts_with("--lay-by exit 3, for felt: exit status: 3"),
+            "{failure}"
         );
     }
 }

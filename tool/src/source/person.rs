@@ -45,7 +45,7 @@ impl Person {
     /// Asks for a sample, without waiting.
     pub(crate) fn lay(&mut self, sample: &str) {
         if self.forgets {
-            // All that has come by now; what comes of a closed input is told when it counts.
+            // All that has come by now; a closed input is reported when it counts.
             while let Ok(Ok(())) = self.answers.try_recv() {}
         }
         report::warn(format_args!(
@@ -57,7 +57,7 @@ impl Person {
     /// Whether they have laid what they were asked for.
     ///
     /// # Errors
-    /// [`Error::Work`] if nobody can answer.
+    /// [`Error::Work`] if the input is closed.
     pub(crate) fn is_laid(&mut self) -> Result<bool, Error> {
         let Some(sample) = &self.asked else {
             return Ok(true);
@@ -105,13 +105,13 @@ mod tests {
         (press, person)
     }
 
-    /// Whether it is laid, once that can be told.
+    /// Whether it is laid, once that is known.
     fn waited(person: &mut Person) -> Result<bool, String> {
         let begun = Instant::now();
         while begun.elapsed() < Duration::from_secs(5) {
             match person.is_laid() {
                 Ok(false) => std::thread::yield_now(),
-                told => return told.map_err(|error| error.to_string()),
+                done => return done.map_err(|error| error.to_string()),
             }
         }
         Ok(false)
@@ -145,15 +145,15 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_input_is_told_once_its_lines_are_used_up() {
+    fn a_closed_input_is_reported_once_its_lines_are_used_up() {
         let mut person = Person::new(|| Box::new(Cursor::new("\n")), false);
         person.lay("felt");
         assert_eq!(waited(&mut person), Ok(true));
         person.lay("carpet");
-        let told = waited(&mut person).unwrap_err();
+        let failure = waited(&mut person).unwrap_err();
         assert!(
-            told.starts_with("carpet: standard input was closed before"),
-            "{told}"
+            failure.starts_with("carpet: standard input was closed before"),
+            "{failure}"
         );
     }
 }

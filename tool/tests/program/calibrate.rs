@@ -57,15 +57,15 @@ fn a_whisker_is_calibrated_and_a_recording_keeps_it() {
 }
 
 #[test]
-fn what_touches_something_is_told_to_be_taken_away() {
+fn what_touches_something_is_to_be_taken_away() {
     let place = Place::new();
     let ran = place.done(&format!(
         "calibrate {} --world {} --out found",
         bench(),
         textures().display()
     ));
-    let told = "x swings too far for free air: take away what the whisker touches";
-    assert!(ran.stderr.contains(told), "{}", ran.stderr);
+    let warning = "x swings too far for free air: take away what the whisker touches";
+    assert!(ran.stderr.contains(warning), "{}", ran.stderr);
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn a_check_of_what_its_scene_says_finds_nothing() {
         report.contains("| records lost |  | 0 | 0 | 0 |"),
         "{report}"
     );
-    // In a world in which it meets something it is told what differs.
+    // In a world in which it meets something the check says what differs.
     let ran = place.run(&format!(
         "check {} --world {} --seconds 12 --out touched",
         bench(),

@@ -60,7 +60,7 @@ fn labels_have_as_many_touches_as_were_asked_for() {
         lines[4].contains("host-sim -- train --data c.csv --rate 2000"),
         "{lines:?}"
     );
-    // What is clean has nothing to be told.
+    // A clean recording has no warnings.
     assert_eq!(ran.stderr, "");
 }
 
@@ -131,7 +131,7 @@ fn where_nothing_is_touched_it_says_what_to_look_at() {
 }
 
 #[test]
-fn a_sensor_at_its_ends_is_told_at_once() {
+fn a_sensor_at_its_ends_is_reported_at_once() {
     let place = Place::new();
     place.write(
         "stiff.toml",

@@ -34,18 +34,18 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     assert!(without.contains("touch left 1") && !without.contains("decision"));
 
     let ran = place.done(&format!("deploy {bench} --model {}", model.display()));
-    let told: Vec<&str> = ran.stdout.lines().collect();
-    assert_eq!(told.len(), 5, "{told:?}");
-    assert!(told[0].ends_with("4 classes: smooth, p600, p240, carpet"));
-    assert!(told[1].starts_with("before, the module runs scene bench ("));
-    assert!(told[2].starts_with("before, the module decides by no model: none was deployed"));
-    assert!(told[3].starts_with("now it runs scene bench ("));
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    assert_eq!(lines.len(), 5, "{lines:?}");
+    assert!(lines[0].ends_with("4 classes: smooth, p600, p240, carpet"));
+    assert!(lines[1].starts_with("before, the module runs scene bench ("));
+    assert!(lines[2].starts_with("before, the module decides by no model: none was deployed"));
+    assert!(lines[3].starts_with("now it runs scene bench ("));
     // Samples count from the model's contact then.
-    assert_ne!(told[1].split_once("runs"), told[3].split_once("runs"));
+    assert_ne!(lines[1].split_once("runs"), lines[3].split_once("runs"));
     let crc = std::fs::read(&model).unwrap();
     let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
     assert_eq!(
-        told[4],
+        lines[4],
         format!("now it decides by model {crc:08x}, 4 classes")
     );
 
@@ -92,7 +92,7 @@ fn flash_that_was_not_written_whole_is_refused_at_the_start() {
 }
 
 #[test]
-fn what_does_not_fit_is_told_before_anything_is_written() {
+fn what_does_not_fit_is_refused_before_anything_is_written() {
     let place = Place::new();
     let (bench, model) = (bench(), model());
     let mut bytes = std::fs::read(&model).unwrap();
@@ -145,7 +145,7 @@ fn what_does_not_fit_is_told_before_anything_is_written() {
 }
 
 #[test]
-fn a_recording_out_of_the_models_range_is_told() {
+fn a_recording_out_of_the_models_range_is_reported() {
     let place = Place::new();
     let rows = (16_000..16_100).map(|x| format!("felt,0,{x},8192\n"));
     let rows: String = rows.collect();
@@ -193,9 +193,9 @@ fn a_scene_that_is_deployed_is_what_the_module_runs() {
         .replace("gain = 0.7", "gain = 0.9");
     place.write("other.toml", &other);
     let ran = place.done("deploy --scene other.toml --sim bench.toml --seconds 0.1");
-    let told: Vec<&str> = ran.stdout.lines().collect();
-    let [before, now] = told[..] else {
-        panic!("{told:?}");
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    let [before, now] = lines[..] else {
+        panic!("{lines:?}");
     };
     assert!(before.starts_with("before, the module runs scene bench ("));
     assert!(now.starts_with("now it runs scene other ("));

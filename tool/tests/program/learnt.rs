@@ -97,7 +97,7 @@ fn a_model_of_it_scores_as_one_of_what_record_writes() {
 }
 
 #[test]
-fn a_texture_under_two_labels_is_told_apart_by_chance_alone() {
+fn a_texture_under_two_labels_is_distinguished_by_chance_alone() {
     let place = Place::new();
     let labels = "--label one=p240 --label two=p240 --touches 40";
     let model = train(capture(&place, labels));

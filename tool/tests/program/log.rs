@@ -19,7 +19,7 @@ fn it_tells_touches_and_decisions_in_their_time() {
         "{times:?}"
     );
     let has = |what: &str| lines.iter().filter(|line| line.contains(what)).count();
-    // Whisking at 2 Hz, after a second in which touches are not told yet.
+    // Whisking at 2 Hz, after a second in which touches are not reported yet.
     assert_eq!(has("INFO  end left "), 3, "{lines:?}");
     assert!(has("INFO  decision left smooth 99.") >= 3, "{lines:?}");
 }

@@ -39,8 +39,8 @@ fn is_whole(records: &[Value]) -> bool {
 fn agreed(text: &str) -> Option<[u32; 2]> {
     let (_, after) = text.split_once("with the module: ")?;
     let (same, after) = after.split_once(" of ")?;
-    let told = after.split(|c: char| !c.is_ascii_digit()).next()?;
-    Some([same.parse().ok()?, told.parse().ok()?])
+    let all = after.split(|c: char| !c.is_ascii_digit()).next()?;
+    Some([same.parse().ok()?, all.parse().ok()?])
 }
 
 fn assert_stopped(place: &Place, name: &str) {
@@ -82,7 +82,7 @@ fn a_person_watches_and_stops() {
     seen.press(b"\t");
     seen.wait_for("touch 1");
     // As often as the module itself decides, so does the PC.
-    seen.wait_until(|text| agreed(text).is_some_and(|[same, told]| told >= 3 && same == told));
+    seen.wait_until(|text| agreed(text).is_some_and(|[same, all]| all >= 3 && same == all));
     assert!(seen.text().contains("\nleft "));
 
     seen.press(b"p");

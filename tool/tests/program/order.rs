@@ -3,7 +3,7 @@
 use crate::common::{BENCH, Place};
 
 #[test]
-fn a_command_is_carried_out_and_its_tick_told() {
+fn a_command_is_carried_out_and_its_tick_printed() {
     let place = Place::new();
     for (command, says) in [
         ("arm", "armed, after tick "),
@@ -88,7 +88,7 @@ fn the_doctor_fails_where_something_needed_is_missing() {
     let missing = ran.stdout.lines().any(is_missing);
     assert_eq!(ran.status, Some(i32::from(missing)), "{}", ran.stdout);
     assert_eq!(ran.stderr.is_empty(), !missing, "{}", ran.stderr);
-    // What a board needs is told, but is not needed.
+    // What a board needs is listed, but not required.
     let of_boards = |line: &&str| line.contains("debug probe") && !line.starts_with("ok ");
     assert!(
         ran.stdout

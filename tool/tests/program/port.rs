@@ -61,7 +61,7 @@ impl Drop for Served {
 fn a_board_on_a_port_is_talked_with_as_any_other() {
     let place = Place::new();
     let mut served = Served::new(&place);
-    // The person at this bench writes down what was done; the board is told by hand.
+    // The person at this bench writes down what was done; the board gets it by hand.
     writeln!(served.board.stdin.as_mut().unwrap(), "lay carpet").unwrap();
     let port = &served.port;
     let ran = place.done(&format!("records {port} --seconds 1 --out r.csv"));
@@ -149,9 +149,9 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     assert!(said.contains("telemetry.serial_baud: found none"), "{said}");
 
     let ran = place.done(&format!("deploy {port} --scene other.toml"));
-    let told: Vec<&str> = ran.stdout.lines().collect();
-    let [before, now] = told[..] else {
-        panic!("{told:?}");
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    let [before, now] = lines[..] else {
+        panic!("{lines:?}");
     };
     assert!(before.starts_with("before, the module runs scene bench ("));
     assert!(now.starts_with("now it runs scene other ("), "{now}");
@@ -227,13 +227,13 @@ fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
 #[test]
 fn ports_and_scenes_that_are_none_are_refused() {
     let place = Place::new();
-    let told = place.refused("log --port no-such-port --seconds 1");
-    assert!(told.contains("no-such-port"), "{told}");
-    let told = place.refused("board bench.toml");
+    let refusal = place.refused("log --port no-such-port --seconds 1");
+    assert!(refusal.contains("no-such-port"), "{refusal}");
+    let refusal = place.refused("board bench.toml");
     assert!(
-        told.contains("it has no serial port; allowed: [telemetry] serial_baud"),
-        "{told}"
+        refusal.contains("it has no serial port; allowed: [telemetry] serial_baud"),
+        "{refusal}"
     );
-    let told = place.refused("log --port a --sim bench.toml");
-    assert!(told.contains("cannot be used with"), "{told}");
+    let refusal = place.refused("log --port a --sim bench.toml");
+    assert!(refusal.contains("cannot be used with"), "{refusal}");
 }

@@ -80,9 +80,9 @@ fn what_is_missing_is_counted() {
         .lines()
         .filter(|line| !gone.iter().any(|gone| line.starts_with(&gone[1..])));
     place.write("less.csv", &kept.collect::<Vec<_>>().join("\n"));
-    let told = |file: &str| place.done(&format!("records --file {file}")).stdout;
-    assert!(told("r.csv").contains("200 records at 2000 ticks a second, 0 lost"));
-    assert!(told("less.csv").contains("197 records at 2000 ticks a second, 3 lost"));
+    let summary = |file: &str| place.done(&format!("records --file {file}")).stdout;
+    assert!(summary("r.csv").contains("200 records at 2000 ticks a second, 0 lost"));
+    assert!(summary("less.csv").contains("197 records at 2000 ticks a second, 3 lost"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::common::Place;
 
 #[test]
-fn a_module_does_what_it_is_told_and_says_so() {
+fn a_module_carries_out_its_commands_and_says_so() {
     let place = Place::new();
     place.write(
         "s.txt",

@@ -55,7 +55,7 @@ fn each_pair_of_known_bits() {
 }
 
 #[test]
-fn each_unknown_bit_is_kept_and_told() {
+fn each_unknown_bit_is_kept_and_reported() {
     for bits in UNKNOWN {
         let faults = through_a_frame(bits);
         assert_eq!(faults.unknown(), bits);

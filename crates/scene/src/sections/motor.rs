@@ -92,9 +92,9 @@ keys! {
         /// every motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),
 
-        /// When the motors may be driven: when the program starts, or once it is told, on a
-        /// board by the user button. After a fault that made it start, a dip of the supply, or
-        /// three resets in a minute, it must be told in either case.
+        /// When the motors are armed: when the program starts, or by a command, on a board also
+        /// by the user button. After a fault that restarted it, a dip of the supply, or three
+        /// resets in a minute, the program waits for the command in either case.
         arm: Arm = word().default("\"at-start\""),
 
         /// Where a whisker is: at rest, 50 degrees, when its motor is armed; or found by driving

@@ -66,7 +66,7 @@ keys! {
             "whisking", "where there is `[whisking]`, the defaults below hold"
         ),
 
-        /// What a PC is told of every tick, and what it may ask for.
+        /// What a module reports to a PC in every tick, and what the PC may ask for.
         [telemetry]: TelemetrySection = by_default::<TelemetrySection>("the default below holds"),
 
         /// What the whiskers meet in a simulation; a board meets what there is.

@@ -46,9 +46,9 @@ keys! {
         /// program reads it.
         model: SensorModel = word().default("\"mlx90333\""),
 
-        /// How long a silence is, after which the zero of the sensor is found anew by itself, as
-        /// the mean of its codes, where that differs by eight codes at least: at most 65,534
-        /// ticks, of many whisks. A reading tells what differs from it.
+        /// How long a silence is, many whisks and at most 65,534 ticks. After it the module sets
+        /// the sensor's zero to the mean of its codes, if that differs by at least eight codes. A
+        /// reading is the difference from the zero.
         zero_after_s: Option<f64> = number(0.5..=30.0).unit("s")
             .optional("the zero is at mid-scale"),
 

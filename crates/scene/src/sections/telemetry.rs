@@ -1,10 +1,10 @@
-//! `[telemetry]`: what a PC is told of every tick, and what it may ask for.
+//! `[telemetry]`: what a module reports to a PC in every tick, and what the PC may ask for.
 
 use crate::key::{integer, yes_or_no};
 use crate::keys::keys;
 
 keys! {
-    /// What a PC is told of every tick, and what it may ask for.
+    /// What a module reports to a PC in every tick, and what the PC may ask for.
     #[derive(Copy)]
     pub struct TelemetrySection {
         /// A board has records of every tick for a probe, and carries out its commands. Left

@@ -15,7 +15,7 @@ fn texts<const N: usize>(of: [&Value; N]) -> [&str; N] {
 }
 
 #[test]
-fn every_fault_is_told_with_its_line_and_what_is_allowed() {
+fn every_fault_is_reported_with_its_line_and_what_is_allowed() {
     let refusals = refusals();
     for case in refusals["case"].as_array().expect("a list") {
         let [old, new, says] = texts(["old", "new", "says"].map(|key| &case[key]));

@@ -1,4 +1,4 @@
-//! State that cannot rot: whatever bits a word of the detector has, touches are told again.
+//! The detector recovers: whatever bits a word of it has, it soon finds touches again.
 
 use super::quick::Quick;
 use super::{TouchDetector, Touching};
@@ -7,10 +7,10 @@ use super::{TouchDetector, Touching};
 const PERIOD: usize = 500;
 const AIR: usize = 200;
 const TOUCH: usize = 100;
-/// Touches in a row that must be told, and those that are waited for.
+/// Touches in a row that must be found, and how many the test waits for at most.
 const IN_A_ROW: usize = 10;
 const MOST: usize = 120;
-/// After so many touches, of 0.25 s each, all are told again: the rest comes back slowest.
+/// After so many touches, of 0.25 s each, all are found again: the rest recovers slowest.
 const STATED: usize = 72;
 
 /// Codes of a whisker that swings slowly, with noise; each touch begins with a shock.
@@ -132,22 +132,22 @@ fn words(detector: &mut TouchDetector) -> Vec<Word<'_>> {
     all
 }
 
-/// Whether the next touch is told within 10 ms of its beginning.
-fn told(detector: &mut TouchDetector, codes: &mut Codes) -> bool {
-    let mut told = false;
+/// Whether the next touch is found within 10 ms of its beginning.
+fn found(detector: &mut TouchDetector, codes: &mut Codes) -> bool {
+    let mut found = false;
     for n in codes.n % PERIOD..PERIOD {
         let is_onset = detector.step(codes.next()).is_onset;
-        told |= is_onset && (AIR..AIR + 20).contains(&n);
+        found |= is_onset && (AIR..AIR + 20).contains(&n);
     }
-    told
+    found
 }
 
-/// After how many touches all are told, [`IN_A_ROW`] at least.
+/// After how many touches all are found, [`IN_A_ROW`] at least.
 fn touches_until_back(detector: &mut TouchDetector, codes: &mut Codes) -> usize {
     let (mut touches, mut in_a_row) = (0, 0);
     while in_a_row < IN_A_ROW && touches < MOST {
         touches += 1;
-        in_a_row = if told(detector, codes) {
+        in_a_row = if found(detector, codes) {
             in_a_row + 1
         } else {
             0
@@ -157,7 +157,7 @@ fn touches_until_back(detector: &mut TouchDetector, codes: &mut Codes) -> usize 
 }
 
 #[test]
-fn whatever_bits_a_word_has_touches_are_told_again() {
+fn whatever_bits_a_word_has_touches_are_found_again() {
     let (mut detector, mut codes) = (TouchDetector::new(), Codes { noise: 1, n: 0 });
     assert!(touches_until_back(&mut detector, &mut codes) < 10);
     // In the air and in a touch.
@@ -172,8 +172,8 @@ fn whatever_bits_a_word_has_touches_are_told_again() {
                 if !words(&mut spoilt).swap_remove(word).spoil(k) {
                     break;
                 }
-                // That in which it happens may be lost.
-                told(&mut spoilt, &mut codes);
+                // The touch in which it happens may be lost.
+                found(&mut spoilt, &mut codes);
                 let back = touches_until_back(&mut spoilt, &mut codes);
                 assert!(back <= STATED, "word {word}, {k}: {back}");
             }

@@ -22,7 +22,7 @@ impl Noise {
 }
 
 /// Onsets, and ends of touches, in samples of x around rest with noise.
-fn told(seed: u64, x: impl Iterator<Item = f64>) -> (Vec<usize>, Vec<usize>) {
+fn touches(seed: u64, x: impl Iterator<Item = f64>) -> (Vec<usize>, Vec<usize>) {
     let mut noise = Noise(seed);
     let mut detector = TouchDetector::new();
     let (mut onsets, mut ends, mut last) = (Vec::new(), Vec::new(), 0);
@@ -53,7 +53,7 @@ proptest! {
 
     #[test]
     fn noise_and_drift_are_no_touch(seed: u64, drift in -0.02..0.02_f64) {
-        let (onsets, _) = told(seed, (0..40_000).map(|n| drift * f64::from(n)));
+        let (onsets, _) = touches(seed, (0..40_000).map(|n| drift * f64::from(n)));
         // One false touch raises the threshold; two in 20 s would be too many.
         prop_assert!(onsets.len() <= 1, "{onsets:?}");
     }
@@ -62,16 +62,16 @@ proptest! {
     fn its_own_motion_is_no_touch(seed: u64, hz in 1.0..10.0_f64, codes in 0.0..2000.0_f64) {
         let turn = core::f64::consts::TAU * hz / 2000.0;
         let motion = (0..40_000).map(|n| codes * (turn * f64::from(n)).sin());
-        let (onsets, _) = told(seed, motion);
+        let (onsets, _) = touches(seed, motion);
         // The rest of a whisker that moves from the start is known after some whisks.
         let later = onsets.iter().filter(|n| **n >= 20_000);
         prop_assert!(later.count() <= 1, "{onsets:?}");
     }
 
     #[test]
-    fn a_step_is_told_at_once_and_ends_with_it(seed: u64, codes in 1500.0..8000.0_f64) {
+    fn a_step_is_found_at_once_and_ends_with_it(seed: u64, codes in 1500.0..8000.0_f64) {
         let step = (0..5100).map(|n| if (4000..5000).contains(&n) { codes } else { 0.0 });
-        let (onsets, ends) = told(seed, step);
+        let (onsets, ends) = touches(seed, step);
         // In one of some hundred times noise is taken for a touch before.
         prop_assert!(onsets.len() <= 2 && onsets.last() == Some(&4000), "{onsets:?}");
         // Foretold from 16 samples, and quiet for 16.
@@ -88,19 +88,19 @@ proptest! {
             n if n >= 700 => codes,
             _ => 0.0,
         });
-        let (onsets, _) = told(seed, ring);
+        let (onsets, _) = touches(seed, ring);
         // The first ones are learnt from.
         let begins: Vec<_> = (6700..20_000).step_by(2000).collect();
         prop_assert!(begins.iter().all(|n| onsets.contains(n)), "{onsets:?}");
-        let told = onsets.iter().filter(|n| **n >= 6000).count();
-        prop_assert!(told <= begins.len() + 1, "{onsets:?}");
+        let count = onsets.iter().filter(|n| **n >= 6000).count();
+        prop_assert!(count <= begins.len() + 1, "{onsets:?}");
     }
 
     #[test]
-    fn a_ramp_is_told_soon(seed: u64, slope in 30.0..200.0_f64) {
+    fn a_ramp_is_found_soon(seed: u64, slope in 30.0..200.0_f64) {
         // Slower ones may show by their deflection only.
         let ramp = (0..5000).map(|n| slope * f64::from((n - 4000).clamp(0, 40)));
-        let (onsets, _) = told(seed, ramp);
+        let (onsets, _) = touches(seed, ramp);
         // What is foretold from three samples before stands out from 100 codes on.
         let latest = 4003 + (100.0 / slope) as usize;
         let onset = onsets.iter().find(|n| **n >= 4000);
@@ -148,7 +148,7 @@ proptest! {
 #[test]
 fn what_does_not_move_for_long_is_let_go() {
     let step = (0..80_000).map(|n| if n >= 4000 { 4000.0 } else { 0.0 });
-    let (onsets, ends) = told(1, step);
+    let (onsets, ends) = touches(1, step);
     assert_eq!(onsets.first(), Some(&4000));
     assert!((30_000..60_000).contains(&ends[0]), "{ends:?}");
 }

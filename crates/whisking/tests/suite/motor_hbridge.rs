@@ -171,7 +171,7 @@ fn off_does_not_fail_but_remembers() {
 }
 
 #[test]
-fn a_failing_start_is_told_by_the_first_drive() {
+fn a_failing_start_is_reported_by_the_first_drive() {
     let mut bench = Bench::new();
     bench.break_pwm().zero();
     bench.run(|mut bridge| assert_eq!(bridge.drive(Duty::FULL), Err(Fault::Pwm)));

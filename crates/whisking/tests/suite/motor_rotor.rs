@@ -230,7 +230,7 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
 }
 
 #[test]
-fn clear_allows_the_skips_anew() {
+fn clear_allows_the_skips_again() {
     let config = SixStepConfig {
         skip_limit: 2,
         ..SixStepConfig::DEFAULT

@@ -223,7 +223,7 @@ fn a_failing_enable_or_pwm_switches_all_off() {
 }
 
 #[test]
-fn a_failing_start_is_told_by_the_first_drive() {
+fn a_failing_start_is_reported_by_the_first_drive() {
     let mut bench = Bench::new();
     bench.break_input(3);
     bench.off().hall(1);
@@ -233,7 +233,7 @@ fn a_failing_start_is_told_by_the_first_drive() {
 }
 
 #[test]
-fn stall_is_told_after_the_ticks_and_clear_starts_over() {
+fn stall_is_reported_after_the_ticks_and_clear_starts_over() {
     let mut bench = Bench::new();
     bench.hall(1).first_step(2, 3, 100, 50);
     bench.hall(1).pulse(2, 100, 50);

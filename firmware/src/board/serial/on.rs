@@ -119,7 +119,7 @@ impl Serial {
         usart::start(SERIAL_USART, divider);
         let [tx, rx] = SERIAL;
         tx.configure(PinConfig::new(Mode::AlternateOutput(SERIAL_FUNCTION)));
-        // A line rests high; pulled up, it does so too where nobody is at its other end.
+        // An idle line is high; the pull-up keeps it so where nothing is connected.
         rx.configure(PinConfig::new(Mode::AlternateInput(SERIAL_FUNCTION)).pulled_up());
         Some(Self {
             transfers,

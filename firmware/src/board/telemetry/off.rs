@@ -51,7 +51,7 @@ impl ProbeLine {
     }
 }
 
-/// Nobody asks.
+/// No requests come.
 pub(crate) struct Exchange {
     pub(crate) probe: ProbeLine,
 }

@@ -88,11 +88,11 @@ mod tests {
     fn every_combination_comes_once_and_the_last_key_changes_first() {
         let axes = ["a=1,2", "b=x,y,z"].map(|text| text.parse().unwrap());
         let all = combinations(&axes);
-        let told = |n: usize| all[n].iter().map(ToString::to_string).collect::<Vec<_>>();
+        let texts = |n: usize| all[n].iter().map(ToString::to_string).collect::<Vec<_>>();
         assert_eq!(all.len(), 6);
-        assert_eq!(told(0), ["a=1", "b=x"]);
-        assert_eq!(told(1), ["a=1", "b=y"]);
-        assert_eq!(told(5), ["a=2", "b=z"]);
+        assert_eq!(texts(0), ["a=1", "b=x"]);
+        assert_eq!(texts(1), ["a=1", "b=y"]);
+        assert_eq!(texts(5), ["a=2", "b=z"]);
         assert_eq!(combinations(&[]), [[]]);
     }
 }

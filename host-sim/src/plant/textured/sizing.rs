@@ -1,4 +1,4 @@
-//! That textures can be told apart, and not for certain: the whole loop of
+//! Textures can be distinguished, but not with certainty: the whole loop of
 //! whisking with RCP, motor, surface and sensor, then the classifier as it is
 //! trained by default, with the sequential rule (LEP12 eqs. 3 to 8).
 
@@ -49,7 +49,7 @@ fn record(texture: Texture, whisks: usize, seed: u64) -> Stream {
 }
 
 #[test]
-fn textures_are_told_apart_but_not_for_certain() {
+fn textures_are_distinguished_but_not_for_certain() {
     let training = TEXTURES.map(|texture| record(texture, 20, 1 + texture as u64));
     let trainer = Trainer::new(2, Options::default()).unwrap();
     let rule = Rule::Sequential { threshold: 0.99 };

@@ -237,7 +237,7 @@ proptest! {
             plant.advance(&[angle], tick_s);
             let [x, y] = plant.deflection(0, 0);
             prop_assert!((-1.0..=1.0).contains(&x) && (-1.0..=1.0).contains(&y), "{x} {y}");
-            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never told where it is");
+            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never moved");
         }
     }
 }

@@ -217,7 +217,7 @@ mod tests {
     /// Two normal classes a distance of two standard deviations apart: no rule can hit more than
     /// Φ(1) = 84.13 %.
     #[test]
-    fn two_normal_classes_are_told_as_well_as_can_be() {
+    fn two_normal_classes_are_separated_as_well_as_can_be() {
         let mut chance = Chance::new(7);
         let mut rows = |count| -> Vec<Row> {
             let shift = |n: usize| 2.0 * (n % 2) as f64 / 10.0_f64.sqrt();

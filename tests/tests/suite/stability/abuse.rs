@@ -15,7 +15,7 @@ const REST: usize = 300;
 /// roundings of f32.
 const DECAY: f64 = 1e-6;
 
-/// What is left of a gate after one tick of rest, written down anew; `None`
+/// What is left of a gate after one tick of rest, by a second implementation; `None`
 /// where forward Euler overshoots, and only the bounds hold.
 fn kept(settings: &Settings, tau_s: f64) -> Option<f64> {
     let ticks = tau_s * settings.tick_hz;

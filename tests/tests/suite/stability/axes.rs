@@ -184,7 +184,7 @@ fn product(levels: &[usize]) -> Vec<Vec<usize>> {
     })
 }
 
-/// Deals all places of a product of `levels`, shuffled anew whenever the pack is empty.
+/// Deals all places of a product of `levels`; shuffles them again when the pack is empty.
 pub(crate) fn dealt(levels: &[usize], seed: u64) -> impl FnMut() -> Vec<usize> {
     let all = product(levels);
     let mut random = Random(seed);
@@ -209,7 +209,7 @@ pub(crate) fn cases() -> Vec<Case> {
     places.into_iter().map(place).map(Case).collect()
 }
 
-/// The largest value told so far.
+/// The largest value so far.
 #[derive(Default)]
 pub(crate) struct Worst(Mutex<f64>);
 

@@ -133,19 +133,25 @@ fn a_stop_within_the_range_is_found_and_kept_away_from() {
 #[test]
 fn an_encoder_or_a_motor_the_wrong_way_round_ends_it() {
     for wire in [Wire::EncoderChannels, Wire::Windings] {
-        let told = calibrated("", Some(wire)).unwrap_err().to_string();
-        assert!(told.starts_with("direction: moved "), "{wire:?}: {told}");
-        assert!(told.contains("exchange the encoder's channels"), "{told}");
+        let refusal = calibrated("", Some(wire)).unwrap_err().to_string();
+        assert!(
+            refusal.starts_with("direction: moved "),
+            "{wire:?}: {refusal}"
+        );
+        assert!(
+            refusal.contains("exchange the encoder's channels"),
+            "{refusal}"
+        );
     }
 }
 
 #[test]
 fn a_motor_that_is_not_connected_ends_it() {
     for wire in [Wire::Winding(0), Wire::Encoder] {
-        let told = calibrated("", Some(wire)).unwrap_err().to_string();
+        let refusal = calibrated("", Some(wire)).unwrap_err().to_string();
         assert!(
-            told.starts_with("direction: stays where it is") || told.starts_with("a fault: "),
-            "{wire:?}: {told}"
+            refusal.starts_with("direction: stays where it is") || refusal.starts_with("a fault: "),
+            "{wire:?}: {refusal}"
         );
     }
 }

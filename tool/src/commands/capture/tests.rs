@@ -94,23 +94,23 @@ impl Source for Bad {
     }
 }
 
-/// Captures six touches of a carpet so; lines told, and the touches in each trial.
+/// Captures six touches of a carpet so; the count of warnings, and the touches in each trial.
 fn captured(
     more: &[&str],
     around: Around,
     spoils: fn(&mut wire::TickRecord) -> bool,
 ) -> (usize, Vec<usize>) {
-    let (told, streams) = streams(more, around, spoils);
+    let (warnings, streams) = streams(more, around, spoils);
     let of = |stream: &Stream| {
         let mut touches = stream.touch.clone().unwrap();
         touches.dedup();
         touches.retain(|touch| *touch != 0);
         touches.len()
     };
-    (told, streams.iter().map(of).collect())
+    (warnings, streams.iter().map(of).collect())
 }
 
-/// With `more` options: lines told, and what is captured.
+/// With `more` options: the count of warnings, and what is captured.
 fn streams(
     more: &[&str],
     around: Around,
@@ -140,12 +140,12 @@ fn streams(
     let recording = Recording::open(&out, false).unwrap();
     let labels: Vec<&Label> = arguments.labels.iter().collect();
     let source = Box::new(source);
-    let told = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
-    (told, read_recording(&out, CHANNELS).unwrap())
+    let warnings = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
+    (warnings, read_recording(&out, CHANNELS).unwrap())
 }
 
 #[test]
-fn a_good_line_has_nothing_to_be_told() {
+fn a_good_line_has_no_warnings() {
     assert_eq!(captured(&[], GOOD, |_| true), (0, vec![5, 1]));
 }
 
@@ -160,14 +160,14 @@ fn what_comes_with_the_last_touch_of_a_label_is_not_lost() {
 }
 
 #[test]
-fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_told() {
+fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_reported() {
     // In the third touch: where it is cut another trial begins.
     let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
     assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
 }
 
 #[test]
-fn a_fault_costs_its_touch_and_is_told() {
+fn a_fault_costs_its_touch_and_is_reported() {
     let spoils = |record: &mut wire::TickRecord| {
         if (4100..4120).contains(&record.sequence) {
             record.flags = record.flags.without(Flags::VALID);
@@ -178,7 +178,7 @@ fn a_fault_costs_its_touch_and_is_told() {
 }
 
 #[test]
-fn another_rate_is_told() {
+fn another_rate_is_reported() {
     let around = Around {
         clock: 1.05,
         ..GOOD
@@ -193,8 +193,8 @@ fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() 
         let around = Around { laid_s, ..GOOD };
         streams(&["--patience", patience], around, |_| true)
     };
-    let (told, streams) = by_hand("1", 2.05);
-    assert_eq!((told, streams.len()), (0, 2));
+    let (warnings, streams) = by_hand("1", 2.05);
+    assert_eq!((warnings, streams.len()), (0, 2));
     let [first, ..] = &streams[..] else { panic!() };
     let (touch, contact) = (
         first.touch.as_ref().unwrap(),

@@ -100,7 +100,7 @@ fn noise(record: &TickRecord) -> f64 {
 }
 
 #[test]
-fn a_module_as_its_simulation_has_nothing_to_be_told() {
+fn a_module_as_its_simulation_has_no_findings() {
     assert_eq!(signs(|_, _| true), Vec::<&str>::new());
 }
 

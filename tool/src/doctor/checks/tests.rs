@@ -1,4 +1,4 @@
-//! What is told of PCs that lack this or that.
+//! What doctor reports of PCs that lack this or that.
 
 use super::super::usb::SerialPort;
 use super::*;
@@ -55,15 +55,16 @@ fn empty() -> Facts {
     }
 }
 
-fn told(facts: &Facts, purposes: &[Purpose]) -> Vec<String> {
+fn printed(facts: &Facts, purposes: &[Purpose]) -> Vec<String> {
     let checks = checks(facts, F446, purposes);
     checks.iter().map(ToString::to_string).collect()
 }
 
 /// The only line that is missing.
 fn missing(facts: &Facts) -> String {
-    let told = told(facts, &[]);
-    let mut missing = told.into_iter().filter(|line| line.starts_with("missing"));
+    let mut missing = printed(facts, &[])
+        .into_iter()
+        .filter(|line| line.starts_with("missing"));
     let one = missing.next().unwrap_or_default();
     assert_eq!(missing.next(), None, "after {one}");
     assert_eq!(is_well(&checks(facts, F446, &[])), one.is_empty());
@@ -74,14 +75,14 @@ fn missing(facts: &Facts) -> String {
 fn where_all_is_there_nothing_is_missing() {
     assert_eq!(missing(&complete()), "");
     assert!(
-        told(&complete(), &[])
+        printed(&complete(), &[])
             .iter()
             .all(|line| line.starts_with("ok "))
     );
 }
 
 #[test]
-fn each_lack_is_told_with_what_mends_it() {
+fn each_lack_is_reported_with_what_mends_it() {
     let lacks = |change: fn(&mut Facts)| {
         let mut facts = complete();
         change(&mut facts);
@@ -166,9 +167,9 @@ fn without_the_toolchain_its_targets_are_missing_too() {
         toolchains: vec!["1.95.00-x86_64".to_owned(), "stable-x86_64".to_owned()],
         ..complete()
     };
-    let told = told(&facts, &[Purpose::Sim]);
-    let missing = told.iter().filter(|line| line.starts_with("missing"));
-    assert_eq!(missing.count(), 4, "{told:?}");
+    let lines = printed(&facts, &[Purpose::Sim]);
+    let missing = lines.iter().filter(|line| line.starts_with("missing"));
+    assert_eq!(missing.count(), 4, "{lines:?}");
 }
 
 #[test]
@@ -185,10 +186,10 @@ fn what_a_purpose_does_not_need_is_absent() {
         (&[Purpose::Port], 1),
         (&[Purpose::Sim, Purpose::Port], 1),
     ] {
-        let told = told(&facts, purposes);
-        let begins = |with: &str| told.iter().filter(|line| line.starts_with(with)).count();
-        assert_eq!(begins("missing"), count, "{purposes:?}: {told:?}");
-        assert_eq!(begins("absent"), 2 - count, "{purposes:?}: {told:?}");
+        let lines = printed(&facts, purposes);
+        let begins = |with: &str| lines.iter().filter(|line| line.starts_with(with)).count();
+        assert_eq!(begins("missing"), count, "{purposes:?}: {lines:?}");
+        assert_eq!(begins("absent"), 2 - count, "{purposes:?}: {lines:?}");
     }
 }
 
@@ -207,7 +208,7 @@ fn elsewhere_devices_need_no_permission() {
 fn the_page_shows_what_is_printed() {
     let page = include_str!("../../../../docs/flashing.md");
     for facts in [empty(), complete()] {
-        let printed = told(&facts, &[]).join("\n");
+        let printed = printed(&facts, &[]).join("\n");
         assert!(
             page.contains(&printed),
             "not in docs/flashing.md:\n{printed}"

@@ -21,7 +21,7 @@ struct Kind {
     decimals: usize,
 }
 
-/// A signal in a chart: by its marker it is told from the others.
+/// A signal in a chart: its marker distinguishes it from the others.
 struct Curve {
     signal: usize,
     name: &'static str,

@@ -1,4 +1,4 @@
-//! What is told in words and bars beside the charts.
+//! Words and bars beside the charts.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -10,7 +10,7 @@ use wire::Flags;
 use super::super::shown::{STATES, Shown, Whisker};
 use super::theme::{Theme, bold};
 
-/// The state of each whisker, a line each: what is so stands in capitals.
+/// The state of each whisker, a line each: states that hold are in capitals.
 pub(super) fn states(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
     let lines: Vec<Line<'_>> = shown
         .whiskers
@@ -69,7 +69,7 @@ pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: The
         Constraint::Max(load),
     ])
     .areas(rest);
-    told(frame, events, shown);
+    events_pane(frame, events, shown);
     faults_pane(frame, faults, shown, theme);
     let lines: Vec<Line<'_>> = shown
         .load
@@ -135,7 +135,7 @@ fn bar(share: f32, room: usize) -> String {
 }
 
 /// The newest at the bottom.
-fn told(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
+fn events_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let room = usize::from(area.height.saturating_sub(2));
     let old = shown.events.len().saturating_sub(room);
     let lines: Vec<Line<'_>> = shown.events[old..]

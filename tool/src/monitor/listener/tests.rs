@@ -20,9 +20,9 @@ struct Line {
 }
 
 /// What was decided: tick, side, class, posterior in millionths, samples.
-type Told = (u32, usize, String, i64, u32);
+type Row = (u32, usize, String, i64, u32);
 
-/// Listens so long to a module that is told as `how` says; `drops` says which records get lost.
+/// Listens so long to a module of the kind `how`; `drops` says which records get lost.
 /// Returns what the PC decided, and what the module did.
 fn listened(
     how: &str,
@@ -30,7 +30,7 @@ fn listened(
     seed: &str,
     seconds: f64,
     drops: fn(&TickRecord) -> bool,
-) -> [Vec<Told>; 2] {
+) -> [Vec<Row>; 2] {
     let words = ["x", how, scene.to_str().unwrap(), "--seed", seed];
     let Line { source } = Line::parse_from(words);
     let known = Known::of(Some(scene), None).unwrap().unwrap();
@@ -40,7 +40,7 @@ fn listened(
     let classes = module.classes().unwrap();
     let mut listener = Listener::new(known, tick_hz as u32, whiskers as usize).unwrap();
     let mut tally = Tally::default();
-    let (mut own, mut told) = (Vec::new(), Vec::new());
+    let (mut own, mut sent) = (Vec::new(), Vec::new());
     while module.source().now_s() < seconds {
         let incoming = module.receive().unwrap();
         for packet in &incoming.packets {
@@ -53,7 +53,7 @@ fn listened(
                     let class = decisions::name(*decision, &classes).to_owned();
                     let millionths = (1e6 * decision.posterior().to_f64()).floor() as i64;
                     let side = usize::from(place.side);
-                    told.push((*sequence, side, class, millionths, decision.samples()));
+                    sent.push((*sequence, side, class, millionths, decision.samples()));
                     continue;
                 }
                 _ => continue,
@@ -74,7 +74,7 @@ fn listened(
             }
         }
     }
-    [own, told]
+    [own, sent]
 }
 
 fn scene(name: &str) -> PathBuf {
@@ -82,12 +82,12 @@ fn scene(name: &str) -> PathBuf {
 }
 
 /// Ticks and sides apart both say the same, to a millionth.
-fn assert_same(own: &[Told], told: &[Told]) {
-    for (own, told) in own.iter().zip(told) {
-        assert_eq!((&own.2, own.4), (&told.2, told.4), "{own:?} {told:?}");
-        assert!((own.3 - told.3).abs() <= 1, "{own:?} {told:?}");
+fn assert_same(own: &[Row], sent: &[Row]) {
+    for (own, sent) in own.iter().zip(sent) {
+        assert_eq!((&own.2, own.4), (&sent.2, sent.4), "{own:?} {sent:?}");
+        assert!((own.3 - sent.3).abs() <= 1, "{own:?} {sent:?}");
     }
-    assert!(own.len().abs_diff(told.len()) <= 1);
+    assert!(own.len().abs_diff(sent.len()) <= 1);
 }
 
 #[test]
@@ -100,32 +100,32 @@ fn decisions_are_those_of_the_simulated_module() {
         ("papers", "1", 200),
         ("whisker", "1", 200),
     ] {
-        let [own, told] = listened("--sim", &scene(name), seed, 40.0, |_| false);
+        let [own, sent] = listened("--sim", &scene(name), seed, 40.0, |_| false);
         println!("{name}: {} decisions", own.len());
         assert!(own.len() >= least, "{name}: {}", own.len());
-        assert_same(&own, &told);
-        let ticks = |all: &[Told]| all.iter().map(|told| told.0).collect::<Vec<_>>();
-        assert_eq!(ticks(&own), ticks(&told), "{name}");
+        assert_same(&own, &sent);
+        let ticks = |all: &[Row]| all.iter().map(|sent| sent.0).collect::<Vec<_>>();
+        assert_eq!(ticks(&own), ticks(&sent), "{name}");
     }
 }
 
 #[test]
 fn decisions_are_those_of_the_emulated_board() {
-    let [own, told] = listened("--emulated", &scene("textures"), "2", 6.0, |_| false);
+    let [own, sent] = listened("--emulated", &scene("textures"), "2", 6.0, |_| false);
     println!("{} decisions", own.len());
     assert!(own.len() >= 20, "{}", own.len());
-    assert_same(&own, &told);
+    assert_same(&own, &sent);
 }
 
 #[test]
-fn after_lost_records_it_starts_anew() {
+fn after_lost_records_it_restarts() {
     let drops = |record: &TickRecord| record.sequence == 10_000;
-    let [own, told] = listened("--sim", &scene("textures"), "2", 12.0, drops);
-    let split = |all: &[Told]| all.iter().filter(|told| told.0 < 10_000).count();
-    let (before, told_before) = (split(&own), split(&told));
-    assert_eq!(before, told_before);
-    assert_same(&own[..before], &told[..before]);
-    // What a touch is, is learnt anew for a second.
-    assert!(own[before].0 > 12_000 && told[before].0 < 12_000);
+    let [own, sent] = listened("--sim", &scene("textures"), "2", 12.0, drops);
+    let split = |all: &[Row]| all.iter().filter(|sent| sent.0 < 10_000).count();
+    let (before, sent_before) = (split(&own), split(&sent));
+    assert_eq!(before, sent_before);
+    assert_same(&own[..before], &sent[..before]);
+    // The detector of touches learns again for a second.
+    assert!(own[before].0 > 12_000 && sent[before].0 < 12_000);
     assert!(own.len() > before + 10, "{}", own.len());
 }

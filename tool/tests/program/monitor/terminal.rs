@@ -50,7 +50,7 @@ impl Terminal {
         let modes = tcgetattr(&inside).unwrap();
         size(&inside, columns, rows);
         let end = || inside.try_clone().unwrap();
-        // The terminal is its own, so that it is told of a new size.
+        // The terminal is its own, so that it gets the signal of a new size.
         let program = Command::new("setsid")
             .arg("--ctty")
             .arg(env!("CARGO_BIN_EXE_whisker"))

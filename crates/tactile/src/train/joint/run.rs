@@ -96,9 +96,9 @@ pub(super) fn of_unknown(
     found
 }
 
-/// Runs the rule; `at` is told each decision, and with none the end of a piece that had
-/// none. Within a recording evidence goes on: a piece begins with the onset of a touch, and
-/// that is all that is known.
+/// Runs the rule; calls `at` with each decision, and with `None` at the end of a piece that
+/// had none. Evidence goes on within a recording: of a piece only its beginning, the onset of a
+/// touch, is known.
 fn follow(
     pieces: &[Piece<'_>],
     evidence: &[Evidence],

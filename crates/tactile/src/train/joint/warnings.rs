@@ -12,8 +12,7 @@ use super::weights::{MAX_WEIGHT, sums};
 const FEW_TRIALS: usize = 3;
 /// Lengths of stretches, blocks, by which classes are compared: the longest that there are.
 const COMPARED: [usize; 4] = [32, 16, 8, 4];
-/// Share of those that may be taken for another class before two cannot
-/// be told.
+/// Share of those that may be taken for another class before two cannot be distinguished.
 const MISTAKEN: f64 = 0.25;
 
 /// What a user has to know before trusting the model.
