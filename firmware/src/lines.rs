@@ -1,4 +1,4 @@
-//! What a module says of itself as lines: fields with spaces between them. docs/serial.md lists
+//! What a module says of itself as lines: fields with spaces between them. docs/protocol.md lists
 //! them.
 //!
 //! The wording stands here once, as texts of defmt. A board's log sends their numbers; the serial

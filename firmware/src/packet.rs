@@ -329,7 +329,7 @@ mod tests {
         }
     }
 
-    /// The bytes are those of a Python program that follows docs/telemetry.md, with zlib's sum and
+    /// The bytes are those of a Python program that follows docs/protocol.md, with zlib's sum and
     /// a COBS of its own.
     #[test]
     fn frames_are_those_of_another_program() {

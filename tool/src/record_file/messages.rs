@@ -206,7 +206,7 @@ fn answer_schema() -> Value {
     json!({
         "t_s": {"type": "number", "description": "when it was carried out, s"},
         "tag": {"type": "integer", "description": "that of the request"},
-        "command": {"type": "integer", "description": "its number (docs/telemetry.md)"},
+        "command": {"type": "integer", "description": "its number (docs/protocol.md)"},
         "status": {"type": "integer", "description": "0 done, otherwise refused"},
         "said": {"type": "string", "description": "the status in words"},
         "values": {"type": "array", "items": {"type": "integer"}},
@@ -227,7 +227,7 @@ fn event_schema() -> Value {
     json!({
         "t_s": {"type": "number", "description": "when it was, s"},
         "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
-        "said": {"type": "string", "description": "what (docs/serial.md)"},
+        "said": {"type": "string", "description": "what (docs/protocol.md)"},
     })
 }
 

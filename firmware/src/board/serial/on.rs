@@ -1,5 +1,5 @@
 //! The serial port of a program that has one: lines of what happens, records, and what somebody
-//! asks for as a line or in a frame. docs/serial.md says what they look like.
+//! asks for as a line or in a frame. docs/protocol.md says what they look like.
 //!
 //! Idle serves it after every tick; DMA moves the bytes. What finds no room is dropped whole.
 
