@@ -219,12 +219,12 @@ fn what_is_saved_is_the_scene_s_from_then_on() {
 
 #[test]
 fn the_page_has_the_table_of_all_keys() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/tuning.md");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/calibrating.md");
     let page = std::fs::read_to_string(page).unwrap();
     let list = Place::new().done("get --list").stdout;
     assert!(
         page.contains(list.trim_end()),
-        "docs/tuning.md needs:\n{list}"
+        "docs/calibrating.md needs:\n{list}"
     );
 }
 
