@@ -113,7 +113,9 @@ fn the_page_of_the_mount_has_the_field_of_its_magnet() {
 fn the_dimensions_of_the_mount_are_those_of_its_drawing() {
     let (page, drawing) = (docs("build.md"), docs("mount.svg"));
     let mut mm = BTreeMap::new();
-    let (_, table) = page.split_once("| | dimension | mm | from |\n|---|---|---|---|\n").unwrap();
+    let (_, table) = page
+        .split_once("| | dimension | mm | from |\n|---|---|---|---|\n")
+        .unwrap();
     for row in table.lines().take_while(|line| !line.is_empty()) {
         let fields: Vec<&str> = row.trim_start_matches("| ").split(" | ").collect();
         let (letter, size) = (fields[0], fields[2]);
