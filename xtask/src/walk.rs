@@ -24,7 +24,7 @@ const FOUND: [(&str, &str); 4] = [
 
 #[derive(clap::Args)]
 pub(crate) struct Choice {
-    /// The pages, such as docs/tool.md; without any, all of docs/SUMMARY.md, the README and
+    /// The pages, such as docs/bench.md; without any, all of docs/SUMMARY.md, the README and
     /// CONTRIBUTING
     pages: Vec<PathBuf>,
     /// The blocks marked `sh nightly` too, which take long

@@ -130,7 +130,7 @@ macro_rules! fault_table {
                 WhiskerOff, GoodFrames;
             31 TILT_NO_MAGNET: "no magnet over the TMAG5170",
                 "magnet missing, too far or upside down; not converted yet",
-                "the gap: [mount](mount.md#field-and-gap); turn the magnet over",
+                "the gap: [mount](build.md#field-and-gap); turn the magnet over",
                 WhiskerOff, GoodFrames;
 
             32 MISSED: "ticks were missed",
@@ -143,7 +143,7 @@ macro_rules! fault_table {
                 GoesOn, Counted;
             34 NO_MODEL: "no model to decide by",
                 "none was deployed; writing it was interrupted; one of another scene or version",
-                "the line below it; `whisker deploy` ([deploying.md](deploying.md))",
+                "the line below it; `whisker deploy` ([flashing.md](flashing.md))",
                 GoesOn, Deployed;
 
             48 PANIC: "panic",
@@ -184,7 +184,7 @@ macro_rules! fault_table {
                 AllOff, Restart;
             57 NO_CLOCK: "a clock did not start",
                 "solder bridges; ST-LINK cut off",
-                "the bridges in [wiring.md](wiring.md#when-the-program-itself-fails)",
+                "the bridges in [build.md](build.md#when-the-program-itself-fails)",
                 AllOff, Restart;
             58 SUPPLY_LOW: "the supply is too low for the clock",
                 "USB port or cable too weak; motors on the board's supply; a short",

@@ -11,7 +11,7 @@ use tmag5170::{
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
 
-/// Field of the magnet along the axis of a TMAG5170, mT: docs/mount.md.
+/// Field of the magnet along the axis of a TMAG5170, mT: docs/build.md.
 const AXIAL_MT: f64 = 60.0;
 
 /// A sensor on its mock bus.

@@ -163,7 +163,7 @@ fn zero(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
         if channel.offset().abs() > FAR {
             report::warn(format_args!(
                 "zero: {name} is {:.0} codes from the middle, {MIDDLE}: turn the magnet in its \
-                 hub, or the sensor below it (docs/mount.md)",
+                 hub, or the sensor below it (docs/build.md)",
                 channel.mean - MIDDLE
             ));
         }
@@ -231,7 +231,7 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
         if is_at_end(low) || is_at_end(high) {
             report::warn(format_args!(
                 "range: {name} is at the end of its range: the magnet is too near, or the sensor's \
-                 range too small (docs/mount.md)"
+                 range too small (docs/build.md)"
             ));
         }
     }

@@ -12,7 +12,7 @@ use crate::source::seconds;
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {
-    /// Keys and values as a scene file has them, such as motor.kp=0.07; docs/tuning.md lists
+    /// Keys and values as a scene file has them, such as motor.kp=0.07; docs/calibrating.md lists
     /// those that can be set
     #[arg(required = true, value_name = "KEY=VALUE")]
     set: Vec<Override>,

@@ -65,7 +65,7 @@ keys! {
         /// Likelihood model: from the scene's folder when it exists there, else from the current
         /// directory.
         model: Option<String> = path().optional(
-            "nothing is decided until `whisker deploy` brings one ([deploying.md](deploying.md))"
+            "nothing is decided until `whisker deploy` brings one ([flashing.md](flashing.md))"
         ),
 
         /// Posterior probability at which a class is decided on.
