@@ -152,10 +152,10 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::WindowRule;
     use crate::format::{ENTRY_MAX, MAX_SAMPLES_TIMES_CHANNELS};
     use crate::model_buf::{Axis, ModelBuf, ModelParts, TableParts};
     use crate::quantiser::Quantiser;
-    use crate::WindowRule;
 
     /// Channels of codes 0 to 999; entries `[bin][channel][class]`.
     fn model(
