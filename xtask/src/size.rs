@@ -11,6 +11,7 @@ use std::path::Path;
 use scene::Scene;
 
 use crate::elf::contents;
+use crate::emulate::variants::without_telemetry;
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, no_faults, read_bytes, top};
@@ -24,6 +25,8 @@ const CONTROL: &str = "xtask/src/size/control.toml";
 
 /// Of the scenes, those that are built where time is short: all parts and none.
 const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
+/// Those that are built without a link too, so that the table says what the link costs.
+const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
 /// One with two sides, for the board that carries them.
 const TWO_SIDES: &str = "scenes/both.toml";
 
@@ -45,6 +48,10 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
         }
     }
     for board in Board::ALL {
+        for scene in SILENT {
+            let scene = without_telemetry(Path::new(scene))?;
+            let _does_not_take_it = measured.take(board, &scene, None)?;
+        }
         measured.control(board)?;
         measured.any_scene(board)?;
     }
@@ -117,7 +124,8 @@ impl Measured {
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
         self.wrong.extend(misfits);
         self.check_panics(board, &path.display().to_string(), &elf);
-        self.figures.push(measured(board, &scene.name, &elf, host)?);
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        self.figures.push(measured(board, &name, &elf, host)?);
         Ok(None)
     }
 

@@ -63,7 +63,7 @@ pub(super) fn with_zeros(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// The scene without telemetry.
-pub(super) fn without_telemetry(path: &Path) -> Result<PathBuf, Fault> {
+pub(crate) fn without_telemetry(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "silent", |_, table| {
         replace(table, "telemetry", [("rtt", false.into())]);
     })
