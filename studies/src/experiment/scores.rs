@@ -40,7 +40,7 @@ pub(super) fn section(page: &mut Page, bodies: &Bodies) {
     page.heading(2, "Every classifier");
     page.say(
         "The placebo is recognised by the same classifier. What they cost on a board: \
-         [record 39](../decisions.md#39-what-the-papers-classifiers-would-cost-on-a-board).",
+         [record 44](../decisions.md#44-what-each-classifier-of-the-experiments-takes).",
     );
     page.table(
         "classifier | on | hit rate, % | placebo, % | chance, %",
