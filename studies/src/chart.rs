@@ -92,7 +92,6 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
-/// A linear axis.
 pub(crate) fn linear(name: &'static str, low: f64, high: f64) -> Axis {
     Axis {
         name,
@@ -102,7 +101,6 @@ pub(crate) fn linear(name: &'static str, low: f64, high: f64) -> Axis {
     }
 }
 
-/// How a point is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mark {
     Nothing,
@@ -110,7 +108,6 @@ pub(crate) enum Mark {
     Ring,
 }
 
-/// Points of one kind.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     /// As the legend calls it; empty: not there.
@@ -147,7 +144,6 @@ impl Series {
     }
 }
 
-/// One diagram.
 #[derive(Debug, Clone)]
 pub(crate) struct Panel {
     pub(crate) title: String,
@@ -156,7 +152,6 @@ pub(crate) struct Panel {
     pub(crate) series: Vec<Series>,
 }
 
-/// A percentage.
 pub(crate) fn percent(name: &'static str) -> Axis {
     linear(name, 0.0, 100.0)
 }
@@ -179,7 +174,6 @@ pub(crate) fn panel(title: &str, x: Axis, y: Axis, curves: &[Series], mark: Mark
     }
 }
 
-/// Hit rates against a window in seconds.
 pub(crate) fn over_windows(title: &str, curves: &[Series]) -> Panel {
     let points = curves.iter().flat_map(|curve| &curve.points);
     let x = Axis::decades("window, s", points.map(|point| point.0));
@@ -192,7 +186,6 @@ pub(crate) fn top(curves: &[Series]) -> f64 {
     points.map(|point| point.1).fold(0.0, f64::max)
 }
 
-/// Colours that stay apart in print.
 pub(crate) const COLOURS: [RGBColor; 8] = [
     RGBColor(110, 110, 110),
     RGBColor(0, 90, 170),

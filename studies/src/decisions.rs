@@ -20,7 +20,6 @@ mod extent;
 mod figures;
 mod goals;
 mod ground;
-mod hindsight;
 mod main_job;
 mod placebo;
 mod run_time;
@@ -41,7 +40,6 @@ pub(crate) use extent::Extent;
 use figures::Table;
 use ground::Ground;
 
-/// Where recordings, tables of instructions and documents are.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Folders<'p> {
     /// `instructions.csv` is read there.
@@ -50,7 +48,6 @@ pub(crate) struct Folders<'p> {
     pub(crate) terrain: &'p Path,
 }
 
-/// Measures everything.
 pub(crate) fn page(folders: Folders<'_>, extent: &Extent, verbosity: Verbosity) -> Result<Files> {
     let counts = Counts::read(&folders.docs.join("instructions.csv"))?;
     let mut page = Page::new("decisions");
@@ -66,7 +63,6 @@ pub(crate) fn page(folders: Folders<'_>, extent: &Extent, verbosity: Verbosity) 
     terrain::section(&mut page, folders.terrain, extent, verbosity)?;
     calibration::section(&mut page, &grounds)?;
     run_time::section(&mut page, &mut table, &grounds, &counts, extent, verbosity)?;
-    hindsight::section(&mut page, &mut table, &grounds, verbosity)?;
 
     let text = format!("{}\n", page.text.trim_end());
     let mut files = vec![

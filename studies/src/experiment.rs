@@ -7,7 +7,6 @@
 //! - **job**: what one recording comes of: a trial, a visit, a contact, a sweep.
 //! - **claim**: something that must come out of the mechanism, beyond noise.
 //! - **placebo**: the same with one texture at one place under all labels.
-//! - **change**: a rig of which some keys are other, beside it.
 //!
 //! A run records the data sets that the chosen experiments need, a job at a
 //! time on all cores, and then evaluates them. Recordings depend on the seed,
@@ -15,8 +14,6 @@
 //! recorded changes a byte.
 
 mod biotact;
-mod changes;
-mod costs;
 mod data;
 mod floors;
 mod lep10;
@@ -30,8 +27,8 @@ mod record;
 mod recording;
 mod request;
 mod runs;
+mod scores;
 mod spectrogram;
-mod variants;
 mod verdicts;
 mod whole;
 

@@ -48,8 +48,8 @@ enum Command {
     /// Runs the experiments of the papers on simulated rigs and writes
     /// DIR/experiments.md with tables and figures beside the papers'
     Experiment(Protocol),
-    /// Measures the accuracy of every integrator, number format and function
-    /// and writes DIR/accuracy.md with its pictures
+    /// Measures the accuracy of every integrator and number format and writes
+    /// DIR/accuracy.md with its pictures
     Report {
         /// Where documents are: instructions.csv is read, the report written there
         #[arg(long, value_name = "DIR", default_value = "docs/measured")]

@@ -39,7 +39,6 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
-    /// Of these values.
     pub(crate) fn of(values: &[f64]) -> Self {
         let count = values.len();
         let (mean, sd) = moments(values.iter().copied());

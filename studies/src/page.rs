@@ -11,7 +11,6 @@ use tactile::score::Confusion;
 use crate::chart::{Panel, draw};
 pub(crate) use figure::{figure, joined};
 
-/// Files by their paths.
 pub(crate) type Files = Vec<(String, String)>;
 
 /// How well classes are recognised, and how well chance does.
@@ -27,13 +26,10 @@ pub(crate) struct Recognition {
 pub(crate) struct Claim {
     /// What must come out.
     pub(crate) what: String,
-    /// What the paper has.
     pub(crate) paper: String,
-    /// What we have.
     pub(crate) ours: String,
     /// By how much it comes out; what is below zero is missing.
     pub(crate) margin: f64,
-    /// Of the margin.
     pub(crate) unit: &'static str,
     /// What it rests on, where it rests on telling classes apart.
     pub(crate) recognition: Option<Recognition>,
@@ -49,26 +45,14 @@ impl Claim {
 /// A classifier's hit rate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Score {
-    /// The classifier.
     pub(crate) classifier: &'static str,
-    /// On what.
     pub(crate) task: String,
     /// Hit rate, percent.
     pub(crate) recognition: Recognition,
-    /// Of the product's classifier.
-    pub(crate) product: Option<Product>,
+    /// In how many of all cases the product's decides, percent: it may decide nothing.
+    pub(crate) decided: Option<f64>,
 }
 
-/// What a score of the product's classifier has beside its hit rate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Product {
-    /// In how many of all cases it decides, percent: it may decide nothing.
-    pub(crate) decided: f64,
-    /// Of its model.
-    pub(crate) bytes: usize,
-}
-
-/// What a picture shows.
 #[derive(Debug, Clone)]
 pub(crate) struct Shown {
     /// Of the picture, without its ending.
@@ -76,7 +60,6 @@ pub(crate) struct Shown {
     pub(crate) panels: Vec<Panel>,
 }
 
-/// Markdown and the files that it shows, by name.
 #[derive(Debug, Default)]
 pub(crate) struct Page {
     /// Where pictures are, beside the page.
@@ -97,13 +80,11 @@ impl Page {
         }
     }
 
-    /// A paragraph.
     pub(crate) fn say(&mut self, paragraph: impl Display) {
         // Writing to a string does not fail.
         let _ = write!(self.text, "{paragraph}\n\n");
     }
 
-    /// A heading of its level.
     pub(crate) fn heading(&mut self, level: usize, heading: &str) {
         self.say(format_args!("{} {heading}", "#".repeat(level)));
     }
@@ -119,7 +100,6 @@ impl Page {
         self.text.push('\n');
     }
 
-    /// A picture in the folder.
     pub(crate) fn picture(&mut self, name: &str, what: &str, svg: String) {
         let path = format!("{}/{name}", self.folder);
         self.say(format_args!("![{what}]({path})"));
@@ -168,7 +148,7 @@ impl Page {
             classifier,
             task: task.to_string(),
             recognition: Recognition { rate: hit, chance },
-            product: None,
+            decided: None,
         });
     }
 }
@@ -189,7 +169,6 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
-/// A cell for a goal.
 pub(crate) fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "**missed**" }
 }

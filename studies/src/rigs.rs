@@ -31,7 +31,6 @@ pub(crate) use table::{Carriage, Table, facing};
 
 use host_sim::Error;
 
-/// All rigs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Rigs {
     /// LEP10 and LEP12.
@@ -50,7 +49,6 @@ pub(crate) struct Rigs {
     pub(crate) surfaces: Surfaces,
 }
 
-/// The names of the rigs' files in a folder.
 fn names_in(folder: &Path) -> Result<Vec<String>, Error> {
     let wrong = |error| Error::file(folder, error);
     let mut names = Vec::new();
@@ -67,7 +65,6 @@ fn names_in(folder: &Path) -> Result<Vec<String>, Error> {
 impl Rigs {
     /// The rigs that are built in, with what files in `folder` say, and `settings` after them.
     pub(crate) fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
-        /// As settings name them.
         const NAMES: [&str; 7] = [
             "floor", "head", "table", "pad", "corridor", "maze", "surfaces",
         ];

@@ -7,7 +7,6 @@ use std::f64::consts::TAU;
 use whisking::{Config, Integrator, Real, muscle, oscillator};
 
 use super::schemes::{Format, Pace, in_format};
-use crate::chart::{Axis, Mark, Panel, Series, draw, linear};
 use crate::page::{Page, short};
 
 /// f_W T of the table of radii: 2 Hz at 20 kHz up to 25 Hz at 250 Hz.
@@ -55,16 +54,8 @@ fn out_of_round(integrator: Integrator, format: Format, cycles: f64) -> Result<f
     Ok(f64::max(high - 1.0, 1.0 - low))
 }
 
-/// Euler's radius without the limit, from r = √((r + s)² + (φ r)²) with the
-/// rotation φ = 2π f_W T and the relaxation s = (1 − r) f_W T/2:
-/// 1/r = 1 − 2 (1 − √(1 − φ²))/(f_W T). `None` where nothing holds it.
-fn predicted_radius(cycles: f64) -> Option<f64> {
-    let phi = TAU * cycles;
-    let inverse = 1.0 - 2.0 * (1.0 - libm::sqrt(1.0 - phi * phi)) / cycles;
-    (inverse > 0.0).then(|| 1.0 / inverse)
-}
-
-/// f_W T at which that radius is [`LIMIT`]: 4π² x = 2/3 · (1/2) − x/36.
+/// f_W T at which Euler's radius is [`LIMIT`]. It holds r = √((r + s)² + (φ r)²) with the rotation
+/// φ = 2π f_W T and the relaxation s = (1 − r) f_W T/2, so that 4π² x = 2/3 · (1/2) − x/36.
 fn predicted_limit() -> f64 {
     let third = 1.0 - 1.0 / LIMIT;
     third / (TAU * TAU + third * third / 4.0)
@@ -167,78 +158,30 @@ pub(super) fn section(page: &mut Page) -> Result<()> {
         ],
     );
     page.say(
-        "Measured by bisection on runs of the product's own Euler. The oscillator leaves its \
-         circle long before the muscle is unstable:",
+        "Measured by bisection on runs of the product's own Euler: the oscillator leaves its \
+         circle long before the muscle is unstable.",
     );
-    page.picture("euler-radius.svg", "Euler's limit cycle", picture()?);
     Ok(())
-}
-
-fn picture() -> Result<String> {
-    let grid = |n: i32, of: i32| libm::pow(10.0, -4.0 + 3.0 * f64::from(n) / f64::from(of));
-    let predicted = (0..=300)
-        .map(|n| grid(n, 300))
-        .map_while(|cycles| Some((cycles, predicted_radius(cycles).filter(|r| *r <= LIMIT)?)))
-        .collect();
-    let mut measured = [Vec::new(), Vec::new()];
-    for (points, integrator) in measured
-        .iter_mut()
-        .zip([Integrator::Euler, Integrator::Exact])
-    {
-        for cycles in (0..=24).map(|n| grid(n, 24)) {
-            let [low, high, _] = cycle::<f64>(integrator, cycles)?;
-            points.push((cycles, f64::midpoint(low, high)));
-        }
-    }
-    let [euler, exact] = measured;
-    draw(&[Panel {
-        title: "radius of the limit cycle".to_owned(),
-        x: Axis::decades("f_W T", [1e-4, 0.1].into_iter()),
-        y: linear("radius (middle of smallest and largest)", 0.9, 1.9),
-        series: vec![
-            Series::new(
-                "euler, predicted up to the limit",
-                0,
-                Mark::Nothing,
-                predicted,
-            ),
-            Series::new("euler, measured", 2, Mark::Ring, euler).unjoined(),
-            Series::new("exact, measured", 1, Mark::Dot, exact).unjoined(),
-        ],
-    }])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        Format, Integrator, cycle, measured_limit, measured_muscle, out_of_round, predicted_limit,
-        predicted_muscle, predicted_radius,
-    };
+    use super::{Format, Integrator, out_of_round};
+    use super::{measured_limit, measured_muscle, predicted_limit, predicted_muscle};
 
     #[test]
     fn boundaries_are_where_the_poles_put_them() {
-        let pairs = [
+        for (measured, predicted) in [
             (measured_muscle().unwrap(), predicted_muscle()),
             (measured_limit().unwrap(), predicted_limit()),
-        ];
-        for (measured, predicted) in pairs {
-            assert!(
-                (measured / predicted - 1.0).abs() < 0.01,
-                "{measured} {predicted}"
-            );
+        ] {
+            let apart = (measured / predicted - 1.0).abs();
+            assert!(apart < 0.01, "{measured} {predicted}");
         }
-        // The prediction solves its own equation.
-        let radius = predicted_radius(predicted_limit()).unwrap();
-        assert!((radius - 1.5).abs() < 1e-12, "{radius}");
     }
 
     #[test]
-    fn radii_are_the_predicted_ones() {
-        for cycles in [1e-3, 5e-3, 8e-3] {
-            let [low, high, _] = cycle::<f64>(Integrator::Euler, cycles).unwrap();
-            let predicted = predicted_radius(cycles).unwrap();
-            assert!((low / predicted - 1.0).abs() < 1e-6 && (high / predicted - 1.0).abs() < 1e-6);
-        }
+    fn the_exact_integrator_is_round_at_the_longest_tick() {
         for format in Format::ALL {
             assert!(out_of_round(Integrator::Exact, format, 0.1).unwrap() < 1e-6);
         }

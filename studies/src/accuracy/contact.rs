@@ -12,16 +12,12 @@ mod energy;
 mod runs;
 
 use anyhow::Result;
-use std::fmt::Write;
 
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short};
 use runs::{Measured, TICKS_HZ};
 
 pub(super) use runs::{Against, measure};
-
-/// Ticks that the last two tables look at, Hz.
-const USUAL_HZ: u32 = 2_000;
 
 /// The section. `measured` is what [`measure`] returned.
 pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
@@ -51,14 +47,9 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     table("Parts of a tick before the plate, in the mean:", |m| {
         m.parts
     });
-    table(
-        "Most by which contact took the ground for lower than it is (see below), m:",
-        |m| m.lowered_m,
-    );
     page.say(
         "The error falls with the tick wherever the tip slides, first with what a tick knows of \
-         the base's way, then with the length of a part; cutting long ticks finer brings little, \
-         as the table below shows. Where a tip jams before a steep grain and jumps (P80), or \
+         the base's way, then with the length of a part. Where a tip jams before a steep grain and jumps (P80), or \
          sticks and slips on steep stones (tarmac), a small error decides when it lets go: the \
          error at a time then takes far shorter parts to fall, and the spreads are what to go by.",
     );
@@ -67,22 +58,6 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
         "error of the rotation against parts a second, and its vibration against the tick",
         picture(measured)?,
     );
-    page.say("What cutting the ticks of 2 kHz finer brings, root mean square error:");
-    let line = |against: &Against| {
-        let cells = against
-            .finer
-            .iter()
-            .map(|m| format!("{} ({:.1})", short(m.rms), m.parts));
-        row(against.name, cells)
-    };
-    page.table(
-        "surface | usual (parts) | twice | four times | eight times",
-        measured.iter().map(line),
-    );
-    page.say("All figures are in [contact.csv](accuracy/contact.csv).");
-    page.files
-        .push(("accuracy/contact.csv".to_owned(), csv(measured)));
-
     page.heading(3, "Energy");
     page.say(
         "The whisker is bent, let go over or under a plate, and rings and bounces for 0.2 s \
@@ -100,33 +75,6 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     Ok(())
 }
 
-fn csv(measured: &[Against]) -> String {
-    let mut csv = "surface,tick_hz,times_finer,rms,largest,spread_ratio,change_ratio,share_cut,\
-                   mean_parts,most_parts,lowered_m\n"
-        .to_owned();
-    let mut line = |name: &str, hz: u32, finer: usize, m: &Measured| {
-        let numbers = [m.rms, m.largest, m.spread, m.change, m.share, m.parts];
-        let cells = numbers.map(|value| format!("{value:.4e}")).join(",");
-        // Writing to a string does not fail. Names with a comma are quoted.
-        let _ = writeln!(
-            csv,
-            "\"{name}\",{hz},{},{cells},{},{:.1e}",
-            1 << finer,
-            m.most_parts,
-            m.lowered_m
-        );
-    };
-    for against in measured {
-        for (m, hz) in against.ticks.iter().zip(TICKS_HZ) {
-            line(against.name, hz, 0, m);
-        }
-        for (n, m) in against.finer.iter().enumerate().skip(1) {
-            line(against.name, USUAL_HZ, n, m);
-        }
-    }
-    csv
-}
-
 /// Curves of all surfaces: x and y of each tick.
 fn curves(measured: &[Against], point: impl Fn(&Measured, u32) -> (f64, f64)) -> Vec<Series> {
     let curve = |(n, against): (usize, &Against)| {
@@ -137,7 +85,6 @@ fn curves(measured: &[Against], point: impl Fn(&Measured, u32) -> (f64, f64)) ->
     measured.iter().enumerate().map(curve).collect()
 }
 
-/// A panel of curves whose logarithmic axes fit them.
 fn panel(title: &str, names: [&'static str; 2], series: Vec<Series>) -> Panel {
     let points = || series.iter().flat_map(|series| series.points.iter());
     Panel {
@@ -170,7 +117,7 @@ fn picture(measured: &[Against]) -> Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{csv, measure};
+    use super::measure;
 
     #[test]
     fn shorter_ticks_are_closer_to_the_reference() {
@@ -188,7 +135,5 @@ mod tests {
         }
         let flat = &measured[0];
         assert!(flat.ticks[2].rms < 0.2 * flat.ticks[0].rms, "{flat:?}");
-        // Eight surfaces at five ticks, and cut finer in three ways.
-        assert_eq!(csv(&measured).lines().count(), 1 + 8 * 8);
     }
 }

@@ -7,9 +7,8 @@ use host_sim::Error;
 use serde::Deserialize;
 use whisking::Integrator;
 
-use super::schemes::Format;
+use super::schemes::{Format, Scheme};
 
-/// A processor that was counted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Target {
     M4F,
@@ -19,7 +18,6 @@ pub(crate) enum Target {
 impl Target {
     pub(crate) const ALL: [Self; 2] = [Self::M4F, Self::M0];
 
-    /// As the report calls it.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::M4F => "Cortex-M4F",
@@ -27,7 +25,6 @@ impl Target {
         }
     }
 
-    /// As the table calls it.
     const fn column(self) -> &'static str {
         match self {
             Self::M4F => "cortex-m4f",
@@ -36,7 +33,6 @@ impl Target {
     }
 }
 
-/// A row, by the names of the header.
 #[derive(Debug, Deserialize)]
 struct Row {
     kernel: String,
@@ -46,7 +42,6 @@ struct Row {
     worst: f64,
 }
 
-/// The whole table.
 #[derive(Debug)]
 pub(crate) struct Counts(Vec<Row>);
 
@@ -60,11 +55,6 @@ impl Counts {
     pub(crate) fn parse(text: &[u8]) -> Result<Self> {
         let rows = csv::Reader::from_reader(text).into_deserialize();
         Ok(Self(rows.collect::<Result<_, _>>()?))
-    }
-
-    /// Mean instructions of a call of `kernel`.
-    pub(super) fn of(&self, kernel: &str, format: &str, target: Target) -> Option<f64> {
-        Some(self.mean_and_worst(kernel, format, target)?.0)
     }
 
     /// Mean and most instructions of a call of `kernel`.
@@ -82,30 +72,20 @@ impl Counts {
 
     /// Mean instructions of a tick of the pattern generator, two sides with a
     /// whisker each, gates included.
-    pub(super) fn tick(
-        &self,
-        integrator: Integrator,
-        format: Format,
-        target: Target,
-    ) -> Option<f64> {
-        let kernel = match integrator {
+    pub(super) fn tick(&self, scheme: Scheme, target: Target) -> Option<f64> {
+        let kernel = match scheme.integrator {
             Integrator::Exact => "whisking 2 sides 1 whisker",
             Integrator::Euler => "whisking 2 sides 1 whisker (euler)",
         };
-        self.of(kernel, column_name(format), target)
+        let format = match scheme.format {
+            Format::F64 => "f64",
+            Format::F32 => "f32",
+            Format::Fixed => "fix",
+        };
+        Some(self.mean_and_worst(kernel, format, target)?.0)
     }
 }
 
-/// The table's name of a number format.
-pub(super) const fn column_name(format: Format) -> &'static str {
-    match format {
-        Format::F64 => "f64",
-        Format::F32 => "f32",
-        Format::Fixed => "fix",
-    }
-}
-
-/// A cell for a count.
 pub(super) fn cell(count: Option<f64>) -> String {
     count.map_or_else(|| "not counted".to_owned(), |count| format!("{count:.0}"))
 }

@@ -7,7 +7,6 @@ use whisking::{GateSettings, Integrator, Number, Settings, State};
 
 use super::reference::{Case, GRID, PEAK_GAIN, Truth};
 use super::schemes::{Format, INTEGRATORS, Pace, in_format, name};
-use crate::chart::{Axis, Mark, Panel, Series};
 use crate::page::{Page, short};
 
 const FREQUENCY_HZ: f64 = 2.0;
@@ -24,7 +23,6 @@ const CONTACT: f64 = 0.8;
 /// protracts, and both times lie on every tick.
 const BEGIN: f64 = 1.8;
 const END: f64 = 2.2;
-/// Length of a run, whisks.
 const WHISKS: usize = 4;
 /// Both sides on their circle and in phase, so that all error is the muscles'.
 const CASE: Case = Case {
@@ -152,47 +150,27 @@ pub(super) fn section(page: &mut Page) -> Result<()> {
          alone does not.",
         RCP.gain
     ));
-    let mut panel = Panel {
-        title: "f64, 2 Hz".to_owned(),
-        x: Axis::decades("tick, ms", [0.1, 10.0].into_iter()),
-        y: Axis::decades("largest error, degrees", [].into_iter()),
-        series: Vec::new(),
-    };
     let mut rows = Vec::new();
     for contact in Contact::ALL {
         let truth = contact.truth();
         for integrator in INTEGRATORS {
-            let name = format!("{}, {}", name(integrator), contact.name());
-            let mut row = vec![name.clone()];
-            let mut points = Vec::<(f64, f64)>::new();
+            let mut row = vec![format!("{}, {}", name(integrator), contact.name())];
+            let mut longer = None;
             for tick_hz in TICKS_HZ {
                 let error = contact.error::<f64>(integrator, tick_hz, &truth)?;
-                row.push(match points.last() {
+                row.push(match longer {
                     None => short(error),
-                    Some((_, longer)) => {
-                        format!("{} ({:.1})", short(error), libm::log2(longer / error))
-                    }
+                    Some(longer) => format!("{} ({:.1})", short(error), libm::log2(longer / error)),
                 });
-                points.push((1e3 / tick_hz, error));
+                longer = Some(error);
             }
             rows.push(row);
-            let colour = panel.series.len();
-            panel
-                .series
-                .push(Series::new(&name, colour, Mark::Dot, points));
         }
     }
     page.table(
         "run | 4 ms | 2 ms | 1 ms | 0.5 ms | 0.25 ms | 0.125 ms",
         rows,
     );
-    let errors = panel.series.iter().flat_map(|series| &series.points);
-    panel.y = Axis::decades(panel.y.name, errors.map(|point| point.1));
-    page.panels(
-        "gates.svg",
-        "error against tick across a jump of z",
-        &[panel],
-    )?;
     Ok(())
 }
 

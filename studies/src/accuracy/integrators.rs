@@ -5,7 +5,7 @@ use whisking::Integrator;
 
 use super::counts::{Counts, Target, cell};
 use super::reference::{Case, Truth};
-use super::schemes::{Format, INTEGRATORS, Pace, Scheme, name};
+use super::schemes::{Format, Pace, Scheme};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short, verdict};
 
@@ -35,6 +35,13 @@ const GOALS: [(Format, f64, f64, f64); 7] = [
     (Format::Fixed, 8.0, 2_000.0, 1e-3),
     (Format::Fixed, 25.0, 2_000.0, 3e-3),
 ];
+
+const fn exact(format: Format) -> Scheme {
+    Scheme {
+        integrator: Integrator::Exact,
+        format,
+    }
+}
 
 /// Errors in degrees of one scheme, by frequency and tick.
 #[derive(Debug)]
@@ -81,9 +88,9 @@ pub(super) fn diagram(
             .iter()
             .enumerate()
             .map(|(n, errors)| {
-                let mark = match errors.scheme {
-                    Scheme::Product(Integrator::Exact, _) => Mark::Dot,
-                    _ => Mark::Ring,
+                let mark = match errors.scheme.integrator {
+                    Integrator::Exact => Mark::Dot,
+                    Integrator::Euler => Mark::Ring,
                 };
                 Series::new(&errors.scheme.name(), n, mark, points(errors, f))
             })
@@ -111,17 +118,14 @@ pub(super) fn diagram(
     draw(&panels).map(Some)
 }
 
-/// Instructions a tick of each integrator and format.
 fn costs(page: &mut Page, counts: &Counts) {
-    let line = |integrator: Integrator, format: Format| {
-        let counted = Target::ALL.map(|target| counts.tick(integrator, format, target));
-        let name = format!("{} {}", name(integrator), format.name());
-        row(name, counted.map(cell))
+    let line = |scheme: Scheme| {
+        let counted = Target::ALL.map(|target| counts.tick(scheme, target));
+        row(scheme.name(), counted.map(cell))
     };
-    let rows = INTEGRATORS.map(|integrator| Format::ALL.map(|format| line(integrator, format)));
     page.table(
         "instructions a tick | Cortex-M4F | Cortex-M0+",
-        rows.into_iter().flatten(),
+        Scheme::all().map(line),
     );
     page.say(
         "Counted in an emulator (the Cortex-M0+ as a Cortex-M0, whose instructions it has): the whole pattern generator, gates included, two sides with one \
@@ -135,7 +139,7 @@ pub(super) fn section(page: &mut Page, near: &[Errors], counts: &Counts) -> Resu
     costs(page, counts);
     page.heading(3, "Goals");
     let goal = |(format, frequency_hz, tick_hz, goal): (Format, f64, f64, f64)| {
-        let scheme = Scheme::Product(Integrator::Exact, format);
+        let scheme = exact(format);
         let found = of(near, scheme, frequency_hz, tick_hz);
         vec![
             format!(
@@ -154,12 +158,6 @@ pub(super) fn section(page: &mut Page, near: &[Errors], counts: &Counts) -> Resu
         "Largest error of θ' in degrees over ten whisks, both sides, from the first tick. Sides \
          start at ψ = (1, 0) and (0.6, 0.5), g = 1. Only the product of frequency and tick \
          enters the equations: 2 Hz at 2 ms has the errors of 8 Hz at 0.5 ms.",
-    );
-    page.say(
-        "Two schemes stand beside the product's for comparison: the classical Runge-Kutta \
-         method, which takes four evaluations a tick where the product takes one, and a simple \
-         split step (rotation with radial relaxation, coupling in two halves, linear muscle, \
-         each exact; the force at the middle of the tick).",
     );
     table(page, near);
     if let Some(svg) = diagram(near, "ticks a second", |_| Some(1.0))? {
@@ -196,15 +194,13 @@ fn table(page: &mut Page, measured: &[Errors]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{GOALS, NEAR, measure, of};
-    use crate::accuracy::schemes::Scheme;
-    use whisking::Integrator;
+    use super::{GOALS, NEAR, exact, measure, of};
 
     #[test]
     fn every_goal_is_met() {
         let measured = measure(&NEAR).unwrap();
         for (format, frequency_hz, tick_hz, goal) in GOALS {
-            let scheme = Scheme::Product(Integrator::Exact, format);
+            let scheme = exact(format);
             let found = of(&measured, scheme, frequency_hz, tick_hz).unwrap();
             assert!(
                 found <= goal,

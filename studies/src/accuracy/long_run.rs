@@ -6,21 +6,15 @@
 
 mod whisk;
 
-use anyhow::{Result, anyhow};
-use std::fmt::Write;
+use anyhow::Result;
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
-use std::time::Duration;
-
-use whisking::Number;
 
 use super::schemes::{Format, PAPERS, Pace, in_format};
-use crate::chart::{Mark, Panel, Series, draw, linear};
+use crate::cores::each;
 use crate::page::{Page, short, verdict};
 use host_sim::Error;
-use host_sim::progress::{Progress, Verbosity};
-use whisk::{Length, MINUTE_TICKS, Row};
+use host_sim::progress::Verbosity;
+use whisk::{Length, MINUTE_TICKS, Row, run};
 
 /// A frequency that no number of ticks is whole whisks of: at 2 Hz a whisk is
 /// 1000 ticks, and rounding holds the phase to the orbit that closes.
@@ -30,8 +24,6 @@ const ODD: Pace = Pace {
 };
 /// Largest |r − 1| that is allowed.
 const ROUND: f64 = 1e-3;
-const HEADER: &str = "format,frequency_hz,minutes,phase_whisks,whisks,radius_low,radius_high,theta_low_deg,theta_high_deg";
-
 /// 24 hours, a row an hour.
 pub(super) const DAY: Length = Length {
     stretches: 24,
@@ -43,74 +35,42 @@ pub(super) const QUICK: Length = Length {
     minutes: 1,
 };
 
-/// Rows of all formats.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Table(Vec<Row>);
 
 impl Table {
-    /// Runs all formats side by side.
+    /// Runs all formats at 2 Hz, and one stretch of each at the odd frequency.
     pub(super) fn measure(length: Length, verbosity: Verbosity) -> Result<Self> {
-        let formats = Format::ALL.len() as u64;
-        let total = formats * (length.stretches + 1) * length.minutes;
-        let done = AtomicU64::new(0);
-        let mut progress = Progress::new(verbosity, "long run", total);
-        let rows = thread::scope(|scope| {
-            let work = Format::ALL.map(|format| {
-                let done = &done;
-                scope.spawn(move || in_format!(format, both(format, length, done)))
-            });
-            while work.iter().any(|thread| !thread.is_finished()) {
-                progress.set(done.load(Ordering::Relaxed));
-                thread::sleep(Duration::from_millis(50));
-            }
-            let lost = |_| Err(anyhow!("the long run broke down"));
-            let join = |thread: thread::ScopedJoinHandle<'_, _>| thread.join().unwrap_or_else(lost);
-            work.into_iter().map(join).collect::<Result<Vec<_>, _>>()
+        let stretch = Length {
+            stretches: 1,
+            ..length
+        };
+        let both = |format| [(format, PAPERS, length), (format, ODD, stretch)];
+        let jobs: Vec<_> = Format::ALL.into_iter().flat_map(both).collect();
+        let rows = each(verbosity, "long run", &jobs, |&(format, pace, length)| {
+            in_format!(format, run(format, pace, length))
         })?;
         Ok(Self(rows.concat()))
     }
 
     /// Reads what [`Table::csv`] wrote.
     pub(super) fn read(path: &Path) -> Result<Self> {
-        let wrong = |fault: String| Error::file(path, format!("{fault}; run with --long"));
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-        // Not by the names of the header: a range takes two columns.
-        let mut reader = csv::ReaderBuilder::new();
-        let reader = reader.has_headers(false).from_reader(text.as_bytes());
-        let rows = reader.into_deserialize().skip(1).collect::<Result<_, _>>();
-        Ok(Self(rows.map_err(|error| wrong(error.to_string()))?))
+        let rows = csv::Reader::from_path(path)
+            .and_then(|file| file.into_deserialize().collect::<Result<_, _>>());
+        let wrong = |fault| Error::file(path, format!("{fault}; run with --long"));
+        Ok(Self(rows.map_err(wrong)?))
     }
 
-    /// As comma-separated text.
-    pub(super) fn csv(&self) -> String {
-        let mut text = format!("{HEADER}\n");
+    pub(super) fn csv(&self) -> Result<String> {
+        let mut table = csv::Writer::from_writer(Vec::new());
         for row in &self.0 {
-            let [low, high] = row.radius;
-            let [back, forth] = row.theta_deg;
-            // Writing to a string does not fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{:e},{},{low},{high},{back},{forth}",
-                row.format, row.frequency_hz, row.minutes, row.phase_whisks, row.whisks
-            );
+            table.serialize(row)?;
         }
-        text
+        Ok(String::from_utf8(table.into_inner()?)?)
     }
 }
 
-/// The whole run at 2 Hz, then one stretch of it at the odd frequency.
-fn both<R: Number>(format: Format, length: Length, done: &AtomicU64) -> Result<Vec<Row>> {
-    let mut rows = whisk::run::<R>(format, PAPERS, length, done)?;
-    let stretch = Length {
-        stretches: 1,
-        ..length
-    };
-    rows.extend(whisk::run::<R>(format, ODD, stretch, done)?);
-    Ok(rows)
-}
-
-/// What the table says.
-pub(super) fn section(page: &mut Page, Table(rows): &Table, quick: bool) -> Result<()> {
+pub(super) fn section(page: &mut Page, Table(rows): &Table, quick: bool) {
     page.heading(2, "Long run");
     let last = rows.iter().map(|row| row.minutes).max().unwrap_or(0);
     let ticks = (last + 1) * MINUTE_TICKS;
@@ -135,9 +95,6 @@ pub(super) fn section(page: &mut Page, Table(rows): &Table, quick: bool) -> Resu
          frequency, ppm | drift of the range of θ', degrees",
         cells.into_iter().flatten().flatten(),
     );
-    let svg = picture(rows)?;
-    page.picture("long-run.svg", "phase over the run", svg);
-    Ok(())
 }
 
 fn time(minutes: u64) -> String {
@@ -149,22 +106,17 @@ fn time(minutes: u64) -> String {
     }
 }
 
-/// The rows of one run, in order.
-fn own(rows: &[Row], format: Format, pace: Pace) -> impl Iterator<Item = &Row> + Clone {
-    let is_own =
-        move |row: &&Row| row.format == format.name() && row.frequency_hz == pace.frequency_hz;
-    rows.iter().filter(is_own)
-}
-
 fn summary(rows: &[Row], format: Format, pace: Pace) -> Option<Vec<String>> {
-    let mut own = own(rows, format, pace);
+    let is_own = |row: &&Row| row.format == format.name() && row.frequency_hz == pace.frequency_hz;
+    let mut own = rows.iter().filter(is_own);
     let first = own.clone().next()?;
-    let last = own.clone().last()?;
-    let off = |row: &Row| f64::max(row.radius[1] - 1.0, 1.0 - row.radius[0]);
+    let last = own.clone().next_back()?;
+    let off = |row: &Row| f64::max(row.radius_high - 1.0, 1.0 - row.radius_low);
     let round = own.clone().map(off).fold(0.0, f64::max);
-    let finite = own.all(|row| row.radius.iter().all(|r| r.is_finite()));
-    let drift = (0..2).map(|end| (last.theta_deg[end] - first.theta_deg[end]).abs());
-    let drift = drift.fold(0.0, f64::max);
+    let finite = own.all(|row| row.radius_low.is_finite() && row.radius_high.is_finite());
+    let low = (last.theta_low_deg - first.theta_low_deg).abs();
+    let high = (last.theta_high_deg - first.theta_high_deg).abs();
+    let drift = low.max(high);
     Some(vec![
         format!(
             "{}, {:.4} Hz, {}",
@@ -185,29 +137,6 @@ fn summary(rows: &[Row], format: Format, pace: Pace) -> Option<Vec<String>> {
     ])
 }
 
-fn picture(rows: &[Row]) -> Result<String> {
-    let hours = |row: &Row| row.minutes as f64 / 60.0;
-    let degrees = |row: &Row| 360.0 * row.phase_whisks;
-    let shown = || {
-        Format::ALL
-            .into_iter()
-            .flat_map(|format| own(rows, format, PAPERS))
-    };
-    let most = shown().map(|row| degrees(row).abs());
-    let most = 1.1 * most.fold(1e-9, f64::max);
-    let series = |(n, format): (usize, Format)| {
-        let points = own(rows, format, PAPERS).map(|row| (hours(row), degrees(row)));
-        Series::new(format.name(), n + 1, Mark::Dot, points.collect())
-    };
-    let end = shown().map(hours).fold(0.0, f64::max);
-    draw(&[Panel {
-        title: "phase ahead of exactly 2 Hz".to_owned(),
-        x: linear("hours", 0.0, end.max(1e-3)),
-        y: linear("degrees of a whisk", -most, most),
-        series: Format::ALL.into_iter().enumerate().map(series).collect(),
-    }])
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Length, Path, Table};
@@ -221,7 +150,7 @@ mod tests {
         };
         let table = Table::measure(length, Verbosity::Quiet).unwrap();
         let file = tempfile::NamedTempFile::new().unwrap();
-        std::fs::write(file.path(), table.csv()).unwrap();
+        std::fs::write(file.path(), table.csv().unwrap()).unwrap();
         assert_eq!(Table::read(file.path()).unwrap(), table);
         assert_eq!(table.0.len(), 9);
         for row in &table.0 {

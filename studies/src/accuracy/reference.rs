@@ -15,27 +15,25 @@ pub(super) const WHISKS: usize = 10;
 /// 1.45 (BIOTACT eq. 8).
 pub(super) const PEAK_GAIN: f64 = 1.45;
 /// ω_n/f_W, rad.
-pub(super) const STIFFNESS: f64 = 10.0;
+const STIFFNESS: f64 = 10.0;
 
-/// Where a run starts, whiskers at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Case {
     /// ψ of both sides.
     pub(super) psi: [[f64; 2]; 2],
-    /// g of both whiskers.
     pub(super) gain: f64,
 }
 
 /// ψ and (θ, v) of both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct State {
-    pub(super) psi: [[f64; 2]; 2],
-    pub(super) whisker: [[f64; 2]; 2],
+struct State {
+    psi: [[f64; 2]; 2],
+    whisker: [[f64; 2]; 2],
 }
 
 impl State {
     /// The start of `case`.
-    pub(super) fn new(case: &Case) -> Self {
+    fn new(case: &Case) -> Self {
         Self {
             psi: case.psi,
             whisker: [[0.0; 2]; 2],
@@ -72,7 +70,7 @@ impl State {
 
     /// One step of `h` whisks by the classical Runge-Kutta method; `push` at
     /// its begin, middle and end.
-    pub(super) fn runge_kutta(&self, h: f64, push: [f64; 3]) -> Self {
+    fn runge_kutta(&self, h: f64, push: [f64; 3]) -> Self {
         let k1 = self.rate(push[0]);
         let k2 = self.moved(h / 2.0, &k1).rate(push[1]);
         let k3 = self.moved(h / 2.0, &k2).rate(push[1]);
@@ -83,13 +81,13 @@ impl State {
     }
 
     /// θ of both sides.
-    pub(super) fn theta(&self) -> [f64; 2] {
+    fn theta(&self) -> [f64; 2] {
         self.whisker.map(|[theta, _]| theta)
     }
 }
 
 /// f = W exp(−θ²) of eqs. 6 and 8.
-pub(super) fn force(psi_1: f64, theta: f64) -> f64 {
+fn force(psi_1: f64, theta: f64) -> f64 {
     f64::midpoint(libm::tanh(2.0 * psi_1), 1.0) * libm::exp(-theta * theta)
 }
 

@@ -23,7 +23,6 @@ pub(crate) const CENTROID: usize = 2;
 pub(crate) const CENTROID_MAGNITUDE: usize = 3;
 pub(crate) const TOTAL_MAGNITUDE: usize = 4;
 
-/// Takes the features of blocks of one channel.
 pub(crate) struct Extractor {
     /// The deflection from which there is contact.
     onset: f64,

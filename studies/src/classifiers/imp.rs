@@ -93,7 +93,6 @@ impl Peaks {
 pub(crate) struct Imp {
     window: u32,
     vibrissae: [Peaks; VIBRISSAE],
-    /// Samples of the open window.
     open: u32,
 }
 

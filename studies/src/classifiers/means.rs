@@ -2,7 +2,6 @@
 
 use anyhow::{Result, bail};
 
-/// Sums of vectors of one length, a class each.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Means {
     /// Sum and number.

@@ -25,7 +25,6 @@ pub(crate) use train::{Options, Row, train};
 /// Largest scaled input, standard deviations; what lies beyond counts as this.
 const MAX_SCALED: f64 = 1024.0;
 
-/// Units of a network.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Shape {
     inputs: usize,
@@ -40,7 +39,6 @@ impl Shape {
         (self.inputs + 1) * self.hidden + (self.hidden + 1) * self.outputs
     }
 
-    /// Where each of the four groups ends.
     const fn ends(self) -> [usize; 3] {
         let input = self.inputs * self.hidden;
         let hidden_bias = input + self.hidden;
@@ -48,7 +46,6 @@ impl Shape {
     }
 }
 
-/// A trained network.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Network {
     shape: Shape,

@@ -13,7 +13,6 @@
 use anyhow::Result;
 use tactile::{Decision, DecisionRule, Model, NaiveBayes, Posteriors, Quantiser, SetupError};
 
-/// What a recogniser found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Outcome {
     /// The class, from zero, in the order of training.

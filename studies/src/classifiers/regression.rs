@@ -15,7 +15,6 @@ const SAME: f64 = 1e-12;
 /// Steps in which a singular value must be found.
 const MAX_STEPS: usize = 10_000;
 
-/// A fitted polynomial.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Regression {
     centre: Vec<f64>,

@@ -7,7 +7,6 @@ use super::means::{Means, check_segment, squared_errors};
 use super::spectrum::{Bins, Measure, Spectrum};
 use anyhow::Result;
 
-/// How blocks of some channels become spectra.
 #[derive(Clone)]
 struct Spectra {
     channels: usize,
@@ -17,7 +16,6 @@ struct Spectra {
 }
 
 impl Spectra {
-    /// The spectra of a block, channel by channel.
     fn of(&self, block: &[f64]) -> Result<Vec<f64>> {
         let mut all = Vec::with_capacity(self.channels * self.spectrum.bins.count);
         for channel in 0..self.channels {
@@ -28,7 +26,6 @@ impl Spectra {
     }
 }
 
-/// Adds up the spectra of training signals.
 #[derive(Clone)]
 pub(crate) struct SpectralTrainer {
     spectra: Spectra,
@@ -62,7 +59,6 @@ impl SpectralTrainer {
         Ok(())
     }
 
-    /// Trains the templates.
     pub(crate) fn train(self) -> SpectralTemplates {
         SpectralTemplates {
             means: self.means.means(),
@@ -74,7 +70,6 @@ impl SpectralTrainer {
 /// Spectral templates as trained.
 pub(crate) struct SpectralTemplates {
     spectra: Spectra,
-    /// Of each class, channel by channel.
     means: Vec<Vec<f64>>,
 }
 

@@ -3,16 +3,12 @@
 //! log P(C_l | x_1 … x_n) = Σ_w Σ_i log P_w(x_i | C_l), and the largest wins.
 //!
 //! A whisk may have any length: push its samples, then call
-//! [`NaiveBayes::finish`] at its end for the decision.
+//! [`tactile::NaiveBayes::finish`] at its end for the decision.
 
 use anyhow::Result;
 use tactile::{
-    Decision, DecisionRule, EvidenceScale, MAX_SAMPLES_TIMES_CHANNELS, Model, NaiveBayes,
-    SetupError, Totals,
+    Decision, DecisionRule, EvidenceScale, MAX_SAMPLES_TIMES_CHANNELS, Model, SetupError, Totals,
 };
-
-/// A whisk-by-whisk classifier by x and y of each whisker, made from a model.
-pub(crate) type Stationary = NaiveBayes<StationaryRule, &'static [u32]>;
 
 /// The stationary rule. Here every sample counts in full (the model's block
 /// plays no part), so the posterior is that of independent samples.

@@ -7,7 +7,6 @@ use tactile::Quantiser;
 
 use super::means::{Means, check_segment, least, squared_errors};
 
-/// Adds up the training signals.
 #[derive(Debug, Clone)]
 pub(crate) struct TemplateTrainer {
     channels: usize,
@@ -37,7 +36,6 @@ impl TemplateTrainer {
         Ok(())
     }
 
-    /// Trains the templates.
     pub(crate) fn train(&self) -> Templates {
         Templates {
             means: self.means.means(),
@@ -49,7 +47,6 @@ impl TemplateTrainer {
 /// Templates as trained.
 #[derive(Debug, Clone)]
 pub(crate) struct Templates {
-    /// Of each class, sample by sample.
     means: Vec<Vec<f64>>,
     largest: f64,
 }
@@ -86,7 +83,6 @@ fn code(quantiser: &Quantiser, x: f64) -> i64 {
     i64::from(code.clamp(quantiser.low, quantiser.high))
 }
 
-/// Templates in integers.
 #[derive(Debug, Clone)]
 pub(crate) struct CodeTemplates {
     means: Vec<Vec<i64>>,

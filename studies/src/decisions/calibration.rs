@@ -14,7 +14,6 @@ const STATED: f64 = 1e-5;
 const FOUND: f64 = 1e-4;
 const HIGH: f64 = 0.1;
 
-/// The decisions of all trainings, by what they state.
 pub(super) fn section(page: &mut Page, grounds: &[Ground]) -> Result<()> {
     page.heading(2, "Stated against found");
     page.say(

@@ -9,20 +9,16 @@ pub(crate) struct Extent {
     pub(crate) is_quick: bool,
     /// Seeds of the runs that are trained on; the first is that of the shipped models.
     pub(crate) trainings: Vec<u64>,
-    /// Seeds of the runs that are scored.
     pub(crate) scored: Range<u64>,
-    /// Seeds of the runs of the main job.
     pub(crate) main_job: Range<u64>,
     /// How long a free whisker is moved, s.
     pub(crate) air_s: f64,
     /// How many drives are held out; the rest only serve to train.
     pub(crate) drives: usize,
-    /// Values tried of each setting.
     pub(crate) values: usize,
 }
 
 impl Extent {
-    /// What the page shows.
     pub(crate) fn full() -> Self {
         Self {
             is_quick: false,
@@ -35,7 +31,6 @@ impl Extent {
         }
     }
 
-    /// A short form, for tests.
     pub(crate) fn quick() -> Self {
         Self {
             is_quick: true,

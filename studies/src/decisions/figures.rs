@@ -12,23 +12,19 @@ use crate::page::verdict;
 /// The figures of a model at a threshold; shares from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Figures {
-    /// Hit rate of each run with a decision.
     pub(super) hits: Vec<f64>,
     /// Mean over the runs of the time of a decision: of contact, and by the clock, ms.
     pub(super) contact_ms: f64,
     pub(super) wall_ms: f64,
-    /// Of the decisions of all runs.
     pub(super) calibration: Calibration,
     pub(super) undecided: Interval,
     pub(super) refused: Interval,
     /// Refused of surfaces that the model does not know.
     pub(super) strange: Interval,
-    /// What these were taken for.
     pub(super) taken_for: BTreeMap<String, usize>,
 }
 
 impl Figures {
-    /// Of the runs of a model of these classes.
     pub(super) fn of(runs: Vec<Scored>, classes: &[String], tick_hz: u32) -> Self {
         let ms = 1000.0 / f64::from(tick_hz);
         let mean = |figure: fn(&Scored) -> f64| {
@@ -149,7 +145,6 @@ impl Goal {
         }
     }
 
-    /// What is said of a value.
     pub(super) fn verdict(self, value: f64) -> &'static str {
         if self.is_asked() {
             verdict(self.met(value))

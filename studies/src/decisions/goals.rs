@@ -12,7 +12,6 @@ use crate::page::Page;
 
 /// Thresholds, with how many points stated and found may lie apart.
 pub(super) const THRESHOLDS: [(f64, f64); 3] = [(0.95, 1.5), (0.99, 1.0), (0.999, 1.5)];
-/// The place of the scenes' own among them.
 const USUAL: usize = 1;
 
 /// A model with the default settings, and its figures at each of [`THRESHOLDS`].
@@ -30,7 +29,6 @@ impl Trained {
     }
 }
 
-/// A model a training.
 pub(super) fn measure(ground: &Ground, verbosity: Verbosity) -> Result<Vec<Trained>> {
     let seeds: Vec<u64> = ground.seeds().collect();
     each(verbosity, "trainings", &seeds, |&seed| {
@@ -206,7 +204,6 @@ impl Line {
     }
 }
 
-/// A table a scene.
 pub(super) fn section(page: &mut Page, table: &mut Table, grounds: &[Ground]) {
     page.heading(2, "Goals");
     page.say(

@@ -25,13 +25,11 @@ pub(super) const LONGEST_S: f64 = 80.0;
 pub(super) struct Goals {
     pub(super) contact_ms: f64,
     pub(super) undecided: f64,
-    /// Of unknown textures.
     pub(super) strange: f64,
     /// Whether there is a goal for single runs.
     pub(super) of_runs: bool,
 }
 
-/// The scenes, and what is asked of each.
 const SCENES: [(&str, &str, Goals); 2] = [
     (
         "textures",
@@ -55,21 +53,18 @@ const SCENES: [(&str, &str, Goals); 2] = [
     ),
 ];
 
-/// A scene and its runs.
 pub(super) struct Ground {
     pub(super) name: &'static str,
     pub(super) scene: Scene,
     pub(super) goals: Goals,
     /// By the seed of each training a run of [`LONGEST_S`].
     recorded: Vec<(u64, Vec<Stream>)>,
-    /// The runs that are scored.
     pub(super) runs: Vec<Heard>,
     /// A model a training, the one that is shipped first.
     pub(super) trained: Vec<Trained>,
 }
 
 impl Ground {
-    /// All scenes with their runs and models.
     pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>> {
         SCENES
             .into_iter()
@@ -98,12 +93,10 @@ impl Ground {
             .collect()
     }
 
-    /// The model that is shipped.
     pub(super) fn shipped(&self) -> &Trained {
         &self.trained[0]
     }
 
-    /// The seeds that are trained on.
     pub(super) fn seeds(&self) -> impl Iterator<Item = u64> {
         self.recorded.iter().map(|(seed, _)| *seed)
     }
@@ -149,12 +142,10 @@ impl Ground {
         training::joint(&[(self.scene.name.clone(), streams)], options).map_err(anyhow::Error::new)
     }
 
-    /// A model on the runs that are scored.
     pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures> {
         self.score_on(&self.runs, model, threshold)
     }
 
-    /// A model on some runs.
     pub(super) fn score_on(
         &self,
         runs: &[Heard],

@@ -10,7 +10,6 @@ use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, row};
 
-/// Models that are tried, with their thresholds.
 const MODELS: [(&str, Tables, f64); 3] = [
     ("joint", Tables::Joint, 0.99),
     ("joint", Tables::Joint, 0.5),

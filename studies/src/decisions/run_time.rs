@@ -16,7 +16,6 @@ use crate::cores::each;
 use crate::page::{Page, row};
 use settings::{FIGURES, Setting, Tried};
 
-/// All settings on both scenes.
 pub(super) fn section(
     page: &mut Page,
     table: &mut Table,

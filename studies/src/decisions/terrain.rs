@@ -17,9 +17,7 @@ use super::figures::{Goal, percent};
 use crate::cores::each;
 use crate::page::Page;
 
-/// Samples of a window.
 const WINDOW: usize = 2000;
-/// Samples a second.
 const RATE_HZ: u32 = 100;
 /// What the windows of some drives were decided to be.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -50,7 +48,6 @@ impl Windows {
     }
 }
 
-/// Measures both.
 pub(super) fn section(
     page: &mut Page,
     folder: &Path,
@@ -146,7 +143,6 @@ pub(super) fn section(
     Ok(())
 }
 
-/// What is counted, and among what.
 type Share = (fn(Windows) -> usize, fn(Windows) -> usize);
 
 /// The first or the second half of a stream.
@@ -174,7 +170,6 @@ fn drives(first: &[Stream], second: &[Stream]) -> Vec<Stream> {
     first.iter().map(whole).collect()
 }
 
-/// Windows of a drive, each a stream.
 fn windows(drive: &Stream) -> Vec<Stream> {
     let length = WINDOW.min(drive.samples.len().max(1));
     let window = |samples: &[[f64; 2]]| Stream {

@@ -80,7 +80,6 @@ impl Hits {
     }
 }
 
-/// Evaluates the recordings.
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let visits = Visits::new(request, recordings);
     let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));

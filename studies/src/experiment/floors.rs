@@ -20,33 +20,27 @@ use crate::rigs::RobotMotion;
 const CODES_A_BIN: f64 = 16_384.0 * 0.010 / 5.0;
 /// Standard deviation of the smoothing, bins (100 mV).
 const SMOOTH_BINS: f64 = 10.0;
-/// x and y.
 pub(super) const CHANNELS: usize = 2;
 
-/// Samples of one floor.
 #[derive(Debug, Clone)]
 pub(super) struct Stream {
-    /// Which floor.
     pub(super) floor: usize,
     /// x, y, x, y, …
     pub(super) samples: Vec<f64>,
 }
 
-/// A half of every trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Half {
     First,
     Second,
 }
 
-/// All trials.
 #[derive(Debug)]
 pub(super) struct Floors<'a> {
     recordings: Vec<&'a Recording>,
     extent: Extent,
     /// Trials of natural motion that are used.
     natural: usize,
-    /// Samples a second.
     pub(super) rate_hz: f64,
 }
 
@@ -96,7 +90,6 @@ impl<'a> Floors<'a> {
         streams
     }
 
-    /// Samples of a time.
     pub(super) fn samples(&self, seconds: f64) -> usize {
         (seconds * self.rate_hz).round() as usize
     }
@@ -136,7 +129,6 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
     trainer.train().map_err(anyhow::Error::new)
 }
 
-/// Outcomes of each true floor.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tally {
     pub(super) confusion: Confusion,

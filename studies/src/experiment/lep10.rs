@@ -16,9 +16,7 @@ use tactile::{ModelBuf, WindowRule};
 const WINDOWS: [u32; 11] = [1, 2, 5, 10, 20, 50, 100, 200, 400, 1000, 2000];
 /// Channels of Tables I to III.
 const CHANNELS: [(&str, &[usize]); 3] = [("x", &[0]), ("y", &[1]), ("x and y", &[0, 1])];
-/// Artificial motion.
 const SPOT: [RobotMotion; 2] = [RobotMotion::Anticlockwise, RobotMotion::Clockwise];
-/// Natural motion.
 const NATURAL: [RobotMotion; 1] = [RobotMotion::Autonomous];
 
 /// Chance of naming a floor, percent.
@@ -35,7 +33,6 @@ fn windows(buf: &ModelBuf, picked: &[usize], validation: &[Stream], window: u32)
     })
 }
 
-/// Evaluates the recordings.
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::with_all(request, recordings);
     page.heading(2, "LEP10: naive Bayes over fixed windows");

@@ -19,7 +19,6 @@ use groups::{Curves, Group, interpolate};
 /// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
-/// Evaluates the recordings.
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::new(request, recordings);
     let rate_hz = floors.rate_hz;

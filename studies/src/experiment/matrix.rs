@@ -7,11 +7,9 @@ use tactile::score::Confusion;
 use crate::chart::grid;
 use crate::page::percent_of;
 
-/// A confusion matrix with its names.
 #[derive(Debug, Clone)]
 pub(super) struct Matrix {
     pub(super) title: String,
-    /// Names of the classes.
     pub(super) classes: Vec<String>,
     pub(super) score: Confusion,
 }

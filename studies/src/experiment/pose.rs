@@ -17,7 +17,6 @@ use rules::{features, spectral, template};
 use scores::Scores;
 use sets::Sets;
 
-/// Evaluates the recordings.
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sets = Sets::new(request, recordings);
     let by_template = template(&sets)?;

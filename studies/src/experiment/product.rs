@@ -7,12 +7,10 @@ use host_sim::recording::Stream;
 use host_sim::training::{How, Tables};
 use whisking::filter;
 
-use crate::page::{Page, Product, Recognition, Score, figure, row};
+use crate::page::{Page, Recognition, Score, figure, row};
 
-/// Decided at this posterior.
 const THRESHOLD: f64 = 0.99;
 
-/// Its name among the scores.
 const NAME: &str = "the product's: joint tables, stated 99 %";
 
 /// A question: what is classified, and how many there are of it.
@@ -20,7 +18,6 @@ const NAME: &str = "the product's: joint tables, stated 99 %";
 pub(super) struct Task<'n> {
     pub(super) name: &'n str,
     pub(super) classes: usize,
-    /// Samples a second.
     pub(super) rate_hz: f64,
 }
 
@@ -76,7 +73,7 @@ fn cells(
             rate: right,
             chance: 100.0 / task.classes as f64,
         },
-        product: Some(Product { decided, bytes }),
+        decided: Some(decided),
     });
     Ok([
         figure(right, 1),

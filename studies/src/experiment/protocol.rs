@@ -11,7 +11,7 @@ pub(crate) struct Protocol {
     /// Which: lep10, lep12, biotact, pose, psikharpax, or all
     #[arg(required = true, value_parser = named)]
     which: Vec<Named>,
-    /// Fewer trials, whisks, contacts, sweeps and runs, two seeds; the same physics, no changes
+    /// Fewer trials, whisks, contacts, sweeps and runs, two seeds; the same physics
     #[arg(long)]
     pub(super) quick: bool,
     /// The first seed, of which all chance comes
@@ -71,18 +71,12 @@ impl Protocol {
     }
 
     /// A run of it.
-    pub(super) fn request(
-        &self,
-        seed: u64,
-        more: &[Setting],
-        is_placebo: bool,
-    ) -> anyhow::Result<Request> {
-        let settings = [&self.set[..], more].concat();
+    pub(super) fn request(&self, seed: u64, is_placebo: bool) -> anyhow::Result<Request> {
         Ok(Request {
             names: self.names(),
             extent: self.extent(),
             seed,
-            rigs: Rigs::load(self.rigs.as_deref(), &settings)?,
+            rigs: Rigs::load(self.rigs.as_deref(), &self.set)?,
             is_placebo,
         })
     }

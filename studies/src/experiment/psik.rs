@@ -33,7 +33,6 @@ fn borders() -> Vec<usize> {
     borders
 }
 
-/// Evaluates the recordings.
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sweeps = Sweeps::new(request, &of_set(recordings, Dataset::Pad));
     let (training, testing) = request.extent.sweeps();

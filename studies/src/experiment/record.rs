@@ -16,7 +16,6 @@ use crate::rigs::seed_of;
 use anyhow::{Context, Result};
 use host_sim::progress::Verbosity;
 
-/// The jobs of a data set.
 fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
     let count = match dataset {
         Dataset::Floor => floor::jobs(extent),

@@ -6,22 +6,16 @@ use std::collections::BTreeMap;
 /// A set of recordings on one rig. Their order is in the seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Dataset {
-    /// The floor robot.
     Floor,
-    /// The whisking head.
     Head,
-    /// The XY table.
     Table,
-    /// The fixed head with its pad.
     Pad,
-    /// The mobile robot in its corridors.
     Corridor,
     /// One vibrissa of the pad, sample by sample, in the pad's sweeps.
     Vibrissa,
 }
 
 impl Dataset {
-    /// Its name.
     pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Floor => "floor",
@@ -75,7 +69,6 @@ impl Recording {
         )
     }
 
-    /// Samples.
     pub(crate) fn len(&self) -> usize {
         self.values.len() / self.channels.max(1)
     }
@@ -87,13 +80,11 @@ impl Recording {
         self.values.get(start..end).unwrap_or(&[])
     }
 
-    /// The same in double precision.
     pub(crate) fn segment(&self, from: usize, to: usize) -> Vec<f64> {
         self.part(from, to).iter().map(|x| f64::from(*x)).collect()
     }
 }
 
-/// All recordings of a request.
 pub(crate) type Recordings = BTreeMap<Job, Recording>;
 
 /// The recordings of a set in the order of its jobs.

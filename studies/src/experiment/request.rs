@@ -4,7 +4,6 @@
 use super::recording::Dataset;
 use crate::rigs::Rigs;
 
-/// An experiment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Name {
     /// LEP10: fixed windows.
@@ -20,7 +19,6 @@ pub(crate) enum Name {
 }
 
 impl Name {
-    /// All of them, in the order of the page.
     pub(crate) const ALL: &'static [Self] = &[
         Self::Lep10,
         Self::Lep12,
@@ -29,7 +27,6 @@ impl Name {
         Self::Psikharpax,
     ];
 
-    /// As on the command line.
     pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Lep10 => "lep10",
@@ -40,7 +37,6 @@ impl Name {
         }
     }
 
-    /// The data sets it needs.
     pub(crate) const fn datasets(self) -> &'static [Dataset] {
         match self {
             Self::Lep10 | Self::Lep12 => &[Dataset::Floor],
@@ -106,16 +102,12 @@ impl Extent {
     }
 }
 
-/// What was asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Request {
-    /// The experiments.
     pub(crate) names: Vec<Name>,
-    /// How much of each.
     pub(crate) extent: Extent,
     /// All chance comes from it.
     pub(crate) seed: u64,
-    /// Where whiskers are and how they move.
     pub(crate) rigs: Rigs,
     /// Whether all classes are one: same textures at the same place, under different labels.
     pub(crate) is_placebo: bool,

@@ -8,7 +8,6 @@ use crate::chart::grid;
 /// What is drawn white, below the most, dB.
 pub(super) const RANGE_DB: f64 = 60.0;
 
-/// Power over time and frequency.
 #[derive(Debug, Clone)]
 pub(super) struct Spectrogram {
     pub(super) title: String,
@@ -20,7 +19,6 @@ pub(super) struct Spectrogram {
     pub(super) power: Vec<Vec<f64>>,
 }
 
-/// Pixels of a panel, and of its diagram.
 const PANEL: (u32, u32) = (330, 270);
 const CORNER: (i32, i32) = (46, 30);
 const SIZE: (f64, f64) = (270.0, 200.0);

@@ -21,10 +21,8 @@ impl Bodies {
     }
 }
 
-/// What is to be said of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// It comes out.
     Met,
     /// It does not.
     NotMet,
@@ -45,7 +43,6 @@ impl Verdict {
     }
 }
 
-/// How well a placebo is recognised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placebo {
     rate: Summary,
@@ -53,7 +50,6 @@ pub(super) struct Placebo {
 }
 
 impl Placebo {
-    /// Of the same rate in several seeds.
     fn of(found: &[Recognition]) -> Option<Self> {
         let chance = found.first()?.chance;
         let rates: Vec<f64> = found.iter().map(|found| found.rate).collect();
@@ -63,7 +59,7 @@ impl Placebo {
 
     /// Whether it is recognised no better and no worse than by chance. Very sure, as a page has
     /// dozens of placebos: of a hundred that are at chance one is taken for none.
-    pub(super) fn is_at_chance(&self) -> bool {
+    fn is_at_chance(&self) -> bool {
         let off = (self.rate.mean - self.chance).abs();
         // Rates that are all chance's to the last bit but for rounding have no error.
         off <= self.rate.half_interval(&VERY_SURE) + 1e-9
@@ -82,7 +78,6 @@ impl Placebo {
     }
 }
 
-/// A claim over all seeds.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
     pub(super) what: String,
@@ -120,7 +115,7 @@ impl Judged {
     }
 
     /// Digits behind the point of the margin.
-    pub(super) fn digits(&self) -> usize {
+    fn digits(&self) -> usize {
         if self.unit.contains('θ') {
             4
         } else if self.unit.contains('κ') {
@@ -129,21 +124,12 @@ impl Judged {
             1
         }
     }
-
-    /// By how much `other` comes out better, in as far as the seeds are sure of it.
-    pub(super) fn gain_of(&self, other: &Self) -> Option<f64> {
-        let gain = other.margin.mean - self.margin.mean;
-        let halves = [self, other].map(|claim| claim.margin.half_interval(&SURE));
-        (gain > halves[0].hypot(halves[1])).then_some(gain)
-    }
 }
 
-/// The same claim of every page.
 fn of_all(pages: &[Page], n: usize) -> impl Iterator<Item = &Claim> {
     pages.iter().filter_map(move |page| page.claims.get(n))
 }
 
-/// The claims of some seeds, beside those of placebos.
 pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>> {
     let claims = pages.first().map_or(&[][..], |page| &page.claims);
     let one = |(n, claim): (usize, &Claim)| {
@@ -204,15 +190,5 @@ mod tests {
         // Whoever is worse than chance knows the classes too.
         let worse = pages(&[0.0; 5], &[20.0, 21.0, 20.0, 21.0, 20.0]);
         assert_eq!(verdict(margins, &worse), Verdict::DoesNotCount);
-    }
-
-    #[test]
-    fn a_change_gains_only_what_the_seeds_are_sure_of() {
-        let judge = |margins: [f64; 5]| judged(&pages(&margins, &[0.0; 5]), &[]).unwrap().remove(0);
-        let plain = judge([-4.0, -6.0, -5.0, -5.0, -5.0]);
-        let better = judge([1.0, 3.0, 2.0, 2.0, 2.0]);
-        assert!((plain.gain_of(&better).unwrap() - 7.0).abs() < 1e-12);
-        assert_eq!(plain.gain_of(&judge([-4.0, -5.0, -4.0, -5.0, -4.0])), None);
-        assert_eq!(better.gain_of(&plain), None);
     }
 }

@@ -1,20 +1,17 @@
-//! The page of all experiments: claims first, what was chosen, then each experiment.
+//! The page of all experiments: claims and scores first, then each experiment.
 
 use anyhow::{Context, Result};
 use std::fmt::Write;
 
-use super::changes::{self, Changed};
 use super::protocol::Protocol;
 use super::recording::Recordings;
 use super::request::{Name, Request};
 use super::verdicts::{Bodies, Judged, Verdict, judged};
-use super::{biotact, costs, lep10, lep12, pose, psik};
+use super::{biotact, lep10, lep12, pose, psik, scores};
 use crate::page::{Files, Page, joined};
 
-/// The name of the page.
 const PAGE: &str = "experiments.md";
 
-/// Evaluates the recordings of one seed.
 pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Page> {
     let mut body = Page::new("experiments");
     for name in &request.names {
@@ -31,16 +28,15 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Pag
 }
 
 /// The page of all seeds, and before it the pictures of the first.
-pub(super) fn report(protocol: &Protocol, plain: Bodies, changed: &[Changed]) -> Result<Files> {
-    let claims = judged(&plain.pages, &plain.placebos)?;
+pub(super) fn report(protocol: &Protocol, bodies: Bodies) -> Result<Files> {
+    let claims = judged(&bodies.pages, &bodies.placebos)?;
     let mut page = Page::default();
     introduction(&mut page, protocol, &claims);
-    changes::section(&mut page, &claims, changed)?;
-    costs::section(&mut page, &plain);
-    let texts: Vec<&str> = plain.pages.iter().map(|page| &*page.text).collect();
+    scores::section(&mut page, &bodies);
+    let texts: Vec<&str> = bodies.pages.iter().map(|page| &*page.text).collect();
     let body = joined(&texts).context("the pages of two seeds differ in words")?;
     let text = format!("{}{}\n", page.text, body.trim_end());
-    let first = plain.pages.into_iter().next();
+    let first = bodies.pages.into_iter().next();
     let mut files = first.map_or_else(Vec::new, |page| page.files);
     files.push((PAGE.to_owned(), text));
     Ok(files)
@@ -85,7 +81,7 @@ fn introduction(page: &mut Page, protocol: &Protocol, claims: &[Judged]) {
     if protocol.quick {
         page.say(
             "This is a quick run: fewer trials, whisks, contacts, sweeps and runs than the \
-             papers', on the same physics. Its hit rates are rough, and no change is tried.",
+             papers', on the same physics. Its hit rates are rough.",
         );
     }
     let is_left_out = |name: &&Name| !protocol.names().contains(name);

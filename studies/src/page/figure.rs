@@ -17,7 +17,6 @@ pub(crate) struct Figure {
     digits: usize,
 }
 
-/// Marks a figure.
 pub(crate) const fn figure(value: f64, digits: usize) -> Figure {
     Figure { value, digits }
 }

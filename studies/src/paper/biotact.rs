@@ -18,7 +18,6 @@ pub(crate) const STRATEGIES: [(&str, f64); 3] =
 /// What Figs. 6 to 9 set: forward Euler, 2 kHz, 2 Hz, no noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Figure {
-    /// Nominal gain g of every whisker.
     pub(crate) gain: f64,
     /// RCP: σ_z, and τ_z as a share of the whisk period.
     pub(crate) rcp: Option<(f64, f64)>,
@@ -35,7 +34,6 @@ pub(crate) const FIG6: Figure = Figure {
     cia: None,
     obstacles: false,
 };
-/// RCP.
 pub(crate) const FIG7: Figure = Figure {
     gain: 1.0,
     rcp: Some((0.7, 0.25)),
@@ -47,7 +45,6 @@ pub(crate) const FIG8: Figure = Figure {
     rcp: Some(STRONG),
     ..FIG7
 };
-/// RCP and CIA.
 pub(crate) const FIG9: Figure = Figure {
     cia: Some((0.5, 0.25)),
     ..FIG7
@@ -64,7 +61,6 @@ pub(crate) const OVERLAP_GAIN: f64 = 0.1;
 /// τ_z of the experiments as a share of the whisk period (section III-C).
 pub(crate) const TAU_Z_PERIODS: f64 = 0.25;
 
-/// Largest number of training whisks.
 pub(crate) const MOST_TRAINING: usize = 8;
 
 /// What the text says of Figs. 10 and 11.

@@ -15,9 +15,7 @@ pub(crate) const WINDOW_S: f64 = 0.5;
 /// One of Tables I to V.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Table {
-    /// Its number in the paper.
     pub(crate) number: String,
-    /// What was classified.
     pub(crate) what: String,
     /// The mean hit rate of its caption, percent.
     pub(crate) mean: f64,

@@ -18,9 +18,7 @@ pub(crate) const SEGMENT_S: f64 = 0.4;
 /// One of Tables 1 to 4.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Table {
-    /// Its number in the paper.
     pub(crate) number: u8,
-    /// The classifier.
     pub(crate) what: String,
     /// Percent, `[motion][floor]`.
     pub(crate) percent: [[f64; 4]; 4],

@@ -14,7 +14,6 @@ pub(crate) const SPEEDS_MM_S: (f64, f64, usize) = (6.0, 106.0, 11);
 /// Surfaces, from rough to smooth.
 pub(crate) const TEXTURES: [&str; 4] = ["P80", "P180", "P600", "aluminium"];
 
-/// One classifier on one property.
 #[derive(Debug, Clone, Copy, Deserialize)]
 pub(crate) struct Figure {
     /// Cohen's κ, all three properties classified at once.
@@ -29,7 +28,6 @@ pub(crate) struct Figure {
 /// A classifier's row: angle, speed, texture.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct ClassifierRow {
-    /// The classifier.
     pub(crate) what: String,
     /// Angle, speed, texture.
     pub(crate) figures: [Figure; 3],
@@ -43,10 +41,8 @@ pub(crate) static ROWS: LazyLock<[ClassifierRow; 3]> =
 /// κ of texture alone, whatever the pose: template, spectral template.
 pub(crate) const TEXTURE_ALONE: [f64; 2] = [0.24, 0.42];
 
-/// A feature of texture.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct TextureFeature {
-    /// Its name.
     pub(crate) name: String,
     /// κ, classified with angle and speed.
     pub(crate) together: f64,

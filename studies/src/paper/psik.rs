@@ -16,7 +16,6 @@ pub(crate) const ARCS: [(usize, f64); 8] = [
     (2, 55.0),
 ];
 
-/// Vibrissae in all.
 pub(crate) const VIBRISSAE: usize = 33;
 /// Sampling rate, Hz, of two 8-bit numbers a vibrissa.
 pub(crate) const RATE_HZ: f64 = 1157.0;

@@ -4,7 +4,6 @@ use physics::box_muller;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// A source of chance.
 #[derive(Debug, Clone)]
 pub(crate) struct Chance(Xoshiro256PlusPlus);
 
@@ -25,7 +24,6 @@ fn mix(x: u64) -> u64 {
 }
 
 impl Chance {
-    /// From a seed.
     pub(crate) fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
     }
@@ -92,7 +90,6 @@ impl Wander {
         }
     }
 
-    /// The next value.
     pub(crate) fn step(&mut self, chance: &mut Chance) -> f64 {
         let [first, second] = &mut self.lags;
         let noise = self.drive * chance.normal();

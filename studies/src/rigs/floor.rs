@@ -42,18 +42,15 @@ keys! {
     full_scale_rad: [f64; 2] => 1e-4..=3.0,
 }
 
-/// How the robot moves during a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RobotMotion {
     /// Turning on the spot, anticlockwise as seen from above.
     Anticlockwise,
     /// Turning on the spot, clockwise.
     Clockwise,
-    /// Turns and forward runs.
     Autonomous,
 }
 
-/// A robot on its way.
 #[derive(Debug, Clone)]
 pub(crate) struct Drive<'r> {
     rig: &'r Floor,
@@ -77,7 +74,6 @@ impl Floor {
         1.0 / self.tick_hz
     }
 
-    /// Ticks of a trial.
     pub(crate) fn ticks(&self) -> usize {
         (self.trial_s * self.tick_hz).round() as usize
     }
@@ -135,7 +131,6 @@ impl Drive<'_> {
         self.left_s = self.chance.between(leg_least_s, leg_most_s);
     }
 
-    /// Where the whisker is fixed, a tick later.
     pub(crate) fn step(&mut self) -> Pose {
         /// Time constant with which the wheels follow, s.
         const WHEELS_S: f64 = 0.05;

@@ -42,17 +42,14 @@ keys! {
 pub(crate) struct Visit<'a> {
     /// From the front of the head to the surface, m.
     pub(crate) distance_m: f64,
-    /// The surface.
     pub(crate) surface: &'a Surface,
     /// RCP, if whisking is modulated.
     pub(crate) rcp: Option<GateSettings>,
-    /// Whisks to record.
     pub(crate) whisks: usize,
     /// Of this visit's chance.
     pub(crate) seed: u64,
 }
 
-/// What a visit brought.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Felt {
     /// Sensor codes, [`CHANNELS`] a tick.
@@ -64,7 +61,6 @@ pub(crate) struct Felt {
 }
 
 impl WhiskingHead {
-    /// Ticks of a whisk.
     pub(crate) fn whisk_ticks(&self) -> usize {
         (self.tick_hz / self.whisk_hz).round() as usize
     }
@@ -103,7 +99,6 @@ impl WhiskingHead {
         }
     }
 
-    /// Whisks against a surface.
     pub(crate) fn visit(
         &self,
         shafts: &[Shaft; EACH],

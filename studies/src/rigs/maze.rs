@@ -27,25 +27,18 @@ keys! {
     tour_s: f64 => 1.0..=10_000.0,
 }
 
-/// What a wall is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Made {
-    /// Cardboard.
     Plain,
-    /// One of the four reliefs.
     Relief(usize),
 }
 
-/// A straight wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wall {
-    /// Where it begins.
     pub(crate) from_m: Place,
-    /// Unit vector along it.
     pub(crate) along: Place,
     /// Its length, m.
     pub(crate) length_m: f64,
-    /// What it is made of.
     pub(crate) made: Made,
 }
 
@@ -65,7 +58,6 @@ impl Wall {
         }
     }
 
-    /// Unit vector into free space.
     pub(crate) fn normal(&self) -> Place {
         let [x, y] = self.along;
         [-y, x]
@@ -103,7 +95,6 @@ impl Wall {
     }
 }
 
-/// A line of walls in the making.
 struct Line {
     at_m: Place,
     walls: Vec<Wall>,

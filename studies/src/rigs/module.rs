@@ -18,7 +18,6 @@ use whisking::{degrees, filter, pd};
 
 use super::read::keys;
 
-/// Sides of the head.
 pub(super) const SIDES: usize = 2;
 /// Whiskers of a side, the front one first.
 pub(super) const EACH: usize = 3;
@@ -73,11 +72,8 @@ impl FrameSource for Frames {
     }
 }
 
-/// What turns a whisker.
 enum Actuator {
-    /// With gear, friction and load.
     Motor(Box<SimMotor>),
-    /// Is wherever it should be.
     Ideal(IdealMotor),
 }
 
@@ -184,7 +180,6 @@ impl HeadModule {
         }
     }
 
-    /// One tick of the module.
     pub(super) fn tick(&mut self) -> Result<()> {
         let mut fault = None;
         self.module.tick(&self.config, &mut |event| {

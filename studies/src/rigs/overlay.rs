@@ -2,7 +2,6 @@
 
 use toml::{Table, Value};
 
-/// A key, and what is wrong with it.
 pub(super) type Fault = (String, String);
 
 /// Puts what `top` has in the place of what `base` has; both name the same things.

@@ -22,11 +22,9 @@ use crate::rigs::frame::{direction, turn};
 use physics::Pose;
 use physics::vector::{add, cross};
 
-/// Rows of a full arc.
 const ROWS: usize = 5;
 
 keys! {
-    /// Where vibrissae sit.
     Layout, rig:
     tip_radius_m: f64 => 0.01..=2.0,
     lean_deg: f64 => -90.0..=90.0,
@@ -36,7 +34,6 @@ keys! {
     tip_diameter_m: f64 => 1e-5..=2e-3,
 }
 
-/// One vibrissa of a pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vibrissa {
     /// Its arc, from 0.
@@ -112,12 +109,10 @@ pub(crate) struct Sweep {
 }
 
 impl Pad {
-    /// Ticks of a sweep.
     pub(crate) fn ticks(&self) -> usize {
         (self.sweep_s * RATE_HZ).round() as usize
     }
 
-    /// Draws a sweep.
     pub(crate) fn sweep(&self, chance: &mut Chance) -> Sweep {
         let (spread, aside) = (self.distance_spread_m, self.position_spread_m);
         Sweep {

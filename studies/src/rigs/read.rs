@@ -17,7 +17,6 @@ pub(crate) type OutOfRange = (&'static str, String);
 
 /// Keys of a file that can say whether their numbers are in range.
 pub(crate) trait Keys: DeserializeOwned {
-    /// Checks every number.
     fn check(&self) -> Result<(), OutOfRange>;
 }
 
@@ -30,7 +29,6 @@ impl Keys for bool {
 
 /// A rig: keys in a file of their own.
 pub(crate) trait Rig: Keys {
-    /// The name of its file.
     const FILE: &'static str;
     /// The values of all keys where nothing else is said.
     fn defaults() -> String;
@@ -152,7 +150,6 @@ pub(crate) fn parse<R: Rig>(path: &Path, text: &str, settings: &[Setting]) -> Re
     check(&keys).map_err(wrong)
 }
 
-/// The rig of these keys, all in range.
 fn check<R: Rig>(keys: &Table) -> Result<R, Fault> {
     let rig: R = keys
         .clone()

@@ -11,7 +11,6 @@ use toml::{Table, Value};
 pub(crate) struct Setting {
     path: Vec<String>,
     value: Value,
-    /// As it was written.
     text: String,
 }
 
@@ -37,7 +36,6 @@ impl FromStr for Setting {
 }
 
 impl Setting {
-    /// The rig that it is a key of.
     pub(crate) fn rig(&self) -> &str {
         self.path.first().map_or("", String::as_str)
     }

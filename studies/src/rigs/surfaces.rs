@@ -21,12 +21,10 @@ keys! {
     hold: f64 => rig.friction..=10.0,
 }
 
-/// The surfaces of all rigs, by name.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct Surfaces(BTreeMap<String, Properties>);
 
-/// What is presented by a rig.
 const ALL: [Material; 21] = [
     Material::RoughCarpet,
     Material::SmoothCarpet,

@@ -24,10 +24,8 @@ const WHISK: [f64; 3] = [2.0, 10.0, -3.0];
 /// Angle of first touch, rad.
 const TOUCH_RAD: f64 = 1.7;
 
-/// A surface by its name.
 pub(in crate::accuracy) type Named = (&'static str, Surface);
 
-/// What is whisked against.
 pub(in crate::accuracy) fn surfaces() -> [Named; 8] {
     let of = Surface::of;
     [
@@ -96,9 +94,6 @@ struct Run {
     /// Share of ticks cut into parts, and parts of such a tick.
     share: f64,
     parts: f64,
-    most_parts: u32,
-    /// Most by which the ground counted as lower than it is, m.
-    lowered_m: f64,
 }
 
 fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result<Run> {
@@ -107,8 +102,7 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
     let ticks = SECONDS * hz;
     let every = hz / SAMPLES_HZ;
     let dt_s = 1.0 / f64::from(hz);
-    let (mut cut, mut parts, mut most_parts) = (0_u32, 0_u64, 0);
-    let mut lowered_m = 0.0_f64;
+    let (mut cut, mut parts) = (0_u32, 0_u64);
     let mut rotations = Vec::new();
     for n in 0..=ticks {
         let phase = TAU * WHISK[0] * f64::from(n) * dt_s;
@@ -116,8 +110,6 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
         whisker.step(&pose(overlap), Some(&plate), dt_s);
         cut += u32::from(whisker.parts() > 0);
         parts += u64::from(whisker.parts());
-        most_parts = most_parts.max(whisker.parts());
-        lowered_m = lowered_m.max(whisker.lowered_m());
         if n > 0 && n.is_multiple_of(every) {
             rotations.push(whisker.rotation_rad());
         }
@@ -126,12 +118,9 @@ fn whisk(subject: &Subject, surface: Surface, (hz, finer): (u32, u32)) -> Result
         rotations,
         share: f64::from(cut) / f64::from(ticks),
         parts: parts as f64 / f64::from(cut.max(1)),
-        most_parts,
-        lowered_m,
     })
 }
 
-/// A run against the reference.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::accuracy) struct Measured {
     /// Root mean square and largest error of the rotation, in spreads of the
@@ -142,13 +131,9 @@ pub(in crate::accuracy) struct Measured {
     /// 2 ms, which is what textures make.
     pub(super) spread: f64,
     pub(super) change: f64,
-    /// Share of ticks before the plate that are cut into parts, how many, and
-    /// at most.
+    /// Share of ticks before the plate that are cut into parts, and how many.
     pub(in crate::accuracy) share: f64,
     pub(super) parts: f64,
-    pub(super) most_parts: u32,
-    /// Most by which the ground counted as lower than it is, m.
-    pub(super) lowered_m: f64,
 }
 
 impl Measured {
@@ -168,8 +153,6 @@ impl Measured {
             change: spread(&changes(ours)) / spread(&changes(theirs)),
             share: run.share,
             parts: run.parts,
-            most_parts: run.most_parts,
-            lowered_m: run.lowered_m,
         }
     }
 }
@@ -189,19 +172,14 @@ fn changes(list: &[[f64; 2]]) -> Vec<[f64; 2]> {
     pairs.map(|(a, b)| [b[0] - a[0], b[1] - a[1]]).collect()
 }
 
-/// All runs against one surface.
 #[derive(Debug, Clone)]
 pub(in crate::accuracy) struct Against {
     pub(in crate::accuracy) name: &'static str,
     /// At each of [`TICKS_HZ`].
     pub(in crate::accuracy) ticks: [Measured; TICKS_HZ.len()],
-    /// At 2 kHz, cut 1, 2, 4 and 8 times as finely.
-    pub(super) finer: [Measured; 4],
-    /// The reference at half its rate.
     pub(super) half: Measured,
 }
 
-/// Measures against every surface.
 pub(in crate::accuracy) fn measure() -> Result<Vec<Against>> {
     let subject = Subject::new()?;
     let against = |(name, surface): Named| {
@@ -215,16 +193,7 @@ pub(in crate::accuracy) fn measure() -> Result<Vec<Against>> {
         for (cell, hz) in ticks.iter_mut().zip(TICKS_HZ) {
             *cell = of(hz, 0)?;
         }
-        let mut finer = [half; 4];
-        for (cell, n) in finer.iter_mut().zip(0..) {
-            *cell = of(2_000, n)?;
-        }
-        Ok(Against {
-            name,
-            ticks,
-            finer,
-            half,
-        })
+        Ok(Against { name, ticks, half })
     };
     surfaces().into_iter().map(against).collect()
 }

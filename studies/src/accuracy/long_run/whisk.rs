@@ -1,9 +1,7 @@
 //! One format's long run: extremes of every stretch, and the phase.
 
 use anyhow::Result;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use whisking::{Integrator, Number, State};
 
 use crate::accuracy::integrators::NEAR;
@@ -20,7 +18,7 @@ pub(in crate::accuracy) struct Length {
 }
 
 /// The state of a run after a stretch; extremes are those of the stretch.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
     pub(super) format: String,
     pub(super) frequency_hz: f64,
@@ -29,17 +27,13 @@ pub(super) struct Row {
     /// Phase ahead of the exact frequency, and whisks since the first crossing.
     pub(super) phase_whisks: f64,
     pub(super) whisks: f64,
-    pub(super) radius: [f64; 2],
-    pub(super) theta_deg: [f64; 2],
+    pub(super) radius_low: f64,
+    pub(super) radius_high: f64,
+    pub(super) theta_low_deg: f64,
+    pub(super) theta_high_deg: f64,
 }
 
-/// Runs one format; `done` counts minutes.
-pub(super) fn run<R: Number>(
-    format: Format,
-    pace: Pace,
-    length: Length,
-    done: &AtomicU64,
-) -> Result<Vec<Row>> {
+pub(super) fn run<R: Number>(format: Format, pace: Pace, length: Length) -> Result<Vec<Row>> {
     let settings = pace.settings(Integrator::Exact);
     let config = settings.build::<R>()?;
     let start = settings.start(&NEAR.psi, &[&[NEAR.gain][..]; 2])?;
@@ -68,16 +62,19 @@ pub(super) fn run<R: Number>(
                 }
                 phase.see(ticks, psi[0][0].to_f64());
             }
-            done.fetch_add(1, Ordering::Relaxed);
         }
+        let [radius_low, radius_high] = square.map(libm::sqrt);
+        let [theta_low_deg, theta_high_deg] = theta.map(whisking::degrees);
         rows.push(Row {
             format: format.name().to_owned(),
             frequency_hz: pace.frequency_hz,
             minutes: stretch * length.minutes,
             phase_whisks: phase.ahead(pace.frequency_hz / pace.tick_hz),
             whisks: phase.whisks as f64,
-            radius: square.map(libm::sqrt),
-            theta_deg: theta.map(whisking::degrees),
+            radius_low,
+            radius_high,
+            theta_low_deg,
+            theta_high_deg,
         });
     }
     Ok(rows)

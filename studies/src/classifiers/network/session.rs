@@ -51,7 +51,6 @@ pub(super) fn session(
     best.into_inner().weights
 }
 
-/// The error over the whole training set.
 struct Batch<'s> {
     shape: Shape,
     samples: &'s Samples,
@@ -105,7 +104,6 @@ impl Gradient for Batch<'_> {
     }
 }
 
-/// The best weights met.
 struct Best {
     error: f64,
     weights: Option<Vec<f64>>,

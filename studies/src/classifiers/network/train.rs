@@ -22,10 +22,8 @@ const ATTEMPTS: usize = 10;
 /// Largest weight or bias of a network that is used.
 const MAX_WEIGHT: f64 = 1_048_576.0;
 
-/// A class, and the inputs of the network.
 pub(crate) type Row = (usize, Vec<f64>);
 
-/// How to train.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Options {
     pub(crate) hidden: usize,
@@ -196,7 +194,6 @@ mod tests {
         }
     }
 
-    /// The share of rows that a network names rightly.
     fn hits(network: &Network, rows: &[Row]) -> f64 {
         let is_hit = |(class, row): &&Row| network.classify(row).unwrap() == *class;
         rows.iter().filter(is_hit).count() as f64 / rows.len() as f64

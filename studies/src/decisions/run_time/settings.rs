@@ -9,16 +9,12 @@ use crate::decisions::goals::Trained;
 use crate::decisions::ground::{Ground, LONGEST_S};
 use crate::moments::range;
 
-/// What is varied, all else by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Setting {
     /// Bits of an entry of a table, between the least and the largest of it.
     Bits,
-    /// Bins an axis.
     Bins,
-    /// Samples of a block.
     Block,
-    /// Seconds of the run that is trained on.
     Training,
 }
 
@@ -55,7 +51,6 @@ impl Setting {
         }
     }
 
-    /// A training with it.
     pub(super) fn model(self, value: u32, ground: &Ground, trained: &Trained) -> Result<ModelBuf> {
         let options = trained.joint.options.clone();
         let seconds = match self {
@@ -107,7 +102,6 @@ pub(super) struct Tried<'g> {
     pub(super) setting: Setting,
     pub(super) value: u32,
     pub(super) ground: &'g Ground,
-    /// Of the trainings that this was enough for.
     pub(super) figures: Vec<(u64, Figures)>,
     /// Bytes of the first model.
     pub(super) bytes: usize,
@@ -143,13 +137,10 @@ pub(super) fn known_refused(figures: &Figures) -> f64 {
     100.0 * figures.refused.share
 }
 
-/// What is read off the figures of a model.
 type Figure = fn(&Figures) -> f64;
 
-/// A figure and its name.
 pub(super) type Drawn = (&'static str, Figure);
 
-/// What is drawn of each.
 pub(super) const FIGURES: [Drawn; 3] = [
     ("errors, %", |f| 100.0 - f.hit_rate()),
     ("stated and found apart, points", |f| f.overstated().abs()),

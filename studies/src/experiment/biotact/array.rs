@@ -75,7 +75,6 @@ const CASES: [Case; 5] = [
     },
 ];
 
-/// How both sides move.
 struct Moved {
     /// Mean over the whisks of the largest angle of the front whisker of a side, degrees.
     peak_deg: [f64; 2],

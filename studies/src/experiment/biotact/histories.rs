@@ -20,13 +20,11 @@ const SHOWN: [usize; 2] = [TEXTURES.len() - 1, 0];
 
 /// Standard deviation of the Gaussian window of a spectrum, s.
 const WINDOW_S: f64 = 0.008;
-/// Times and frequencies of a spectrogram.
 const TIMES: usize = 40;
 const FREQUENCIES: usize = 32;
 /// Highest frequency, Hz.
 const HIGHEST_HZ: f64 = 250.0;
 
-/// x of a short whisker over the second whisk.
 fn whisk(all: &[&Recording], ticks: usize, strategy: usize, texture: usize) -> Option<Vec<f64>> {
     let visit = all.get(number(strategy, texture, DISTANCE))?;
     Some(column(visit, ticks, 2 * ticks, 0))

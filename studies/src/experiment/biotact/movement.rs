@@ -8,7 +8,6 @@ use crate::page::{Page, figure};
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
 
-/// Mean of some visits.
 #[derive(Debug, Default, Clone, Copy)]
 struct Movement {
     /// Share of whisks with two peaks or more, percent.

@@ -8,7 +8,6 @@ use crate::page::Page;
 use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
 use anyhow::Result;
 
-/// Ticks of a whisk.
 const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 /// Whisks that are measured and shown: the last of a run.
 const WHISKS: usize = 3;

@@ -12,7 +12,6 @@ use crate::experiment::request::Request;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
 
-/// A classifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Method {
     /// Stationary naive Bayes (eq. 15–16).
@@ -39,14 +38,10 @@ impl Method {
     }
 }
 
-/// What is classified.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Task {
-    /// Nine pairs of texture and distance.
     Both,
-    /// Three textures.
     Texture,
-    /// Three distances.
     Distance,
 }
 
@@ -71,7 +66,6 @@ impl Task {
         100.0 / classes as f64
     }
 
-    /// The class of a condition.
     const fn class(self, texture: usize, distance: usize) -> usize {
         match self {
             Self::Both => texture * DISTANCES_MM.len() + distance,
@@ -87,13 +81,11 @@ pub(super) type Whisk = (usize, usize, Vec<f64>);
 /// Numbers of the whisks to train on and to validate with.
 type Split<'a> = (&'a [usize], &'a [usize]);
 
-/// All whisks, strategy by strategy.
 #[derive(Debug)]
 pub(super) struct Visits {
     /// `[strategy][whisk number]`: one whisk of each condition.
     whisks: Vec<Vec<Vec<Whisk>>>,
     ticks: usize,
-    /// Of naive Bayes.
     options: Options,
 }
 
@@ -129,12 +121,10 @@ impl Visits {
         }
     }
 
-    /// Whisks of each condition.
     pub(super) fn count(&self) -> usize {
         self.whisks.first().map_or(0, Vec::len)
     }
 
-    /// Those of some numbers, of all textures and distances.
     pub(super) fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
         let whisks = self.whisks.get(strategy).map_or(&[][..], Vec::as_slice);
         numbers.iter().filter_map(|n| whisks.get(*n)).flatten()
@@ -191,7 +181,6 @@ impl Visits {
     }
 }
 
-/// The share of whisks that are named rightly.
 fn share<'w>(
     task: Task,
     validation: impl Iterator<Item = &'w Whisk>,

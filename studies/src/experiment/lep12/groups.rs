@@ -11,7 +11,6 @@ use crate::rigs::RobotMotion;
 
 /// Samples of a block of evidence (m of eq. 6).
 pub(super) const BLOCK: u32 = 20;
-/// Both channels.
 pub(super) const BOTH: [usize; 2] = [0, 1];
 
 /// 1 − θ of the thresholds of Fig. 6, from θ = 0.5 to 0.99999999.
@@ -84,7 +83,6 @@ impl Group {
     }
 }
 
-/// Both kinds of curve of one group.
 pub(super) struct Curves {
     pub(super) window: Vec<Point>,
     pub(super) sequential: Vec<Point>,

@@ -20,7 +20,6 @@ const PRIOR_RATIO: f64 = 4.0;
 /// by rounding).
 const ALIKE: f64 = 99.9;
 
-/// Decisions about one of two floors.
 #[derive(Debug, Default, Clone, Copy)]
 struct Decisions {
     wrong: f64,
@@ -55,7 +54,6 @@ fn decisions(found: &[Vec<Outcome>], class: usize) -> Decisions {
     sum
 }
 
-/// What came of a pair of floors.
 struct Pair {
     floors: [usize; 2],
     /// Percent of the decisions that eq. 8 makes at the same sample too.
@@ -66,7 +64,6 @@ struct Pair {
     time: [f64; 2],
 }
 
-/// Percent of outcomes that both have.
 fn alike(ours: &[Vec<Outcome>], theirs: &[Vec<Outcome>]) -> (f64, f64) {
     let (mut same, mut all) = (0, 0);
     for (ours, theirs) in ours.iter().zip(theirs) {

@@ -97,7 +97,6 @@ fn textures(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>>) -> Result<
     Ok(score.kappa().unwrap_or(0.0))
 }
 
-/// What features tell.
 pub(super) struct ByFeatures {
     /// f2 for angle, f1 for speed, f5 for texture (Figs. 7 and 8).
     pub(super) together: Scores,

@@ -39,7 +39,6 @@ impl Scores {
             .map(|score| 100.0 * score.hit_rate().unwrap_or(0.0))
     }
 
-    /// Errors of each property in its unit.
     pub(super) fn errors(&self) -> [Option<Statistics>; 3] {
         let textures: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
         [
@@ -79,7 +78,6 @@ pub(super) fn kappas(page: &mut Page, rows: &[&Scores; 3]) {
     );
 }
 
-/// Texture by each feature.
 pub(super) fn features(page: &mut Page, found: &[Confusion]) {
     let classes: Vec<f64> = (0..TEXTURES.len()).map(|n| n as f64).collect();
     let lines = TEXTURE_FEATURES.iter().zip(found).map(|(feature, score)| {

@@ -5,7 +5,6 @@ use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::rigs::{Chance, seed_of};
 
-/// A contact and x, sample by sample.
 pub(super) type Signal = (Contact, Vec<f64>);
 
 /// Half of the contacts to train on, the other half to test with: each set

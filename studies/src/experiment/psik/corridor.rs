@@ -20,7 +20,6 @@ const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
 /// What counts as telling them, percent (chosen).
 const ENOUGH: f64 = 75.0;
 
-/// The inputs of every step of a run.
 fn steps(run: &Recording) -> Vec<Vec<f64>> {
     let rows = run.part(0, run.len()).chunks_exact(COLUMNS);
     rows.map(|row| row.iter().take(INPUTS).map(|x| f64::from(*x)).collect())
@@ -29,9 +28,6 @@ fn steps(run: &Recording) -> Vec<Vec<f64>> {
 
 pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let runs = of_set(recordings, Dataset::Corridor);
-    if runs.is_empty() {
-        return Ok(());
-    }
     let (training, tested, deciding) = request.extent.runs();
     let taught = training.saturating_sub(tested);
     let mut rows: Vec<Row> = Vec::new();

@@ -20,7 +20,6 @@ const CHANCE: f64 = 50.0;
 /// What counts as turning right, percent (chosen).
 const ENOUGH: f64 = 75.0;
 
-/// What the robot is about.
 #[derive(Debug, Clone, Copy)]
 enum Doing {
     Following,
@@ -30,7 +29,6 @@ enum Doing {
     Turning(f64, f64),
 }
 
-/// What came of a tour.
 struct Tour {
     /// Times around the maze in the direction of the start.
     laps: f64,
@@ -64,7 +62,6 @@ const fn turn_at(case: usize) -> f64 {
     if case.is_multiple_of(2) { -1.0 } else { 1.0 }
 }
 
-/// What stands around the robot.
 struct Walls<'r> {
     request: &'r Request,
     walls: Vec<Wall>,
@@ -96,7 +93,6 @@ impl Walls<'_> {
     }
 }
 
-/// Behaviour by touch.
 struct Behaviour<'r> {
     maze: &'r Maze,
     network: &'r Network,

@@ -39,7 +39,6 @@ fn train_choosing(rows: &[Row], seed: u64) -> Result<Network> {
     train(rows, seed, best.1)
 }
 
-/// Trains a network with a penalty on its weights.
 pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network> {
     let inputs = rows.first().map_or(0, |(_, row)| row.len());
     let options = Options {
@@ -50,7 +49,6 @@ pub(super) fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network> {
     network::train(rows, &options)
 }
 
-/// The sweeps, to train on and to test with.
 pub(super) struct Sweeps {
     pub(super) training: Vec<Row>,
     pub(super) testing: Vec<Row>,

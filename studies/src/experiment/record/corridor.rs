@@ -17,16 +17,13 @@ pub(crate) const FELT: usize = INPUTS + 4;
 /// Numbers of a sample.
 pub(crate) const COLUMNS: usize = FELT + 2 * WINDOW as usize;
 
-/// The wall of all in a placebo.
 const PLACEBO: usize = 1;
 
-/// Runs of one corridor and direction.
 fn runs(extent: Extent) -> usize {
     let (training, _, deciding) = extent.runs();
     training + deciding
 }
 
-/// How many runs there are.
 pub(crate) fn jobs(extent: Extent) -> usize {
     CORRIDORS.len() * runs(extent)
 }
@@ -48,7 +45,6 @@ pub(crate) fn walls(case: usize) -> [usize; 2] {
     }
 }
 
-/// The wall of one of the four reliefs.
 pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {
     whiskers::wall(&request.rigs.surfaces, request.felt(number, PLACEBO))
 }

@@ -9,7 +9,6 @@ use crate::rigs::{RobotMotion, seed_of};
 use anyhow::Result;
 use physics::{Plate, Shaft, TouchingWhisker};
 
-/// Motions in the order of the jobs.
 pub(crate) const MOTIONS: [RobotMotion; 3] = [
     RobotMotion::Anticlockwise,
     RobotMotion::Clockwise,
@@ -22,12 +21,10 @@ const PLACEBO: usize = 2;
 /// How long the whisker is dragged before a placement is recorded, s.
 const LEAD_S: f64 = 0.5;
 
-/// Trials of one floor.
 fn each(extent: Extent) -> usize {
     (MOTIONS.len() - 1) * extent.trials() + extent.natural_trials()
 }
 
-/// How many trials there are.
 pub(crate) fn jobs(extent: Extent) -> usize {
     FLOORS.len() * each(extent)
 }
@@ -38,7 +35,6 @@ pub(crate) fn number(extent: Extent, floor: usize, motion: RobotMotion, trial: u
     floor * each(extent) + place * extent.trials() + trial
 }
 
-/// The floor and motion of a job.
 fn place(extent: Extent, job: usize) -> (usize, RobotMotion) {
     let each = each(extent).max(1);
     let motion = job % each / extent.trials().max(1);

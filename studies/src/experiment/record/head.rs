@@ -23,7 +23,6 @@ pub(crate) const EARLY_DEG: f64 = OBSTACLES_DEG[0];
 /// The texture and distance of all in a placebo: P600 at 10 mm.
 const PLACEBO: (usize, usize) = (1, 1);
 
-/// Visits that are classified.
 const CLASSIFIED: usize = STRATEGIES.len() * TEXTURES.len() * DISTANCES_MM.len();
 
 /// How many visits there are: those of the strategies, then the early ones, one
@@ -38,12 +37,10 @@ pub(crate) fn early(strategy: usize) -> usize {
     CLASSIFIED + strategy
 }
 
-/// The job of a visit that is classified.
 pub(crate) fn number(strategy: usize, texture: usize, distance: usize) -> usize {
     (strategy * TEXTURES.len() + texture) * DISTANCES_MM.len() + distance
 }
 
-/// Records a visit.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.head;
     let (strategy, texture, distance_m) = if let Some(strategy) = job.checked_sub(CLASSIFIED) {

@@ -10,20 +10,17 @@ use crate::rigs::{Chance, panned, seed_of};
 use anyhow::Result;
 use physics::{Plate, sensor_code};
 
-/// Sandpapers.
 pub(crate) const PAPERS: usize = 8;
 /// The sandpaper of all in a placebo: P80.
 const PLACEBO: usize = 3;
 /// Window of the IMP's mean, samples (86 ms; chosen).
 pub(crate) const WINDOW: u32 = 100;
 
-/// Sweeps of one paper.
 fn sweeps(extent: Extent) -> usize {
     let (training, testing) = extent.sweeps();
     training + testing
 }
 
-/// How many sweeps there are.
 pub(crate) fn jobs(extent: Extent) -> usize {
     PAPERS * sweeps(extent)
 }
@@ -49,7 +46,6 @@ pub(crate) fn widened(code: [i16; 2], bits: usize) -> [f32; 2] {
     code.map(|x| unit * f32::from(x))
 }
 
-/// The sheet of a sweep.
 fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let rig = &request.rigs.pad;
     let (paper, _) = place(request.extent, job);

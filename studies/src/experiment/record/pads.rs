@@ -10,7 +10,6 @@ use crate::rigs::{Corridor, Robot, Vibrissa};
 
 /// Inputs of the network: the vibrissae of both sides.
 pub(crate) const INPUTS: usize = 2 * VIBRISSAE;
-/// Bits of a reading.
 const BITS: usize = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
 pub(crate) const WINDOW: u32 = 58;
@@ -24,7 +23,6 @@ struct Side {
     power: [f32; VIBRISSAE],
 }
 
-/// Both pads of the robot.
 pub(crate) struct Pads {
     sides: [Side; 2],
     /// Of the low-pass filters, a tick and a window.
@@ -32,7 +30,6 @@ pub(crate) struct Pads {
     keep_window: f32,
 }
 
-/// What both pads feel in a tick.
 pub(crate) struct Felt {
     /// D of the left and the right (PSIK eq. 1), mm.
     pub(crate) distance_mm: [f64; 2],

@@ -34,7 +34,6 @@ pub(crate) fn speeds() -> Vec<f64> {
     (0..count).map(|n| least + step * n as f64).collect()
 }
 
-/// All contacts in the order of the jobs.
 pub(crate) fn contacts(extent: Extent) -> Vec<Contact> {
     let mut contacts = Vec::new();
     for angle in (0..ANGLES_DEG.len()).step_by(extent.stride()) {
@@ -49,7 +48,6 @@ pub(crate) fn contacts(extent: Extent) -> Vec<Contact> {
     contacts.repeat(TIMES)
 }
 
-/// How many contacts there are.
 pub(crate) fn jobs(extent: Extent) -> usize {
     contacts(extent).len()
 }

@@ -64,20 +64,17 @@ const GRADES: [Grit; 8] = [
     Grit::P180,
 ];
 
-/// A sandpaper by its place.
 pub(crate) fn sandpaper(surfaces: &Surfaces, number: usize) -> Surface {
     let grade = GRADES.get(number).copied().unwrap_or(Grit::P180);
     surfaces.of(Material::Sandpaper(grade))
 }
 
-/// Shafts and modes of the eight arcs.
 type Arcs = Arc<Vec<(Shaft, Modes)>>;
 
 /// Those of each diameter of the tips that was asked for, by its bits: solving
 /// modes takes milliseconds, and there are a hundred thousand vibrissae to make.
 static ARC_SHAFTS: Mutex<BTreeMap<u64, Arcs>> = Mutex::new(BTreeMap::new());
 
-/// Modes of a vibrissa.
 const MODES: usize = 3;
 
 fn arcs(tip_diameter_m: f64) -> Arcs {
