@@ -26,9 +26,7 @@ struct Entry {
 /// What is done.
 #[derive(Debug, Clone, PartialEq)]
 enum Action {
-    /// A command is given.
     Give(Command),
-    /// A key of the scene is set.
     Set(Override),
 }
 
@@ -36,18 +34,15 @@ enum Action {
 #[derive(Debug, Default)]
 pub(crate) struct Script {
     entries: VecDeque<Entry>,
-    /// When it began.
     begun_s: Option<f64>,
     /// The command that is not answered yet, and the tag of its request.
     pending: Option<(u16, String)>,
-    /// Commands that were refused.
     refused: u32,
     /// Who sets keys, where any is set.
     tuner: Option<Tuner>,
 }
 
 impl Script {
-    /// Reads a script.
     pub(crate) fn load(path: &Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
         Self::parse(&text).map_err(|fault| Error::file(path, fault))

@@ -9,7 +9,6 @@ use ratatui::backend::CrosstermBackend;
 
 use super::view::Key;
 
-/// A terminal in which one window is drawn.
 pub(crate) type Window = Terminal<CrosstermBackend<Stdout>>;
 
 /// The terminal, for as long as this lives.
@@ -50,7 +49,6 @@ pub(crate) fn restore_modes() {
     let _ = terminal::disable_raw_mode();
 }
 
-/// What a key of the terminal means here.
 pub(crate) fn key(event: &KeyEvent) -> Option<Key> {
     if event.kind == KeyEventKind::Release {
         return None;

@@ -3,6 +3,7 @@
 //! characters stops the drawing and nothing else.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
@@ -16,9 +17,9 @@ use super::draw::{Theme, draw};
 use super::save::Held;
 use super::screen::{self, Screen, Window};
 use super::view::{Deed, Key, View, deed};
-use super::watching::{Shared, Wish, lock};
+use super::watching::{Shared, Wish, joined, lock};
+use crate::interrupt::on_signal;
 
-/// From one picture to the next.
 const PICTURE: Duration = Duration::from_millis(50);
 
 /// For how long the last picture may take, once all else has ended.
@@ -27,11 +28,9 @@ const LAST: Duration = Duration::from_millis(500);
 /// For how long something is told at the bottom, s.
 const TOLD_S: f64 = 4.0;
 
-/// What a window is about.
 pub(crate) struct About {
     pub(crate) title: String,
     pub(crate) origin: Origin,
-    /// Where what is held is saved.
     pub(crate) save: PathBuf,
 }
 
@@ -59,7 +58,12 @@ pub(crate) fn open(
             return Err(error);
         }
     };
-    let signal = signals(wishes.clone()).map_err(failed);
+    let signal = Arc::new(AtomicI32::new(0));
+    let (come, stops) = (signal.clone(), wishes.clone());
+    let waits = on_signal(move |number| {
+        come.store(number, Ordering::Relaxed);
+        let _ = stops.send(Wish::StopAndEnd);
+    });
     let (look, looks) = mpsc::channel();
     let keys_wishes = wishes.clone();
     let ends = shared.clone();
@@ -80,12 +84,11 @@ pub(crate) fn open(
             let _ = ended.send(done);
         });
     let drawing = drawing.map_err(failed);
-    if signal.is_err() || watched.is_err() || drawing.is_err() {
+    if waits.is_err() || watched.is_err() || drawing.is_err() {
         let _ = wishes.send(Wish::StopAndEnd);
     }
 
-    let ended = listener.join();
-    let ended = ended.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+    let ended = joined(listener);
     lock(shared).has_ended = true;
     let drawn = match drawing_ends.recv_timeout(LAST) {
         Ok(done) => done.map_err(failed),
@@ -97,8 +100,15 @@ pub(crate) fn open(
         }
     };
     drop(screen);
+    let ended_by = match signal.load(Ordering::Relaxed) {
+        0 => Ok(()),
+        signal => Err(Error::Work(format!(
+            "ended by signal {signal}; the motors were stopped"
+        ))),
+    };
     ended
-        .and(signal?.told())
+        .and(waits)
+        .and(ended_by)
         .and(drawn)
         .and(watched.map(drop))
         .and(drawing.map(drop))
@@ -149,7 +159,6 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
     }
 }
 
-/// Draws until whoever listens has ended.
 fn pictures(
     mut window: Window,
     shared: &Arc<Mutex<Shared>>,
@@ -193,7 +202,6 @@ fn pictures(
     }
 }
 
-/// Saves what is held, beside all else.
 fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
     let held = Held::of(&lock(shared).history);
     let (shared, path, origin) = (shared.clone(), about.save.clone(), about.origin.clone());
@@ -206,51 +214,4 @@ fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
         let now = shared.history.now();
         shared.message = Some((now, message));
     });
-}
-
-/// Signals that have come.
-struct Signals(Arc<Mutex<Option<i32>>>);
-
-impl Signals {
-    /// An error if one has ended the program.
-    fn told(&self) -> Result<(), Error> {
-        let signal = *self
-            .0
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        match signal {
-            Some(signal) => Err(Error::Work(format!(
-                "ended by signal {signal}; the motors were stopped"
-            ))),
-            None => Ok(()),
-        }
-    }
-}
-
-/// A signal that would end the program stops the motors first.
-#[cfg(unix)]
-fn signals(wishes: Sender<Wish>) -> std::io::Result<Signals> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    let come = Arc::new(Mutex::new(None));
-    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
-    let told = come.clone();
-    let wait = move || {
-        for signal in signals.forever() {
-            *told
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner) = Some(signal);
-            let _ = wishes.send(Wish::StopAndEnd);
-        }
-    };
-    thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(wait)?;
-    Ok(Signals(come))
-}
-
-/// Elsewhere there are none.
-#[cfg(not(unix))]
-fn signals(_wishes: Sender<Wish>) -> std::io::Result<Signals> {
-    Ok(Signals(Arc::new(Mutex::new(None))))
 }

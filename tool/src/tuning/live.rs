@@ -1,11 +1,8 @@
 //! The keys of a scene that can be set while a module runs.
 
-use scene::{Driver, MotorSection, Rest, Rule, Scene, WhiskingSection};
-use whisking::GateSettings;
+use scene::{Driver, MotorSection, Rest, Rule, Scene};
 
-/// A key that can be set.
 pub(crate) struct LiveKey {
-    /// With its section.
     pub(crate) key: &'static str,
     /// Its value in a scene; none where the scene leaves its part out.
     pub(crate) place: fn(&mut Scene) -> Option<&mut f64>,
@@ -13,16 +10,22 @@ pub(crate) struct LiveKey {
     pub(crate) watch: &'static str,
 }
 
-/// A key of a section, which `$part` finds in a scene, where it has one.
+/// A key of a section that a scene may leave out, or has only if something is so.
 macro_rules! live {
-    ($part:ident: $section:ident.$key:ident, $watch:literal) => {
-        live!(
-            concat!(stringify!($section), ".", stringify!($key)),
-            |scene| $part(scene).map(|part| &mut part.$key),
-            $watch
-        )
+    ($section:ident.$key:ident $(if $condition:expr)?, $watch:literal) => {
+        LiveKey {
+            key: concat!(stringify!($section), ".", stringify!($key)),
+            place: |scene| {
+                let section = scene.$section.as_mut()?;
+                $(if !$condition(section) {
+                    return None;
+                })?
+                Some(&mut section.$key)
+            },
+            watch: $watch,
+        }
     };
-    ($key:expr, $place:expr, $watch:literal) => {
+    ($key:literal, $place:expr, $watch:literal) => {
         LiveKey {
             key: $key,
             place: $place,
@@ -31,60 +34,63 @@ macro_rules! live {
     };
 }
 
-fn motor(scene: &mut Scene) -> Option<&mut MotorSection> {
-    scene.motor.as_mut()
+fn is_homed(motor: &MotorSection) -> bool {
+    motor.rest == Rest::Find
 }
 
-/// Of a motor whose rest is found.
-fn homed(scene: &mut Scene) -> Option<&mut MotorSection> {
-    motor(scene).filter(|motor| motor.rest == Rest::Find)
-}
-
-fn rcp(scene: &mut Scene) -> Option<&mut GateSettings> {
-    scene.rcp.as_mut()
-}
-
-fn cia(scene: &mut Scene) -> Option<&mut GateSettings> {
-    scene.cia.as_mut()
-}
-
-fn whisking(scene: &mut Scene) -> Option<&mut WhiskingSection> {
-    scene.whisking.as_mut()
-}
-
-/// All of them.
 pub(crate) const LIVE: &[LiveKey] = &[
-    live!(motor: motor.kp, "setpoint against measured angle; humming or ringing: too much"),
-    live!(motor: motor.kd, "overshoot, and noise of the duty"),
-    live!(motor: motor.duty_limit, "largest duty; stalls count from half of it"),
-    live!(motor: motor.slew_per_s, "how the duty rises; lag"),
-    live!(motor: motor.min_deg, "lowest angle; the travel guard moves with it"),
-    live!(motor: motor.max_deg, "highest angle; the travel guard moves with it"),
-    live!(motor: motor.travel_margin_deg, "travel faults"),
-    live!(motor: motor.following_limit_deg, "following faults"),
-    live!(motor: motor.top_speed_deg_s, "runaway faults"),
-    live!(motor: motor.unmoved_duty, "encoder faults"),
-    live!(motor: motor.continuous_duty, "heat faults; how warm the motor gets"),
-    live!(motor: motor.approach_deg_s, "the first move after the motor was off"),
-    live!(homed: motor.homing_duty, "the next homing; used by `home`"),
+    live!(
+        motor.kp,
+        "setpoint against measured angle; humming or ringing: too much"
+    ),
+    live!(motor.kd, "overshoot, and noise of the duty"),
+    live!(
+        motor.duty_limit,
+        "largest duty; stalls count from half of it"
+    ),
+    live!(motor.slew_per_s, "how the duty rises; lag"),
+    live!(
+        motor.min_deg,
+        "lowest angle; the travel guard moves with it"
+    ),
+    live!(
+        motor.max_deg,
+        "highest angle; the travel guard moves with it"
+    ),
+    live!(motor.travel_margin_deg, "travel faults"),
+    live!(motor.following_limit_deg, "following faults"),
+    live!(motor.top_speed_deg_s, "runaway faults"),
+    live!(motor.unmoved_duty, "encoder faults"),
+    live!(
+        motor.continuous_duty,
+        "heat faults; how warm the motor gets"
+    ),
+    live!(
+        motor.approach_deg_s,
+        "the first move after the motor was off"
+    ),
+    live!(motor.homing_duty if is_homed, "the next homing; used by `home`"),
     live!(
         "motor.stop_deg",
         |scene| {
-            let motor = homed(scene)?;
+            let motor = scene.motor.as_mut().filter(|motor| is_homed(motor))?;
             let stop_deg = motor.retracted_deg();
             Some(motor.stop_deg.get_or_insert(stop_deg))
         },
         "the angle at rest after the next homing"
     ),
-    live!(rcp: rcp.gain, "z, and how far the whisker goes on after contact"),
-    live!(rcp: rcp.tau_s, "how z falls after contact"),
-    live!(cia: cia.gain, "amplitude of the array after contact"),
-    live!(cia: cia.tau_s, "for how long it stays larger"),
-    live!(whisking: whisking.frequency_hz, "whisks a second; the following error grows with it"),
+    live!(rcp.gain, "z, and how far the whisker goes on after contact"),
+    live!(rcp.tau_s, "how z falls after contact"),
+    live!(cia.gain, "amplitude of the array after contact"),
+    live!(cia.tau_s, "for how long it stays larger"),
+    live!(
+        whisking.frequency_hz,
+        "whisks a second; the following error grows with it"
+    ),
     live!(
         "whisking.noise",
         |scene| {
-            let noise = &mut whisking(scene)?.noise;
+            let noise = &mut scene.whisking.as_mut()?.noise;
             (*noise > 0.0).then_some(noise)
         },
         "how much one whisk differs from another"
@@ -115,9 +121,6 @@ pub(crate) const LIVE: &[LiveKey] = &[
 ];
 
 /// The key that can be set.
-///
-/// # Errors
-/// Why not.
 pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, String> {
     let needs = "it needs a restart: whisker deploy --scene FILE";
     let Some(live) = LIVE.iter().find(|live| live.key == key) else {

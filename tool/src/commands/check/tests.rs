@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::Parser;
-use firmware::Packet;
-use wire::{Flags, TaggedCommand, TickRecord};
+use wire::{Flags, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
-use crate::source::Incoming;
+use crate::source::{Alter, Altered, GOOD};
 
 #[derive(Parser)]
 struct Line {
@@ -17,46 +16,8 @@ struct Line {
     arguments: Arguments,
 }
 
-/// A module whose records are spoilt on their way; false: that one is lost.
-struct Spoilt {
-    module: Box<dyn Source>,
-    spoils: fn(&mut TickRecord, f64) -> bool,
-}
-
-impl Source for Spoilt {
-    fn next(&mut self) -> Result<Incoming, Error> {
-        let mut incoming = self.module.next()?;
-        let t_s = self.module.now_s();
-        incoming.packets.retain_mut(|packet| match packet {
-            Packet::Record(record) => (self.spoils)(record, t_s),
-            Packet::Answer(_) | Packet::Event(_) => true,
-        });
-        Ok(incoming)
-    }
-
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.module.request(request)
-    }
-
-    fn now_s(&mut self) -> f64 {
-        self.module.now_s()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
-    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
-        self.module.deploy(what)
-    }
-
-    fn origin(&self) -> Origin {
-        self.module.origin()
-    }
-}
-
 /// The signs of what is found of such a module.
-fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
+fn signs(alter: Alter) -> Vec<&'static str> {
     let folder = tempfile::tempdir().unwrap();
     let scene: PathBuf = folder.path().join("scene.toml");
     std::fs::write(&scene, SCENE).unwrap();
@@ -64,9 +25,10 @@ fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
     let words = words.iter().map(std::ffi::OsString::from);
     let Line { arguments } = Line::parse_from(words.chain([scene.clone().into_os_string()]));
     let simulation = || SourceChoice::simulation(&scene).unwrap();
-    let module = Box::new(Spoilt {
+    let module = Box::new(Altered {
         module: simulation(),
-        spoils,
+        alter,
+        around: GOOD,
     });
     let seen = Seen::of(module, &arguments).unwrap();
     let simulated = Seen::of(simulation(), &arguments).unwrap();
@@ -86,7 +48,6 @@ fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
     signs
 }
 
-/// Another code of x.
 fn shift(record: &mut TickRecord, codes: f64) {
     let [x, _] = record.codes();
     let code = (f64::from(x) + codes).round().clamp(0.0, 16_383.0);
@@ -97,11 +58,6 @@ fn shift(record: &mut TickRecord, codes: f64) {
 fn noise(record: &TickRecord) -> f64 {
     let mixed = record.sequence.wrapping_mul(0x9E37_79B9).rotate_left(15);
     f64::from(mixed.wrapping_mul(0x85EB_CA6B)) / f64::from(u32::MAX) * 2.0 - 1.0
-}
-
-#[test]
-fn a_module_as_its_simulation_has_nothing_to_be_told() {
-    assert_eq!(signs(|_, _| true), Vec::<&str>::new());
 }
 
 #[test]
