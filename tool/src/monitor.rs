@@ -5,7 +5,6 @@ mod history;
 mod known;
 mod listener;
 mod save;
-mod screen;
 mod shown;
 mod snapshot;
 mod svg;

@@ -43,9 +43,18 @@ pub(crate) struct Script {
 }
 
 impl Script {
-    pub(crate) fn load(path: &Path) -> Result<Self, Error> {
+    /// That in a file, if one is named, for the module of this choice.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a key that cannot be set in it.
+    pub(crate) fn of(path: Option<&Path>, source: &SourceChoice) -> Result<Self, Error> {
+        let Some(path) = path else {
+            return Ok(Self::default());
+        };
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        Self::parse(&text).map_err(|fault| Error::file(path, fault))
+        let mut script = Self::parse(&text).map_err(|fault| Error::file(path, fault))?;
+        script.tuner = script.tuner(source)?;
+        Ok(script)
     }
 
     fn parse(text: &str) -> Result<Self, String> {
@@ -69,18 +78,15 @@ impl Script {
         })
     }
 
-    /// Makes ready for the module of this choice.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set in it.
-    pub(crate) fn prepare(&mut self, source: &SourceChoice) -> Result<(), Error> {
+    /// Who sets its keys, if it sets any.
+    fn tuner(&self, source: &SourceChoice) -> Result<Option<Tuner>, Error> {
         let sets = self.entries.iter().filter_map(|entry| match &entry.action {
             Action::Set(set) => Some(set.key()),
             Action::Give(_) => None,
         });
         let keys: Vec<&str> = sets.collect();
         if keys.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
         let file = source.scene().ok_or_else(|| {
             Error::Input("set: nothing says which scene the module runs".to_owned())
@@ -89,8 +95,7 @@ impl Script {
         for key in keys {
             live_key(key, tuner.scene()).map_err(Error::Input)?;
         }
-        self.tuner = Some(tuner);
-        Ok(())
+        Ok(Some(tuner))
     }
 
     /// Gives the next command if it is due and the last was answered. Returns the line of a key

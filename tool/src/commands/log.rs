@@ -25,9 +25,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
-    let script = arguments.script.as_deref().map(Script::load);
-    let mut script = script.transpose()?.unwrap_or_default();
-    script.prepare(&arguments.source)?;
+    let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
     module.source().has_log()?;
     let most = arguments.seconds.or(module.source().duration_s());

@@ -66,9 +66,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
             report::say(line);
         }
     };
-    let script = arguments.script.as_deref().map(Script::load);
-    let mut script = script.transpose()?.unwrap_or_default();
-    script.prepare(&arguments.source)?;
+    let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
     let most = arguments.seconds.or(module.source().duration_s());
     if most.is_none() {

@@ -9,13 +9,14 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event};
+use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::terminal;
 use host_sim::Error;
 use host_sim::origin::Origin;
+use ratatui::DefaultTerminal;
 
 use super::draw::{Theme, draw};
 use super::save::Held;
-use super::screen::{self, Screen, Window};
 use super::view::{Deed, Key, View, deed};
 use super::watching::{Shared, Wish, joined, lock};
 use crate::interrupt::on_signal;
@@ -48,14 +49,15 @@ pub(crate) fn open(
     wishes: &Sender<Wish>,
 ) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::Work(format!("terminal: {error}"));
-    let opened = Screen::take().map_err(failed);
-    let (screen, window) = match opened {
-        Ok(opened) => opened,
+    // A panic anywhere gives the terminal back before it is said.
+    let window = match ratatui::try_init() {
+        Ok(window) => window,
         Err(error) => {
+            let _ = ratatui::try_restore();
             // Who cannot see must not leave motors running.
             let _ = wishes.send(Wish::StopAndEnd);
             let _ = listener.join();
-            return Err(error);
+            return Err(failed(error));
         }
     };
     let signal = Arc::new(AtomicI32::new(0));
@@ -95,11 +97,12 @@ pub(crate) fn open(
         Err(RecvTimeoutError::Disconnected) => Err(Error::Work("drawing has failed".to_owned())),
         Err(RecvTimeoutError::Timeout) => {
             // The terminal takes nothing: it can be told nothing either.
-            screen::restore_modes();
+            let _ = terminal::disable_raw_mode();
             std::process::exit(1);
         }
     };
-    drop(screen);
+    // Nothing can be done about a terminal that is gone.
+    let _ = ratatui::try_restore();
     let ended_by = match signal.load(Ordering::Relaxed) {
         0 => Ok(()),
         signal => Err(Error::Work(format!(
@@ -129,7 +132,7 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
         };
         let looked = match event {
             Ok(Event::Key(pressed)) => {
-                let Some(key) = screen::key(&pressed) else {
+                let Some(key) = key(&pressed) else {
                     continue;
                 };
                 let wish = match deed(key) {
@@ -159,8 +162,28 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
     }
 }
 
+fn key(event: &KeyEvent) -> Option<Key> {
+    if event.kind == KeyEventKind::Release {
+        return None;
+    }
+    let has_control = event.modifiers.contains(KeyModifiers::CONTROL);
+    Some(match event.code {
+        KeyCode::Char(letter) if has_control => Key::Control(letter.to_ascii_lowercase()),
+        KeyCode::Char(letter) => Key::Letter(letter),
+        KeyCode::Tab => Key::Tab,
+        KeyCode::Esc => Key::Escape,
+        KeyCode::Left => Key::Back,
+        KeyCode::Right => Key::Forward,
+        KeyCode::PageUp => Key::PageBack,
+        KeyCode::PageDown => Key::PageForward,
+        KeyCode::Home => Key::First,
+        KeyCode::End => Key::Last,
+        _ => return None,
+    })
+}
+
 fn pictures(
-    mut window: Window,
+    mut window: DefaultTerminal,
     shared: &Arc<Mutex<Shared>>,
     about: &About,
     looks: &Receiver<Look>,

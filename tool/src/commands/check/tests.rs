@@ -48,10 +48,17 @@ fn signs(alter: Alter) -> Vec<&'static str> {
     signs
 }
 
-fn shift(record: &mut TickRecord, codes: f64) {
+/// Another code of x; true, as the record is not lost.
+fn shift(record: &mut TickRecord, codes: f64) -> bool {
     let [x, _] = record.codes();
     let code = (f64::from(x) + codes).round().clamp(0.0, 16_383.0);
     record.x = (code as u16) << 2;
+    true
+}
+
+fn invalidate(record: &mut TickRecord) -> bool {
+    record.flags = record.flags.without(Flags::VALID);
+    true
 }
 
 /// A number between −1 and 1 that differs from tick to tick.
@@ -60,57 +67,55 @@ fn noise(record: &TickRecord) -> f64 {
     f64::from(mixed.wrapping_mul(0x85EB_CA6B)) / f64::from(u32::MAX) * 2.0 - 1.0
 }
 
-#[test]
-fn what_is_wrong_is_named() {
-    let tilted = signs(|record, _| {
-        shift(record, 900.0);
-        true
-    });
-    assert_eq!(tilted, ["tilt"]);
-    let weak = signs(|record, _| {
-        shift(record, 40.0 * noise(record));
-        true
-    });
-    assert_eq!(weak[0], "gap", "{weak:?}");
-    let mains = signs(|record, t_s| {
-        shift(record, 12.0 * (TAU * 6.0 * t_s).sin());
-        true
-    });
-    assert!(mains.contains(&"a field that changes"), "{mains:?}");
-    let drifts = signs(|record, t_s| {
-        shift(record, 6.0 * t_s);
-        true
-    });
-    assert!(drifts.contains(&"drift"), "{drifts:?}");
-    let neighbour = signs(|record, _| {
-        shift(
-            record,
-            2.0 * f64::from(wire::degrees(record.measured)) - 100.0,
-        );
-        true
-    });
-    assert!(
-        neighbour.contains(&"a neighbour's field, or a magnet off the axis"),
-        "{neighbour:?}"
-    );
-    let saturated = signs(|record, _| {
-        if record.sequence % 50 == 0 {
-            shift(record, 16_383.0);
-        }
-        true
-    });
-    assert!(saturated.contains(&"saturation"), "{saturated:?}");
-    let noisy_line = signs(|record, _| {
-        if record.sequence % 100 == 0 {
-            record.flags = record.flags.without(Flags::VALID);
-        }
-        true
-    });
-    assert_eq!(noisy_line, ["line errors"]);
+/// Whether a sign is among those that are found as it should be.
+type IsThere = fn(&[&str], &str) -> bool;
+const ALONE: IsThere = |signs, sign| signs == [sign];
+const FIRST: IsThere = |signs, sign| signs[0] == sign;
+const AMONG: IsThere = |signs, sign| signs.contains(&sign);
+
+/// Codes that follow the angle.
+fn following(record: &TickRecord) -> f64 {
+    2.0 * f64::from(wire::degrees(record.measured)) - 100.0
 }
 
 #[test]
-fn records_that_are_lost_are_counted() {
-    let lost = signs(|record, _| record.sequence % 1_000 != 0);
-    assert_eq!(lost, ["the PC or the line does not keep up"]);
+fn what_is_wrong_is_named() {
+    let cases: [(Alter, IsThere, &str); 8] = [
+        (|record, _| shift(record, 900.0), ALONE, "tilt"),
+        (
+            |record, _| shift(record, 40.0 * noise(record)),
+            FIRST,
+            "gap",
+        ),
+        (
+            |record, t_s| shift(record, 12.0 * (TAU * 6.0 * t_s).sin()),
+            AMONG,
+            "a field that changes",
+        ),
+        (|record, t_s| shift(record, 6.0 * t_s), AMONG, "drift"),
+        (
+            |record, _| shift(record, following(record)),
+            AMONG,
+            "a neighbour's field, or a magnet off the axis",
+        ),
+        (
+            |record, _| record.sequence % 50 > 0 || shift(record, 16_383.0),
+            AMONG,
+            "saturation",
+        ),
+        (
+            |record, _| record.sequence % 100 > 0 || invalidate(record),
+            ALONE,
+            "line errors",
+        ),
+        (
+            |record, _| record.sequence % 1_000 > 0,
+            ALONE,
+            "the PC or the line does not keep up",
+        ),
+    ];
+    for (alter, is_there, sign) in cases {
+        let signs = signs(alter);
+        assert!(is_there(&signs, sign), "{sign}: {signs:?}");
+    }
 }
