@@ -38,7 +38,6 @@ pub(crate) struct Running {
     pub(crate) links: Links,
     /// Whether it decides, by a model that is deployed with it.
     pub(crate) decides: bool,
-    /// The contact from which samples count.
     contact_min: Option<f64>,
 }
 
@@ -80,7 +79,6 @@ fn may_become<R: Real>(old: &Running, new: &Running) -> Result<(), ConfigError> 
     decode::<R>(&old.bytes, board)?.may_become(&new, false)
 }
 
-/// All values by their names.
 fn tree<R: Real>(of: &Running) -> Value {
     let config = decode::<R>(&of.bytes, of.program.board).ok();
     serde_json::to_value(config).unwrap_or_default()
@@ -102,10 +100,6 @@ fn differing(path: &str, one: &Value, other: &Value) -> Vec<String> {
 }
 
 impl Running {
-    /// Of its bytes.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says why they cannot be read.
     pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, Error> {
         let strange = |fault: ConfigError| {
             Error::Work(format!(
@@ -118,9 +112,6 @@ impl Running {
     }
 
     /// That of a scene for this board or simulation.
-    ///
-    /// # Errors
-    /// What is wrong with the scene for it.
     pub(crate) fn of_scene(
         scene: &Scene,
         board: BoardCode,
@@ -137,9 +128,6 @@ impl Running {
 
     /// That of a scene for the same module with the same model, with these keys in place of the
     /// scene file's own.
-    ///
-    /// # Errors
-    /// What is wrong with the scene.
     pub(crate) fn remade(&self, scene: &Scene, overrides: &str) -> Result<Self, Error> {
         let board = self.program.board;
         let (runs_on, is_recording) = match board {
@@ -172,9 +160,6 @@ impl Running {
     }
 
     /// Whether a module that runs by it may go on by `new`, with its motors off.
-    ///
-    /// # Errors
-    /// What only a start can change.
     pub(crate) fn may_become(&self, new: &Self) -> Result<(), ConfigError> {
         in_format!(self.program.format, may_become(self, new))
     }

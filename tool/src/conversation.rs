@@ -3,25 +3,22 @@
 use std::collections::VecDeque;
 
 use firmware::Packet;
-use host_sim::Error;
 use host_sim::origin::Origin;
+use host_sim::{Error, report};
 use wire::{Answer, Command, CommandStatus, TaggedCommand, WhiskerId};
 
 use crate::source::{Incoming, Source};
 
-/// How long an answer may take, s.
 const PATIENCE_S: f64 = 2.0;
 
 /// What a module says of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AboutModule {
-    /// The name of its scene.
     pub(crate) scene: String,
-    /// Ticks a second.
     pub(crate) tick_hz: u32,
+    pub(crate) whiskers: usize,
 }
 
-/// A module that is talked with.
 pub(crate) struct Conversation {
     source: Box<dyn Source>,
     tag: u16,
@@ -48,6 +45,15 @@ impl Conversation {
             Some(incoming) => Ok(incoming),
             None => self.source.next(),
         }
+    }
+
+    /// Prints the lines that it logs for so many seconds.
+    pub(crate) fn print_log(&mut self, seconds: f64) -> Result<(), Error> {
+        let begun = self.source.now_s();
+        while self.source.now_s() - begun < seconds {
+            self.receive()?.lines.iter().for_each(report::say);
+        }
+        Ok(())
     }
 
     /// What came while answers were waited for, and was not received yet.
@@ -94,9 +100,6 @@ impl Conversation {
     }
 
     /// The zero of a whisker's sensor, codes from mid-scale, where the module finds it.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it does not answer.
     pub(crate) fn zero(&mut self, whisker: WhiskerId) -> Result<Option<[i32; 2]>, Error> {
         let answer = self.answer(Command::Zero(whisker))?;
         // Older firmware does not know the command, as it knows no zero.
@@ -111,9 +114,8 @@ impl Conversation {
         Ok(self.source.origin().with("firmware", version))
     }
 
-    /// Asks the module what it is.
     pub(crate) fn about(&mut self) -> Result<AboutModule, Error> {
-        let [tick_hz, _] = self.ask(Command::Hello)?.values;
+        let [tick_hz, whiskers] = self.ask(Command::Hello)?.values;
         let tick_hz = tick_hz.cast_unsigned();
         if tick_hz == 0 {
             return Err(Error::Work(
@@ -121,7 +123,11 @@ impl Conversation {
             ));
         }
         let scene = self.name(Command::Name)?;
-        Ok(AboutModule { scene, tick_hz })
+        Ok(AboutModule {
+            scene,
+            tick_hz,
+            whiskers: usize::try_from(whiskers).unwrap_or(1),
+        })
     }
 
     /// The names of the classes of its model; none where it decides by none.

@@ -10,7 +10,6 @@ use crate::conversation::Conversation;
 /// What a module decides by, as it says itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decides {
-    /// A model with this checksum and so many classes.
     By(u32, u32),
     /// None, for this reason.
     Not(u8),
@@ -35,7 +34,6 @@ impl Decides {
         Err(Error::Work(format!("the module takes no model: {why}")))
     }
 
-    /// Whether it is by `model`.
     pub(crate) fn is(self, model: &ModelBuf) -> Result<(), Error> {
         match self {
             Self::By(crc, _) if crc == model.crc() => Ok(()),

@@ -23,9 +23,6 @@ pub(crate) struct Deployment {
 }
 
 /// The model that the scene in a file names, if any.
-///
-/// # Errors
-/// [`Error::Input`] if it is wrong.
 pub(crate) fn model_of(file: &Path, scene: &Scene) -> Result<Option<ModelBuf>, Error> {
     let folder = file.parent().unwrap_or(Path::new("."));
     let model = scene.model_path(folder);
@@ -33,7 +30,6 @@ pub(crate) fn model_of(file: &Path, scene: &Scene) -> Result<Option<ModelBuf>, E
     Ok(model.map(|(_, model)| model))
 }
 
-/// Whether a board has room for a model.
 fn has_room(model: &ModelBuf, board: &BoardFacts, name: &str) -> Result<(), Error> {
     let (bytes, room) = (model.as_bytes().len(), board.flash.slots[0].model.bytes);
     let (classes, most) = (model.classes(), board.max_classes);
@@ -83,9 +79,6 @@ fn with_model<R: Real>(
 
 impl Deployment {
     /// The scene in a file, which decides by `model`, for a program.
-    ///
-    /// # Errors
-    /// [`Error::Input`] says why the module's board does not take it.
     pub(crate) fn of(
         file: &Path,
         loaded: Loaded,
@@ -127,9 +120,6 @@ impl Deployment {
     }
 
     /// The scene that a module runs, with another model.
-    ///
-    /// # Errors
-    /// [`Error::Input`] says why that does not go with it.
     pub(crate) fn again(running: &Running, model: ModelBuf) -> Result<Self, Error> {
         let program = running.program();
         let board = program.facts().unwrap_or(&NUCLEO_F446RE);

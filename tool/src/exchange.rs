@@ -10,19 +10,13 @@ use crate::deployment::Deployment;
 
 /// What has become of a configuration that was sent to a module.
 pub(crate) enum Taken {
-    /// The module goes on by it.
     Runs,
-    /// It goes on as before.
     Refused(ConfigError),
     /// Its image was built without taking any ([`firmware::Part::Set`]).
     NotBuilt,
 }
 
 impl Program {
-    /// Asks a module for it.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it reads no configurations of this version.
     pub(crate) fn ask(module: &mut Conversation) -> Result<Self, Error> {
         let answer = module.answer(Command::Board)?;
         let [program, version] = answer.values;
@@ -53,10 +47,6 @@ impl RunsBy {
 }
 
 impl Running {
-    /// Asks a module for it.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it has none, or one of another version.
     pub(crate) fn ask(module: &mut Conversation) -> Result<Self, Error> {
         let runs_by = RunsBy::ask(module)?;
         let RunsBy::Scene { crc, length, .. } = runs_by else {
@@ -79,9 +69,6 @@ impl Running {
     }
 
     /// Has a module go on by it, between two ticks.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it does not answer, or by what this program does not know.
     pub(crate) fn send(&self, module: &mut Conversation) -> Result<Taken, Error> {
         let first = module.answer(Command::Forget)?;
         match first.status {
@@ -112,9 +99,6 @@ impl Deployment {
     /// Whether a module whose motors are off can read it: what its image was built without it
     /// refuses by name. Nothing is written. An image that takes no configuration so says it after
     /// its restart, and goes on by the scene before.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says what.
     pub(crate) fn try_out(&self, module: &mut Conversation) -> Result<(), Error> {
         let refused = match self.config.send(module)? {
             // Another scene is what a restart is for.

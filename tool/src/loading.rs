@@ -13,7 +13,6 @@ use crate::source::Source;
 /// After so long without its answer a word is sent again, which changes nothing.
 const AGAIN: Duration = Duration::from_secs(1);
 
-/// How often.
 const TIMES: usize = 10;
 
 /// How long flash may take to be erased, and a board to start; an emulated one has its own time.
@@ -22,7 +21,6 @@ const LONG: Duration = Duration::from_secs(20);
 /// Tags of these requests begin here, beyond those of a conversation that has just begun.
 const FIRST_TAG: u16 = 0x8000;
 
-/// Requests without a conversation.
 struct Asking<'s, S: ?Sized> {
     source: &'s mut S,
     tag: u16,
@@ -77,9 +75,6 @@ fn refused(command: Command, status: CommandStatus) -> Error {
 /// Has the board erase the slot that it does not run by, write a scene and its model there, and
 /// start by them; comes back once it answers again. Interrupted, it leaves the board the scene
 /// before.
-///
-/// # Errors
-/// [`Error::Work`] if it does not answer, or refuses.
 pub(crate) fn load<S: Source + ?Sized>(source: &mut S, what: &Deployment) -> Result<(), Error> {
     let [config, model] = what.words();
     let count = |words: &[u32]| {

@@ -16,11 +16,14 @@ mod decides;
 mod deployment;
 mod doctor;
 mod exchange;
+mod faults;
+mod interrupt;
 mod loading;
 mod monitor;
 mod probe;
 mod record_file;
 mod resting;
+mod sample;
 mod scene_file;
 mod script;
 mod source;
@@ -96,41 +99,36 @@ enum Command {
 
 fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
-    let verbosity = Verbosity::of(quiet);
-    // An interrupt stops the motors there before it ends the program.
-    match &command {
-        Command::Monitor(arguments) => {
-            return report::ended("whisker", commands::monitor::monitor(arguments));
+    let work = || run(&command, Verbosity::of(quiet));
+    match command {
+        // An interrupt stops the motors there before it ends the program.
+        Command::Monitor(_) | Command::Calibrate(_) | Command::Check(_) => {
+            report::ended("whisker", work())
         }
-        Command::Calibrate(arguments) => {
-            return report::ended("whisker", commands::calibrate::calibrate(arguments));
-        }
-        Command::Check(arguments) => {
-            return report::ended("whisker", commands::check::check(arguments));
-        }
-        _ => {}
+        _ => report::program("whisker", work),
     }
-    report::program("whisker", || -> Result<(), Error> {
-        match command {
-            Command::Monitor(arguments) => commands::monitor::monitor(&arguments),
-            Command::Calibrate(arguments) => commands::calibrate::calibrate(&arguments),
-            Command::Check(arguments) => commands::check::check(&arguments),
-            Command::Log(arguments) => commands::log::log(&arguments),
-            Command::Records(arguments) => commands::records::records(&arguments, verbosity),
-            Command::Capture(arguments) => commands::capture::capture(&arguments, verbosity),
-            Command::Flash(arguments) => commands::flash::flash(&arguments, verbosity),
-            Command::Doctor(arguments) => commands::doctor::doctor(&arguments),
-            Command::Arm(to) => commands::order::arm(&to),
-            Command::Stop(to) => commands::order::stop(&to),
-            Command::Clear(to) => commands::order::clear(&to),
-            Command::Home(to) => commands::order::home(&to),
-            Command::Status(of) => commands::order::status(&of),
-            Command::Deploy(arguments) => commands::deploy::deploy(&arguments),
-            #[cfg(unix)]
-            Command::Board(arguments) => commands::board::board(&arguments),
-            Command::Get(arguments) => commands::get::get(&arguments),
-            Command::Set(arguments) => commands::set::set(&arguments),
-            Command::Save(arguments) => commands::save::save(&arguments),
-        }
-    })
+}
+
+fn run(command: &Command, verbosity: Verbosity) -> Result<(), Error> {
+    match command {
+        Command::Monitor(arguments) => commands::monitor::monitor(arguments),
+        Command::Calibrate(arguments) => commands::calibrate::calibrate(arguments),
+        Command::Check(arguments) => commands::check::check(arguments),
+        Command::Log(arguments) => commands::log::log(arguments),
+        Command::Records(arguments) => commands::records::records(arguments, verbosity),
+        Command::Capture(arguments) => commands::capture::capture(arguments, verbosity),
+        Command::Flash(arguments) => commands::flash::flash(arguments, verbosity),
+        Command::Doctor(arguments) => commands::doctor::doctor(arguments),
+        Command::Arm(to) => commands::order::arm(to),
+        Command::Stop(to) => commands::order::stop(to),
+        Command::Clear(to) => commands::order::clear(to),
+        Command::Home(to) => commands::order::home(to),
+        Command::Status(of) => commands::order::status(of),
+        Command::Deploy(arguments) => commands::deploy::deploy(arguments),
+        #[cfg(unix)]
+        Command::Board(arguments) => commands::board::board(arguments),
+        Command::Get(arguments) => commands::get::get(arguments),
+        Command::Set(arguments) => commands::set::set(arguments),
+        Command::Save(arguments) => commands::save::save(arguments),
+    }
 }

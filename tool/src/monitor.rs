@@ -1,12 +1,10 @@
 //! The window in which one watches a module.
 
 mod draw;
-mod faults;
 mod history;
 mod known;
 mod listener;
 mod save;
-mod screen;
 mod shown;
 mod snapshot;
 mod svg;
@@ -14,10 +12,9 @@ mod view;
 mod watching;
 mod window;
 
-pub(crate) use faults::number;
 pub(crate) use history::History;
 pub(crate) use known::Known;
 pub(crate) use listener::Listener;
 pub(crate) use snapshot::{Size, Snapshot, size};
-pub(crate) use watching::{Shared, Watching, Wish};
+pub(crate) use watching::{Shared, Watching, Wish, joined};
 pub(crate) use window::{About, open};

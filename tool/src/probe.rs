@@ -22,13 +22,10 @@ pub(crate) use {behind::open, find::is_there, flash::flash, seen::seen};
 /// A probe on USB, as far as it is seen without the chip behind it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SeenProbe {
-    /// What kind it is.
     pub(crate) name: String,
-    /// Its serial number, where it has one.
     pub(crate) serial: String,
-    /// Whether this user may open it.
     pub(crate) may_open: bool,
-    /// The chip behind it by its [identity](crate::source::BoardName::chip_id), or why that
+    /// The chip behind it by its [identity](crate::source::Board::chip_id), or why that
     /// cannot be read.
     pub(crate) chip: Result<u16, String>,
     /// What the module in the chip says that it runs, if one answers.

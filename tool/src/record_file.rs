@@ -13,7 +13,6 @@ use host_sim::output::{self, Output, is_stdout};
 use crate::table::RecordWriter;
 use messages::Messages;
 
-/// A file that is being written.
 pub(crate) struct RecordFile {
     path: PathBuf,
     form: Form,

@@ -6,9 +6,6 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 /// The text of `file` with these values in it, which is read again as the scene that they come
 /// to.
-///
-/// # Errors
-/// [`Error::Input`] for values that the scene refuses.
 pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String, Error> {
     let refused = |problems: scene::Problems| Error::Input(problems.to_string());
     // A refusal names key and value.

@@ -26,9 +26,7 @@ struct Entry {
 /// What is done.
 #[derive(Debug, Clone, PartialEq)]
 enum Action {
-    /// A command is given.
     Give(Command),
-    /// A key of the scene is set.
     Set(Override),
 }
 
@@ -36,21 +34,27 @@ enum Action {
 #[derive(Debug, Default)]
 pub(crate) struct Script {
     entries: VecDeque<Entry>,
-    /// When it began.
     begun_s: Option<f64>,
     /// The command that is not answered yet, and the tag of its request.
     pending: Option<(u16, String)>,
-    /// Commands that were refused.
     refused: u32,
     /// Who sets keys, where any is set.
     tuner: Option<Tuner>,
 }
 
 impl Script {
-    /// Reads a script.
-    pub(crate) fn load(path: &Path) -> Result<Self, Error> {
+    /// That in a file, if one is named, for the module of this choice.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a key that cannot be set in it.
+    pub(crate) fn of(path: Option<&Path>, source: &SourceChoice) -> Result<Self, Error> {
+        let Some(path) = path else {
+            return Ok(Self::default());
+        };
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        Self::parse(&text).map_err(|fault| Error::file(path, fault))
+        let mut script = Self::parse(&text).map_err(|fault| Error::file(path, fault))?;
+        script.tuner = script.tuner(source)?;
+        Ok(script)
     }
 
     fn parse(text: &str) -> Result<Self, String> {
@@ -74,18 +78,15 @@ impl Script {
         })
     }
 
-    /// Makes ready for the module of this choice.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set in it.
-    pub(crate) fn prepare(&mut self, source: &SourceChoice) -> Result<(), Error> {
+    /// Who sets its keys, if it sets any.
+    fn tuner(&self, source: &SourceChoice) -> Result<Option<Tuner>, Error> {
         let sets = self.entries.iter().filter_map(|entry| match &entry.action {
             Action::Set(set) => Some(set.key()),
             Action::Give(_) => None,
         });
         let keys: Vec<&str> = sets.collect();
         if keys.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
         let file = source.scene().ok_or_else(|| {
             Error::Input("set: nothing says which scene the module runs".to_owned())
@@ -94,8 +95,7 @@ impl Script {
         for key in keys {
             live_key(key, tuner.scene()).map_err(Error::Input)?;
         }
-        self.tuner = Some(tuner);
-        Ok(())
+        Ok(Some(tuner))
     }
 
     /// Gives the next command if it is due and the last was answered. Returns the line of a key

@@ -1,5 +1,7 @@
 //! Where a module is that can be talked with.
 
+#[cfg(test)]
+mod altered;
 mod board;
 mod choice;
 mod emulated;
@@ -13,30 +15,42 @@ mod scripted;
 mod simulated;
 mod texture;
 
+#[cfg(test)]
+pub(crate) use altered::{Alter, Altered, Around, GOOD};
+pub(crate) use board::Board;
 pub(crate) use choice::{SourceChoice, seconds};
 #[cfg(unix)]
 pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build};
 #[cfg(test)]
-pub(crate) use scripted::Scripted;
+pub(crate) use scripted::{Scripted, chosen, record, scene_file};
 #[cfg(unix)]
 pub(crate) use texture::texture;
 
 use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::TaggedCommand;
+use wire::{TaggedCommand, TickRecord};
 
 use crate::deployment::Deployment;
+use crate::loading::load;
 
 /// What has come from a module.
 #[derive(Debug, Default)]
 pub(crate) struct Incoming {
-    /// Records, answers and events, in their order.
     pub(crate) packets: Vec<Packet>,
     /// Whole lines of its log.
     pub(crate) lines: Vec<String>,
+}
+
+impl Incoming {
+    pub(crate) fn records(&self) -> impl Iterator<Item = &TickRecord> + Clone {
+        self.packets.iter().filter_map(|packet| match packet {
+            Packet::Record(record) => Some(record),
+            Packet::Answer(_) | Packet::Event(_) => None,
+        })
+    }
 }
 
 /// A module that can be talked with.
@@ -86,7 +100,9 @@ pub(crate) trait Source {
     }
 
     /// How long its scene lasts, s; none: until it is switched off.
-    fn duration_s(&self) -> Option<f64>;
+    fn duration_s(&self) -> Option<f64> {
+        None
+    }
 
     /// Where it is: its board.
     fn origin(&self) -> Origin;
@@ -102,8 +118,11 @@ pub(crate) trait Source {
     }
 
     /// Writes a scene and its model where the module looks for them, and has it start by them;
-    /// comes back once it has. Its motors are off already.
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error>;
+    /// comes back once it has: the program that is there writes them, by requests. Its motors are
+    /// off already.
+    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
+        load(self, what)
+    }
 }
 
 /// Whether a probe can talk with a module of these links.

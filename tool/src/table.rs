@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use host_sim::origin::{self, Origin};
-use wire::{Flags, TickRecord, degrees, unit};
+use wire::{Flags, TickRecord};
 
+use crate::sample::Sample;
 use crate::tally::{SIDES, side};
 
-/// Flags that have a column, in the order of the columns.
 const FLAGS: [(&str, Flags); 10] = [
     ("fresh", Flags::FRESH),
     ("valid", Flags::VALID),
@@ -22,7 +22,6 @@ const FLAGS: [(&str, Flags); 10] = [
     ("lost", Flags::LOST),
 ];
 
-/// The columns before those of flags.
 const NUMBERS: [&str; 10] = [
     "sequence",
     "t_s",
@@ -36,10 +35,8 @@ const NUMBERS: [&str; 10] = [
     "contact",
 ];
 
-/// The column that is a name.
 const SIDE: &str = "side";
 
-/// Full duty in a record.
 const FULL: f32 = 32767.0;
 
 /// What is above the table: ticks a second.
@@ -47,18 +44,21 @@ pub(crate) const TICK_HZ: &str = "tick_hz";
 
 /// The columns of numbers of a record, as text; the side is a name.
 fn numbers(record: &TickRecord, tick_hz: f64) -> [String; NUMBERS.len()] {
-    let [x, y] = record.codes();
+    let sample = Sample::new(record, f64::from(record.sequence) / tick_hz);
+    let [x, y] = sample.codes;
+    // A record has no more digits than these.
+    let short = |value: f64| (value as f32).to_string();
     [
         record.sequence.to_string(),
-        (f64::from(record.sequence) / tick_hz).to_string(),
+        sample.t_s.to_string(),
         SIDES[side(record)].to_owned(),
         x.to_string(),
         y.to_string(),
-        degrees(record.setpoint).to_string(),
-        degrees(record.measured).to_string(),
-        (f32::from(record.duty) / FULL).to_string(),
-        unit(record.z).to_string(),
-        unit(record.contact).to_string(),
+        short(sample.setpoint_deg),
+        short(sample.measured_deg),
+        short(sample.duty),
+        short(sample.z),
+        short(sample.contact),
     ]
 }
 
@@ -95,7 +95,6 @@ pub(crate) fn schema() -> serde_json::Value {
     serde_json::Value::Object(properties.collect())
 }
 
-/// A table that is being written.
 pub(crate) struct RecordWriter<W: Write> {
     table: csv::Writer<W>,
     tick_hz: f64,
@@ -114,7 +113,6 @@ impl<W: Write> RecordWriter<W> {
         })
     }
 
-    /// Writes a row.
     pub(crate) fn row(&mut self, record: &TickRecord) -> io::Result<()> {
         let numbers = numbers(record, self.tick_hz);
         let digit = |so| if so { "1" } else { "0" };
@@ -135,11 +133,8 @@ impl<W: Write> RecordWriter<W> {
 /// A table that was kept.
 #[derive(Debug)]
 pub(crate) struct Kept {
-    /// What stands above it.
     pub(crate) origin: Origin,
-    /// Ticks a second, if it says so.
     pub(crate) tick_hz: Option<u32>,
-    /// Its rows.
     pub(crate) records: Vec<TickRecord>,
 }
 

@@ -17,15 +17,12 @@ pub(crate) enum Before {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tally {
     last: [Option<u32>; 2],
-    /// Records that have come.
     pub(crate) records: u64,
     /// Those that have not.
     pub(crate) lost: u64,
-    /// How often the module has started again.
     pub(crate) restarts: u64,
 }
 
-/// The names of the sides.
 pub(crate) const SIDES: [&str; 2] = ["left", "right"];
 
 /// 0 for a record of the left side, 1 for one of the right.
@@ -80,7 +77,6 @@ impl TickCount {
         self.ticks
     }
 
-    /// The last one.
     pub(crate) const fn now(&self) -> u64 {
         self.ticks
     }
@@ -88,19 +84,15 @@ impl TickCount {
 
 #[cfg(test)]
 mod tests {
+    use wire::Flags;
+
     use super::{Before, Tally, TickCount};
-    use wire::{Flags, TickRecord};
+    use crate::source::record;
 
     #[test]
     fn sides_are_counted_apart_and_numbers_wrap() {
         let mut tally = Tally::default();
-        let mut take = |sequence, flags| {
-            tally.take(&TickRecord {
-                sequence,
-                flags,
-                ..TickRecord::default()
-            })
-        };
+        let mut take = |sequence, flags| tally.take(&record(sequence, flags));
         let (left, right) = (Flags::default(), Flags::RIGHT);
         assert_eq!(take(u32::MAX, left), Before::Nothing);
         assert_eq!(take(u32::MAX, right), Before::Nothing);

@@ -25,10 +25,8 @@ pub(crate) struct Tuner {
     scene: Scene,
 }
 
-/// What a module has.
 pub(crate) struct Has {
     running: Running,
-    /// The scene with the module's values.
     scene: Scene,
     /// The keys whose values differ from the scene file's, with the module's.
     pub(crate) differing: Vec<(&'static str, f64)>,
@@ -50,7 +48,6 @@ impl Tuner {
         })
     }
 
-    /// The scene as its file has it.
     pub(crate) const fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -71,9 +68,6 @@ impl Tuner {
     }
 
     /// Asks a module for all that it runs by.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it is of another scene.
     pub(crate) fn look(&self, module: &mut Conversation) -> Result<Has, Error> {
         let running = Running::ask(module)?;
         let (name, file) = (&running.head.name, self.path.display());

@@ -9,13 +9,12 @@ use super::watched::Watched;
 /// One figure of a module, and of the simulation of its scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Finding {
-    pub(crate) name: &'static str,
+    pub(crate) name: String,
     pub(crate) unit: &'static str,
     pub(crate) found: f64,
     pub(crate) simulated: f64,
     /// From which it needs a look on.
     pub(crate) most: f64,
-    /// What it is a sign of then.
     pub(crate) sign: &'static str,
 }
 
@@ -26,172 +25,131 @@ impl Finding {
     }
 }
 
-const TILT: &str = "tilt: the magnet is not above the sensor, or turned in its hub";
-const GAP: &str = "gap: the magnet is too far from the sensor, and its field too weak";
-const SLOW: &str = "a field that changes: a neighbour's magnet that moves, a motor, or the mains";
-const SWING: &str = "gap or mount: the whisker or its magnet is loose, or the magnet too near";
-const FOLLOWS: &str = "a neighbour's field, or a magnet off the axis: readings follow the angle";
-const END: &str = "saturation: the magnet is too near, or the range too small";
-const DRIFT: &str = "drift: temperature, or a magnet that gives way";
-const LINE: &str =
-    "line errors: wires of the sensor's SPI too long or loose; whisker log names them";
-const LOST: &str = "the PC or the line does not keep up: close other programs, use a higher baud";
-const MISSED: &str = "the module misses ticks: a scene with a lower tick_hz";
-const MOTOR: &str = "motor or gear: friction, or gains too low; whisker calibrate";
+/// What a figure is a sign of that exceeds so many times that of the simulation and so much more.
+/// The limits are chosen, from what the simulated sensor does: wide of its noise, and within what
+/// the classifier bears.
+type Sign = ([f64; 2], &'static str);
 
-/// A figure, and the most that it may be: so many times that of the simulation and so much more.
-struct Figure {
-    name: &'static str,
-    unit: &'static str,
-    of: fn(&Watched) -> f64,
-    times: f64,
-    more: f64,
-    sign: &'static str,
-}
+const TILT: Sign = (
+    [1.0, 400.0],
+    "tilt: the magnet is not above the sensor, or turned in its hub",
+);
+const GAP: Sign = (
+    [2.0, 1.0],
+    "gap: the magnet is too far from the sensor, and its field too weak",
+);
+const SLOW: Sign = (
+    [1.0, 2.0],
+    "a field that changes: a neighbour's magnet that moves, a motor, or the mains",
+);
+const SWING: Sign = (
+    [3.0, 60.0],
+    "gap or mount: the whisker or its magnet is loose, or the magnet too near",
+);
+const FOLLOWS: Sign = (
+    [1.0, 0.5],
+    "a neighbour's field, or a magnet off the axis: readings follow the angle",
+);
+const END: Sign = (
+    [1.0, 0.0],
+    "saturation: the magnet is too near, or the range too small",
+);
+const DRIFT: Sign = (
+    [1.0, 20.0],
+    "drift: temperature, or a magnet that gives way",
+);
+const LINE: Sign = (
+    [1.0, 0.01],
+    "line errors: wires of the sensor's SPI too long or loose; whisker log names them",
+);
+const LOST: Sign = (
+    [0.0, 0.0],
+    "the PC or the line does not keep up: close other programs, use a higher baud",
+);
+const MISSED: Sign = (
+    [0.0, 0.0],
+    "the module misses ticks: a scene with a lower tick_hz",
+);
+const MOTOR: Sign = (
+    [2.0, 0.5],
+    "motor or gear: friction, or gains too low; whisker calibrate",
+);
 
-const fn figure(
-    name: &'static str,
-    unit: &'static str,
-    of: fn(&Watched) -> f64,
-    [times, more]: [f64; 2],
-    sign: &'static str,
-) -> Figure {
-    Figure {
-        name,
-        unit,
-        of,
-        times,
-        more,
-        sign,
-    }
-}
+/// A figure of all readings: name, unit, what it is of, and what it is a sign of.
+type OfAll = (&'static str, &'static str, fn(&Watched) -> f64, Sign);
 
-/// All of them. The limits are chosen, from what the simulated sensor does: wide of its noise, and
-/// within what the classifier bears.
-const FIGURES: [Figure; 17] = [
-    figure("records lost", "", |w| w.lost as f64, [0.0, 0.0], LOST),
-    figure("ticks missed", "", |w| w.missed as f64, [0.0, 0.0], MISSED),
-    figure(
+/// The same of each axis, whose name stands in place of the star.
+type OfAxis = (&'static str, &'static str, fn(&Watched, usize) -> f64, Sign);
+
+const FIRST: [OfAll; 4] = [
+    ("records lost", "", |w| w.lost as f64, LOST),
+    ("ticks missed", "", |w| w.missed as f64, MISSED),
+    (
         "readings that do not count",
         "%",
         |w| 100.0 * w.invalid,
-        [1.0, 0.01],
         LINE,
     ),
-    figure(
-        "at an end of the range",
-        "%",
-        |w| 100.0 * w.at_end,
-        [1.0, 0.0],
-        END,
-    ),
-    figure(
-        "x at rest from the middle",
-        "codes",
-        |w| w.zero[0].channels[0].mean - MIDDLE,
-        [1.0, 400.0],
-        TILT,
-    ),
-    figure(
-        "y at rest from the middle",
-        "codes",
-        |w| w.zero[0].channels[1].mean - MIDDLE,
-        [1.0, 400.0],
-        TILT,
-    ),
-    figure(
-        "noise of x at rest",
-        "codes",
-        |w| w.zero[0].channels[0].sd,
-        [2.0, 1.0],
-        GAP,
-    ),
-    figure(
-        "noise of y at rest",
-        "codes",
-        |w| w.zero[0].channels[1].sd,
-        [2.0, 1.0],
-        GAP,
-    ),
-    figure(
-        "slow noise of x at rest",
+    ("at an end of the range", "%", |w| 100.0 * w.at_end, END),
+];
+
+const OF_AXES: [OfAxis; 6] = [
+    ("* at rest from the middle", "codes", zero, TILT),
+    ("noise of * at rest", "codes", noise, GAP),
+    (
+        "slow noise of * at rest",
         "of white noise's",
-        |w| w.slow[0],
-        [1.0, 2.0],
+        |w, a| w.slow[a],
         SLOW,
     ),
-    figure(
-        "slow noise of y at rest",
-        "of white noise's",
-        |w| w.slow[1],
-        [1.0, 2.0],
-        SLOW,
-    ),
-    figure(
-        "x at rest, after against before",
-        "codes",
-        |w| moved(w, 0),
-        [1.0, 20.0],
-        DRIFT,
-    ),
-    figure(
-        "y at rest, after against before",
-        "codes",
-        |w| moved(w, 1),
-        [1.0, 20.0],
-        DRIFT,
-    ),
-    figure(
-        "swing of x in the air",
-        "codes",
-        |w| swing(w, 0),
-        [3.0, 60.0],
-        SWING,
-    ),
-    figure(
-        "swing of y in the air",
-        "codes",
-        |w| swing(w, 1),
-        [3.0, 60.0],
-        SWING,
-    ),
-    figure(
-        "x with the angle",
+    ("* at rest, after against before", "codes", moved, DRIFT),
+    ("swing of * in the air", "codes", swing, SWING),
+    (
+        "* with the angle",
         "codes a degree",
-        |w| w.follows[0],
-        [1.0, 0.5],
+        |w, a| w.follows[a],
         FOLLOWS,
-    ),
-    figure(
-        "y with the angle",
-        "codes a degree",
-        |w| w.follows[1],
-        [1.0, 0.5],
-        FOLLOWS,
-    ),
-    figure(
-        "setpoint against measured",
-        "degrees rms",
-        |w| w.error_deg,
-        [2.0, 0.5],
-        MOTOR,
     ),
 ];
 
-/// All figures of a module.
+const LAST: OfAll = (
+    "setpoint against measured",
+    "degrees rms",
+    |w| w.error_deg,
+    MOTOR,
+);
+
 pub(crate) fn findings(of: &Watched, simulated: &Watched) -> Vec<Finding> {
-    let found = |figure: &Figure| {
-        let simulated = (figure.of)(simulated);
+    let finding = |name: String, unit, of_one: &dyn Fn(&Watched) -> f64, sign: Sign| {
+        let ([times, more], sign) = sign;
+        let simulated = of_one(simulated);
         Finding {
-            name: figure.name,
-            unit: figure.unit,
-            found: (figure.of)(of),
+            name,
+            unit,
+            found: of_one(of),
             simulated,
-            most: figure.times * simulated.abs() + figure.more,
-            sign: figure.sign,
+            most: times * simulated.abs() + more,
+            sign,
         }
     };
-    FIGURES.iter().map(found).collect()
+    let whole = |(name, unit, of, sign): &OfAll| finding((*name).to_owned(), unit, of, *sign);
+    let mut findings: Vec<Finding> = FIRST.iter().map(whole).collect();
+    for (name, unit, of, sign) in &OF_AXES {
+        for (axis, letter) in ["x", "y"].into_iter().enumerate() {
+            let name = name.replace('*', letter);
+            findings.push(finding(name, unit, &|watched| of(watched, axis), *sign));
+        }
+    }
+    findings.push(whole(&LAST));
+    findings
+}
+
+fn zero(of: &Watched, axis: usize) -> f64 {
+    of.zero[0].channels[axis].mean - MIDDLE
+}
+
+fn noise(of: &Watched, axis: usize) -> f64 {
+    of.zero[0].channels[axis].sd
 }
 
 fn moved(of: &Watched, axis: usize) -> f64 {

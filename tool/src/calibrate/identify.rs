@@ -15,14 +15,12 @@
 
 use std::f64::consts::PI;
 
-use super::listening::Sample;
+use crate::sample::Sample;
 
-/// A stretch, s.
 const STRETCH_S: f64 = 0.020;
 /// By how much the angle changes at least in each fifth of a stretch, degrees: more than a count
 /// of the encoder, and no turning round.
 const LEAST_DEG: f64 = 0.1;
-/// Fewer stretches than this say nothing.
 const LEAST_STRETCHES: usize = 30;
 
 /// A motor with its gear, as the whisker feels it.
@@ -126,7 +124,6 @@ fn row(samples: &[Sample], tick_s: f64) -> Option<Row> {
     Some(row)
 }
 
-/// The solution of three equations, by Cramer's rule.
 fn solved(normal: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
     let determinant = |m: &[[f64; 3]; 3]| {
         m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
@@ -161,7 +158,6 @@ pub(crate) struct Gains {
     pub(crate) damping: f64,
 }
 
-/// Damping ratio of what is suggested.
 const DAMPING: f64 = 0.8;
 /// Corner of the low-pass on the measured velocity, Hz (`whisking::pd`).
 const VELOCITY_CORNER_HZ: f64 = 100.0;

@@ -5,46 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use firmware::Packet;
 use host_sim::Error;
-use wire::{Command, Flags, TickRecord, WhiskerId, degrees};
+use wire::{Command, Flags, TickRecord, WhiskerId};
 
 use crate::conversation::Conversation;
+use crate::faults::fault;
+use crate::interrupt::on_signal;
+use crate::sample::Sample;
 use crate::tally::{Before, Tally, side};
-
-/// A tick of the whisker, in physical units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Sample {
-    /// Since it was listened to first, s.
-    pub(crate) t_s: f64,
-    /// x and y as the sensor has them, codes of 14 bits.
-    pub(crate) codes: [u16; 2],
-    /// Where it should be, degrees.
-    pub(crate) setpoint_deg: f64,
-    /// Where it is by its encoder, degrees.
-    pub(crate) measured_deg: f64,
-    /// What drives its motor, −1 to 1.
-    pub(crate) duty: f64,
-    /// Flags.
-    pub(crate) flags: Flags,
-}
-
-impl Sample {
-    /// Of a record, with the zero that was taken out of it.
-    fn new(record: &TickRecord, t_s: f64, zero: [i32; 2]) -> Self {
-        Self {
-            t_s,
-            codes: sum(record.codes(), zero),
-            setpoint_deg: degrees(record.setpoint).into(),
-            measured_deg: degrees(record.measured).into(),
-            duty: f64::from(record.duty) / f64::from(i16::MAX),
-            flags: record.flags,
-        }
-    }
-
-    /// Whether the sensor's reading counts.
-    pub(crate) const fn is_valid(&self) -> bool {
-        self.flags.contains(Flags::VALID)
-    }
-}
 
 /// Codes with so much added, within their range.
 fn sum([x, y]: [u16; 2], [more_x, more_y]: [i32; 2]) -> [u16; 2] {
@@ -54,31 +21,27 @@ fn sum([x, y]: [u16; 2], [more_x, more_y]: [i32; 2]) -> [u16; 2] {
     })
 }
 
-/// How long a module may say nothing, s.
 const PATIENCE_S: f64 = 3.0;
 
-/// A module of which one whisker is listened to.
 pub(crate) struct Listening {
     module: Conversation,
     whisker: WhiskerId,
-    tick_s: f64,
+    tick_hz: u32,
     ticks: u64,
     /// What the module takes out of readings, codes.
     zero: [i32; 2],
-    /// Of its records.
     pub(crate) tally: Tally,
-    /// What it has logged.
-    pub(crate) log: Vec<String>,
+    /// Faults and limits that it has said, with their time.
+    pub(crate) faults: Vec<String>,
     interrupted: Arc<AtomicBool>,
 }
 
 impl Listening {
     /// To the first whisker of the left side (0) or the right (1).
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the module does not answer.
     pub(crate) fn new(mut module: Conversation, side: u8) -> Result<Self, Error> {
-        let interrupted = interrupts()?;
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let come = interrupted.clone();
+        on_signal(move |_| come.store(true, Ordering::Relaxed))?;
         let about = module.about()?;
         let whisker = WhiskerId { side, number: 0 };
         let zero = module.zero(whisker)?.unwrap_or_default();
@@ -87,36 +50,27 @@ impl Listening {
             module,
             whisker,
             zero,
-            tick_s: 1.0 / f64::from(about.tick_hz),
+            tick_hz: about.tick_hz,
             ticks: 0,
             tally: Tally::default(),
-            log: Vec::new(),
+            faults: Vec::new(),
             interrupted,
         })
     }
 
-    /// The module, to be asked for other things.
     pub(crate) const fn module(&mut self) -> &mut Conversation {
         &mut self.module
     }
 
-    /// A tick, s.
-    pub(crate) const fn tick_s(&self) -> f64 {
-        self.tick_s
+    pub(crate) fn tick_s(&self) -> f64 {
+        1.0 / f64::from(self.tick_hz)
     }
 
-    /// Switches its motors on, where they are off.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it refuses.
     pub(crate) fn arm(&mut self) -> Result<(), Error> {
         self.module.ask(Command::Arm).map(drop)
     }
 
     /// Holds the whisker at an angle; none: it whisks.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it refuses.
     pub(crate) fn hold(&mut self, angle_deg: Option<f64>) -> Result<(), Error> {
         let command = match angle_deg {
             None => Command::Release(self.whisker),
@@ -128,32 +82,30 @@ impl Listening {
         self.module.ask(command).map(drop)
     }
 
-    /// Switches motors off until they are armed.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it refuses.
     pub(crate) fn stop(&mut self) -> Result<(), Error> {
         self.module.ask(Command::Stop).map(drop)
     }
 
     /// Has records sent again, where somebody has asked for none meanwhile: goes on with the
     /// first of them.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the module does not answer.
     pub(crate) fn go_on(&mut self) -> Result<(), Error> {
-        let kept = self.module.take_kept();
-        self.log
-            .extend(kept.into_iter().flat_map(|incoming| incoming.lines));
+        for incoming in self.module.take_kept() {
+            self.note_faults(&incoming.packets);
+        }
         self.tally.skip();
         self.module.ask(Command::Stream(true)).map(drop)
     }
 
+    fn note_faults(&mut self, packets: &[Packet]) {
+        let faults = packets.iter().filter_map(|packet| match packet {
+            Packet::Event(event) => fault(event, self.tick_hz),
+            Packet::Record(_) | Packet::Answer(_) => None,
+        });
+        self.faults.extend(faults.map(|fault| fault.what));
+    }
+
     /// Listens for so many seconds of the module's time; `each` is given every sample, and ends
     /// it with `false`.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if nothing comes, the module restarts, or the program is interrupted.
     pub(crate) fn watch(
         &mut self,
         seconds: f64,
@@ -173,13 +125,22 @@ impl Listening {
         Ok(samples)
     }
 
+    /// Of a record, with the zero that was taken out of it.
+    fn sample(&self, record: &TickRecord) -> Sample {
+        let sample = Sample::new(record, self.ticks as f64 * self.tick_s());
+        Sample {
+            codes: sum(sample.codes, self.zero),
+            ..sample
+        }
+    }
+
     /// Listens, and knows no other zero than that from before.
     fn take(
         &mut self,
         seconds: f64,
         mut each: impl FnMut(&Sample) -> bool,
     ) -> Result<Vec<Sample>, Error> {
-        let most = (seconds / self.tick_s).round() as u64;
+        let most = (seconds / self.tick_s()).round() as u64;
         let mut samples = Vec::new();
         let from = self.ticks;
         let mut heard_s = self.module.source().now_s();
@@ -190,12 +151,9 @@ impl Listening {
                 ));
             }
             let incoming = self.module.receive()?;
-            self.log.extend(incoming.lines);
+            self.note_faults(&incoming.packets);
             let now_s = self.module.source().now_s();
-            for packet in &incoming.packets {
-                let Packet::Record(record) = packet else {
-                    continue;
-                };
+            for record in incoming.records() {
                 if side(record) != usize::from(self.whisker.side) {
                     continue;
                 }
@@ -210,7 +168,7 @@ impl Listening {
                     Before::Nothing => {}
                 }
                 self.ticks += 1;
-                let sample = Sample::new(record, self.ticks as f64 * self.tick_s, self.zero);
+                let sample = self.sample(record);
                 samples.push(sample);
                 if !each(&sample) || self.ticks - from >= most {
                     return Ok(samples);
@@ -225,9 +183,6 @@ impl Listening {
     }
 
     /// Listens to a whisker that moves: a fault, or a motor that is not driven, ends it.
-    ///
-    /// # Errors
-    /// As [`Listening::watch`], and [`Error::Work`] for a fault, with what the log says of it.
     pub(crate) fn follow(
         &mut self,
         seconds: f64,
@@ -241,12 +196,10 @@ impl Listening {
         if !fault {
             return Ok(samples);
         }
-        // The line about it may come after its record.
+        // The event may come after its record.
         self.watch(0.05, |_| true)?;
-        let mut lines = self.log.iter().filter(|line| line.contains("fault"));
-        let line = lines
-            .next_back()
-            .map_or("whisker log tells which", String::as_str);
+        let line = self.faults.last();
+        let line = line.map_or("whisker log tells which", String::as_str);
         Err(Error::Work(format!(
             "a fault: {line}; the motors were stopped"
         )))
@@ -260,23 +213,4 @@ impl Drop for Listening {
         let _ = self.module.ask(Command::Stop);
         let _ = self.module.ask(Command::Stream(false));
     }
-}
-
-/// Becomes true with a signal that would end the program.
-#[cfg(unix)]
-fn interrupts() -> Result<Arc<AtomicBool>, Error> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    let interrupted = Arc::new(AtomicBool::new(false));
-    for signal in [SIGHUP, SIGINT, SIGTERM] {
-        let registered = signal_hook::flag::register(signal, Arc::clone(&interrupted));
-        registered.map_err(|error| Error::Work(format!("interrupts: {error}")))?;
-    }
-    Ok(interrupted)
-}
-
-/// Elsewhere an interrupt ends the program, and the module's own limits have to do.
-#[cfg(not(unix))]
-fn interrupts() -> Result<Arc<AtomicBool>, Error> {
-    Ok(Arc::new(AtomicBool::new(false)))
 }

@@ -2,9 +2,9 @@
 
 use host_sim::Error;
 
-use super::listening::{Listening, Sample};
+use super::listening::Listening;
+use crate::sample::Sample;
 
-/// Rest, degrees.
 pub(crate) const REST_DEG: f64 = 50.0;
 /// The small push, degrees, and by how much it must move the whisker.
 const PUSH_DEG: f64 = 3.0;
@@ -15,7 +15,6 @@ const LED_EACH_S: f64 = 0.02;
 /// A whisker that is so far behind for so long has met something.
 const BEHIND_DEG: f64 = 6.0;
 const BEHIND_S: f64 = 0.1;
-/// How long it is given to settle, s.
 const SETTLES_S: f64 = 0.3;
 /// Steps of the setpoint from rest, degrees, and how long each lasts, s. None is as far as what
 /// counts as not following.
@@ -31,14 +30,10 @@ pub(crate) enum Push {
     With(f64),
     /// Against it: encoder or motor is the wrong way round.
     Against(f64),
-    /// It stays where it is.
     Still,
 }
 
 /// Goes a little way from rest and back.
-///
-/// # Errors
-/// As [`Listening::follow`].
 pub(crate) fn push(whisker: &mut Listening) -> Result<Push, Error> {
     whisker.hold(Some(REST_DEG))?;
     let before = whisker.follow(0.3, |_| true)?;
@@ -70,9 +65,6 @@ pub(crate) fn push(whisker: &mut Listening) -> Result<Push, Error> {
 
 /// Leads the whisker slowly from rest to `to_deg` and back; where it met something on its way, if
 /// it did, degrees.
-///
-/// # Errors
-/// As [`Listening::follow`].
 pub(crate) fn lead(whisker: &mut Listening, to_deg: f64) -> Result<Option<f64>, Error> {
     let met = led(whisker, [REST_DEG, to_deg])?;
     led(whisker, [met.unwrap_or(to_deg), REST_DEG])?;
@@ -108,18 +100,12 @@ fn led(whisker: &mut Listening, [from, to]: [f64; 2]) -> Result<Option<f64>, Err
     }
 }
 
-/// What steps of the setpoint brought.
 pub(crate) struct Stepped {
-    /// All of it.
     pub(crate) samples: Vec<Sample>,
     /// How far from its setpoint the whisker came to rest after each step, degrees.
     pub(crate) left_deg: Vec<f64>,
 }
 
-/// Steps of the setpoint, within a range.
-///
-/// # Errors
-/// As [`Listening::follow`].
 pub(crate) fn steps(whisker: &mut Listening, [low, high]: [f64; 2]) -> Result<Stepped, Error> {
     let mut stepped = Stepped {
         samples: Vec::new(),

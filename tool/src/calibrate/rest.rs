@@ -1,6 +1,6 @@
 //! What a sensor says while its whisker rests in free air.
 
-use super::listening::Sample;
+use crate::sample::Sample;
 
 /// The code of no deflection.
 pub(crate) const MIDDLE: f64 = 8192.0;
@@ -10,7 +10,6 @@ pub(crate) const HALF_RANGE: f64 = 8191.0;
 /// Codes nearer to an end of the range are at it.
 const NEAR_END: u16 = 64;
 
-/// Whether a code is at an end of the range.
 pub(crate) fn is_at_end(code: u16) -> bool {
     !(NEAR_END..=16_383 - NEAR_END).contains(&code)
 }
@@ -18,22 +17,18 @@ pub(crate) fn is_at_end(code: u16) -> bool {
 /// One axis of a sensor at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Channel {
-    /// Mean code.
     pub(crate) mean: f64,
     /// Standard deviation of a sample, codes.
     pub(crate) sd: f64,
     /// How far the mean of the last quarter is from that of the first, codes.
     pub(crate) drift: f64,
-    /// Lowest and highest code.
     pub(crate) span: [u16; 2],
 }
 
 /// Both axes at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Zero {
-    /// x and y.
     pub(crate) channels: [Channel; 2],
-    /// Samples that counted, and those that did not.
     pub(crate) counted: usize,
     pub(crate) invalid: usize,
 }

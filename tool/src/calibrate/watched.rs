@@ -3,11 +3,11 @@
 use host_sim::Error;
 use wire::Command;
 
-use super::listening::{Listening, Sample};
+use super::listening::Listening;
 use super::rest::{Channel, Zero, is_at_end};
 use crate::resting::rest;
+use crate::sample::Sample;
 
-/// At rest before and after, s.
 const REST_S: f64 = 3.0;
 /// A block whose mean is taken for what is slow, s.
 const BLOCK_S: f64 = 0.02;
@@ -15,7 +15,6 @@ const BLOCK_S: f64 = 0.02;
 /// What was seen of one whisker.
 #[derive(Debug)]
 pub(crate) struct Watched {
-    /// At rest, before and after.
     pub(crate) zero: [Zero; 2],
     /// Standard deviation of blocks' means at rest over that of white noise: 1 where nothing
     /// slow is in it. x and y.
@@ -28,20 +27,14 @@ pub(crate) struct Watched {
     pub(crate) at_end: f64,
     /// Setpoint against measured while it whisks, root mean square, degrees.
     pub(crate) error_deg: f64,
-    /// Share of readings that do not count.
     pub(crate) invalid: f64,
-    /// Records that were lost, and ticks that were missed.
     pub(crate) lost: u64,
     pub(crate) missed: i64,
-    /// What it did.
     pub(crate) samples: Vec<Sample>,
 }
 
 /// Watches for so many seconds, rest included; a whisker that `has_motor` is armed for it, and
 /// stopped again.
-///
-/// # Errors
-/// As [`Listening::watch`].
 pub(crate) fn watch(
     whisker: &mut Listening,
     seconds: f64,
@@ -89,7 +82,6 @@ pub(crate) fn watch(
     })
 }
 
-/// Samples of a whisker at rest whose motor is off.
 fn at_rest(whisker: &mut Listening) -> Result<Vec<Sample>, Error> {
     rest(whisker.module())?;
     whisker.module().ask(Command::Stop)?;
@@ -111,7 +103,6 @@ fn slow(samples: &[Sample], axis: usize, block: usize, channel: &Channel) -> f64
     found / white
 }
 
-/// The slope of codes against the angle, codes a degree.
 fn follows(samples: &[Sample], axis: usize) -> f64 {
     let valid: Vec<&Sample> = samples.iter().filter(|sample| sample.is_valid()).collect();
     let count = valid.len().max(1) as f64;

@@ -15,7 +15,6 @@ pub(crate) struct Felt {
 }
 
 impl Felt {
-    /// Takes a sample of contact.
     pub(crate) fn take(&mut self, codes: [u16; 2]) {
         let codes = codes.map(f64::from);
         self.samples += 1;
@@ -26,7 +25,6 @@ impl Felt {
         self.steps += last.map_or(0.0, |last| (codes[0] - last).abs());
     }
 
-    /// How many there were.
     pub(crate) const fn samples(&self) -> u32 {
         self.samples
     }
@@ -41,7 +39,6 @@ impl Felt {
     }
 }
 
-/// Fewest touches in each half.
 const LEAST: usize = 4;
 
 /// By how many standard errors the means of two halves may differ: with 20 touches that
@@ -70,7 +67,6 @@ pub(crate) fn drift(touches: &[Felt]) -> Option<(&'static str, [f64; 2])> {
     })
 }
 
-/// The mean of a sign, and the variance of that mean.
 struct Moments {
     mean: f64,
     of_mean: f64,

@@ -18,7 +18,6 @@ const SATURATED: u64 = 10;
 /// clock, together.
 const RATE: f64 = 0.01;
 
-/// Over how long the rate is measured, s.
 const RATE_S: f64 = 2.0;
 
 /// What has been reported of a label, each kind once, and how often it happened.
@@ -162,17 +161,10 @@ impl Checks {
 
 #[cfg(test)]
 mod tests {
-    use wire::{Flags, TickRecord};
+    use wire::Flags;
 
     use super::{Before, Checks, Sampled, Touches};
-
-    fn record(sequence: u32, flags: Flags) -> TickRecord {
-        TickRecord {
-            sequence,
-            flags,
-            ..TickRecord::default()
-        }
-    }
+    use crate::source::record;
 
     #[test]
     fn losses_and_faults_are_reported_once_and_counted() {

@@ -82,17 +82,14 @@ impl Recording {
             .filter(move |stream| stream.label == label)
     }
 
-    /// How many touches there are of a label.
     pub(crate) fn touches(&self, label: &str) -> usize {
         count(self.of(label))
     }
 
-    /// How many there are in all.
     pub(crate) fn all_touches(&self) -> usize {
         count(self.streams.iter())
     }
 
-    /// The number of a label's next trial.
     pub(crate) fn next_trial(&self, label: &str) -> u64 {
         let trials = self
             .of(label)
@@ -109,7 +106,6 @@ impl Recording {
         output.finish()
     }
 
-    /// Samples in all.
     pub(crate) fn samples(&self) -> usize {
         self.streams.iter().map(|stream| stream.samples.len()).sum()
     }

@@ -5,7 +5,6 @@ use std::str::FromStr;
 /// A class, and the sample that is laid before the whisker for it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// The name of the class.
     pub(crate) name: String,
     /// The sample; of the same name, unless said otherwise.
     pub(crate) sample: String,

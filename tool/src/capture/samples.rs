@@ -2,16 +2,15 @@
 
 use host_sim::recording::GATE;
 use tactile::TouchDetector;
-use wire::{Flags, TickRecord, unit};
+use wire::{Flags, TickRecord};
 
+use crate::sample::Sample;
 use crate::tally::Before;
 
 /// What one record says of the whisker's touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sampled {
-    /// The sensor's codes of x and y.
     pub(crate) codes: [u16; 2],
-    /// Contact π.
     pub(crate) contact: f64,
     /// The number of the touch, as soon as it is sure; 0 in the air.
     pub(crate) touch: u16,
@@ -41,11 +40,11 @@ impl Sampler {
             self.touches.interrupt();
             return None;
         }
-        let codes = record.codes();
+        let Sample { codes, contact, .. } = Sample::new(record, 0.0);
         let number = self.touches.step(codes).number;
         Some(Sampled {
             codes,
-            contact: f64::from(unit(record.contact)),
+            contact,
             touch: if self.touches.is_sure() { number } else { 0 },
         })
     }

@@ -15,7 +15,6 @@ pub(crate) struct Touches {
     /// Trials that are full, and the one that goes on.
     streams: Vec<Stream>,
     trial: u64,
-    /// Touches in the trial that goes on.
     of_trial: u32,
     /// Number and samples of the touch that goes on.
     present: Option<(u16, Felt)>,
@@ -28,7 +27,6 @@ pub(crate) struct Touches {
 }
 
 impl Touches {
-    /// Of `label`, its first trial being this one.
     pub(crate) fn new(label: &str, trial: u64) -> Self {
         let mut touches = Self {
             label: label.to_owned(),
@@ -81,7 +79,6 @@ impl Touches {
         has_ended
     }
 
-    /// A touch has ended; whether it counts.
     fn end(&mut self, felt: Felt) -> bool {
         let counts = felt.samples() > 0;
         if counts {
@@ -114,7 +111,6 @@ impl Touches {
         }
     }
 
-    /// The trials, but one in which there is no touch.
     pub(crate) fn into_streams(mut self) -> Vec<Stream> {
         if self.of_trial == 0 {
             self.streams.pop();

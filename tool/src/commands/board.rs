@@ -116,7 +116,6 @@ impl Terminal {
     }
 }
 
-/// The lines of standard input, as they come.
 fn lines() -> Receiver<String> {
     let (send, lines) = mpsc::channel();
     std::thread::spawn(move || {
@@ -129,7 +128,6 @@ fn lines() -> Receiver<String> {
     lines
 }
 
-/// Runs until it is interrupted.
 pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     let path = &arguments.scene;
     let mut loaded = Loaded::new(path)?;

@@ -7,18 +7,18 @@ use std::path::PathBuf;
 
 use clap::Args;
 use host_sim::output::Output;
-use host_sim::plot::{Ink, Strip, Strips};
+use host_sim::plot::Ink;
 use host_sim::{Error, report};
 use scene::{MotorSection, Override};
 
 use super::get::Which;
 use super::order::SideName;
 use crate::calibrate::{
-    HALF_RANGE, Listening, MIDDLE, Push, Sample, Zero, identify, is_at_end, lead, push, steps,
-    suggest,
+    ANGLE, HALF_RANGE, Listening, MIDDLE, Panel, Push, Zero, identify, is_at_end, lead, picture,
+    push, steps, suggest,
 };
-use crate::conversation::Conversation;
 use crate::resting::rest;
+use crate::sample::Sample;
 use crate::tuning::Tuner;
 use results::Results;
 
@@ -60,7 +60,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         file("steps.png")?,
     ];
     let side = arguments.side.number();
-    let mut whisker = Listening::new(arguments.which.source()?, side)?;
+    let mut whisker = Listening::new(arguments.which.source.module()?, side)?;
     report::warn(format_args!(
         "keep away what the whisker could touch: it goes from {} to {} degrees, slowly, and then \
          to and fro; Ctrl-C stops it",
@@ -78,7 +78,8 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     let origin = origin.with("scene", &tuner.scene().name);
     toml.whole(results.toml(&origin).as_bytes())?;
     csv.whole(table(&samples).as_bytes())?;
-    let picture = picture(&tuner.scene().name, &samples);
+    let title = format!("{}: steps of the setpoint", tuner.scene().name);
+    let picture = picture(title, &samples, &[ANGLE, ERROR, DUTY]);
     svg.whole(picture.svg()?.as_bytes())?;
     png.whole(&picture.png()?)?;
     report::say(format_args!(
@@ -88,7 +89,6 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// All steps; the samples of the last.
 fn all(
     whisker: &mut Listening,
     tuner: &Tuner,
@@ -179,7 +179,6 @@ fn zero(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
     Ok(())
 }
 
-/// Where it can go within its limits, degrees.
 fn travel(
     whisker: &mut Listening,
     motor: &MotorSection,
@@ -208,7 +207,6 @@ fn travel(
 /// More of its range than a whisker in free air swings over. Chosen.
 const MOST_SWING: f64 = 0.2;
 
-/// What the sensor says while it whisks in free air.
 fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
     whisker.hold(None)?;
     let samples = whisker.follow(WHISK_S, |_| true)?;
@@ -239,7 +237,6 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
     Ok(())
 }
 
-/// Friction and gains, from steps.
 fn gains(
     whisker: &mut Listening,
     motor: &MotorSection,
@@ -283,7 +280,6 @@ fn gains(
     Ok(stepped.samples)
 }
 
-/// Samples as a table.
 fn table(samples: &[Sample]) -> String {
     let mut table = String::from("t_s,setpoint_deg,measured_deg,duty,x,y\n");
     for sample in samples {
@@ -298,43 +294,15 @@ fn table(samples: &[Sample]) -> String {
     table
 }
 
-fn picture(scene: &str, samples: &[Sample]) -> Strips {
-    let points = |of: fn(&Sample) -> f64| samples.iter().map(|s| (s.t_s, of(s))).collect();
-    Strips {
-        title: format!("{scene}: steps of the setpoint"),
-        strips: vec![
-            Strip {
-                y: "angle θ′, degrees",
-                least: 10.0,
-                curves: vec![
-                    ("setpoint", Ink::Wanted, points(|s| s.setpoint_deg)),
-                    ("measured", Ink::Found, points(|s| s.measured_deg)),
-                ],
-            },
-            Strip {
-                y: "error, degrees",
-                least: 4.0,
-                curves: vec![(
-                    "setpoint − measured",
-                    Ink::Found,
-                    points(|s| (s.setpoint_deg - s.measured_deg).clamp(-3.0, 3.0)),
-                )],
-            },
-            Strip {
-                y: "duty",
-                least: 0.2,
-                curves: vec![("duty", Ink::Found, points(|s| s.duty))],
-            },
-        ],
-    }
-}
-
-impl Which {
-    /// The module, to be talked with.
-    fn source(&self) -> Result<Conversation, Error> {
-        Ok(Conversation::new(self.source.open(0)?))
-    }
-}
+/// The pictures of the steps, below that of the angle.
+const ERROR: Panel<'_> = (
+    "error, degrees",
+    4.0,
+    &[("setpoint − measured", Ink::Found, |s| {
+        (s.setpoint_deg - s.measured_deg).clamp(-3.0, 3.0)
+    })],
+);
+const DUTY: Panel<'_> = ("duty", 0.2, &[("duty", Ink::Found, |s| s.duty)]);
 
 #[cfg(test)]
 pub(super) mod tests;

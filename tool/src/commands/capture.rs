@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use firmware::Packet;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
@@ -188,22 +187,18 @@ fn calibration(path: &Path) -> Result<Origin, Error> {
         }))
 }
 
-/// A module that is listened to.
 struct Capture {
     module: Conversation,
     sampler: Sampler,
     tally: Tally,
     side: usize,
     tick_hz: u32,
-    /// How long nothing may be touched.
     patience_s: f64,
     progress: Progress,
-    /// Touches so far, of all labels.
     done: u64,
     /// When the first ended: by the module's clock, s, and by the PC's.
     first: Option<(f64, Timestamp)>,
-    /// Lines about what is wrong.
-    warnings: usize,
+    told: usize,
 }
 
 impl Capture {
@@ -227,16 +222,13 @@ impl Capture {
                 // A person takes their time.
                 touched_s = now_s;
             }
-            for packet in incoming.packets {
-                let Packet::Record(record) = packet else {
-                    continue;
-                };
-                if side(&record) != self.side {
+            for record in incoming.records() {
+                if side(record) != self.side {
                     continue;
                 }
-                let before = self.tally.take(&record);
-                let sampled = self.sampler.take(&record, before);
-                self.tell(checks.record(&record, before));
+                let before = self.tally.take(record);
+                let sampled = self.sampler.take(record, before);
+                self.tell(checks.record(record, before));
                 if has_clock {
                     self.tell(checks.time(record.sequence, now_s));
                 }

@@ -6,12 +6,14 @@ use std::path::PathBuf;
 use clap::Args;
 use host_sim::origin::Origin;
 use host_sim::output::Output;
-use host_sim::plot::{Ink, Strip, Strips};
+use host_sim::plot::Ink;
 use host_sim::{Error, report};
 
 use super::get::Which;
 use super::order::SideName;
-use crate::calibrate::{Finding, Listening, Watched, findings, table, watch};
+use crate::calibrate::{
+    ANGLE, Finding, Listening, Panel, Watched, findings, picture, table, watch,
+};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
 
@@ -32,8 +34,7 @@ pub(crate) struct Arguments {
     out: PathBuf,
 }
 
-/// Lines of the log that a report has, at most.
-const LOG_LINES: usize = 40;
+const FAULTS: usize = 40;
 
 /// Watches the module and its scene's simulation, and writes what differs; the motors are off at
 /// the end, however it ends.
@@ -56,7 +57,8 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     let origin = seen.origin.clone().with("scene", scene.display());
     let text = seen.report(&origin, &found);
     md.whole(text.as_bytes())?;
-    let picture = picture(&seen.watched);
+    let title = "check: at rest, whisking, at rest".to_owned();
+    let picture = picture(title, &seen.watched.samples, &[CODES, ANGLE]);
     svg.whole(picture.svg()?.as_bytes())?;
     png.whole(&picture.png()?)?;
     for finding in &off {
@@ -71,7 +73,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
         off.len(),
         found.len()
     ));
-    if off.is_empty() && seen.faults().is_empty() {
+    if off.is_empty() && seen.faults.is_empty() {
         return Ok(());
     }
     Err(Error::Work(format!(
@@ -80,10 +82,9 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     )))
 }
 
-/// What came of watching.
 struct Seen {
     watched: Watched,
-    log: Vec<String>,
+    faults: Vec<String>,
     origin: Origin,
 }
 
@@ -95,16 +96,9 @@ impl Seen {
         let watched = watch(&mut whisker, arguments.seconds, has_motor)?;
         Ok(Self {
             watched,
-            log: std::mem::take(&mut whisker.log),
+            faults: std::mem::take(&mut whisker.faults),
             origin,
         })
-    }
-
-    /// What the log says of faults and limits.
-    fn faults(&self) -> Vec<&str> {
-        let lines = self.log.iter().map(String::as_str);
-        let of_faults = |line: &&str| line.contains("fault ") || line.contains("limit ");
-        lines.filter(of_faults).take(LOG_LINES).collect()
     }
 
     fn report(&self, origin: &Origin, found: &[Finding]) -> String {
@@ -119,45 +113,25 @@ impl Seen {
         text += "\n\n";
         text += &table(found);
         text += "\nAt most: from which a figure needs a look on, from that of the simulation of the \
-                 same scene.\n\n## Faults and limits in the log\n\n";
-        let faults = self.faults();
-        if faults.is_empty() {
+                 same scene.\n\n## Faults and limits\n\n";
+        if self.faults.is_empty() {
             text += "None.\n";
         }
-        for line in faults {
+        for line in self.faults.iter().take(FAULTS) {
             let _ = writeln!(text, "- `{}`", line.replace('`', "'"));
         }
         text
     }
 }
 
-fn picture(watched: &Watched) -> Strips {
-    let samples = &watched.samples;
-    let points = |of: &dyn Fn(&crate::calibrate::Sample) -> f64| {
-        samples.iter().map(|s| (s.t_s, of(s))).collect::<Vec<_>>()
-    };
-    Strips {
-        title: "check: at rest, whisking, at rest".to_owned(),
-        strips: vec![
-            Strip {
-                y: "sensor, codes",
-                least: 100.0,
-                curves: vec![
-                    ("x", Ink::Found, points(&|s| s.codes[0].into())),
-                    ("y", Ink::Other, points(&|s| s.codes[1].into())),
-                ],
-            },
-            Strip {
-                y: "angle θ′, degrees",
-                least: 10.0,
-                curves: vec![
-                    ("setpoint", Ink::Wanted, points(&|s| s.setpoint_deg)),
-                    ("measured", Ink::Found, points(&|s| s.measured_deg)),
-                ],
-            },
-        ],
-    }
-}
+const CODES: Panel<'_> = (
+    "sensor, codes",
+    100.0,
+    &[
+        ("x", Ink::Found, |s| f64::from(s.codes[0])),
+        ("y", Ink::Other, |s| f64::from(s.codes[1])),
+    ],
+);
 
 #[cfg(test)]
 mod tests;

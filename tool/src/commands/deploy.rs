@@ -103,7 +103,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
             report::warn(line);
         }
     }
-    let mut module = Conversation::new(arguments.source.open(0)?);
+    let mut module = arguments.source.module()?;
     let what = arguments.deployment(&mut module, chosen, model.as_ref())?;
     if let Some((path, model)) = &model {
         report::say(format_args!(
@@ -141,14 +141,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
             took % 60
         ));
     }
-    let Some(seconds) = arguments.seconds else {
-        return Ok(());
-    };
-    let begun = module.source().now_s();
-    while module.source().now_s() - begun < seconds {
-        module.receive()?.lines.iter().for_each(report::say);
-    }
-    Ok(())
+    module.print_log(arguments.seconds.unwrap_or(0.0))
 }
 
 /// When the first touch of a recording was, where it says so.

@@ -6,7 +6,6 @@ use clap::Args;
 use host_sim::Error;
 use host_sim::progress::Verbosity;
 
-use super::log;
 use crate::conversation::Conversation;
 use crate::probe;
 use crate::source::{BoardName, Laying, build};
@@ -31,7 +30,6 @@ pub(crate) struct Arguments {
     log: bool,
 }
 
-/// Builds the program and flashes it.
 pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
     let Arguments { board, probe, .. } = arguments;
     // What cannot be flashed need not be built.
@@ -43,8 +41,10 @@ pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), E
     };
     probe::flash(probe, *board, &elf, verbosity)?;
     if arguments.log {
-        let module = Conversation::new(probe::open(probe, *board, Some(&elf), Laying::by(None))?);
-        log::stream(module)?;
+        let mut module =
+            Conversation::new(probe::open(probe, *board, Some(&elf), Laying::by(None))?);
+        // Until interrupted.
+        module.print_log(f64::INFINITY)?;
     }
     Ok(())
 }

@@ -8,7 +8,6 @@ use host_sim::{Error, report};
 use scene::key_facts;
 
 use crate::configuration::RunsBy;
-use crate::conversation::Conversation;
 use crate::source::SourceChoice;
 use crate::tuning::{LIVE, Tuner, live_key};
 
@@ -23,10 +22,6 @@ pub(crate) struct Which {
 }
 
 impl Which {
-    /// Its scene file.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if nothing says which.
     pub(super) fn scene_file(&self) -> Result<&Path, Error> {
         let file = self.scene.as_deref().or(self.source.scene());
         file.ok_or_else(|| {
@@ -35,7 +30,6 @@ impl Which {
         })
     }
 
-    /// Who sets its keys.
     pub(super) fn tuner(&self) -> Result<Tuner, Error> {
         Tuner::open(self.scene_file()?, &self.source)
     }
@@ -55,7 +49,6 @@ pub(crate) struct Arguments {
     which: Which,
 }
 
-/// Prints what the module has.
 pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
     if arguments.list {
         report::say(list().trim_end());
@@ -65,7 +58,7 @@ pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
     for key in &arguments.keys {
         live_key(key, tuner.scene()).map_err(Error::Input)?;
     }
-    let mut module = Conversation::new(arguments.which.source.open(0)?);
+    let mut module = arguments.which.source.module()?;
     let has = tuner.look(&mut module)?;
     let values = has.values(tuner.scene());
     let keys: Vec<&str> = arguments.keys.iter().map(String::as_str).collect();
@@ -85,7 +78,6 @@ pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// The table of all keys that can be set, in Markdown.
 fn list() -> String {
     let mut text = String::from("| key | value | unit | what to watch |\n|---|---|---|---|\n");
     for live in LIVE {

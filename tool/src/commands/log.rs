@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::Args;
 use host_sim::{Error, report};
 
-use crate::conversation::Conversation;
 use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
 
@@ -25,12 +24,9 @@ pub(crate) struct Arguments {
     script: Option<PathBuf>,
 }
 
-/// Prints lines as they come.
 pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
-    let script = arguments.script.as_deref().map(Script::load);
-    let mut script = script.transpose()?.unwrap_or_default();
-    script.prepare(&arguments.source)?;
-    let mut module = Conversation::new(arguments.source.open(0)?);
+    let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
+    let mut module = arguments.source.module()?;
     module.source().has_log()?;
     let most = arguments.seconds.or(module.source().duration_s());
     let begun = module.source().now_s();
@@ -60,11 +56,4 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
         );
     }
     script.end()
-}
-
-/// Prints lines as they come, until interrupted.
-pub(crate) fn stream(mut module: Conversation) -> Result<(), Error> {
-    loop {
-        module.receive()?.lines.into_iter().for_each(report::say);
-    }
 }

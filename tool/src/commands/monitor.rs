@@ -11,14 +11,13 @@ use host_sim::origin::Origin;
 use host_sim::{Error, output, report};
 use wire::Command;
 
-use crate::conversation::Conversation;
+use crate::conversation::AboutModule;
 use crate::monitor::{
-    About, History, Known, Listener, Shared, Size, Snapshot, Watching, Wish, open, size,
+    About, History, Known, Listener, Shared, Size, Snapshot, Watching, Wish, joined, open, size,
 };
 use crate::record_file::{self, RecordFile};
 use crate::source::{SourceChoice, seconds};
 
-/// Pictures in a second.
 const PICTURES_HZ: f64 = 20.0;
 
 /// What to watch, and where it is kept.
@@ -57,7 +56,6 @@ pub(crate) struct Arguments {
     snapshot: Option<PathBuf>,
 }
 
-/// Watches a module until it is ended.
 pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     for path in &arguments.out {
         record_file::check_new(path)?;
@@ -80,16 +78,12 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     let listener = listen(arguments.clone(), wishes, ready)?;
     let Ok(Ready { shared, about }) = readied.recv() else {
         // Why, it says itself.
-        return listener
-            .join()
-            .unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+        return joined(listener);
     };
     if is_window {
         return open(&shared, about, listener, &wish);
     }
-    let ended = listener.join();
-    drop(wish);
-    ended.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())))?;
+    joined(listener)?;
     let snapshot = Snapshot::of(&shared, &about, arguments.size)?;
     if let Some(path) = &arguments.snapshot {
         return output::write_whole(path, snapshot.svg().as_bytes());
@@ -98,7 +92,6 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// A module that is listened to.
 struct Ready {
     shared: Arc<Mutex<Shared>>,
     about: About,
@@ -124,13 +117,15 @@ fn listen(
 fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Ready), Error> {
     let scene = arguments.source.scene();
     let known = Known::of(scene, arguments.model.as_deref())?;
-    let mut module = Conversation::new(arguments.source.open(0)?);
+    let mut module = arguments.source.module()?;
     let begun_s = module.source().now_s();
     // From the first tick on: how the whisker swings in the air is learnt from.
     module.ask(Command::Stream(true))?;
-    let [_, whiskers] = module.ask(Command::Hello)?.values;
-    let whiskers = usize::try_from(whiskers).unwrap_or(1);
-    let crate::conversation::AboutModule { scene, tick_hz, .. } = module.about()?;
+    let AboutModule {
+        scene,
+        tick_hz,
+        whiskers,
+    } = module.about()?;
     let classes = module.classes()?;
     let listener = known.map(|known| Listener::new(known, tick_hz, whiskers));
     let origin: Origin = module.origin()?.with("scene", &scene);

@@ -5,7 +5,6 @@ use host_sim::{Error, report};
 use wire::{Command, WhiskerId};
 
 use crate::configuration::RunsBy;
-use crate::conversation::Conversation;
 use crate::decides::Decides;
 use crate::source::SourceChoice;
 
@@ -61,12 +60,10 @@ pub(crate) fn arm(to: &ToAll) -> Result<(), Error> {
     order(&to.source, Command::Arm, "armed")
 }
 
-/// Stops the motors.
 pub(crate) fn stop(to: &ToAll) -> Result<(), Error> {
     order(&to.source, Command::Stop, "motors off until armed")
 }
 
-/// Runs a motor again that is off after faults.
 pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Clear(to.whisker()), "faults cleared")
 }
@@ -77,22 +74,20 @@ pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
 }
 
 fn order(source: &SourceChoice, command: Command, done: &str) -> Result<(), Error> {
-    let answer = Conversation::new(source.open(0)?).ask(command)?;
+    let answer = source.module()?.ask(command)?;
     report::say(format_args!("{done}, after tick {}", answer.sequence));
     Ok(())
 }
 
-/// Says what the module says of itself.
 pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
-    let mut module = Conversation::new(of.source.open(0)?);
+    let mut module = of.source.module()?;
     let about = module.about()?;
-    let [_, whiskers] = module.ask(Command::Hello)?.values;
     let status = module.ask(Command::Status)?;
     let [lost, missed] = status.values.map(i32::cast_unsigned);
     report::say(format_args!(
-        "scene {}\n{} ticks a second, whiskers: {whiskers}\n{} ticks since the start, {missed} \
+        "scene {}\n{} ticks a second, whiskers: {}\n{} ticks since the start, {missed} \
          missed\n{lost} records found no room",
-        about.scene, about.tick_hz, status.sequence
+        about.scene, about.tick_hz, about.whiskers, status.sequence
     ));
     report::say(RunsBy::ask(&mut module)?);
     let origin = module.origin()?;

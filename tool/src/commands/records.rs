@@ -9,7 +9,6 @@ use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use wire::{Command, Flags, TickRecord};
 
-use crate::conversation::Conversation;
 use crate::record_file::{self, RecordFile};
 use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
@@ -67,10 +66,8 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
             report::say(line);
         }
     };
-    let script = arguments.script.as_deref().map(Script::load);
-    let mut script = script.transpose()?.unwrap_or_default();
-    script.prepare(&arguments.source)?;
-    let mut module = Conversation::new(arguments.source.open(0)?);
+    let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
+    let mut module = arguments.source.module()?;
     let most = arguments.seconds.or(module.source().duration_s());
     if most.is_none() {
         // Whoever ends it by an interrupt has no file.

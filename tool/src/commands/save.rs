@@ -6,7 +6,6 @@ use scene::Override;
 use similar::TextDiff;
 
 use super::get::Which;
-use crate::conversation::Conversation;
 use crate::scene_file;
 use crate::tuning::live_key;
 
@@ -84,7 +83,7 @@ fn values(arguments: &Arguments) -> Result<Vec<Override>, Error> {
     {
         live_key(key, tuner.scene()).map_err(Error::Input)?;
     }
-    let mut module = Conversation::new(arguments.which.source.open(0)?);
+    let mut module = arguments.which.source.module()?;
     let has = tuner.look(&mut module)?;
     if let Some(other) = &has.other {
         report::warn(other);

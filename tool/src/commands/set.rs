@@ -5,7 +5,6 @@ use host_sim::{Error, report};
 use scene::Override;
 
 use super::get::{Which, table};
-use crate::conversation::Conversation;
 use crate::source::seconds;
 
 /// What is set, and where.
@@ -23,22 +22,14 @@ pub(crate) struct Arguments {
     seconds: Option<f64>,
 }
 
-/// Sets keys, all at once.
 pub(crate) fn set(arguments: &Arguments) -> Result<(), Error> {
     let tuner = arguments.which.tuner()?;
-    let mut module = Conversation::new(arguments.which.source.open(0)?);
+    let mut module = arguments.which.source.module()?;
     let has = tuner.set(&mut module, &arguments.set)?;
     let keys: Vec<&str> = arguments.set.iter().map(Override::key).collect();
     report::say(table(&has.values(tuner.scene()), &keys));
     if !has.differing.is_empty() {
         report::say("to keep it: whisker save; a reset brings the scene's back");
     }
-    let Some(seconds) = arguments.seconds else {
-        return Ok(());
-    };
-    let begun = module.source().now_s();
-    while module.source().now_s() - begun < seconds {
-        module.receive()?.lines.into_iter().for_each(report::say);
-    }
-    Ok(())
+    module.print_log(arguments.seconds.unwrap_or(0.0))
 }

@@ -16,9 +16,6 @@ pub(crate) struct Program {
 
 impl Program {
     /// That of the numbers of a board and a number format.
-    ///
-    /// # Errors
-    /// [`Error::Work`] for a number that is not known here.
     pub(crate) fn of(board: u8, format: u8) -> Result<Self, Error> {
         let boards = ALL.iter().map(|facts| facts.code);
         let mut boards = boards.chain([BoardCode::Simulation]);
@@ -35,9 +32,6 @@ impl Program {
     }
 
     /// That which a scene needs on this board, or in a simulation.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a number format that the board does not have.
     pub(crate) fn for_scene(board: BoardCode, scene: &Scene) -> Result<Self, Error> {
         let format = match BoardFacts::of(board) {
             None => config::in_simulation(scene),
@@ -57,7 +51,6 @@ impl Program {
         BoardFacts::of(self.board)
     }
 
-    /// The name of its number format, as a scene has it.
     pub(crate) const fn format_name(self) -> &'static str {
         match self.format {
             FormatCode::Single => "f32",

@@ -10,13 +10,10 @@ use super::Running;
 /// Which scene a module runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum RunsBy {
-    /// This one.
     Scene {
         name: String,
         crc: u32,
-        /// Bytes of its configuration.
         length: usize,
-        /// Keys were set since the start.
         has_changed: bool,
     },
     /// None, for a reason of this number.
@@ -25,9 +22,6 @@ pub(crate) enum RunsBy {
 
 impl RunsBy {
     /// Whether it is by this configuration, as it was deployed.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it is not.
     pub(crate) fn is(&self, config: &Running) -> Result<(), Error> {
         match self {
             Self::Scene { crc, .. } if *crc == config.crc => Ok(()),

@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use config::{RunsOn, Target};
 use firmware::BoardCode;
@@ -10,11 +10,11 @@ use whisking::FormatCode;
 
 use super::Running;
 use crate::deployment::model_of;
+use crate::source::scene_file;
 
 /// The scenes of the workspace that are whole.
 fn scenes() -> Vec<(PathBuf, Loaded)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    let files = std::fs::read_dir(folder).unwrap();
+    let files = std::fs::read_dir(scene_file("")).unwrap();
     let files = files.map(|file| file.unwrap().path());
     let files = files.filter(|file| file.extension().is_some_and(|ext| ext == "toml"));
     let scenes = files.filter_map(|file| Some((file.clone(), Loaded::new(&file).ok()?)));
@@ -60,8 +60,7 @@ fn a_configuration_is_made_again_from_its_scene() {
 
 #[test]
 fn what_differs_is_named() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
-    let text = std::fs::read_to_string(file).unwrap();
+    let text = std::fs::read_to_string(scene_file("textures.toml")).unwrap();
     let of = |keys: &[&str]| {
         let keys: Vec<Override> = keys.iter().map(|key| key.parse().unwrap()).collect();
         let (scene, _) = Scene::from_str_with("textures.toml", &text, &keys).unwrap();

@@ -1,4 +1,4 @@
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use firmware::boards::{ALL, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 use firmware::{ConfigError, Part, refusal_code};
@@ -7,27 +7,22 @@ use wire::{Command, CommandStatus};
 
 use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, Running, files};
 use crate::conversation::Conversation;
-use crate::source::Scripted;
-
-fn file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../scenes")
-        .join(name)
-}
+use crate::source::{Scripted, scene_file};
 
 fn textures() -> ModelBuf {
-    files::load_model(&file("models/textures.model")).unwrap().1
+    files::load_model(&scene_file("models/textures.model"))
+        .unwrap()
+        .1
 }
 
 /// A scene of the workspace, with keys in place of its own.
 fn loaded(name: &str, keys: &[&str]) -> Loaded {
-    let text = std::fs::read_to_string(file(name)).unwrap();
+    let text = std::fs::read_to_string(scene_file(name)).unwrap();
     let keys: Vec<_> = keys.iter().map(|key| key.parse().unwrap()).collect();
-    let model = |path: &Path| Ok(std::fs::read(file("").join(path)).unwrap());
+    let model = |path: &Path| Ok(std::fs::read(scene_file("").join(path)).unwrap());
     Loaded::from_text(name, &text, &keys, model).unwrap()
 }
 
-/// It on a board.
 fn on(
     board: &BoardFacts,
     loaded: Loaded,
@@ -41,7 +36,6 @@ fn refused(board: &BoardFacts, loaded: Loaded, model: Option<ModelBuf>) -> Strin
     on(board, loaded, model).unwrap_err().to_string()
 }
 
-/// A model of so many classes.
 fn of_classes(classes: u32) -> ModelBuf {
     let mut trainer = Trainer::new(2, Options::default()).unwrap();
     for class in 0..classes {
@@ -154,7 +148,7 @@ fn another_number_format_than_the_programs_is_refused() {
         board: NUCLEO_F446RE.code,
         ..fixed
     };
-    let found = Deployment::of(&file("bench.toml"), bench, None, program);
+    let found = Deployment::of(&scene_file("bench.toml"), bench, None, program);
     let fault = found.unwrap_err().to_string();
     let says = "whisking.numbers: it comes to f32; the board's program computes in fixed";
     assert!(fault.contains(says), "{fault}");

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::Facts;
 use crate::probe::SeenProbe;
-use crate::source::BoardName;
+use crate::source::{Board, BoardName};
 
 /// What somebody wants to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -17,10 +17,6 @@ pub(crate) enum Purpose {
     Probe,
     /// Talk with a board through its serial port
     Port,
-}
-
-impl Purpose {
-    const ALL: [Self; 3] = [Self::Sim, Self::Probe, Self::Port];
 }
 
 /// Something that was looked for.
@@ -43,7 +39,6 @@ impl Display for Check {
     }
 }
 
-/// Whether nothing that is needed is missing.
 pub(crate) fn is_well(checks: &[Check]) -> bool {
     checks
         .iter()
@@ -59,96 +54,88 @@ const RULES: &str = "echo 'SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0483\", MODE=\"
                      /etc/udev/rules.d/69-whisker.rules && sudo udevadm control --reload && \
                      sudo udevadm trigger";
 
+/// Checks so far, and whether the next ones are needed.
+struct List {
+    checks: Vec<Check>,
+    is_needed: bool,
+}
+
+impl List {
+    fn put(&mut self, what: impl Into<String>, is_there: bool, mend: impl Into<String>) {
+        self.checks.push(Check {
+            what: what.into(),
+            mend: (!is_there).then(|| mend.into()),
+            is_needed: self.is_needed,
+        });
+    }
+
+    fn found(&mut self, what: impl Into<String>) {
+        self.put(what, true, "");
+    }
+}
+
 /// All checks for these purposes; without any, for all of them.
 pub(crate) fn checks(facts: &Facts, board: BoardName, purposes: &[Purpose]) -> Vec<Check> {
-    let purposes = match purposes {
-        [] => &Purpose::ALL,
-        some => some,
+    let is_for = |purpose| purposes.is_empty() || purposes.contains(&purpose);
+    let mut list = List {
+        checks: Vec::new(),
+        is_needed: true,
     };
-    let of = |purposes_of: &'static [Purpose]| {
-        let is_needed = purposes.iter().any(|purpose| purposes_of.contains(purpose));
-        move |what: String, mend: Option<String>| Check {
-            what,
-            mend,
-            is_needed,
-        }
-    };
-    let (all, probe, port) = (
-        of(&Purpose::ALL),
-        of(&[Purpose::Probe]),
-        of(&[Purpose::Port]),
-    );
-    let mut checks: Vec<Check> = Vec::new();
-    checks.extend(toolchain(facts).map(|(what, mend)| all(what, mend)));
-    checks.push({
-        let (what, mend) = room(facts);
-        all(what, mend)
-    });
-    checks.extend(probes(facts, board).map(|(what, mend)| probe(what, mend)));
-    checks.extend(ports(facts).map(|(what, mend)| port(what, mend)));
-    checks
+    toolchain(facts, &mut list);
+    room(facts, &mut list);
+    list.is_needed = is_for(Purpose::Probe);
+    probes(facts, board, &mut list);
+    list.is_needed = is_for(Purpose::Port);
+    ports(facts, &mut list);
+    list.checks
 }
 
-/// What was looked for, and what mends it.
-type Finding = (String, Option<String>);
-
-fn finding(what: impl Into<String>, is_there: bool, mend: impl Into<String>) -> Finding {
-    (what.into(), (!is_there).then(|| mend.into()))
-}
-
-fn toolchain(facts: &Facts) -> impl Iterator<Item = Finding> {
-    let Facts {
-        toolchain, rustup, ..
-    } = facts;
-    let version = rustup.as_deref();
-    let first = match version {
-        Some(version) => finding(format!("rustup {version}"), true, ""),
-        None => finding(
+fn toolchain(facts: &Facts, list: &mut List) {
+    match &facts.rustup {
+        Some(version) => list.found(format!("rustup {version}")),
+        None => list.put(
             "rustup",
             false,
             "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh",
         ),
-    };
+    }
+    let toolchain = &facts.toolchain;
     let begins = format!("{toolchain}-");
-    let has_toolchain = facts
-        .toolchains
-        .iter()
-        .any(|name| name == toolchain || name.starts_with(&begins));
-    let second = finding(
+    let mut names = facts.toolchains.iter();
+    let is_there = names.any(|name| name == toolchain || name.starts_with(&begins));
+    list.put(
         format!("toolchain {toolchain}"),
-        has_toolchain,
+        is_there,
         format!("rustup toolchain install {toolchain}"),
     );
-    let targets = facts.targets.iter().map(move |target| {
-        finding(
+    for target in &facts.targets {
+        list.put(
             format!("target {target}"),
-            has_toolchain && facts.fetched.contains(target),
+            is_there && facts.fetched.contains(target),
             format!("rustup target add --toolchain {toolchain} {target}"),
-        )
-    });
-    [first, second].into_iter().chain(targets)
-}
-
-fn room(facts: &Facts) -> Finding {
-    match facts.free_mib {
-        Some(free) => finding(
-            format!("free disk, {:.1} GiB", free as f64 / 1024.0),
-            free >= ROOM_MIB,
-            format!(
-                "{} GiB are needed; cargo clean removes what was built",
-                ROOM_MIB / 1024
-            ),
-        ),
-        None => finding("free disk, which is unknown here", true, ""),
+        );
     }
 }
 
-fn probes(facts: &Facts, board: BoardName) -> impl Iterator<Item = Finding> {
-    let seen = match &facts.probes {
-        Ok(probes) => probes.as_slice(),
-        Err(why) => return vec![finding("debug probe", false, why.as_str())].into_iter(),
+fn room(facts: &Facts, list: &mut List) {
+    let Some(free) = facts.free_mib else {
+        return list.found("free disk, which cannot be told here");
     };
-    let mut found = Vec::new();
+    let needed = ROOM_MIB / 1024;
+    list.put(
+        format!("free disk, {:.1} GiB", free as f64 / 1024.0),
+        free >= ROOM_MIB,
+        format!("{needed} GiB are needed; cargo clean removes what was built"),
+    );
+}
+
+const PLUG_IN: &str = "plug the board in by its ST-LINK socket, with a cable that carries data";
+
+fn probes(facts: &Facts, board: BoardName, list: &mut List) {
+    let seen = match &facts.probes {
+        Ok(probes) => probes,
+        Err(why) => return list.put("debug probe", false, why),
+    };
     if facts.is_linux {
         let may = if seen.is_empty() {
             facts.is_root || facts.has_rules
@@ -160,60 +147,48 @@ fn probes(facts: &Facts, board: BoardName) -> impl Iterator<Item = Finding> {
         } else {
             RULES
         };
-        found.push(finding("permission for debug probes", may, mend));
+        list.put("permission for debug probes", may, mend);
     }
     if seen.is_empty() {
-        found.push(finding(
-            "debug probe",
-            false,
-            "plug the board in by its ST-LINK socket, with a cable that carries data",
-        ));
+        list.put("debug probe", false, PLUG_IN);
     }
     for probe in seen {
-        let SeenProbe { name, serial, .. } = probe;
-        found.push(finding(format!("debug probe {name} {serial}"), true, ""));
+        list.found(format!("debug probe {} {}", probe.name, probe.serial));
         if probe.may_open {
-            found.push(chip(probe, board));
-            let module = probe.module.as_ref();
-            found.extend(module.map(|runs| finding(format!("module {runs}"), true, "")));
+            chip(probe, board, list);
+            if let Some(runs) = &probe.module {
+                list.found(format!("module {runs}"));
+            }
         }
     }
-    found.into_iter()
 }
 
-fn chip(probe: &SeenProbe, board: BoardName) -> Finding {
-    let wanted = board.chip();
+fn chip(probe: &SeenProbe, board: BoardName, list: &mut List) {
+    let Board { chip, chip_id, .. } = board.board();
     match &probe.chip {
-        Ok(found) if *found == board.chip_id() => finding(format!("chip {wanted}"), true, ""),
-        Ok(found) => finding(
-            format!("chip {wanted} (found identity {found:#05x})"),
+        Ok(found) if *found == chip_id => list.found(format!("chip {chip}")),
+        Ok(found) => list.put(
+            format!("chip {chip} (found identity {found:#05x})"),
             false,
             "--board says which board it is",
         ),
-        Err(why) => finding(format!("chip {wanted}"), false, why.as_str()),
+        Err(why) => list.put(format!("chip {chip}"), false, why),
     }
 }
 
-fn ports(facts: &Facts) -> impl Iterator<Item = Finding> {
-    let mut found = Vec::new();
+fn ports(facts: &Facts, list: &mut List) {
     if !facts.is_linux {
-        let what = "serial port, which is looked for on Linux alone";
-        found.push(finding(what, true, ""));
+        list.found("serial port, which is looked for on Linux alone");
     } else if facts.ports.is_empty() {
-        found.push(finding(
-            "serial port of an ST-LINK",
-            false,
-            "plug the board in by its ST-LINK socket, with a cable that carries data",
-        ));
+        list.put("serial port of an ST-LINK", false, PLUG_IN);
     }
     for port in &facts.ports {
-        found.push(finding(
+        list.put(
             format!("serial port {}", port.path.display()),
             port.may_open,
-            "sudo usermod -aG dialout $USER, then log in again",
-        ));
+            "sudo usermod -aG dialout $USER, then log in anew",
+        );
     }
-    found.into_iter()
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ use super::usb::{SerialPort, has_rules, serial_ports};
 use crate::probe::{SeenProbe, seen};
 use crate::source::BoardName;
 
-/// The file that pins toolchain and targets.
 const PINS: &str = include_str!("../../../rust-toolchain.toml");
 
 /// What is found on this PC.
@@ -16,7 +15,6 @@ pub(crate) struct Facts {
     /// The toolchain and the targets that the workspace asks for.
     pub(super) toolchain: String,
     pub(super) targets: Vec<String>,
-    /// The version of rustup, if it is there.
     pub(super) rustup: Option<String>,
     /// Toolchains, and the targets of the one that is asked for.
     pub(super) toolchains: Vec<String>,
@@ -68,7 +66,6 @@ fn said(program: &str, arguments: &[&str]) -> Option<String> {
     done.then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The first word of each line.
 fn words(said: Option<String>) -> Vec<String> {
     let said = said.unwrap_or_default();
     let words = said
@@ -88,7 +85,6 @@ fn pinned(file: &str) -> (String, Vec<String>) {
     )
 }
 
-/// What `df -Pk` says is free, MiB.
 fn free_mib(said: &str) -> Option<u64> {
     let kib: u64 = said
         .lines()

@@ -9,13 +9,10 @@ const ST: &str = "0483";
 /// A serial port of an ST-LINK.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SerialPort {
-    /// Its device.
     pub(crate) path: PathBuf,
-    /// Whether this user may read and write it.
     pub(crate) may_open: bool,
 }
 
-/// The serial ports of ST-LINKs.
 pub(super) fn serial_ports() -> Vec<SerialPort> {
     ports_in(Path::new("/sys/class/tty"), Path::new("/dev"))
 }

@@ -9,13 +9,11 @@ use wire::{Command, CommandStatus, Load, LoadedWord};
 
 use super::{Deployment, load};
 use crate::configuration::Program;
-use crate::source::Scripted;
+use crate::source::{Scripted, scene_file};
 
-/// The scene of the bench with a model, for the NUCLEO-F446RE.
 fn bench() -> Deployment {
-    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
-    let loaded = Loaded::new(&scenes.join("bench.toml")).unwrap();
-    let (_, model) = files::load_model(&scenes.join("models/textures.model")).unwrap();
+    let loaded = Loaded::new(&scene_file("bench.toml")).unwrap();
+    let (_, model) = files::load_model(&scene_file("models/textures.model")).unwrap();
     let program = Program::for_scene(BoardCode::NucleoF446re, &loaded.scene).unwrap();
     Deployment::of(Path::new("bench.toml"), loaded, Some(model), program).unwrap()
 }

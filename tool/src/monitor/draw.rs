@@ -54,7 +54,6 @@ fn places(area: Rect, whiskers: u16) -> Places {
     }
 }
 
-/// Draws the whole window.
 pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
     let area = frame.area();
     let places = places(area, shown.whiskers.len() as u16);

@@ -39,7 +39,6 @@ pub(crate) struct Said<T> {
     pub(crate) what: T,
 }
 
-/// What has come from a module.
 pub(crate) struct History {
     pub(crate) tick_hz: u32,
     /// How many of its whiskers are watched: 1, or one a side.
@@ -49,10 +48,8 @@ pub(crate) struct History {
     pub(crate) lines: VecDeque<Said<String>>,
     /// What has happened in the module, health apart.
     pub(crate) events: VecDeque<Said<EventRecord>>,
-    /// The names of the module's classes.
     pub(crate) module_classes: Vec<String>,
     pub(crate) beliefs: [VecDeque<Belief>; 2],
-    /// What the PC decided last for each side.
     pub(crate) decided: [VecDeque<Said<Decided>>; 2],
     pub(crate) health: Option<Health>,
     /// Ticks in which the module decided, and in how many of them so did the PC.
@@ -67,7 +64,6 @@ pub(crate) struct History {
 }
 
 impl History {
-    /// Nothing yet, of a module with so many whiskers.
     pub(crate) fn new(tick_hz: u32, whiskers: usize, listener: Option<Listener>) -> Self {
         Self {
             tick_hz,
@@ -89,18 +85,15 @@ impl History {
         }
     }
 
-    /// The last tick of which something has come.
     pub(crate) const fn now(&self) -> u64 {
         self.ticks.now()
     }
 
-    /// The first tick that is still held.
     pub(crate) fn oldest(&self) -> u64 {
         let firsts = self.sides.iter().filter_map(VecDeque::front);
         firsts.map(|entry| entry.ticks).min().unwrap_or(0)
     }
 
-    /// A time in seconds as ticks.
     pub(crate) fn ticks_of(&self, seconds: f64) -> u64 {
         (seconds * f64::from(self.tick_hz)) as u64
     }
@@ -204,7 +197,6 @@ pub(crate) fn until<T>(said: &VecDeque<Said<T>>, end: u64) -> vec_deque::Iter<'_
     said.range(..after)
 }
 
-/// The last of it.
 pub(crate) fn by<T>(said: &VecDeque<Said<T>>, end: u64) -> Option<&Said<T>> {
     until(said, end).next_back()
 }
@@ -223,21 +215,13 @@ fn bound<T>(all: &mut VecDeque<T>, most: usize) {
 #[cfg(test)]
 mod tests {
     use firmware::{Event, EventRecord, Health, Packet};
-    use wire::{Flags, TickRecord};
+    use wire::Flags;
 
     use super::{HELD_S, History, by};
-    use crate::source::Incoming;
+    use crate::source::{Incoming, record};
 
-    fn record(sequence: u32, flags: Flags) -> Incoming {
-        let record = TickRecord {
-            sequence,
-            flags,
-            ..TickRecord::default()
-        };
-        Incoming {
-            packets: vec![Packet::Record(record)],
-            lines: Vec::new(),
-        }
+    fn incoming(sequence: u32, flags: Flags) -> Incoming {
+        Incoming::of([Packet::Record(record(sequence, flags))])
     }
 
     #[test]
@@ -245,8 +229,8 @@ mod tests {
         let mut history = History::new(10, 2, None);
         let last = 2 * HELD_S * 10;
         for sequence in 1..=last {
-            history.take(&record(sequence, Flags::default()));
-            history.take(&record(sequence, Flags::RIGHT));
+            history.take(&incoming(sequence, Flags::default()));
+            history.take(&incoming(sequence, Flags::RIGHT));
         }
         assert_eq!(history.now(), u64::from(last));
         assert_eq!(history.oldest(), u64::from(last - 10 * HELD_S));
@@ -259,7 +243,7 @@ mod tests {
     #[test]
     fn lines_have_the_tick_by_which_they_came() {
         let mut history = History::new(1000, 1, None);
-        let mut next = record(40, Flags::default());
+        let mut next = incoming(40, Flags::default());
         next.lines = vec!["0.040 INFO  health 10.0 1000 3 0 0".into()];
         let missed = Health {
             missed: 3,
@@ -270,7 +254,7 @@ mod tests {
             event: Event::Health(missed),
         }));
         history.take(&next);
-        history.take(&record(50, Flags::default()));
+        history.take(&incoming(50, Flags::default()));
         assert_eq!(history.health.unwrap().missed, 3);
         assert_eq!(history.tally.lost, 9);
         assert!(by(&history.lines, 39).is_none());

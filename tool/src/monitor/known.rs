@@ -14,7 +14,6 @@ const THRESHOLD: f64 = 0.99;
 #[derive(Debug, Clone)]
 pub(crate) struct Known {
     pub(crate) classifier: Classifier,
-    /// Samples count from this contact, if any is asked for.
     pub(crate) contact_min: Option<f64>,
     /// For how long a sensor's words may repeat, s.
     pub(crate) frozen_s: f64,
@@ -22,9 +21,6 @@ pub(crate) struct Known {
 
 impl Known {
     /// That of a scene, with another model or its own; none without either.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scene or a model that is wrong, or that do not fit each other.
     pub(crate) fn of(scene: Option<&Path>, model: Option<&Path>) -> Result<Option<Self>, Error> {
         let loaded = scene.map(Loaded::new).transpose()?;
         let said = loaded.as_ref().and_then(|of| of.scene.classifier.as_ref());

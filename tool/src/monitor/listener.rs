@@ -23,7 +23,6 @@ const UNSEEN: u32 = 100;
 /// A decision that fell here.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Decided {
-    /// The side of its whisker.
     pub(crate) side: usize,
     /// The class, or that it is none.
     pub(crate) class: String,
@@ -83,7 +82,6 @@ impl Track {
 /// Classifies what the first whisker of each side feels.
 pub(crate) struct Listener {
     perception: Option<Perception<Classifier>>,
-    /// The contact from which a sample counts.
     least: Option<f32>,
     h50: filter::Config<f32>,
     limits: SensorLimits,
@@ -96,7 +94,6 @@ pub(crate) struct Listener {
 }
 
 impl Listener {
-    /// By the classifier of a module with so many whiskers.
     pub(crate) fn new(known: Known, tick_hz: u32, whiskers: usize) -> Result<Self, Error> {
         let h50 = filter::Config::new(filter::CORNER_HZ, f64::from(tick_hz));
         let h50 = h50.map_err(|error| Error::Work(format!("{tick_hz} ticks a second: {error}")))?;
@@ -117,13 +114,11 @@ impl Listener {
         })
     }
 
-    /// The names of its classes.
     pub(crate) fn classes(&self) -> &[String] {
         let perception = self.perception.as_ref();
         perception.map_or(&[], |perception| perception.classifier().classes())
     }
 
-    /// The posterior of each class for a side's whisker.
     pub(crate) fn posteriors(&self, side: usize) -> Vec<f32> {
         let Some(perception) = &self.perception else {
             return Vec::new();
@@ -181,7 +176,6 @@ impl Listener {
         }
     }
 
-    /// One tick.
     fn step<const S: usize>(&mut self, records: [&TickRecord; S]) {
         let Some(perception) = &mut self.perception else {
             return;

@@ -19,7 +19,6 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// All that a history has.
     pub(crate) fn of(history: &History) -> Self {
         let records = history.sides.iter().flatten();
         let records = records.map(|entry| (entry.ticks, Packet::Record(entry.record)));
@@ -72,11 +71,11 @@ fn free(path: &Path) -> PathBuf {
 mod tests {
     use firmware::Packet;
     use host_sim::origin::Origin;
-    use wire::{Flags, TickRecord};
+    use wire::Flags;
 
     use super::Held;
     use crate::monitor::history::History;
-    use crate::source::Incoming;
+    use crate::source::{Incoming, record};
     use crate::table;
 
     #[test]
@@ -87,18 +86,11 @@ mod tests {
         let mut records = Vec::new();
         for sequence in 1..=50 {
             for flags in [Flags::VALID, Flags::RIGHT] {
-                records.push(TickRecord {
-                    sequence,
-                    flags,
-                    ..TickRecord::default()
-                });
+                records.push(record(sequence, flags));
             }
         }
         for record in &records {
-            history.take(&Incoming {
-                packets: vec![Packet::Record(*record)],
-                lines: Vec::new(),
-            });
+            history.take(&Incoming::of([Packet::Record(*record)]));
         }
         let held = Held::of(&history);
         let names = [0; 3].map(|_| held.write(&path, &Origin::default()).unwrap());

@@ -2,20 +2,18 @@
 
 use firmware::{Event, EventRecord, Place};
 use host_sim::decisions;
-use wire::{Flags, TickRecord, degrees, unit};
+use wire::{Flags, TickRecord};
 
-use super::faults::{Fault, fault, number};
-use super::history::{History, by, until};
+use super::history::{Entry, History, by, until};
 use super::view::{Extent, View};
+use crate::faults::{Fault, fault, number};
+use crate::sample::Sample;
 use crate::tally::SIDES;
 
-/// In how many parts a curve is drawn.
 const PARTS: usize = 160;
 
-/// Lines that a pane may have room for.
 const MOST_LINES: usize = 60;
 
-/// Faults, alike.
 const MOST_FAULTS: usize = 8;
 
 /// Signals of a whisker, in the order of [`signals`].
@@ -24,9 +22,7 @@ pub(crate) const SIGNALS: usize = 7;
 /// What there is to draw.
 #[derive(Debug, Clone)]
 pub(crate) struct Shown {
-    /// Which module.
     pub(crate) title: String,
-    /// The time that is shown, s.
     pub(crate) from_s: f64,
     pub(crate) to_s: f64,
     /// How far the picture is behind what comes, s; none: it is not held.
@@ -42,7 +38,6 @@ pub(crate) struct Shown {
     pub(crate) load: Vec<String>,
     /// Where the PC's classifier stands.
     pub(crate) classifying: Vec<String>,
-    /// The message at the bottom.
     pub(crate) message: String,
 }
 
@@ -50,34 +45,28 @@ pub(crate) struct Shown {
 #[derive(Debug, Clone)]
 pub(crate) struct Whisker {
     pub(crate) side: &'static str,
-    /// The last record that is shown.
     pub(crate) record: Option<TickRecord>,
     /// Least and most of each signal in each part of the time: s, value.
     pub(crate) curves: [Vec<(f64, f64)>; SIGNALS],
-    /// The PC's posterior of each class.
     pub(crate) posteriors: Vec<(String, f32)>,
 }
 
 /// Setpoint and measured angle, degrees; x and y, codes; contact, z, duty.
 pub(crate) fn signals(record: &TickRecord) -> [f64; SIGNALS] {
-    let [x, y] = record.codes().map(f64::from);
-    let [setpoint, measured] = [record.setpoint, record.measured]
-        .map(degrees)
-        .map(f64::from);
-    let [contact, z] = [record.contact, record.z].map(unit).map(f64::from);
+    let sample = Sample::new(record, 0.0);
+    let [x, y] = sample.codes.map(f64::from);
     [
-        setpoint,
-        measured,
+        sample.setpoint_deg,
+        sample.measured_deg,
         x,
         y,
-        contact,
-        z,
-        f64::from(record.duty) / 32767.0,
+        sample.contact,
+        sample.z,
+        sample.duty,
     ]
 }
 
 impl History {
-    /// What there is to look at.
     pub(crate) fn extent(&self) -> Extent {
         Extent {
             oldest: self.oldest(),
@@ -87,7 +76,6 @@ impl History {
         }
     }
 
-    /// What `view` shows of it.
     pub(crate) fn shown(&self, view: &View, title: &str, message: String) -> Shown {
         let hz = f64::from(self.tick_hz);
         let extent = self.extent();
@@ -120,7 +108,6 @@ impl History {
         }
     }
 
-    /// A touch or a decision.
     fn line(&self, EventRecord { sequence, event }: &EventRecord) -> Option<String> {
         let t_s = f64::from(*sequence) / f64::from(self.tick_hz);
         let of = |place: &Place| match self.whiskers {
@@ -143,33 +130,20 @@ impl History {
     fn whisker(&self, side: usize, from: u64, end: u64) -> Whisker {
         let hz = f64::from(self.tick_hz);
         let mut curves: [Vec<(f64, f64)>; SIGNALS] = Default::default();
-        let part = ((end - from) / PARTS as u64).max(1);
-        let mut of_part = None;
-        let mut ends = [[0.0; 2]; SIGNALS];
-        let mut put = |at: u64, ends: &[[f64; 2]; SIGNALS]| {
-            let at_s = (at as f64 + 0.5) * part as f64 / hz;
-            for (curve, [least, most]) in curves.iter_mut().zip(ends) {
-                curve.push((at_s, *least));
-                curve.push((at_s, *most));
-            }
-        };
-        let mut last = None;
-        for entry in self.between(side, from, end) {
-            let values = signals(&entry.record);
-            let at = entry.ticks / part;
-            if of_part != Some(at) {
-                if let Some(before) = of_part.replace(at) {
-                    put(before, &ends);
+        let ticks = ((end - from) / PARTS as u64).max(1);
+        let part_of = |entry: &Entry| entry.ticks / ticks;
+        let entries: Vec<&Entry> = self.between(side, from, end).collect();
+        for part in entries.chunk_by(|one, next| part_of(one) == part_of(next)) {
+            let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; SIGNALS];
+            for entry in part {
+                for ([least, most], value) in ends.iter_mut().zip(signals(&entry.record)) {
+                    (*least, *most) = (least.min(value), most.max(value));
                 }
-                ends = values.map(|value| [value; 2]);
             }
-            for ([least, most], value) in ends.iter_mut().zip(values) {
-                (*least, *most) = (least.min(value), most.max(value));
+            let at_s = (part_of(part[0]) as f64 + 0.5) * ticks as f64 / hz;
+            for (curve, ends) in curves.iter_mut().zip(ends) {
+                curve.extend(ends.map(|value| (at_s, value)));
             }
-            last = Some(entry.record);
-        }
-        if let Some(at) = of_part {
-            put(at, &ends);
         }
         let beliefs = &self.beliefs[side];
         let after = beliefs.partition_point(|belief| belief.ticks <= end);
@@ -177,7 +151,7 @@ impl History {
         let posteriors = belief.map_or(&[][..], |belief| &belief.posteriors);
         Whisker {
             side: SIDES[side],
-            record: last,
+            record: entries.last().map(|entry| entry.record),
             curves,
             posteriors: self
                 .classes()

@@ -21,7 +21,6 @@ pub(crate) struct Size {
     rows: u16,
 }
 
-/// A size as an option has it.
 pub(crate) fn size(text: &str) -> Result<Size, String> {
     let parts = text.split_once('x');
     let parts = parts.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
@@ -33,11 +32,9 @@ pub(crate) fn size(text: &str) -> Result<Size, String> {
     Ok(Size { columns, rows })
 }
 
-/// A window that was drawn.
 pub(crate) struct Snapshot(Buffer);
 
 impl Snapshot {
-    /// What is shared, in a window of this size.
     pub(crate) fn of(shared: &Mutex<Shared>, about: &About, size: Size) -> Result<Self, Error> {
         let view = View::new();
         let shown = lock(shared)
@@ -53,12 +50,10 @@ impl Snapshot {
         Ok(Self(terminal.backend().buffer().clone()))
     }
 
-    /// As lines of text.
     pub(crate) fn text(&self) -> String {
         svg::text(&self.0)
     }
 
-    /// As a picture.
     pub(crate) fn svg(&self) -> String {
         svg::svg(&self.0)
     }

@@ -13,7 +13,6 @@ const WIDTH: f32 = 8.0;
 const HEIGHT: f32 = 16.0;
 const LETTERS: f32 = 13.0;
 
-/// Ink and paper.
 const INK: &str = "#202020";
 const PAPER: &str = "#fcfcfc";
 
@@ -29,7 +28,6 @@ const DOTS: [(f32, f32); 8] = [
     (1.0, 3.0),
 ];
 
-/// The window as lines of text.
 pub(crate) fn text(buffer: &Buffer) -> String {
     let mut text = String::new();
     for row in buffer.content.chunks(usize::from(buffer.area.width).max(1)) {
@@ -40,7 +38,6 @@ pub(crate) fn text(buffer: &Buffer) -> String {
     text
 }
 
-/// The window as a picture.
 pub(crate) fn svg(buffer: &Buffer) -> String {
     let (width, height) = (
         f32::from(buffer.area.width) * WIDTH,
@@ -51,24 +48,12 @@ pub(crate) fn svg(buffer: &Buffer) -> String {
          font-family=\"monospace\" font-size=\"{LETTERS}\">\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"{PAPER}\"/>\n"
     );
-    for (y, row) in buffer
-        .content
-        .chunks(usize::from(buffer.area.width).max(1))
-        .enumerate()
-    {
+    let rows = buffer.content.chunks(usize::from(buffer.area.width).max(1));
+    for (y, row) in rows.enumerate() {
         let mut x = 0;
-        while x < row.len() {
-            let run = row[x..]
-                .iter()
-                .take_while(|cell| is_alike(cell, &row[x]))
-                .count();
-            cells(
-                &mut svg,
-                &row[x..x + run],
-                x as f32 * WIDTH,
-                y as f32 * HEIGHT,
-            );
-            x += run;
+        for run in row.chunk_by(is_alike) {
+            cells(&mut svg, run, x as f32 * WIDTH, y as f32 * HEIGHT);
+            x += run.len();
         }
     }
     svg.push_str("</svg>\n");
@@ -85,7 +70,6 @@ fn is_drawn(cell: &Cell) -> bool {
     matches!(first, '\u{2500}'..='\u{259F}' | '\u{2800}'..='\u{28FF}')
 }
 
-/// A run of cells in one style.
 fn cells(svg: &mut String, cells: &[Cell], left: f32, top: f32) {
     let Some(first) = cells.first() else {
         return;

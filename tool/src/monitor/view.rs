@@ -12,7 +12,6 @@ pub(crate) enum Shows {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Key {
     Letter(char),
-    /// Ctrl with a letter.
     Control(char),
     Tab,
     Escape,
@@ -50,7 +49,6 @@ pub(crate) const KEYS: [(&str, &str); 10] = [
     ("?", "this list, and back"),
 ];
 
-/// The times that can be shown, s.
 const SPANS_S: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 30.0, 60.0];
 
 /// What is looked at.
@@ -99,7 +97,6 @@ impl View {
         SPANS_S[self.span]
     }
 
-    /// The sides that are shown.
     pub(crate) const fn sides(&self) -> &'static [usize] {
         match self.shows {
             Shows::Left => &[0],
@@ -108,7 +105,6 @@ impl View {
         }
     }
 
-    /// The last tick that is shown.
     pub(crate) fn end(&self, extent: Extent) -> u64 {
         let held = self.held.unwrap_or(extent.now);
         held.clamp(extent.oldest.min(extent.now), extent.now)

@@ -1,11 +1,11 @@
 //! Listening to a module, apart from all drawing: what comes is taken, kept and recorded, and
 //! wishes reach the module between two ticks, whatever the window does meanwhile.
 
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use firmware::Packet;
 use host_sim::Error;
 use wire::{Answer, Command, CommandStatus, Flags};
 
@@ -17,7 +17,6 @@ use crate::source::Incoming;
 /// After how long without an answer the motors are asked to stop again, s.
 const AGAIN_S: f64 = 0.1;
 
-/// For how long that is tried, s.
 const PATIENCE_S: f64 = 2.0;
 
 /// For how long a stopped module is listened to, so that what is recorded shows that its motors
@@ -27,7 +26,6 @@ const AFTER_S: f64 = 0.05;
 /// How far a simulation may run ahead of its time before it waits.
 const AHEAD: Duration = Duration::from_millis(4);
 
-/// What listening and drawing share.
 pub(crate) struct Shared {
     pub(crate) history: History,
     /// What is said at the bottom, and the tick by then.
@@ -38,6 +36,12 @@ pub(crate) struct Shared {
 /// Whoever holds it has it whole: no step leaves it half done.
 pub(crate) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How listening has ended.
+pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Error> {
+    let failed = |_| Err(Error::Work("whoever listens has failed".to_owned()));
+    listener.join().unwrap_or_else(failed)
 }
 
 /// What is wanted of whoever listens.
@@ -51,7 +55,6 @@ pub(crate) enum Wish {
     StopAndEnd,
 }
 
-/// Someone who listens.
 pub(crate) struct Watching {
     pub(crate) module: Conversation,
     pub(crate) files: Vec<RecordFile>,
@@ -59,7 +62,6 @@ pub(crate) struct Watching {
     pub(crate) wishes: Receiver<Wish>,
     /// Seconds of the module in a second; none: as fast as it goes.
     pub(crate) speed: Option<f64>,
-    /// When it has begun, s of the module.
     pub(crate) begun_s: f64,
     /// How long to listen, s of the module; none: until it is ended.
     pub(crate) most_s: Option<f64>,
@@ -68,7 +70,6 @@ pub(crate) struct Watching {
 /// Motors that are to be stopped.
 #[derive(Debug, Default)]
 struct Stopping {
-    /// The tags of the requests.
     tags: Vec<u16>,
     /// When the first and the last was sent, s; none: not yet.
     first_s: Option<f64>,
@@ -101,18 +102,11 @@ impl Watching {
         let mut is_ending = false;
         loop {
             let now_s = self.module.source().now_s();
-            let wish = match pace.ahead(now_s) {
-                // Waits for what is wanted, not for time alone.
-                Some(ahead) => match self.wishes.recv_timeout(ahead) {
-                    Ok(wish) => Some(wish),
-                    Err(RecvTimeoutError::Timeout) => None,
-                    Err(RecvTimeoutError::Disconnected) => Some(Wish::StopAndEnd),
-                },
-                None => match self.wishes.try_recv() {
-                    Ok(wish) => Some(wish),
-                    Err(TryRecvError::Empty) => None,
-                    Err(TryRecvError::Disconnected) => Some(Wish::StopAndEnd),
-                },
+            // Waits for what is wanted, not for time alone.
+            let wish = match self.wishes.recv_timeout(pace.ahead(now_s)) {
+                Ok(wish) => Some(wish),
+                Err(RecvTimeoutError::Timeout) => None,
+                Err(RecvTimeoutError::Disconnected) => Some(Wish::StopAndEnd),
             };
             match wish {
                 Some(Wish::End) => return Ok(()),
@@ -214,17 +208,11 @@ impl Watching {
 
 /// Whether records have come, none of which is of an armed module.
 fn is_unarmed(incoming: &Incoming) -> bool {
-    let mut flags = incoming.packets.iter().filter_map(|packet| match packet {
-        Packet::Record(record) => Some(record.flags),
-        Packet::Answer(_) | Packet::Event(_) => None,
-    });
-    let first = flags.next();
-    first.is_some_and(|first| {
-        !first.contains(Flags::ARMED) && !flags.any(|of| of.contains(Flags::ARMED))
-    })
+    let mut records = incoming.records();
+    let has_come = records.clone().next().is_some();
+    has_come && !records.any(|record| record.flags.contains(Flags::ARMED))
 }
 
-/// Keeps a simulation to its time.
 struct Pace {
     speed: Option<f64>,
     since: Instant,
@@ -241,13 +229,17 @@ impl Pace {
     }
 
     /// For how long to wait at a time of the module.
-    fn ahead(&mut self, now_s: f64) -> Option<Duration> {
-        let due = Duration::try_from_secs_f64((now_s - self.since_s) / self.speed?).ok()?;
+    fn ahead(&mut self, now_s: f64) -> Duration {
+        let Some(speed) = self.speed else {
+            return Duration::ZERO;
+        };
+        let due = Duration::try_from_secs_f64((now_s - self.since_s) / speed).unwrap_or_default();
         let passed = self.since.elapsed();
         if passed > due + Duration::from_millis(500) {
             // A PC that cannot keep up does not hurry afterwards.
             (self.since, self.since_s) = (Instant::now(), now_s);
         }
-        due.checked_sub(passed).filter(|ahead| *ahead > AHEAD)
+        let ahead = due.saturating_sub(passed);
+        if ahead > AHEAD { ahead } else { Duration::ZERO }
     }
 }

@@ -3,22 +3,24 @@
 //! characters stops the drawing and nothing else.
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event};
+use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::terminal;
 use host_sim::Error;
 use host_sim::origin::Origin;
+use ratatui::DefaultTerminal;
 
 use super::draw::{Theme, draw};
 use super::save::Held;
-use super::screen::{self, Screen, Window};
 use super::view::{Deed, Key, View, deed};
-use super::watching::{Shared, Wish, lock};
+use super::watching::{Shared, Wish, joined, lock};
+use crate::interrupt::on_signal;
 
-/// From one picture to the next.
 const PICTURE: Duration = Duration::from_millis(50);
 
 /// For how long the last picture may take, once all else has ended.
@@ -27,11 +29,9 @@ const LAST: Duration = Duration::from_millis(500);
 /// For how long a message stays at the bottom, s.
 const MESSAGE_S: f64 = 4.0;
 
-/// What a window is about.
 pub(crate) struct About {
     pub(crate) title: String,
     pub(crate) origin: Origin,
-    /// Where what is held is saved.
     pub(crate) save: PathBuf,
 }
 
@@ -49,17 +49,23 @@ pub(crate) fn open(
     wishes: &Sender<Wish>,
 ) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::Work(format!("terminal: {error}"));
-    let opened = Screen::take().map_err(failed);
-    let (screen, window) = match opened {
-        Ok(opened) => opened,
+    // A panic anywhere gives the terminal back before it is said.
+    let window = match ratatui::try_init() {
+        Ok(window) => window,
         Err(error) => {
+            let _ = ratatui::try_restore();
             // Who cannot see must not leave motors running.
             let _ = wishes.send(Wish::StopAndEnd);
             let _ = listener.join();
-            return Err(error);
+            return Err(failed(error));
         }
     };
-    let signal = signals(wishes.clone()).map_err(failed);
+    let signal = Arc::new(AtomicI32::new(0));
+    let (come, stops) = (signal.clone(), wishes.clone());
+    let waits = on_signal(move |number| {
+        come.store(number, Ordering::Relaxed);
+        let _ = stops.send(Wish::StopAndEnd);
+    });
     let (look, looks) = mpsc::channel();
     let keys_wishes = wishes.clone();
     let ends = shared.clone();
@@ -80,25 +86,32 @@ pub(crate) fn open(
             let _ = ended.send(done);
         });
     let drawing = drawing.map_err(failed);
-    if signal.is_err() || watched.is_err() || drawing.is_err() {
+    if waits.is_err() || watched.is_err() || drawing.is_err() {
         let _ = wishes.send(Wish::StopAndEnd);
     }
 
-    let ended = listener.join();
-    let ended = ended.unwrap_or_else(|_| Err(Error::Work("whoever listens has failed".to_owned())));
+    let ended = joined(listener);
     lock(shared).has_ended = true;
     let drawn = match drawing_ends.recv_timeout(LAST) {
         Ok(done) => done.map_err(failed),
         Err(RecvTimeoutError::Disconnected) => Err(Error::Work("drawing has failed".to_owned())),
         Err(RecvTimeoutError::Timeout) => {
-            // The terminal takes nothing, no message either.
-            screen::restore_modes();
+            // The terminal takes nothing: it can be told nothing either.
+            let _ = terminal::disable_raw_mode();
             std::process::exit(1);
         }
     };
-    drop(screen);
+    // Nothing can be done about a terminal that is gone.
+    let _ = ratatui::try_restore();
+    let ended_by = match signal.load(Ordering::Relaxed) {
+        0 => Ok(()),
+        signal => Err(Error::Work(format!(
+            "ended by signal {signal}; the motors were stopped"
+        ))),
+    };
     ended
-        .and(signal?.end())
+        .and(waits)
+        .and(ended_by)
         .and(drawn)
         .and(watched.map(drop))
         .and(drawing.map(drop))
@@ -119,7 +132,7 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
         };
         let looked = match event {
             Ok(Event::Key(pressed)) => {
-                let Some(key) = screen::key(&pressed) else {
+                let Some(key) = key(&pressed) else {
                     continue;
                 };
                 let wish = match deed(key) {
@@ -149,9 +162,28 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
     }
 }
 
-/// Draws until whoever listens has ended.
+fn key(event: &KeyEvent) -> Option<Key> {
+    if event.kind == KeyEventKind::Release {
+        return None;
+    }
+    let has_control = event.modifiers.contains(KeyModifiers::CONTROL);
+    Some(match event.code {
+        KeyCode::Char(letter) if has_control => Key::Control(letter.to_ascii_lowercase()),
+        KeyCode::Char(letter) => Key::Letter(letter),
+        KeyCode::Tab => Key::Tab,
+        KeyCode::Esc => Key::Escape,
+        KeyCode::Left => Key::Back,
+        KeyCode::Right => Key::Forward,
+        KeyCode::PageUp => Key::PageBack,
+        KeyCode::PageDown => Key::PageForward,
+        KeyCode::Home => Key::First,
+        KeyCode::End => Key::Last,
+        _ => return None,
+    })
+}
+
 fn pictures(
-    mut window: Window,
+    mut window: DefaultTerminal,
     shared: &Arc<Mutex<Shared>>,
     about: &About,
     looks: &Receiver<Look>,
@@ -193,7 +225,6 @@ fn pictures(
     }
 }
 
-/// Saves what is held, beside all else.
 fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
     let held = Held::of(&lock(shared).history);
     let (shared, path, origin) = (shared.clone(), about.save.clone(), about.origin.clone());
@@ -206,51 +237,4 @@ fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
         let now = shared.history.now();
         shared.message = Some((now, message));
     });
-}
-
-/// Signals that have come.
-struct Signals(Arc<Mutex<Option<i32>>>);
-
-impl Signals {
-    /// An error if one has ended the program.
-    fn end(&self) -> Result<(), Error> {
-        let signal = *self
-            .0
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        match signal {
-            Some(signal) => Err(Error::Work(format!(
-                "ended by signal {signal}; the motors were stopped"
-            ))),
-            None => Ok(()),
-        }
-    }
-}
-
-/// A signal that would end the program stops the motors first.
-#[cfg(unix)]
-fn signals(wishes: Sender<Wish>) -> std::io::Result<Signals> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    let come = Arc::new(Mutex::new(None));
-    let mut signals = signal_hook::iterator::Signals::new([SIGHUP, SIGINT, SIGTERM])?;
-    let last = come.clone();
-    let wait = move || {
-        for signal in signals.forever() {
-            *last
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner) = Some(signal);
-            let _ = wishes.send(Wish::StopAndEnd);
-        }
-    };
-    thread::Builder::new()
-        .name("signals".to_owned())
-        .spawn(wait)?;
-    Ok(Signals(come))
-}
-
-/// Elsewhere there are none.
-#[cfg(not(unix))]
-fn signals(_wishes: Sender<Wish>) -> std::io::Result<Signals> {
-    Ok(Signals(Arc::new(Mutex::new(None))))
 }

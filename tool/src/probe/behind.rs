@@ -12,9 +12,7 @@ use rtt::{LogDecoder, Ram, Ring, Rtt};
 use wire::TaggedCommand;
 
 use super::find;
-use super::memory::MemoryPort;
-use crate::deployment::Deployment;
-use crate::loading::load;
+use super::memory::{MemoryPort, ram};
 use crate::source::{BoardName, Incoming, Laying, Source, by_probe};
 
 /// Between two looks where nothing has come: a quarter of the time in which the ring of packets
@@ -22,9 +20,6 @@ use crate::source::{BoardName, Incoming, Laying, Source, by_probe};
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// Opens the board behind a probe; `program` is the ELF file that it runs.
-///
-/// # Errors
-/// [`Error`] if there is no such probe, no chip behind it, or no module in the chip.
 pub(crate) fn open(
     selector: &str,
     board: BoardName,
@@ -39,7 +34,6 @@ pub(crate) fn open(
     )?))
 }
 
-/// A module behind a probe.
 pub(super) struct Behind {
     memory: MemoryPort,
     board: BoardName,
@@ -96,7 +90,7 @@ impl Behind {
 }
 
 fn find_block(memory: &mut MemoryPort, board: BoardName) -> Result<Rtt, Error> {
-    let (at, length) = board.ram();
+    let (at, length) = ram(board);
     let mut bytes = vec![0; length];
     memory.read(at, &mut bytes)?;
     Rtt::find(at, &bytes).ok_or_else(|| {
@@ -156,19 +150,11 @@ impl Source for Behind {
         self.since.elapsed().as_secs_f64()
     }
 
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
     fn would_answer(&self, links: Links) -> Result<(), Error> {
         by_probe(links)
     }
 
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        load(self, what)
-    }
-
     fn origin(&self) -> Origin {
-        Origin::default().with("board", self.board.name())
+        Origin::default().with("board", self.board.board().name)
     }
 }

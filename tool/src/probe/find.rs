@@ -16,10 +16,7 @@ pub(super) fn seen_as(item: &ProbeListItem) -> SeenProbe {
     }
 }
 
-/// Fails as [`open`] does, as far as is known without opening.
-///
-/// # Errors
-/// [`Error::Work`] if it is not there or not the only one, or this user may not open it.
+/// Fails as [`open`] does, as far as can be told without opening.
 pub(crate) fn is_there(selector: &str) -> Result<(), Error> {
     let items = Lister::new().list_all_with_access();
     let seen: Vec<_> = items.iter().map(seen_as).collect();
@@ -27,9 +24,6 @@ pub(crate) fn is_there(selector: &str) -> Result<(), Error> {
 }
 
 /// Opens the probe whose serial number begins with `selector`; the only one, if that is empty.
-///
-/// # Errors
-/// [`Error::Work`] if it is not there, not the only one, or cannot be opened.
 pub(super) fn open(selector: &str) -> Result<Probe, Error> {
     let items = Lister::new().list_all_with_access();
     let seen: Vec<_> = items.iter().map(seen_as).collect();
@@ -42,7 +36,6 @@ pub(super) fn open(selector: &str) -> Result<Probe, Error> {
     })
 }
 
-/// Which of the probes is meant.
 fn chosen(seen: &[SeenProbe], selector: &str) -> Result<usize, String> {
     let name = |probe: &SeenProbe| format!("{} ({})", probe.serial, probe.name);
     let all = seen.iter().map(name).collect::<Vec<_>>().join(", ");

@@ -18,9 +18,6 @@ use crate::conversation::Conversation;
 use crate::source::{BoardName, Laying};
 
 /// Stops the motors of what runs there, programs the ELF file, compares it, and resets the chip.
-///
-/// # Errors
-/// [`Error::Work`] says at which step it failed.
 pub(crate) fn flash(
     selector: &str,
     board: BoardName,
@@ -60,7 +57,7 @@ fn program(
         ))
     };
     let probe = find::open(selector)?;
-    let session = probe.attach(board.chip(), Permissions::default());
+    let session = probe.attach(board.board().chip, Permissions::default());
     let mut session = session.map_err(|error| failed("the core cannot be halted", &error))?;
     let loader = build_loader(&mut session, elf, ElfLoader(ElfOptions::default()), None);
     let loader = loader.map_err(|error| Error::file(elf, chain(&error)))?;
@@ -72,7 +69,6 @@ fn program(
     done.map_err(|error| failed("programming", &error))
 }
 
-/// A bar for each step of the work.
 struct Bars {
     verbosity: Verbosity,
     totals: [u64; 3],

@@ -10,14 +10,31 @@ use probe_rs::architecture::arm::{ArmDebugInterface, ArmError, FullyQualifiedApA
 use probe_rs::probe::{Probe, WireProtocol};
 use rtt::Ram;
 
-use crate::source::BoardName;
+use crate::source::{Board, BoardName};
 
 /// The register that resets the chip (AIRCR), and what asks for it (Armv7-M Architecture
 /// Reference Manual, "Application Interrupt and Reset Control Register"; Armv6-M has the same).
 const RESET_CONTROL: u32 = 0xE000_ED0C;
 const RESET: u32 = 0x05FA_0004;
 
-/// The memory port behind a probe.
+/// Where the identity of a board's chip stands: the first register of DBGMCU, or of DBG.
+const fn chip_id_at(board: BoardName) -> u32 {
+    match board {
+        BoardName::NucleoF446re | BoardName::NucleoF103rb => 0xE004_2000,
+        BoardName::NucleoG071rb => 0x4001_5800,
+    }
+}
+
+/// Where the RAM of a board's chip begins, and how many bytes it has.
+pub(super) const fn ram(board: BoardName) -> (u32, usize) {
+    let kib = match board {
+        BoardName::NucleoF446re => 128,
+        BoardName::NucleoF103rb => 20,
+        BoardName::NucleoG071rb => 36,
+    };
+    (0x2000_0000, kib * 1024)
+}
+
 pub(super) struct MemoryPort {
     interface: Box<dyn ArmDebugInterface + 'static>,
 }
@@ -46,25 +63,22 @@ impl MemoryPort {
     /// The identity of the chip, where such a board's has it.
     pub(super) fn chip_id(&mut self, board: BoardName) -> Result<u16, Error> {
         let mut bytes = [0; 4];
-        self.read(board.chip_id_at(), &mut bytes)?;
+        self.read(chip_id_at(board), &mut bytes)?;
         Ok(u32::from_le_bytes(bytes) as u16 & 0xFFF)
     }
 
-    /// Fails unless it is the chip of that board.
     pub(super) fn check(&mut self, board: BoardName) -> Result<(), Error> {
         let found = self.chip_id(board)?;
-        if found == board.chip_id() {
+        let Board { name, chip_id, .. } = board.board();
+        if found == chip_id {
             return Ok(());
         }
         Err(Error::Work(format!(
-            "the chip is of identity {found:#05x}, that of a {} is {:#05x}; --board says which \
-             board it is",
-            board.name(),
-            board.chip_id()
+            "the chip is of identity {found:#05x}, that of a {name} is {chip_id:#05x}; --board \
+             says which board it is"
         )))
     }
 
-    /// Resets the chip, as the reset button does.
     pub(super) fn reset(&mut self) -> Result<(), Error> {
         self.write(RESET_CONTROL, &RESET.to_le_bytes())
     }
@@ -108,4 +122,34 @@ pub(super) fn chain(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     let causes: Vec<_> = causes.map(ToString::to_string).collect();
     causes.join(": ")
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::ValueEnum;
+    use probe_rs::config::{MemoryRegion, Registry};
+
+    use super::{BoardName, ram};
+
+    #[test]
+    fn chips_and_their_ram_are_those_that_probe_rs_knows() {
+        let registry = Registry::from_builtin_families();
+        for name in BoardName::value_variants() {
+            let chip = name.board().chip;
+            let target = registry.get_target_by_name(chip).unwrap();
+            let mut regions = target.memory_map.iter().filter_map(|region| match region {
+                MemoryRegion::Ram(ram) => Some(ram.range.clone()),
+                _ => None,
+            });
+            let (at, length) = ram(*name);
+            let found = regions.next().unwrap();
+            assert_eq!(found.start, u64::from(at));
+            // What follows directly is of the same RAM.
+            let end = regions.fold(found.end, |end, next| match next.start {
+                start if start == end => next.end,
+                _ => end,
+            });
+            assert_eq!(end - found.start, length as u64, "{chip}");
+        }
+    }
 }

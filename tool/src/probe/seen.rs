@@ -12,9 +12,6 @@ use crate::conversation::Conversation;
 use crate::source::{BoardName, Laying};
 
 /// All probes on USB, and the chips behind those that may be opened.
-///
-/// # Errors
-/// None with probe-rs.
 #[allow(
     clippy::unnecessary_wraps,
     reason = "without probe-rs nothing can be seen"
@@ -29,7 +26,7 @@ pub(crate) fn seen(board: BoardName) -> Result<Vec<SeenProbe>, String> {
                 let mut memory = MemoryPort::of(open).map_err(|error| error.to_string())?;
                 memory.chip_id(board).map_err(|error| error.to_string())
             });
-            if chip == Ok(board.chip_id()) {
+            if chip == Ok(board.board().chip_id) {
                 probe.module = runs(&item, board).ok();
             }
             probe.chip = chip;
@@ -39,7 +36,6 @@ pub(crate) fn seen(board: BoardName) -> Result<Vec<SeenProbe>, String> {
     Ok(all)
 }
 
-/// What the module behind a probe runs.
 fn runs(item: &ProbeListItem, board: BoardName) -> Result<String, Error> {
     let probe = item.info.open();
     let probe = probe.map_err(|error| Error::Work(error.to_string()))?;

@@ -15,7 +15,6 @@ fn without<T>() -> Result<T, Error> {
     Err(Error::Input(WITHOUT.to_owned()))
 }
 
-/// Refuses.
 pub(crate) fn open(
     _: &str,
     _: BoardName,
@@ -25,17 +24,14 @@ pub(crate) fn open(
     without()
 }
 
-/// Refuses.
 pub(crate) fn flash(_: &str, _: BoardName, _: &Path, _: Verbosity) -> Result<(), Error> {
     without()
 }
 
-/// Refuses.
 pub(crate) fn is_there(_: &str) -> Result<(), Error> {
     without()
 }
 
-/// Says why it sees nothing.
 pub(crate) fn seen(_: BoardName) -> Result<Vec<SeenProbe>, String> {
     Err(WITHOUT.to_owned())
 }

@@ -14,11 +14,10 @@ use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
 use wire::{Answer, TickRecord};
 
-use crate::monitor::number;
+use crate::faults::number;
 use crate::table;
 use crate::tally::{TickCount, side};
 
-/// Nanoseconds in a second.
 const NS: u64 = 1_000_000_000;
 
 /// Messages that are being written. Their time is that of the module, from its first tick; it
@@ -135,7 +134,6 @@ impl Messages {
         self.write(channel, message.as_bytes())
     }
 
-    /// A line of the log.
     pub(super) fn line(&mut self, line: &str) -> io::Result<()> {
         let ns = self.now();
         let level = match line.split(' ').nth(1) {

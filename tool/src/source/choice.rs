@@ -14,6 +14,7 @@ use super::laying::Laying;
 use super::port::Port;
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
+use crate::conversation::Conversation;
 use crate::probe;
 
 /// Which module.
@@ -83,6 +84,10 @@ impl SourceChoice {
         self.sim.as_ref().map(|_| 1.0)
     }
 
+    pub(crate) fn module(&self) -> Result<Conversation, Error> {
+        self.open(0).map(Conversation::new)
+    }
+
     /// Opens it, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
         let laying = || Laying::by(self.lay_by.as_deref());
@@ -136,9 +141,6 @@ impl SourceChoice {
     }
 
     /// A scene as the module runs it: a simulated one knows its world and its seed.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a world that does not fit it.
     pub(crate) fn of_module(&self, loaded: Loaded) -> Result<Loaded, Error> {
         if self.sim.is_some() {
             self.placed(loaded, 0)
@@ -147,13 +149,11 @@ impl SourceChoice {
         }
     }
 
-    /// The simulation of a scene in its own world.
     pub(crate) fn simulation(scene: &Path) -> Result<Box<dyn Source>, Error> {
         let flash = Flash::open(None)?;
         Ok(Box::new(Simulated::open(Loaded::new(scene)?, flash)?))
     }
 
-    /// Whether the module is a simulated one.
     pub(crate) const fn is_simulated(&self) -> bool {
         self.sim.is_some()
     }

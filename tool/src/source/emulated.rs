@@ -15,7 +15,6 @@ use super::{Incoming, Source, by_probe};
 use crate::deployment::Deployment;
 use crate::loading::load;
 
-/// A board, talked with through the memory that a probe reads and writes.
 pub(super) struct Emulated {
     loaded: Loaded,
     session: Session,

@@ -8,7 +8,6 @@ use std::path::{Path, PathBuf};
 use host_sim::Error;
 use host_sim::output::write_whole;
 
-/// A byte of flash that is erased.
 const ERASED: u8 = 0xFF;
 
 /// Such a file, or flash that is not kept.
@@ -54,7 +53,6 @@ impl Flash {
         &self.contents
     }
 
-    /// Whether a file keeps it.
     pub(super) const fn is_kept(&self) -> bool {
         self.path.is_some()
     }
@@ -64,7 +62,6 @@ impl Flash {
         self.path.as_deref().unwrap_or(Path::new("flash"))
     }
 
-    /// Keeps other contents.
     pub(crate) fn store(&mut self, contents: &[u8]) -> Result<(), Error> {
         self.contents = contents.to_vec();
         let path = self.path.as_deref();

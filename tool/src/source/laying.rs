@@ -13,9 +13,7 @@ const SAMPLE: &str = "SAMPLE";
 /// Who is asked for samples, one at a time.
 #[derive(Debug)]
 pub(crate) enum Laying {
-    /// A person before a keyboard.
     Person(Person),
-    /// What a shell does.
     Command {
         /// For the shell.
         line: String,
@@ -36,10 +34,6 @@ impl Laying {
         }
     }
 
-    /// Asks for a sample, without waiting.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the command cannot be started.
     pub(super) fn lay(&mut self, sample: &str) -> Result<(), Error> {
         match self {
             Self::Person(person) => person.lay(sample),
@@ -53,10 +47,7 @@ impl Laying {
         Ok(())
     }
 
-    /// Whether it lies there. Does not wait.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the input is closed, or the command has failed.
+    /// Whether it lies there. Waits for nobody.
     pub(super) fn is_laid(&mut self) -> Result<bool, Error> {
         let (line, running) = match self {
             Self::Person(person) => return person.is_laid(),

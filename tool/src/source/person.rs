@@ -19,7 +19,6 @@ pub(crate) struct Person {
 }
 
 impl Person {
-    /// Whoever is at standard input.
     pub(crate) fn at_standard_input() -> Self {
         Self::new(|| Box::new(io::stdin().lock()), io::stdin().is_terminal())
     }
@@ -42,7 +41,6 @@ impl Person {
         }
     }
 
-    /// Asks for a sample, without waiting.
     pub(crate) fn lay(&mut self, sample: &str) {
         if self.forgets {
             // All that has come by now; a closed input is reported when it counts.
@@ -54,10 +52,6 @@ impl Person {
         self.asked = Some(sample.to_owned());
     }
 
-    /// Whether they have laid what they were asked for.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the input is closed.
     pub(crate) fn is_laid(&mut self) -> Result<bool, Error> {
         let Some(sample) = &self.asked else {
             return Ok(true);
@@ -86,7 +80,6 @@ mod tests {
 
     use super::Person;
 
-    /// Keys that are pressed one by one.
     struct Keys(Receiver<u8>);
 
     impl Read for Keys {

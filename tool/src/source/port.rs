@@ -13,10 +13,7 @@ use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use super::laying::Laying;
 use super::{Incoming, Source};
-use crate::deployment::Deployment;
-use crate::loading::load;
 
-/// For how long a read waits for something.
 const WAIT: Duration = Duration::from_millis(50);
 
 /// For how long nothing may come. A board says how it fares every second of its time, of which
@@ -26,7 +23,6 @@ const SILENCE: Duration = Duration::from_secs(20);
 /// When an unanswered [`HELLO`] is sent again.
 const ASK_AGAIN: Duration = Duration::from_secs(1);
 
-/// Asks who is there.
 const HELLO: TaggedCommand = TaggedCommand {
     tag: TAG,
     command: Command::Hello,
@@ -58,13 +54,11 @@ impl BoardTime {
     }
 }
 
-/// A board, talked with through a port.
 pub(super) struct Port {
     line: SerialPort,
     name: String,
     receiver: Receiver,
     laying: Laying,
-    /// When something has come last.
     last: Instant,
     time: BoardTime,
     tick_hz: Option<u32>,
@@ -198,10 +192,6 @@ impl Source for Port {
         false
     }
 
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
     fn would_answer(&self, links: Links) -> Result<(), Error> {
         let fault = "telemetry.serial_baud: found none; allowed for a scene that is deployed by \
                      the serial port: a baud, or else the board could not be asked any more";
@@ -217,10 +207,6 @@ impl Source for Port {
         let mut settings = self.line.get_configuration().map_err(wrong)?;
         settings.set_baud_rate(baud).map_err(wrong)?;
         self.line.set_configuration(&settings).map_err(wrong)
-    }
-
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        load(self, what)
     }
 
     fn origin(&self) -> Origin {

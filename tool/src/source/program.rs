@@ -11,6 +11,7 @@ use host_sim::output::write_whole;
 use host_sim::{Error, report};
 use tactile::ModelBuf;
 
+use super::board::Board;
 use crate::deployment::model_of;
 
 /// A board whose program can be built, emulated and flashed.
@@ -24,37 +25,19 @@ pub(crate) enum BoardName {
     NucleoG071rb,
 }
 
-/// How cargo builds it.
-struct Recipe {
-    feature: &'static str,
-    program: &'static str,
-    target: &'static str,
-}
-
-const fn recipe(board: BoardName) -> Recipe {
-    let (feature, program, target) = match board {
-        BoardName::NucleoF446re => ("nucleo-f446re", "nucleo_f446re", "thumbv7em-none-eabihf"),
-        BoardName::NucleoF103rb => ("nucleo-f103rb", "nucleo_f103rb", "thumbv7m-none-eabi"),
-        BoardName::NucleoG071rb => ("nucleo-g071rb", "nucleo_g071rb", "thumbv6m-none-eabi"),
-    };
-    Recipe {
-        feature,
-        program,
-        target,
-    }
-}
-
 /// Bytes of flash in which a program has room for all its parts, and so takes any scene. A smaller
 /// one has those that its scene needs.
 const ROOM_FOR_ALL: u32 = 128 * 1024;
 
 /// Builds the program of a board, which brings `scene` with it; returns its file.
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
-    let Recipe {
-        feature,
+    let Board {
+        name: feature,
         program,
         target,
-    } = recipe(board);
+        facts,
+        ..
+    } = board.board();
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let top = here.parent().unwrap_or(here);
     let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top.join("target"), Into::into);
@@ -62,20 +45,20 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         .map_err(|error| Error::Work(format!("the folder that is built in: {error}")))?;
     let loaded = Loaded::new(scene)?;
     let model = model_of(scene, &loaded.scene)?;
-    let image = config::image(&loaded.scene, model.as_ref(), board.facts(), "");
+    let image = config::image(&loaded.scene, model.as_ref(), facts, "");
     let image = image.map_err(|misfit| Error::file(scene, misfit))?;
     report::warn(format_args!(
         "building the {feature}'s program of {}",
         scene.display()
     ));
-    let has_room = board.facts().flash.program.bytes >= ROOM_FOR_ALL;
+    let has_room = facts.flash.program.bytes >= ROOM_FOR_ALL;
     let mut features = vec![feature];
     if has_room {
         features.push("default");
     }
     let is_needed = |part: &&str| !has_room || *part == "fixed";
     features.extend(image.features.into_iter().filter(is_needed));
-    let files = Files::new(&built, board, &image.bytes, model.as_ref())?;
+    let files = Files::new(&built, feature, &image.bytes, model.as_ref())?;
     // Programs of all scenes are built in the same place.
     let _lock = files.lock()?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
@@ -119,10 +102,9 @@ struct Files {
 }
 
 impl Files {
-    /// Writes what it brings.
     fn new(
         built: &Path,
-        board: BoardName,
+        board: &str,
         config: &[u8],
         model: Option<&ModelBuf>,
     ) -> Result<Self, Error> {
@@ -130,7 +112,7 @@ impl Files {
         let of_model = model.map_or(0, ModelBuf::crc);
         let files = Self {
             folder: built.join("scenes"),
-            name: format!("{}-{sum:08x}-{of_model:08x}", board.name()),
+            name: format!("{board}-{sum:08x}-{of_model:08x}"),
         };
         let folder = &files.folder;
         std::fs::create_dir_all(folder).map_err(|error| Error::write(folder, error))?;
@@ -145,7 +127,6 @@ impl Files {
         self.folder.join(format!("{}.{kind}", self.name))
     }
 
-    /// Waits until no other build is under way.
     fn lock(&self) -> Result<File, Error> {
         let path = self.folder.join("lock");
         let wrong = |error| Error::write(&path, error);

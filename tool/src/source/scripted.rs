@@ -1,17 +1,54 @@
 //! A module for tests, which answers as a script says.
 
+use std::path::{Path, PathBuf};
+
 use firmware::Packet;
 use host_sim::Error;
 use host_sim::origin::Origin;
-use wire::{Answer, Command, CommandStatus, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, Flags, TaggedCommand, TickRecord};
 
-use super::{Incoming, Source};
-use crate::deployment::Deployment;
+use super::{Incoming, Source, SourceChoice};
+
+/// A record of this tick.
+pub(crate) fn record(sequence: u32, flags: Flags) -> TickRecord {
+    TickRecord {
+        sequence,
+        flags,
+        ..TickRecord::default()
+    }
+}
+
+/// A file of the workspace's scenes.
+pub(crate) fn scene_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../scenes")
+        .join(name)
+}
+
+/// The module that the words of a command line choose.
+pub(crate) fn chosen(words: &[&str]) -> SourceChoice {
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        source: SourceChoice,
+    }
+    let words = ["whisker"].iter().chain(words);
+    <Line as clap::Parser>::parse_from(words).source
+}
+
+impl Incoming {
+    /// These packets, and no line.
+    pub(crate) fn of(packets: impl Into<Vec<Packet>>) -> Self {
+        Self {
+            packets: packets.into(),
+            lines: Vec::new(),
+        }
+    }
+}
 
 /// What becomes of a request; `None`: its answer is lost.
 type Answering = Box<dyn FnMut(Command) -> Option<(CommandStatus, [i32; 2])>>;
 
-/// A module that answers by this.
 pub(crate) struct Scripted {
     answering: Answering,
     waiting: Vec<Packet>,
@@ -33,10 +70,7 @@ impl Scripted {
 impl Source for Scripted {
     fn next(&mut self) -> Result<Incoming, Error> {
         self.now_s += 0.1;
-        Ok(Incoming {
-            packets: std::mem::take(&mut self.waiting),
-            lines: Vec::new(),
-        })
+        Ok(Incoming::of(std::mem::take(&mut self.waiting)))
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
@@ -58,15 +92,7 @@ impl Source for Scripted {
         self.now_s
     }
 
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
     fn origin(&self) -> Origin {
         Origin::default()
-    }
-
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        crate::loading::load(self, what)
     }
 }

@@ -17,7 +17,6 @@ use super::{Incoming, Source};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
-/// A scene's module on this PC.
 pub(super) struct Simulated {
     loaded: Loaded,
     flash: Flash,

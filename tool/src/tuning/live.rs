@@ -1,11 +1,8 @@
 //! The keys of a scene that can be set while a module runs.
 
-use scene::{Driver, MotorSection, Rest, Rule, Scene, WhiskingSection};
-use whisking::GateSettings;
+use scene::{Driver, MotorSection, Rest, Rule, Scene};
 
-/// A key that can be set.
 pub(crate) struct LiveKey {
-    /// With its section.
     pub(crate) key: &'static str,
     /// Its value in a scene; none where the scene leaves its part out.
     pub(crate) place: fn(&mut Scene) -> Option<&mut f64>,
@@ -13,111 +10,89 @@ pub(crate) struct LiveKey {
     pub(crate) watch: &'static str,
 }
 
-/// A key of a section, which `$part` finds in a scene, where it has one.
+/// A table of keys: of sections that a scene may leave out, of one that it has `always`, and
+/// those that a function finds.
 macro_rules! live {
-    ($part:ident: $section:ident.$key:ident, $watch:literal) => {
-        live!(
-            concat!(stringify!($section), ".", stringify!($key)),
-            |scene| $part(scene).map(|part| &mut part.$key),
-            $watch
-        )
-    };
-    ($key:expr, $place:expr, $watch:literal) => {
-        LiveKey {
-            key: $key,
-            place: $place,
+    ($($section:ident.$key:ident $($how:ident)*: $watch:literal;)*) => {
+        &[$(LiveKey {
+            key: concat!(stringify!($section), ".", stringify!($key)),
+            place: live!(@ $section $key $($how)*),
             watch: $watch,
-        }
+        }),*]
+    };
+    (@ $section:ident $key:ident) => {
+        |scene| Some(&mut scene.$section.as_mut()?.$key)
+    };
+    (@ $section:ident $key:ident always) => {
+        |scene| Some(&mut scene.$section.$key)
+    };
+    (@ $section:ident $key:ident by $place:ident) => {
+        $place
     };
 }
 
-fn motor(scene: &mut Scene) -> Option<&mut MotorSection> {
-    scene.motor.as_mut()
-}
+pub(crate) const LIVE: &[LiveKey] = live! {
+    motor.kp: "setpoint against measured angle; humming or ringing: too much";
+    motor.kd: "overshoot, and noise of the duty";
+    motor.duty_limit: "largest duty; stalls count from half of it";
+    motor.slew_per_s: "how the duty rises; lag";
+    motor.min_deg: "lowest angle; the travel guard moves with it";
+    motor.max_deg: "highest angle; the travel guard moves with it";
+    motor.travel_margin_deg: "travel faults";
+    motor.following_limit_deg: "following faults";
+    motor.top_speed_deg_s: "runaway faults";
+    motor.unmoved_duty: "encoder faults";
+    motor.continuous_duty: "heat faults; how warm the motor gets";
+    motor.approach_deg_s: "the first move after the motor was off";
+    motor.homing_duty by homing_duty: "the next homing; used by `home`";
+    motor.stop_deg by stop_deg: "the angle at rest after the next homing";
+    rcp.gain: "z, and how far the whisker goes on after contact";
+    rcp.tau_s: "how z falls after contact";
+    cia.gain: "amplitude of the array after contact";
+    cia.tau_s: "for how long it stays larger";
+    whisking.frequency_hz: "whisks a second; the following error grows with it";
+    whisking.noise by noise: "how much one whisk differs from another";
+    classifier.threshold by threshold: "errors against decision time";
+    classifier.contact_min by contact_min: "how much of a touch counts";
+    sensor.frozen_s always: "frozen-sensor faults";
+    sensor.jump_per_s always: "jump faults";
+};
 
-/// Of a motor whose rest is found.
 fn homed(scene: &mut Scene) -> Option<&mut MotorSection> {
-    motor(scene).filter(|motor| motor.rest == Rest::Find)
+    scene
+        .motor
+        .as_mut()
+        .filter(|motor| motor.rest == Rest::Find)
 }
 
-fn rcp(scene: &mut Scene) -> Option<&mut GateSettings> {
-    scene.rcp.as_mut()
+fn homing_duty(scene: &mut Scene) -> Option<&mut f64> {
+    homed(scene).map(|motor| &mut motor.homing_duty)
 }
 
-fn cia(scene: &mut Scene) -> Option<&mut GateSettings> {
-    scene.cia.as_mut()
+fn stop_deg(scene: &mut Scene) -> Option<&mut f64> {
+    let motor = homed(scene)?;
+    let stop_deg = motor.retracted_deg();
+    Some(motor.stop_deg.get_or_insert(stop_deg))
 }
 
-fn whisking(scene: &mut Scene) -> Option<&mut WhiskingSection> {
-    scene.whisking.as_mut()
+fn noise(scene: &mut Scene) -> Option<&mut f64> {
+    let whisking = scene.whisking.as_mut();
+    let noise = whisking.map(|whisking| &mut whisking.noise);
+    noise.filter(|noise| **noise > 0.0)
 }
 
-/// All of them.
-pub(crate) const LIVE: &[LiveKey] = &[
-    live!(motor: motor.kp, "setpoint against measured angle; humming or ringing: too much"),
-    live!(motor: motor.kd, "overshoot, and noise of the duty"),
-    live!(motor: motor.duty_limit, "largest duty; stalls count from half of it"),
-    live!(motor: motor.slew_per_s, "how the duty rises; lag"),
-    live!(motor: motor.min_deg, "lowest angle; the travel guard moves with it"),
-    live!(motor: motor.max_deg, "highest angle; the travel guard moves with it"),
-    live!(motor: motor.travel_margin_deg, "travel faults"),
-    live!(motor: motor.following_limit_deg, "following faults"),
-    live!(motor: motor.top_speed_deg_s, "runaway faults"),
-    live!(motor: motor.unmoved_duty, "encoder faults"),
-    live!(motor: motor.continuous_duty, "heat faults; how warm the motor gets"),
-    live!(motor: motor.approach_deg_s, "the first move after the motor was off"),
-    live!(homed: motor.homing_duty, "the next homing; used by `home`"),
-    live!(
-        "motor.stop_deg",
-        |scene| {
-            let motor = homed(scene)?;
-            let stop_deg = motor.retracted_deg();
-            Some(motor.stop_deg.get_or_insert(stop_deg))
-        },
-        "the angle at rest after the next homing"
-    ),
-    live!(rcp: rcp.gain, "z, and how far the whisker goes on after contact"),
-    live!(rcp: rcp.tau_s, "how z falls after contact"),
-    live!(cia: cia.gain, "amplitude of the array after contact"),
-    live!(cia: cia.tau_s, "for how long it stays larger"),
-    live!(whisking: whisking.frequency_hz, "whisks a second; the following error grows with it"),
-    live!(
-        "whisking.noise",
-        |scene| {
-            let noise = &mut whisking(scene)?.noise;
-            (*noise > 0.0).then_some(noise)
-        },
-        "how much one whisk differs from another"
-    ),
-    live!(
-        "classifier.threshold",
-        |scene| match &mut scene.classifier.as_mut()?.rule {
-            Rule::Sequential { threshold } => Some(threshold),
-            Rule::Window { .. } => None,
-        },
-        "errors against decision time"
-    ),
-    live!(
-        "classifier.contact_min",
-        |scene| scene.classifier.as_mut()?.contact_min.as_mut(),
-        "how much of a touch counts"
-    ),
-    live!(
-        "sensor.frozen_s",
-        |scene| Some(&mut scene.sensor.frozen_s),
-        "frozen-sensor faults"
-    ),
-    live!(
-        "sensor.jump_per_s",
-        |scene| Some(&mut scene.sensor.jump_per_s),
-        "jump faults"
-    ),
-];
+fn threshold(scene: &mut Scene) -> Option<&mut f64> {
+    match &mut scene.classifier.as_mut()?.rule {
+        Rule::Sequential { threshold } => Some(threshold),
+        Rule::Window { .. } => None,
+    }
+}
+
+fn contact_min(scene: &mut Scene) -> Option<&mut f64> {
+    scene.classifier.as_mut()?.contact_min.as_mut()
+}
 
 /// The key that can be set.
-///
-/// # Errors
-/// Why not.
 pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, String> {
     let needs = "it needs a restart: whisker deploy --scene FILE";
     let Some(live) = LIVE.iter().find(|live| live.key == key) else {

@@ -1,11 +1,6 @@
 //! `whisker calibrate` and `whisker check`, and what a recording keeps of the first.
 
-use crate::common::{Place, scenes, textures};
-
-/// The bench in free air.
-fn bench() -> String {
-    format!("--sim {}", scenes("bench.toml").display())
-}
+use crate::common::Place;
 
 /// The number of a line `KEY = NUMBER`.
 fn number(text: &str, key: &str) -> f64 {
@@ -16,78 +11,50 @@ fn number(text: &str, key: &str) -> f64 {
 #[test]
 fn a_whisker_is_calibrated_and_a_recording_keeps_it() {
     let place = Place::new();
-    let ran = place.done(&format!("calibrate {} --out found", bench()));
-    assert!(
-        ran.stdout.contains("whisker set motor.kp="),
-        "{}",
-        ran.stdout
-    );
+    let ran = place.done("calibrate --sim @bench.toml --out found");
+    ran.prints("whisker set motor.kp=");
     let toml = place.text("found/calibration.toml");
     // As its scene has the motor: 0.05 of friction.
-    assert!(
-        (number(&toml, "friction_duty") - 0.05).abs() < 0.003,
-        "{toml}"
-    );
+    let friction = number(&toml, "friction_duty");
+    assert!((friction - 0.05).abs() < 0.003, "{toml}");
     for picture in ["steps.svg", "steps.csv", "steps.png"] {
-        assert!(
-            place.path(&format!("found/{picture}")).exists(),
-            "{picture}"
-        );
+        let file = place.path(&format!("found/{picture}"));
+        assert!(file.exists(), "{picture}");
     }
-    let capture = format!(
-        "capture {} --world {} --label smooth --touches 2",
-        bench(),
-        textures().display()
-    );
+    let capture = "capture --sim @bench.toml --world @textures.toml --label smooth --touches 2";
     place.done(&format!(
         "{capture} --calibration found/calibration.toml --out c.csv"
     ));
     let recording = place.text("c.csv");
-    let zero = recording
-        .lines()
-        .find(|line| line.contains("zero_codes"))
-        .unwrap();
-    assert!(zero.starts_with("# calibration.zero_codes = ["), "{zero}");
-    let said = place.refused(&format!("{capture} --calibration c.csv --out d.csv"));
-    assert!(said.contains("c.csv: TOML parse error"), "{said}");
+    assert!(
+        recording.contains("\n# calibration.zero_codes = ["),
+        "{recording}"
+    );
     place.write("other.toml", "a = 1\n");
-    let said = place.refused(&format!("{capture} --calibration other.toml --out d.csv"));
-    assert!(said.contains("no zero_codes in it"), "{said}");
+    for (file, why) in [
+        ("c.csv", "c.csv: TOML parse error"),
+        ("other.toml", "no zero_codes in it"),
+    ] {
+        place.refuses(&format!("{capture} --calibration {file} --out d.csv"), why);
+    }
     assert!(!place.path("d.csv").exists());
 }
 
 #[test]
-fn what_touches_something_is_to_be_taken_away() {
-    let place = Place::new();
-    let ran = place.done(&format!(
-        "calibrate {} --world {} --out found",
-        bench(),
-        textures().display()
-    ));
-    let warning = "x swings too far for free air: take away what the whisker touches";
-    assert!(ran.stderr.contains(warning), "{}", ran.stderr);
+fn what_touches_something_is_told_to_be_taken_away() {
+    let ran = Place::new().done("calibrate --sim @bench.toml --world @textures.toml --out found");
+    ran.warns("x swings too far for free air: take away what the whisker touches");
 }
 
 #[test]
 fn a_check_of_what_its_scene_says_finds_nothing() {
     let place = Place::new();
-    let ran = place.done(&format!("check {} --seconds 12 --out report", bench()));
-    assert!(
-        ran.stdout.contains("0 of 17 figures need a look"),
-        "{}",
-        ran.stdout
-    );
+    let check = "check --sim @bench.toml --seconds 12 --out report";
+    place.done(check).prints("0 of 17 figures need a look");
     let report = place.text("report/check.md");
-    assert!(
-        report.contains("| records lost |  | 0 | 0 | 0 |"),
-        "{report}"
-    );
-    // In a world in which it meets something the check says what differs.
-    let ran = place.run(&format!(
-        "check {} --world {} --seconds 12 --out touched",
-        bench(),
-        textures().display()
-    ));
-    assert_eq!(ran.status, Some(1), "{}", ran.stdout);
-    assert!(ran.stdout.contains("swing of "), "{}", ran.stdout);
+    let lost = "| records lost |  | 0 | 0 | 0 |";
+    assert!(report.contains(lost), "{report}");
+    // In a world in which it meets something it is told what differs.
+    let ran = place.fails(&format!("{check} --world @textures.toml"));
+    ran.prints("swing of ");
 }

@@ -5,7 +5,7 @@ use std::fs;
 use host_sim::files::read_recording;
 use host_sim::recording::{CHANNELS, GATE, Stream};
 
-use crate::common::{BENCH, Place};
+use crate::common::{OTHER, Place, bench_with};
 
 fn recording(place: &Place, name: &str) -> Vec<Stream> {
     read_recording(&place.path(name), CHANNELS).unwrap()
@@ -45,22 +45,12 @@ fn labels_have_as_many_touches_as_were_asked_for() {
     assert!(place.text("c.csv").starts_with(
         "# board = simulated\n# firmware = 0.1.0\n# scene = bench\n# tick_hz = 2000\nlabel,"
     ));
-    let lines: Vec<&str> = ran.stdout.lines().collect();
-    assert!(lines[0].starts_with("carpet: 7 touches, "), "{lines:?}");
-    assert!(
-        lines[2].contains("14 touches; records lost: 0 of "),
-        "{lines:?}"
-    );
-    assert!(
-        lines[3].starts_with("from the first touch: ")
-            && lines[3].ends_with(" s of the module's time"),
-        "{lines:?}"
-    );
-    assert!(
-        lines[4].contains("host-sim -- train --data c.csv --rate 2000"),
-        "{lines:?}"
-    );
-    // A clean recording has no warnings.
+    assert!(ran.stdout.starts_with("carpet: 7 touches, "), "{ran:?}");
+    ran.prints("14 touches; records lost: 0 of ");
+    ran.prints("\nfrom the first touch: ");
+    ran.prints(" s of the module's time\nnext: ");
+    ran.prints("host-sim -- train --data c.csv --rate 2000");
+    // What is clean has nothing to be told.
     assert_eq!(ran.stderr, "");
 }
 
@@ -70,11 +60,8 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
     let capture = "capture --sim bench.toml --out c.csv --label smooth";
     place.done(&format!("{capture} --touches 6"));
     let before = place.text("c.csv");
-    let said = place.refused(&format!("{capture} --touches 6"));
-    assert!(
-        said.contains("not overwritten") && said.contains("--resume"),
-        "{said}"
-    );
+    let why = "is not overwritten; name another file, or go on with this one by --resume";
+    place.refuses(&format!("{capture} --touches 6"), why);
     assert_eq!(place.text("c.csv"), before);
 
     // More of one label, and another one.
@@ -96,20 +83,13 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
     assert_ne!(streams[0].samples[..2000], streams[2].samples[..2000]);
 
     let ran = place.done(&format!("{capture} --touches 8 --resume"));
-    assert!(
-        ran.stdout.contains("8 touches of each label already"),
-        "{}",
-        ran.stdout
-    );
+    ran.prints("8 touches of each label already");
     assert_eq!(place.text("c.csv"), after);
 
     // Another module's touches do not belong there.
-    place.write("other.toml", &BENCH.replace("\"bench\"", "\"other\""));
-    let said = place.refused("capture --sim other.toml --out c.csv --label felt=carpet --resume");
-    assert!(
-        said.contains("scene is bench, this one's is other"),
-        "{said}"
-    );
+    place.write("other.toml", &bench_with(&[OTHER]));
+    let other = "capture --sim other.toml --out c.csv --label felt=carpet --resume";
+    place.refuses(other, "scene is bench, this one's is other");
     assert_eq!(place.text("c.csv"), after);
 }
 
@@ -117,15 +97,9 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
 fn where_nothing_is_touched_it_says_what_to_look_at() {
     let place = Place::new();
     // Out of reach.
-    place.write("far.toml", &BENCH.replace("[100.0]", "[150.0]"));
-    let ran = place.run("capture --sim far.toml --out c.csv --label smooth --patience 3");
-    assert_eq!(ran.status, Some(1));
-    assert!(
-        ran.stderr
-            .contains("smooth: no touch in 3 s; is the sample within reach"),
-        "{}",
-        ran.stderr
-    );
+    place.write("far.toml", &bench_with(&[("[100.0]", "[150.0]")]));
+    let ran = place.fails("capture --sim far.toml --out c.csv --label smooth --patience 3");
+    ran.warns("smooth: no touch in 3 s; is the sample within reach");
     assert!(!place.path("c.csv").exists());
     assert_eq!(fs::read_dir(place.path(".")).unwrap().count(), 2);
 }
@@ -133,33 +107,32 @@ fn where_nothing_is_touched_it_says_what_to_look_at() {
 #[test]
 fn a_sensor_at_its_ends_is_reported_at_once() {
     let place = Place::new();
-    place.write(
-        "stiff.toml",
-        &BENCH.replace("stiffness = 0.1", "stiffness = 10.0"),
-    );
+    place.write("stiff.toml", &bench_with(&[("ness = 0.1", "ness = 10.0")]));
     let ran = place.done("capture --sim stiff.toml --out c.csv --label smooth --touches 3");
-    assert!(
-        ran.stderr.contains("smooth: x is at the end of its range"),
-        "{}",
-        ran.stderr
-    );
+    ran.warns("smooth: x is at the end of its range");
 }
 
 #[test]
 fn what_is_wrong_is_said_before_anything_is_captured() {
     let place = Place::new();
-    let said = |more: &str| place.refused(&format!("capture --sim bench.toml --out c.csv {more}"));
-    assert!(said("").contains("--label"));
-    assert!(said("--label p240").contains("allowed: smooth, carpet"));
-    assert!(said("--label carpet --label a=b").contains("found \"b\""));
-    assert!(said("--label carpet --label carpet=smooth").contains("\"carpet\" twice"));
-    assert!(said("--label unknown=carpet").contains("a name but \"unknown\""));
-    assert!(said("--label carpet --touches 0").contains("--touches"));
-    let ideal = BENCH
-        .replace("\"textured\"", "\"ideal\"")
-        .replace("textures", "#textures");
-    place.write("ideal.toml", &ideal.replace("present_s", "#present_s"));
-    let said = place.refused("capture --sim ideal.toml --out c.csv --label smooth");
-    assert!(said.contains("has no textures"), "{said}");
+    let ideal = [
+        ("\"textured\"", "\"ideal\""),
+        ("textures", "#textures"),
+        ("present_s", "#present_s"),
+    ];
+    place.write("ideal.toml", &bench_with(&ideal));
+    for (options, why) in [
+        ("", "--label"),
+        ("--label p240", "allowed: smooth, carpet"),
+        ("--label carpet --label a=b", "found \"b\""),
+        ("--label carpet --label carpet=smooth", "\"carpet\" twice"),
+        ("--label unknown=carpet", "a name but \"unknown\""),
+        ("--label carpet --touches 0", "--touches"),
+    ] {
+        let line = format!("capture --sim bench.toml --out c.csv {options}");
+        place.refuses(&line, why);
+    }
+    let ideal = "capture --sim ideal.toml --out c.csv --label smooth";
+    place.refuses(ideal, "has no textures");
     assert!(!place.path("c.csv").exists());
 }

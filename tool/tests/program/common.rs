@@ -31,16 +31,37 @@ textures = ["smooth", "carpet"]
 present_s = 1.0
 "#;
 
+/// Changes to a whisker on each side, for [`bench_with`].
+pub(crate) const TWO_SIDES: &[(&str, &str)] = &[
+    ("sides = \"left\"", "sides = \"both\""),
+    ("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]"),
+    ("obstacle_deg = [100.0]", "obstacle_deg = [100.0, 100.0]"),
+];
+
+/// A change to another name, for [`bench_with`].
+pub(crate) const OTHER: (&str, &str) = ("\"bench\"", "\"other\"");
+
+/// [`BENCH`] with other text in place of some, each of which must be there.
+pub(crate) fn bench_with(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(BENCH.to_owned(), |scene, (from, to)| {
+        assert!(scene.contains(from), "no {from:?}");
+        scene.replace(from, to)
+    })
+}
+
+/// The words of a command line, none of which has a space within; `@` stands for the folder of
+/// the workspace's scenes.
+pub(crate) fn words(line: &str) -> Vec<String> {
+    let folder = scenes("").display().to_string();
+    let words = line.split_whitespace();
+    words.map(|word| word.replace('@', &folder)).collect()
+}
+
 /// A file of the workspace's scenes.
 pub(crate) fn scenes(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../scenes")
         .join(name)
-}
-
-/// The scene of the main job.
-pub(crate) fn textures() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml")
 }
 
 /// A folder to work in; gone when dropped.
@@ -74,10 +95,10 @@ impl Place {
         std::fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// Runs the program with these arguments, which have no spaces within.
+    /// Runs the program with these [`words`] as arguments.
     pub(crate) fn run(&self, arguments: &str) -> Ran {
         let output = Command::new(env!("CARGO_BIN_EXE_whisker"))
-            .args(arguments.split_whitespace())
+            .args(words(arguments))
             .current_dir(self.0.path())
             .stdin(Stdio::null())
             .output()
@@ -97,11 +118,30 @@ impl Place {
         ran
     }
 
-    /// The same, which must be refused: what it says.
-    pub(crate) fn refused(&self, arguments: &str) -> String {
+    /// The same, which must fail at its work.
+    pub(crate) fn fails(&self, arguments: &str) -> Ran {
+        let ran = self.run(arguments);
+        assert_eq!(ran.status, Some(1), "{arguments}: {}", ran.stderr);
+        ran
+    }
+
+    /// The same, which must be refused with `why`.
+    pub(crate) fn refuses(&self, arguments: &str, why: &str) {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(2), "{arguments}: {}", ran.stderr);
         assert_eq!(ran.stdout, "");
-        ran.stderr
+        assert!(ran.stderr.contains(why), "{arguments}: {}", ran.stderr);
+    }
+}
+
+impl Ran {
+    /// Its standard output must have this in it.
+    pub(crate) fn prints(&self, text: &str) {
+        assert!(self.stdout.contains(text), "no {text:?}: {}", self.stdout);
+    }
+
+    /// Its standard error must have this in it.
+    pub(crate) fn warns(&self, text: &str) {
+        assert!(self.stderr.contains(text), "no {text:?}: {}", self.stderr);
     }
 }

@@ -1,29 +1,23 @@
 //! `whisker deploy`, and what a module does that has a model deployed, or none.
 
-use std::path::PathBuf;
-
-use crate::common::{BENCH, Place, scenes, textures};
+use crate::common::{OTHER, Place, TWO_SIDES, bench_with, scenes};
 
 /// The bench in the world of the main job, and how its flash is kept.
-fn bench() -> String {
-    let (bench, world) = (scenes("bench.toml"), textures());
-    format!(
-        "--sim {} --world {} --flash board.flash",
-        bench.display(),
-        world.display()
-    )
-}
+const IN_WORLD: &str = "--sim @bench.toml --world @textures.toml --flash board.flash";
 
-fn model() -> PathBuf {
-    scenes("models/textures.model")
+/// Deploys the main job's model there.
+const DEPLOY: &str = "deploy --sim @bench.toml --world @textures.toml --flash board.flash --model \
+                      @models/textures.model";
+
+fn model() -> Vec<u8> {
+    std::fs::read(scenes("models/textures.model")).unwrap()
 }
 
 #[test]
 fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     let place = Place::new();
-    let (bench, model) = (bench(), model());
     let log = |of: &str| place.done(&format!("log --seconds 6 {of}")).stdout;
-    let without = log(&bench);
+    let without = log(IN_WORLD);
     let limit = "0.000 WARN  limit 34 no model to decide by (";
     assert!(without.starts_with(limit), "{without}");
     let why = without.lines().nth(1).unwrap();
@@ -33,115 +27,87 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     );
     assert!(without.contains("touch left 1") && !without.contains("decision"));
 
-    let ran = place.done(&format!("deploy {bench} --model {}", model.display()));
-    let lines: Vec<&str> = ran.stdout.lines().collect();
-    assert_eq!(lines.len(), 5, "{lines:?}");
-    assert!(lines[0].ends_with("4 classes: smooth, p600, p240, carpet"));
-    assert!(lines[1].starts_with("before, the module runs scene bench ("));
-    assert!(lines[2].starts_with("before, the module decides by no model: none was deployed"));
-    assert!(lines[3].starts_with("now it runs scene bench ("));
+    let ran = place.done(DEPLOY);
+    let told: Vec<&str> = ran.stdout.lines().collect();
+    assert_eq!(told.len(), 5, "{told:?}");
+    assert!(told[0].ends_with("4 classes: smooth, p600, p240, carpet"));
+    assert!(told[1].starts_with("before, the module runs scene bench ("));
+    assert!(told[2].starts_with("before, the module decides by no model: none was deployed"));
+    assert!(told[3].starts_with("now it runs scene bench ("));
     // Samples count from the model's contact then.
-    assert_ne!(lines[1].split_once("runs"), lines[3].split_once("runs"));
-    let crc = std::fs::read(&model).unwrap();
-    let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
-    assert_eq!(
-        lines[4],
-        format!("now it decides by model {crc:08x}, 4 classes")
-    );
+    assert_ne!(told[1].split_once("runs"), told[3].split_once("runs"));
+    let crc = u32::from_le_bytes(*model().last_chunk().unwrap());
+    let decides = format!("decides by model {crc:08x}, 4 classes");
+    assert_eq!(told[4], format!("now it {decides}"));
 
-    let deployed = log(&bench);
+    let deployed = log(IN_WORLD);
     let (first, rest) = deployed.split_once('\n').unwrap();
-    assert_eq!(
-        first,
-        format!("0.000 INFO  decides by model {crc:08x}, 4 classes")
-    );
-    assert_eq!(rest, log(&format!("--sim {}", textures().display())));
+    assert_eq!(first, format!("0.000 INFO  {decides}"));
+    assert_eq!(rest, log("--sim @textures.toml"));
     assert!(rest.matches("decision left ").count() > 10, "{rest}");
-    let again = place.done(&format!("deploy {bench} --model {}", model.display()));
-    assert!(again.stdout.contains("before, the module decides by model"));
+    let again = place.done(DEPLOY);
+    again.prints("before, the module decides by model");
 }
 
 #[test]
 fn flash_that_was_not_written_whole_is_refused_at_the_start() {
     let place = Place::new();
-    let (bench, model) = (bench(), model());
-    place.done(&format!("deploy {bench} --model {}", model.display()));
+    place.done(DEPLOY);
     let whole = std::fs::read(place.path("board.flash")).unwrap();
     assert_eq!(whole.len(), 124 * 1024);
-    let refused = |at: usize, byte: u8, why: &str| {
+    let with = |at: usize, bytes: &[u8]| {
         let mut flash = whole.clone();
-        flash[at] = byte;
-        std::fs::write(place.path("board.flash"), flash).unwrap();
-        let log = place.done(&format!("log --seconds 0.1 {bench}")).stdout;
-        assert!(log.contains(why), "{log}");
+        flash[at..at + bytes.len()].copy_from_slice(bytes);
+        flash
     };
-    refused(1_000, !whole[1_000], "it is damaged");
-    refused(4, 9, "another version");
-    refused(3, 0, "is no model");
-    let header = [0xFF; 8];
-    let flash = [&header, &whole[8..]].concat();
-    std::fs::write(place.path("board.flash"), flash).unwrap();
-    let log = place.done(&format!("log --seconds 0.1 {bench}")).stdout;
-    assert!(
-        log.contains("- none was deployed, or writing it was interrupted"),
-        "{log}"
-    );
+    for (flash, why) in [
+        (with(1_000, &[!whole[1_000]]), "it is damaged"),
+        (with(4, &[9]), "another version"),
+        (with(3, &[0]), "is no model"),
+        (
+            with(0, &[0xFF; 8]),
+            "- none was deployed, or writing it was interrupted",
+        ),
+    ] {
+        std::fs::write(place.path("board.flash"), flash).unwrap();
+        let log = place.done(&format!("log --seconds 0.1 {IN_WORLD}"));
+        log.prints(why);
+    }
     place.write("board.flash", "short");
-    let said = place.refused(&format!("log {bench}"));
-    assert!(said.contains("found 5 bytes, allowed: 126976"), "{said}");
+    let why = "found 5 bytes, allowed: 126976";
+    place.refuses(&format!("log {IN_WORLD}"), why);
 }
 
 #[test]
 fn what_does_not_fit_is_refused_before_anything_is_written() {
     let place = Place::new();
-    let (bench, model) = (bench(), model());
-    let mut bytes = std::fs::read(&model).unwrap();
+    let mut bytes = model();
     bytes[4] += 1;
     std::fs::write(place.path("newer.model"), &bytes).unwrap();
-    let said = place.refused(&format!("deploy {bench} --model newer.model"));
-    assert!(
-        said.contains("newer.model: model format version 3"),
-        "{said}"
-    );
+    let newer = format!("deploy {IN_WORLD} --model newer.model");
+    place.refuses(&newer, "newer.model: model format version 3");
     assert!(!place.path("board.flash").exists());
 
-    let linked = textures();
-    let said = place.refused(&format!(
-        "deploy --sim {} --model {}",
-        linked.display(),
-        model.display()
-    ));
-    assert!(
-        said.contains("textures.toml:34: classifier.model: found, so the scene brings its model"),
-        "{said}"
-    );
-    let said = place.refused(&format!(
-        "deploy --sim bench.toml --model {}",
-        model.display()
-    ));
-    assert!(
-        said.contains("bench.toml: it has no [classifier]"),
-        "{said}"
-    );
-
     let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
-    let deaf = bench.replace("[classifier]\n", "[classifier]\ncontact_min = 0.2\n");
-    place.write("deaf.toml", &deaf);
-    let said = place.refused(&format!(
-        "deploy --sim deaf.toml --model {}",
-        model.display()
-    ));
-    assert!(
-        said.contains("classifier.contact_min: found 0.2; allowed: 0.05"),
-        "{said}"
-    );
+    let least = bench.replace("[classifier]\n", "[classifier]\ncontact_min = 0.2\n");
+    place.write("least.toml", &least);
     let window = bench.replace("\"sequential\"", "\"window\"\nwindow = 7");
     place.write("window.toml", &window);
-    let said = place.refused(&format!(
-        "deploy --sim window.toml --model {}",
-        model.display()
-    ));
-    assert!(said.contains("multiple of the block"), "{said}");
+    for (scene, why) in [
+        (
+            "@textures.toml",
+            "textures.toml:34: classifier.model: found, so the scene brings its model",
+        ),
+        ("bench.toml", "bench.toml: it has no [classifier]"),
+        (
+            "least.toml",
+            "classifier.contact_min: found 0.2; allowed: 0.05",
+        ),
+        ("window.toml", "multiple of the block"),
+    ] {
+        let line = format!("deploy --sim {scene} --model @models/textures.model");
+        place.refuses(&line, why);
+    }
 }
 
 #[test]
@@ -150,47 +116,35 @@ fn a_recording_out_of_the_models_range_is_reported() {
     let rows = (16_000..16_100).map(|x| format!("felt,0,{x},8192\n"));
     let rows: String = rows.collect();
     place.write("other.csv", &format!("label,trial,x,y\n{rows}"));
-    let ran = place.done(&format!(
-        "deploy {} --model {} --data other.csv",
-        bench(),
-        model().display()
-    ));
-    assert!(
-        ran.stderr
-            .contains("\"felt\" is none of the model's classes")
-    );
-    assert!(ran.stderr.contains("other.csv:2: "), "{}", ran.stderr);
+    let ran = place.done(&format!("{DEPLOY} --data other.csv"));
+    ran.warns("\"felt\" is none of the model's classes");
+    ran.warns("other.csv:2: ");
 }
 
 #[test]
 fn a_world_must_fit_the_module() {
     let place = Place::new();
-    let bench = scenes("bench.toml");
-    let in_world = |world: &str| {
-        let world = scenes(world);
-        place.refused(&format!(
-            "log --sim {} --world {}",
-            bench.display(),
-            world.display()
-        ))
-    };
-    assert!(in_world("both.toml").contains("a world for two sides of whiskers, allowed: one for"));
+    let why = "a world for two sides of whiskers, allowed: one for";
+    place.refuses("log --sim @bench.toml --world @both.toml", why);
     // In free air nothing is touched.
-    let log = place.done(&format!("log --seconds 3 --sim {}", bench.display()));
-    assert!(log.stdout.contains("limit 34"), "{}", log.stdout);
-    let said = place.refused(&format!(
-        "capture --sim {} --label smooth --out c.csv",
-        bench.display()
-    ));
-    assert!(said.contains("--world SCENE"), "{said}");
+    let log = place.done("log --seconds 3 --sim @bench.toml");
+    log.prints("limit 34");
+    let capture = "capture --sim @bench.toml --label smooth --out c.csv";
+    place.refuses(capture, "--world SCENE");
+}
+
+/// What a module runs, as the last line of a deployment has it, and as `get` says it.
+fn assert_runs(place: &Place, now: &str, get: &str) {
+    assert!(now.starts_with("now it runs scene other ("), "{now}");
+    let get = place.done(get).stdout;
+    let first = now.replace("now it", "the module");
+    assert_eq!(get.lines().next(), Some(&*first));
 }
 
 #[test]
 fn a_scene_that_is_deployed_is_what_the_module_runs() {
     let place = Place::new();
-    let other = BENCH
-        .replace("\"bench\"", "\"other\"")
-        .replace("gain = 0.7", "gain = 0.9");
+    let other = bench_with(&[OTHER, ("gain = 0.7", "gain = 0.9")]);
     place.write("other.toml", &other);
     let ran = place.done("deploy --scene other.toml --sim bench.toml --seconds 0.1");
     let lines: Vec<&str> = ran.stdout.lines().collect();
@@ -198,57 +152,42 @@ fn a_scene_that_is_deployed_is_what_the_module_runs() {
         panic!("{lines:?}");
     };
     assert!(before.starts_with("before, the module runs scene bench ("));
-    assert!(now.starts_with("now it runs scene other ("));
-    let get = place.done("get --sim other.toml").stdout;
-    assert_eq!(
-        get.lines().next(),
-        Some(&*now.replace("now it", "the module"))
-    );
+    assert_runs(&place, now, "get --sim other.toml");
 
-    let said = place
-        .run("deploy --scene other.toml --sim bench.toml --flash f")
-        .stderr;
-    assert!(said.contains("--flash keeps the model"), "{said}");
+    let ran = place.run("deploy --scene other.toml --sim bench.toml --flash f");
+    ran.warns("--flash keeps the model");
     place.write("wrong.toml", &other.replace("gain = 0.9", "gain = 900"));
-    let said = place.refused("deploy --scene wrong.toml --sim bench.toml");
-    assert!(said.contains("rcp.gain: found 900"), "{said}");
-    let said = place.refused("deploy --sim bench.toml");
-    assert!(said.contains("--scene <FILE>"), "{said}");
+    place.refuses(
+        "deploy --scene wrong.toml --sim bench.toml",
+        "rcp.gain: found 900",
+    );
+    place.refuses("deploy --sim bench.toml", "--scene <FILE>");
 }
 
 #[test]
 fn a_scene_that_the_board_does_not_take_changes_nothing_in_it() {
     let place = Place::new();
     let board = "--emulated bench.toml --flash board.flash";
-    let other = BENCH.replace("\"bench\"", "\"other\"");
+    let other = bench_with(&[OTHER]);
     place.write("other.toml", &other);
     let ran = place.done(&format!("deploy --scene other.toml {board}"));
     let now = ran.stdout.lines().last().unwrap();
-    assert!(now.starts_with("now it runs scene other ("), "{now}");
     let kept = std::fs::read(place.path("board.flash")).unwrap();
 
-    let two = BENCH
-        .replace("sides = \"left\"", "sides = \"both\"")
-        .replace("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]")
-        .replace("obstacle_deg = [100.0]", "obstacle_deg = [100.0, 100.0]");
+    let two = bench_with(TWO_SIDES);
     place.write(
         "two.toml",
         &format!("{two}[motor]\ndriver = \"six-step\"\n"),
     );
-    let said = place.refused(&format!("deploy --scene two.toml {board}"));
     let fault = "two.toml: motor.driver: found \"six-step\" on two sides; allowed on the \
                  NUCLEO-F446RE: \"h-bridge\" on two sides";
-    assert!(said.contains(fault), "{said}");
+    place.refuses(&format!("deploy --scene two.toml {board}"), fault);
     let mute = format!("{other}[telemetry]\nrtt = false\n");
     place.write("mute.toml", &mute);
-    let said = place.refused(&format!("deploy --scene mute.toml {board}"));
-    assert!(said.contains("telemetry.rtt: found false"), "{said}");
-    assert_eq!(std::fs::read(place.path("board.flash")).unwrap(), kept);
-    let get = place
-        .done(&format!("get --scene other.toml {board}"))
-        .stdout;
-    assert_eq!(
-        get.lines().next(),
-        Some(&*now.replace("now it", "the module"))
+    place.refuses(
+        &format!("deploy --scene mute.toml {board}"),
+        "telemetry.rtt: found false",
     );
+    assert_eq!(std::fs::read(place.path("board.flash")).unwrap(), kept);
+    assert_runs(&place, now, &format!("get --scene other.toml {board}"));
 }

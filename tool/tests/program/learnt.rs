@@ -13,21 +13,17 @@ use host_sim::training::{How, Tables};
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
 
-use crate::common::{Place, textures};
+use crate::common::{Place, scenes};
 
 const TICK_HZ: u32 = 2000;
 
 fn main_scene() -> Scene {
-    Scene::load(textures()).unwrap()
+    Scene::load(scenes("textures.toml")).unwrap()
 }
 
 /// Captures from the main scene.
 fn capture(place: &Place, more: &str) -> Vec<Stream> {
-    let scene = textures();
-    place.done(&format!(
-        "capture --sim {} --out c.csv {more}",
-        scene.display()
-    ));
+    place.done(&format!("capture --sim @textures.toml --out c.csv {more}"));
     let streams = read_recording(&place.path("c.csv"), CHANNELS).unwrap();
     std::fs::remove_file(place.path("c.csv")).unwrap();
     streams

@@ -1,12 +1,11 @@
 //! `whisker log`.
 
-use crate::common::{Place, textures};
+use crate::common::{Place, bench_with};
 
 #[test]
 fn it_tells_touches_and_decisions_in_their_time() {
     let place = Place::new();
-    let scene = textures();
-    let ran = place.done(&format!("log --seconds 2.6 --sim {}", scene.display()));
+    let ran = place.done("log --seconds 2.6 --sim @textures.toml");
     let lines: Vec<&str> = ran.stdout.lines().collect();
     let times = lines.iter().map(|line| {
         let (time, _) = line.split_once(' ').unwrap();
@@ -27,38 +26,24 @@ fn it_tells_touches_and_decisions_in_their_time() {
 #[test]
 fn where_nothing_is_logged_it_says_why() {
     let place = Place::new();
-    let still = crate::common::BENCH.replace("[100.0]", "[140.0]");
-    place.write("still.toml", &still);
+    place.write("still.toml", &bench_with(&[("[100.0]", "[140.0]")]));
     let ran = place.done("log --sim still.toml --seconds 0.5");
     assert_eq!(ran.stdout, "");
-    assert!(ran.stderr.contains("nothing was logged"), "{}", ran.stderr);
+    ran.warns("nothing was logged");
 }
 
 #[test]
 fn it_needs_one_module() {
     let place = Place::new();
-    assert!(place.refused("log").contains("--sim <SCENE>"));
-    assert!(
-        place
-            .refused("log --sim bench.toml --emulated bench.toml")
-            .contains("cannot be used")
-    );
-    assert!(place.refused("log --sim none.toml").contains("none.toml"));
-    assert!(
-        place
-            .refused("log --sim bench.toml --seconds 0")
-            .contains("above 0")
-    );
-    assert!(
-        place
-            .refused("log --sim bench.toml --program x.elf")
-            .contains("--emulated")
-    );
-    let two = crate::common::BENCH.replace("side = 1", "side = 2");
-    place.write("two.toml", &two);
-    assert!(
-        place
-            .refused("log --sim two.toml")
-            .contains("head.whiskers_per_side = 1")
-    );
+    place.write("two.toml", &bench_with(&[("side = 1", "side = 2")]));
+    for (options, why) in [
+        ("", "--sim <SCENE>"),
+        ("--sim bench.toml --emulated bench.toml", "cannot be used"),
+        ("--sim none.toml", "none.toml"),
+        ("--sim bench.toml --seconds 0", "above 0"),
+        ("--sim bench.toml --program x.elf", "--emulated"),
+        ("--sim two.toml", "head.whiskers_per_side = 1"),
+    ] {
+        place.refuses(&format!("log {options}"), why);
+    }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::common::{Place, textures};
+use crate::common::{Place, TWO_SIDES, bench_with};
 use crate::messages::channels;
 use terminal::Terminal;
 
@@ -60,13 +60,8 @@ fn assert_stopped(place: &Place, name: &str) {
 #[test]
 fn a_person_watches_and_stops() {
     let place = Place::new();
-    let scene = textures();
-    let mut seen = Terminal::start(
-        &place,
-        &format!("monitor --sim {} --out r.mcap --out r.csv", scene.display()),
-        SMALL,
-        &[],
-    );
+    let line = "monitor --sim @textures.toml --out r.mcap --out r.csv";
+    let mut seen = Terminal::start(&place, line, SMALL, &[]);
     for word in [
         "textures, simulated, 2000 Hz",
         "live",
@@ -192,13 +187,7 @@ fn who_ends_by_q_leaves_the_module_as_it_is() {
 #[test]
 fn two_whiskers_are_shown_one_by_one_and_together() {
     let place = Place::new();
-    place.write(
-        "two.toml",
-        &crate::common::BENCH
-            .replace(r#""left""#, r#""both""#)
-            .replace("[100.0]", "[100.0, 100.0]")
-            .replace("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]"),
-    );
+    place.write("two.toml", &bench_with(TWO_SIDES));
     let mut seen = Terminal::start(&place, "monitor --sim two.toml", (120, 40), &[]);
     seen.wait_for("[ARMED]");
     assert!(seen.has_colour());
@@ -207,6 +196,8 @@ fn two_whiskers_are_shown_one_by_one_and_together() {
     seen.press(b"\t");
     seen.wait_for("\nleft  [ARMED]");
     seen.wait_for("\nright [ARMED]");
+    let charts = seen.line("measured");
+    assert!(charts.contains(" left ") && charts.contains(" right "));
     seen.press(CONTROL_C);
     assert_eq!(seen.ends(), Some(0));
 }
@@ -214,19 +205,14 @@ fn two_whiskers_are_shown_one_by_one_and_together() {
 #[test]
 fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
     let place = Place::new();
-    let scene = textures();
-    let scene = scene.display();
     let begun = std::time::Instant::now();
     let mut seen = Terminal::start(&place, "monitor --sim bench.toml --seconds 2", SMALL, &[]);
     assert_eq!(seen.ends(), Some(0));
     let took = begun.elapsed().as_secs_f64();
     assert!((2.0..8.0).contains(&took), "{took}");
 
-    let picture = |more: &str| {
-        place
-            .done(&format!("monitor --sim {scene} --frames 60 {more}"))
-            .stdout
-    };
+    let monitor = "monitor --sim @textures.toml --frames 60";
+    let picture = |more: &str| place.done(&format!("{monitor} {more}")).stdout;
     let text = picture("--size 80x24");
     assert_eq!(text.lines().count(), 24);
     assert!(
@@ -236,12 +222,8 @@ fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
     assert_eq!(text, picture("--size 80x24"));
     assert_eq!(picture("--snapshot m.svg"), "");
     assert!(place.text("m.svg").starts_with("<svg"));
-    place.done(&format!("monitor --sim {scene} --frames 60 --out r.csv"));
-    let said = place.refused(&format!("monitor --sim {scene} --frames 60 --out r.csv"));
-    assert!(said.contains("is not overwritten"), "{said}");
-    assert!(
-        place
-            .refused("monitor --sim bench.toml")
-            .contains("needs a terminal")
-    );
+    let recording = format!("{monitor} --out r.csv");
+    place.done(&recording);
+    place.refuses(&recording, "is not overwritten");
+    place.refuses("monitor --sim bench.toml", "needs a terminal");
 }

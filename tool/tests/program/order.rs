@@ -1,6 +1,6 @@
 //! One command to a module, and `whisker doctor` and `flash` where there is no board.
 
-use crate::common::{BENCH, Place};
+use crate::common::{Place, bench_with};
 
 #[test]
 fn a_command_is_carried_out_and_its_tick_printed() {
@@ -23,38 +23,22 @@ fn what_a_module_has_not_is_refused() {
         ("clear right", "no such whisker"),
         ("home left", "not in this program"),
     ] {
-        let ran = place.run(&format!("{command} --sim bench.toml"));
-        assert_eq!(ran.status, Some(1), "{command}");
+        let ran = place.fails(&format!("{command} --sim bench.toml"));
         assert_eq!(ran.stdout, "");
-        assert!(ran.stderr.contains(says), "{command}: {}", ran.stderr);
+        ran.warns(says);
     }
-    assert!(place.refused("clear --sim bench.toml").contains("<SIDE>"));
-    assert!(
-        place
-            .refused("clear front --sim bench.toml")
-            .contains("left")
-    );
-    assert!(place.refused("arm").contains("--probe"));
+    place.refuses("clear --sim bench.toml", "<SIDE>");
+    place.refuses("clear front --sim bench.toml", "left");
+    place.refuses("arm", "--probe");
 }
 
 #[test]
 fn the_status_is_what_the_module_says_of_itself() {
     let place = Place::new();
-    place.write(
-        "slow.toml",
-        &BENCH.replace("tick_hz = 2000", "tick_hz = 1000"),
-    );
+    place.write("slow.toml", &bench_with(&[("hz = 2000", "hz = 1000")]));
     let ran = place.done("status --sim slow.toml");
-    let lines: Vec<&str> = ran.stdout.lines().collect();
-    assert_eq!(
-        lines[..2],
-        ["scene bench", "1000 ticks a second, whiskers: 1"]
-    );
-    assert!(
-        lines[2].ends_with(" ticks since the start, 0 missed"),
-        "{lines:?}"
-    );
-    assert_eq!(lines[3], "0 records found no room");
+    ran.prints("scene bench\n1000 ticks a second, whiskers: 1\n");
+    ran.prints(" ticks since the start, 0 missed\n0 records found no room\n");
 }
 
 /// No probe has that serial number, whatever is plugged in here.
@@ -64,20 +48,11 @@ fn without_its_board_nothing_is_built_or_flashed() {
     let ran = place.run("flash bench.toml --probe none");
     let without = !cfg!(feature = "probe");
     assert_eq!(ran.status, Some(if without { 2 } else { 1 }));
-    let says = if without {
-        "built without probes"
-    } else {
-        "probe"
-    };
-    assert!(ran.stderr.contains(says), "{}", ran.stderr);
+    let says = ["probe", "built without probes"][usize::from(without)];
+    ran.warns(says);
     assert!(!ran.stderr.contains("building"), "{}", ran.stderr);
-    let ran = place.run("status --probe none");
-    assert!(ran.stderr.contains(says), "{}", ran.stderr);
-    assert!(
-        place
-            .refused("flash bench.toml --program x.elf")
-            .contains("cannot be used")
-    );
+    place.run("status --probe none").warns(says);
+    place.refuses("flash bench.toml --program x.elf", "cannot be used");
 }
 
 #[test]
@@ -90,10 +65,6 @@ fn the_doctor_fails_where_something_needed_is_missing() {
     assert_eq!(ran.stderr.is_empty(), !missing, "{}", ran.stderr);
     // What a board needs is listed, but not required.
     let of_boards = |line: &&str| line.contains("debug probe") && !line.starts_with("ok ");
-    assert!(
-        ran.stdout
-            .lines()
-            .filter(of_boards)
-            .all(|line| line.starts_with("absent "))
-    );
+    let mut of_boards = ran.stdout.lines().filter(of_boards);
+    assert!(of_boards.all(|line| line.starts_with("absent ")));
 }

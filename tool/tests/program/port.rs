@@ -2,7 +2,6 @@
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader, Write};
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use firmware::Packet;
@@ -11,7 +10,7 @@ use host_sim::received::Receiver;
 use serial2::SerialPort;
 use wire::{Command as Request, CommandStatus, Load, TaggedCommand};
 
-use crate::common::{BENCH, Place, scenes, textures};
+use crate::common::{BENCH, Place, scenes, words};
 
 /// A board that is served; it ends when dropped.
 struct Served {
@@ -24,18 +23,15 @@ impl Served {
     fn new(place: &Place) -> Self {
         let scene = format!("{BENCH}[telemetry]\nserial_baud = 921600\n");
         place.write("serial.toml", &scene);
-        Self::of(place, &place.path("serial.toml"), "")
+        Self::of(place, "board serial.toml")
     }
 
-    /// Of a scene, with `more` arguments.
-    fn of(place: &Place, scene: &Path, more: &str) -> Self {
+    /// By this command line.
+    fn of(place: &Place, line: &str) -> Self {
         let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
-            .arg("board")
-            .arg(scene)
-            .args(more.split_whitespace())
+            .args(words(line))
+            .args(["--link", "port"])
             .current_dir(place.path(""))
-            .arg("--link")
-            .arg(place.path("port"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -65,12 +61,7 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     writeln!(served.board.stdin.as_mut().unwrap(), "lay carpet").unwrap();
     let port = &served.port;
     let ran = place.done(&format!("records {port} --seconds 1 --out r.csv"));
-    assert!(
-        ran.stdout
-            .contains(" records at 2000 ticks a second, 0 lost"),
-        "{}",
-        ran.stdout
-    );
+    ran.prints(" records at 2000 ticks a second, 0 lost");
     let table = place.text("r.csv");
     assert!(table.contains("# scene = bench\n"), "{table}");
     assert!(table.contains("# firmware = 0.1.0\n"), "{table}");
@@ -87,52 +78,44 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
         "script",
         "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n",
     );
-    let ran = place.run(&format!("log {port} --seconds 1.5 --script script"));
-    assert_eq!(ran.status, Some(1), "{}", ran.stderr);
+    let ran = place.fails(&format!("log {port} --seconds 1.5 --script script"));
     for said in [
         "gain left 0.5: done\n",
         "gain left 3: value out of range\n",
         "setpoint left 70: done\n",
         " 500 0 0 0\n",
     ] {
-        assert!(ran.stdout.contains(said), "{said}{}", ran.stdout);
+        ran.prints(said);
     }
 }
 
 #[test]
 fn a_board_on_a_port_is_taught_without_a_probe() {
     let place = Place::new();
-    let scene = scenes("bench.toml");
-    let world = textures();
-    let more = [
-        &*format!("--world {}", world.display()),
-        "--flash kept.flash",
-    ];
-    let served = Served::of(&place, &scene, &more.join(" "));
-    let model = scenes("models/textures.model");
-    let deploy = format!("deploy {} --model {}", served.port, model.display());
+    let board = "board @bench.toml --world @textures.toml --flash kept.flash";
+    let served = Served::of(&place, board);
+    let deploy = format!("deploy {} --model @models/textures.model", served.port);
     let ran = place.done(&format!("{deploy} --seconds 3"));
-    let crc = std::fs::read(&model).unwrap();
-    let crc = u32::from_le_bytes(*crc.last_chunk().unwrap());
+    let model = std::fs::read(scenes("models/textures.model")).unwrap();
+    let crc = u32::from_le_bytes(*model.last_chunk().unwrap());
     for said in [
         "before, the module decides by no model: none was deployed".to_owned(),
         format!("now it decides by model {crc:08x}, 4 classes\n"),
         " decision left ".to_owned(),
     ] {
-        assert!(ran.stdout.contains(&said), "{said}{}", ran.stdout);
+        ran.prints(&said);
     }
     let kept = std::fs::read(place.path("kept.flash")).unwrap();
-    let model_bytes = std::fs::read(&model).unwrap();
     let [first, second] = NUCLEO_F446RE.flash.slots;
     let of_models = [first, second].map(|slot| {
         let at = (slot.model.start - first.head.start) as usize;
-        &kept[at..at + model_bytes.len()]
+        &kept[at..at + model.len()]
     });
     // In the slot by which the board did not run.
-    assert_eq!(of_models.map(|of| of == model_bytes), [false, true]);
+    assert_eq!(of_models.map(|of| of == model), [false, true]);
     // It may be another then.
     let again = place.done(&deploy);
-    assert!(again.stdout.contains("before, the module decides by model"));
+    again.prints("before, the module decides by model");
 }
 
 #[test]
@@ -145,8 +128,10 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     place.write("other.toml", &other.replace("gain = 0.7", "gain = 0.9"));
     let silent = other.replace("serial_baud = 921600", "rtt = true");
     place.write("silent.toml", &silent);
-    let said = place.refused(&format!("deploy {port} --scene silent.toml"));
-    assert!(said.contains("telemetry.serial_baud: found none"), "{said}");
+    place.refuses(
+        &format!("deploy {port} --scene silent.toml"),
+        "telemetry.serial_baud: found none",
+    );
 
     let ran = place.done(&format!("deploy {port} --scene other.toml"));
     let lines: Vec<&str> = ran.stdout.lines().collect();
@@ -227,13 +212,10 @@ fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
 #[test]
 fn ports_and_scenes_that_are_none_are_refused() {
     let place = Place::new();
-    let refusal = place.refused("log --port no-such-port --seconds 1");
-    assert!(refusal.contains("no-such-port"), "{refusal}");
-    let refusal = place.refused("board bench.toml");
-    assert!(
-        refusal.contains("it has no serial port; allowed: [telemetry] serial_baud"),
-        "{refusal}"
+    place.refuses("log --port no-such-port --seconds 1", "no-such-port");
+    place.refuses(
+        "board bench.toml",
+        "it has no serial port; allowed: [telemetry] serial_baud",
     );
-    let refusal = place.refused("log --port a --sim bench.toml");
-    assert!(refusal.contains("cannot be used with"), "{refusal}");
+    place.refuses("log --port a --sim bench.toml", "cannot be used with");
 }

@@ -4,13 +4,12 @@ use proptest::prelude::*;
 use wire::Flags;
 
 use super::{Motor, identify, suggest};
-use crate::calibrate::Sample;
+use crate::sample::Sample;
 
 const TICK_S: f64 = 0.0005;
 /// An encoder's count, and the step of an angle in a record, degrees.
 const COUNT_DEG: f64 = 0.064;
 const RECORD_DEG: f64 = 100.0 / 8192.0;
-/// Steps of the integration in a tick.
 const STEPS: usize = 50;
 
 /// A whisker that follows steps of its setpoint.
@@ -45,6 +44,8 @@ fn followed(motor: Motor, kp: f64, kd: f64) -> Vec<Sample> {
             setpoint_deg: setpoint,
             measured_deg: rounded(measured, RECORD_DEG),
             duty,
+            z: 0.0,
+            contact: 0.0,
             flags: Flags::VALID,
         });
     }

@@ -9,7 +9,6 @@ use crate::calibrate::{Gains, Motor, Zero};
 #[derive(Debug, Default)]
 pub(super) struct Results {
     pub(super) zero: Option<Zero>,
-    /// Where the whisker can go, degrees.
     pub(super) range_deg: Option<[f64; 2]>,
     /// Codes of x and of y while it whisks in the air.
     pub(super) swing: Vec<[u16; 2]>,
@@ -55,7 +54,6 @@ impl Results {
     }
 }
 
-/// To five digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.4e}").parse().unwrap_or(number)
 }

@@ -1,6 +1,5 @@
 //! Calibrating whiskers whose motor, encoder and way are known.
 
-use clap::Parser;
 use host_sim::loaded::Loaded;
 use host_sim::motor::Wire;
 use host_sim::origin::Origin;
@@ -8,7 +7,8 @@ use host_sim::run::Run;
 use wire::{TaggedCommand, WhiskerId};
 
 use super::*;
-use crate::source::{Incoming, Source, SourceChoice};
+use crate::conversation::Conversation;
+use crate::source::{Incoming, Source, chosen};
 
 /// A whisker in free air; a motor is added where there is one.
 pub(in crate::commands) const SCENE: &str = r#"name = "free"
@@ -27,22 +27,13 @@ gain = 1.0
 start = [[1.0, 0.0]]
 "#;
 
-#[derive(Parser)]
-struct Line {
-    #[command(flatten)]
-    source: SourceChoice,
-}
-
 /// A simulated module, of which a wire can be exchanged.
 struct Wired(Run);
 
 impl Source for Wired {
     fn next(&mut self) -> Result<Incoming, Error> {
         self.0.tick();
-        Ok(Incoming {
-            packets: self.0.module_mut().take_packets(),
-            lines: Vec::new(),
-        })
+        Ok(Incoming::of(self.0.module_mut().take_packets()))
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
@@ -52,14 +43,6 @@ impl Source for Wired {
 
     fn now_s(&mut self) -> f64 {
         self.0.row().t_s
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
-    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
-        Err(Error::Input(format!("no place for {what:?}")))
     }
 
     fn origin(&self) -> Origin {
@@ -73,8 +56,7 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
     let loaded = Loaded::new(&path).unwrap();
-    let words = ["x", "--sim", path.to_str().unwrap()];
-    let Line { source } = Line::parse_from(words);
+    let source = chosen(&["--sim", path.to_str().unwrap()]);
     let tuner = Tuner::open(&path, &source).unwrap();
     let motor = tuner.scene().motor.as_ref().unwrap();
     let mut run = Run::new(&loaded.scene, None).unwrap();

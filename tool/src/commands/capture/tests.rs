@@ -1,16 +1,14 @@
 //! Capturing from modules on bad lines, and by hand.
 
 use std::ffi::OsString;
-use std::path::Path;
 
 use clap::Parser;
 use host_sim::files::read_recording;
-use host_sim::origin::Origin;
 use host_sim::recording::{CHANNELS, GATE, Stream};
-use wire::{Flags, TaggedCommand};
+use wire::{Flags, TickRecord};
 
 use super::*;
-use crate::source::Incoming;
+use crate::source::{Alter, Altered, Around, GOOD, scene_file};
 
 #[derive(Parser)]
 struct Line {
@@ -18,89 +16,9 @@ struct Line {
     arguments: Arguments,
 }
 
-/// What comes between a module and who captures.
-#[derive(Clone, Copy)]
-struct Around {
-    /// How fast the clock beside it runs.
-    clock: f64,
-    /// When somebody says that the sample lies there; 0: it is laid by the world.
-    laid_s: f64,
-    /// How much comes at once, as on a PC that is busy.
-    at_once: u32,
-}
-
-/// As it should be.
-const GOOD: Around = Around {
-    clock: 1.0,
-    laid_s: 0.0,
-    at_once: 1,
-};
-
-/// A module on a bad line.
-struct Bad {
-    module: Box<dyn Source>,
-    /// What becomes of each record.
-    spoils: fn(&mut wire::TickRecord) -> bool,
-    around: Around,
-}
-
-impl Source for Bad {
-    fn next(&mut self) -> Result<Incoming, Error> {
-        let mut incoming = Incoming::default();
-        for _ in 0..self.around.at_once {
-            incoming.packets.extend(self.module.next()?.packets);
-        }
-        incoming.packets.retain_mut(|packet| match packet {
-            Packet::Record(record) => (self.spoils)(record),
-            Packet::Answer(_) | Packet::Event(_) => true,
-        });
-        Ok(incoming)
-    }
-
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.module.request(request)
-    }
-
-    fn has(&self, sample: &str) -> Result<(), Error> {
-        self.module.has(sample)
-    }
-
-    fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.module.lay(sample)
-    }
-
-    fn is_laid(&mut self) -> Result<bool, Error> {
-        Ok(self.module.is_laid()? && self.module.now_s() >= self.around.laid_s)
-    }
-
-    fn is_laid_by_hand(&mut self) -> bool {
-        self.around.laid_s > 0.0
-    }
-
-    fn now_s(&mut self) -> f64 {
-        self.around.clock * self.module.now_s()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        self.module.duration_s()
-    }
-
-    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
-        self.module.deploy(what)
-    }
-
-    fn origin(&self) -> Origin {
-        self.module.origin()
-    }
-}
-
-/// Captures six touches of a carpet so; the count of warnings, and the touches in each trial.
-fn captured(
-    more: &[&str],
-    around: Around,
-    spoils: fn(&mut wire::TickRecord) -> bool,
-) -> (usize, Vec<usize>) {
-    let (warnings, streams) = streams(more, around, spoils);
+/// Captures six touches of a carpet so; lines told, and the touches in each trial.
+fn captured(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<usize>) {
+    let (told, streams) = streams(more, around, alter);
     let of = |stream: &Stream| {
         let mut touches = stream.touch.clone().unwrap();
         touches.dedup();
@@ -110,15 +28,11 @@ fn captured(
     (warnings, streams.iter().map(of).collect())
 }
 
-/// With `more` options: the count of warnings, and what is captured.
-fn streams(
-    more: &[&str],
-    around: Around,
-    spoils: fn(&mut wire::TickRecord) -> bool,
-) -> (usize, Vec<Stream>) {
+/// With `more` options: lines told, and what is captured.
+fn streams(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<Stream>) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("c.csv");
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
+    let scene = scene_file("textures.toml");
     let words = ["--label", "carpet", "--touches", "6", "--sim"];
     let words = more.iter().chain(&words).map(OsString::from);
     let files = [
@@ -132,9 +46,9 @@ fn streams(
             .chain(words)
             .chain(files),
     );
-    let source = Bad {
+    let source = Altered {
         module: arguments.source.open(0).unwrap(),
-        spoils,
+        alter,
         around,
     };
     let recording = Recording::open(&out, false).unwrap();
@@ -145,30 +59,25 @@ fn streams(
 }
 
 #[test]
-fn a_good_line_has_no_warnings() {
-    assert_eq!(captured(&[], GOOD, |_| true), (0, vec![5, 1]));
-}
-
-#[test]
 fn what_comes_with_the_last_touch_of_a_label_is_not_lost() {
     let more = ["--label", "smooth"];
-    let expected = captured(&more, GOOD, |_| true);
+    let expected = captured(&more, GOOD, |_, _| true);
     for at_once in [2, 7] {
         let around = Around { at_once, ..GOOD };
-        assert_eq!(captured(&more, around, |_| true), expected);
+        assert_eq!(captured(&more, around, |_, _| true), expected);
     }
 }
 
 #[test]
 fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_reported() {
     // In the third touch: where it is cut another trial begins.
-    let spoils = |record: &mut wire::TickRecord| record.sequence != 4100;
+    let spoils = |record: &mut TickRecord, _: f64| record.sequence != 4100;
     assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
 }
 
 #[test]
-fn a_fault_costs_its_touch_and_is_reported() {
-    let spoils = |record: &mut wire::TickRecord| {
+fn a_fault_costs_its_touch_and_is_told() {
+    let spoils = |record: &mut TickRecord, _: f64| {
         if (4100..4120).contains(&record.sequence) {
             record.flags = record.flags.without(Flags::VALID);
         }
@@ -183,7 +92,7 @@ fn another_rate_is_reported() {
         clock: 1.05,
         ..GOOD
     };
-    assert_eq!(captured(&[], around, |_| true).0, 1);
+    assert_eq!(captured(&[], around, |_, _| true).0, 1);
 }
 
 #[test]
@@ -191,7 +100,7 @@ fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() 
     // In a touch, and after a longer time than may pass without one.
     let by_hand = |patience, laid_s| {
         let around = Around { laid_s, ..GOOD };
-        streams(&["--patience", patience], around, |_| true)
+        streams(&["--patience", patience], around, |_, _| true)
     };
     let (warnings, streams) = by_hand("1", 2.05);
     assert_eq!((warnings, streams.len()), (0, 2));

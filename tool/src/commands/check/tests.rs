@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::Parser;
-use firmware::Packet;
-use wire::{Flags, TaggedCommand, TickRecord};
+use wire::{Flags, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
-use crate::source::Incoming;
+use crate::source::{Alter, Altered, GOOD};
 
 #[derive(Parser)]
 struct Line {
@@ -17,46 +16,8 @@ struct Line {
     arguments: Arguments,
 }
 
-/// A module whose records are spoilt on their way; false: that one is lost.
-struct Spoilt {
-    module: Box<dyn Source>,
-    spoils: fn(&mut TickRecord, f64) -> bool,
-}
-
-impl Source for Spoilt {
-    fn next(&mut self) -> Result<Incoming, Error> {
-        let mut incoming = self.module.next()?;
-        let t_s = self.module.now_s();
-        incoming.packets.retain_mut(|packet| match packet {
-            Packet::Record(record) => (self.spoils)(record, t_s),
-            Packet::Answer(_) | Packet::Event(_) => true,
-        });
-        Ok(incoming)
-    }
-
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.module.request(request)
-    }
-
-    fn now_s(&mut self) -> f64 {
-        self.module.now_s()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        None
-    }
-
-    fn deploy(&mut self, what: &crate::deployment::Deployment) -> Result<(), Error> {
-        self.module.deploy(what)
-    }
-
-    fn origin(&self) -> Origin {
-        self.module.origin()
-    }
-}
-
 /// The signs of what is found of such a module.
-fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
+fn signs(alter: Alter) -> Vec<&'static str> {
     let folder = tempfile::tempdir().unwrap();
     let scene: PathBuf = folder.path().join("scene.toml");
     std::fs::write(&scene, SCENE).unwrap();
@@ -64,9 +25,10 @@ fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
     let words = words.iter().map(std::ffi::OsString::from);
     let Line { arguments } = Line::parse_from(words.chain([scene.clone().into_os_string()]));
     let simulation = || SourceChoice::simulation(&scene).unwrap();
-    let module = Box::new(Spoilt {
+    let module = Box::new(Altered {
         module: simulation(),
-        spoils,
+        alter,
+        around: GOOD,
     });
     let seen = Seen::of(module, &arguments).unwrap();
     let simulated = Seen::of(simulation(), &arguments).unwrap();
@@ -86,11 +48,17 @@ fn signs(spoils: fn(&mut TickRecord, f64) -> bool) -> Vec<&'static str> {
     signs
 }
 
-/// Another code of x.
-fn shift(record: &mut TickRecord, codes: f64) {
+/// Another code of x; true, as the record is not lost.
+fn shift(record: &mut TickRecord, codes: f64) -> bool {
     let [x, _] = record.codes();
     let code = (f64::from(x) + codes).round().clamp(0.0, 16_383.0);
     record.x = (code as u16) << 2;
+    true
+}
+
+fn invalidate(record: &mut TickRecord) -> bool {
+    record.flags = record.flags.without(Flags::VALID);
+    true
 }
 
 /// A number between −1 and 1 that differs from tick to tick.
@@ -99,62 +67,55 @@ fn noise(record: &TickRecord) -> f64 {
     f64::from(mixed.wrapping_mul(0x85EB_CA6B)) / f64::from(u32::MAX) * 2.0 - 1.0
 }
 
-#[test]
-fn a_module_as_its_simulation_has_no_findings() {
-    assert_eq!(signs(|_, _| true), Vec::<&str>::new());
+/// Whether a sign is among those that are found as it should be.
+type IsThere = fn(&[&str], &str) -> bool;
+const ALONE: IsThere = |signs, sign| signs == [sign];
+const FIRST: IsThere = |signs, sign| signs[0] == sign;
+const AMONG: IsThere = |signs, sign| signs.contains(&sign);
+
+/// Codes that follow the angle.
+fn following(record: &TickRecord) -> f64 {
+    2.0 * f64::from(wire::degrees(record.measured)) - 100.0
 }
 
 #[test]
 fn what_is_wrong_is_named() {
-    let tilted = signs(|record, _| {
-        shift(record, 900.0);
-        true
-    });
-    assert_eq!(tilted, ["tilt"]);
-    let weak = signs(|record, _| {
-        shift(record, 40.0 * noise(record));
-        true
-    });
-    assert_eq!(weak[0], "gap", "{weak:?}");
-    let mains = signs(|record, t_s| {
-        shift(record, 12.0 * (TAU * 6.0 * t_s).sin());
-        true
-    });
-    assert!(mains.contains(&"a field that changes"), "{mains:?}");
-    let drifts = signs(|record, t_s| {
-        shift(record, 6.0 * t_s);
-        true
-    });
-    assert!(drifts.contains(&"drift"), "{drifts:?}");
-    let neighbour = signs(|record, _| {
-        shift(
-            record,
-            2.0 * f64::from(wire::degrees(record.measured)) - 100.0,
-        );
-        true
-    });
-    assert!(
-        neighbour.contains(&"a neighbour's field, or a magnet off the axis"),
-        "{neighbour:?}"
-    );
-    let saturated = signs(|record, _| {
-        if record.sequence % 50 == 0 {
-            shift(record, 16_383.0);
-        }
-        true
-    });
-    assert!(saturated.contains(&"saturation"), "{saturated:?}");
-    let noisy_line = signs(|record, _| {
-        if record.sequence % 100 == 0 {
-            record.flags = record.flags.without(Flags::VALID);
-        }
-        true
-    });
-    assert_eq!(noisy_line, ["line errors"]);
-}
-
-#[test]
-fn records_that_are_lost_are_counted() {
-    let lost = signs(|record, _| record.sequence % 1_000 != 0);
-    assert_eq!(lost, ["the PC or the line does not keep up"]);
+    let cases: [(Alter, IsThere, &str); 8] = [
+        (|record, _| shift(record, 900.0), ALONE, "tilt"),
+        (
+            |record, _| shift(record, 40.0 * noise(record)),
+            FIRST,
+            "gap",
+        ),
+        (
+            |record, t_s| shift(record, 12.0 * (TAU * 6.0 * t_s).sin()),
+            AMONG,
+            "a field that changes",
+        ),
+        (|record, t_s| shift(record, 6.0 * t_s), AMONG, "drift"),
+        (
+            |record, _| shift(record, following(record)),
+            AMONG,
+            "a neighbour's field, or a magnet off the axis",
+        ),
+        (
+            |record, _| record.sequence % 50 > 0 || shift(record, 16_383.0),
+            AMONG,
+            "saturation",
+        ),
+        (
+            |record, _| record.sequence % 100 > 0 || invalidate(record),
+            ALONE,
+            "line errors",
+        ),
+        (
+            |record, _| record.sequence % 1_000 > 0,
+            ALONE,
+            "the PC or the line does not keep up",
+        ),
+    ];
+    for (alter, is_there, sign) in cases {
+        let signs = signs(alter);
+        assert!(is_there(&signs, sign), "{sign}: {signs:?}");
+    }
 }

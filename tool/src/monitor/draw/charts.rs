@@ -10,13 +10,11 @@ use ratatui::widgets::{Axis, Block, Chart, Dataset, GraphType};
 use super::super::shown::{Shown, Whisker, signals};
 use super::theme::Theme;
 
-/// A chart of some signals.
 struct Kind {
     quantity: &'static str,
     curves: &'static [Curve],
     /// Least range that is shown; the middle follows the signals.
     least: f64,
-    /// A range that is always shown.
     fixed: Option<[f64; 2]>,
     decimals: usize,
 }
@@ -31,76 +29,52 @@ struct Curve {
 
 const LINE: char = '⣀';
 
+/// The first signal of a chart, the second and the third.
+const fn first(signal: usize, name: &'static str) -> Curve {
+    curve(signal, name, LINE, Color::Cyan)
+}
+
+const fn second(signal: usize, name: &'static str) -> Curve {
+    curve(signal, name, '•', Color::Yellow)
+}
+
+const fn third(signal: usize, name: &'static str) -> Curve {
+    curve(signal, name, '+', Color::Magenta)
+}
+
+const fn curve(signal: usize, name: &'static str, sign: char, colour: Color) -> Curve {
+    Curve {
+        signal,
+        name,
+        sign,
+        colour,
+    }
+}
+
 const KINDS: [Kind; 3] = [
     Kind {
         quantity: "deg",
-        curves: &[
-            Curve {
-                signal: 1,
-                name: "measured",
-                sign: LINE,
-                colour: Color::Cyan,
-            },
-            Curve {
-                signal: 0,
-                name: "setpoint",
-                sign: '•',
-                colour: Color::Yellow,
-            },
-        ],
+        curves: &[first(1, "measured"), second(0, "setpoint")],
         least: 10.0,
         fixed: None,
         decimals: 1,
     },
     Kind {
         quantity: "codes",
-        curves: &[
-            Curve {
-                signal: 2,
-                name: "x",
-                sign: LINE,
-                colour: Color::Cyan,
-            },
-            Curve {
-                signal: 3,
-                name: "y",
-                sign: '•',
-                colour: Color::Yellow,
-            },
-        ],
+        curves: &[first(2, "x"), second(3, "y")],
         least: 200.0,
         fixed: None,
         decimals: 0,
     },
     Kind {
         quantity: "of 1",
-        curves: &[
-            Curve {
-                signal: 4,
-                name: "contact",
-                sign: LINE,
-                colour: Color::Cyan,
-            },
-            Curve {
-                signal: 5,
-                name: "z",
-                sign: '•',
-                colour: Color::Yellow,
-            },
-            Curve {
-                signal: 6,
-                name: "duty",
-                sign: '+',
-                colour: Color::Magenta,
-            },
-        ],
+        curves: &[first(4, "contact"), second(5, "z"), third(6, "duty")],
         least: 0.0,
         fixed: Some([-1.0, 1.0]),
         decimals: 2,
     },
 ];
 
-/// Draws all charts, a column a whisker.
 pub(super) fn charts(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
     if area.width < 20 || area.height < 4 {
         return;
@@ -185,7 +159,6 @@ fn chart(
     frame.render_widget(chart, area);
 }
 
-/// What the vertical axis shows.
 fn range(kind: &Kind, whisker: &Whisker) -> [f64; 2] {
     if let Some(fixed) = kind.fixed {
         return fixed;

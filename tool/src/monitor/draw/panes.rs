@@ -44,7 +44,6 @@ fn state(whisker: &Whisker, theme: Theme) -> Line<'static> {
     Line::from(spans)
 }
 
-/// All panes, one below the other.
 pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
     if area.width < 10 || area.height < 3 {
         return;
@@ -88,7 +87,6 @@ fn pane(frame: &mut Frame<'_>, area: Rect, title: String, text: Paragraph<'_>) {
     frame.render_widget(text.block(Block::bordered().title(title)), area);
 }
 
-/// A bar a class.
 fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
     let width = usize::from(area.width.saturating_sub(2));
     let longest = shown
@@ -134,8 +132,7 @@ fn bar(share: f32, room: usize) -> String {
     format!("{bar:room$}")
 }
 
-/// The newest at the bottom.
-fn events_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
+fn told(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let room = usize::from(area.height.saturating_sub(2));
     let old = shown.events.len().saturating_sub(room);
     let lines: Vec<Line<'_>> = shown.events[old..]

@@ -3,7 +3,6 @@
 use firmware::{Event, EventRecord, Health, Packet, Place};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
-use ratatui::style::Color;
 use tactile::Decision;
 use whisking::motor;
 use wire::{Flags, TickRecord};
@@ -31,10 +30,7 @@ fn history() -> History {
                 measured: (3900.0 * wave) as i16,
                 ..TickRecord::default()
             };
-            history.take(&Incoming {
-                packets: vec![Packet::Record(record)],
-                lines: Vec::new(),
-            });
+            history.take(&Incoming::of([Packet::Record(record)]));
         }
     }
     history.module_classes = vec!["carpet".to_owned()];
@@ -51,12 +47,8 @@ fn history() -> History {
         (5_950, Event::MotorFault(place, motor::Fault::Stall)),
         (6_000, Event::Health(health)),
     ];
-    history.take(&Incoming {
-        packets: events
-            .map(|(sequence, event)| Packet::Event(EventRecord { sequence, event }))
-            .into(),
-        lines: Vec::new(),
-    });
+    let event = |(sequence, event)| Packet::Event(EventRecord { sequence, event });
+    history.take(&Incoming::of(events.map(event)));
     history
 }
 
@@ -117,37 +109,6 @@ fn any_window_can_be_drawn() {
             drawn(&shown, PLAIN, width, height);
         }
     }
-}
-
-#[test]
-fn both_whiskers_are_shown_side_by_side() {
-    let history = history();
-    let mut view = View::new();
-    view.press(Key::Tab, history.extent());
-    view.press(Key::Tab, history.extent());
-    let shown = history.shown(&view, "t", String::new());
-    let text = text(&drawn(&shown, PLAIN, 120, 40));
-    assert!(text.contains("\nleft  [ARMED]"), "{text}");
-    assert!(text.contains("\nright  armed"), "{text}");
-    let charts = text.lines().find(|line| line.contains("measured")).unwrap();
-    assert!(
-        charts.contains(" left ") && charts.contains(" right "),
-        "{charts}"
-    );
-}
-
-#[test]
-fn without_colours_there_are_none() {
-    let shown = history().shown(&View::new(), "t", String::new());
-    let has_colour = |theme| {
-        let buffer = drawn(&shown, theme, 100, 30);
-        buffer
-            .content
-            .iter()
-            .any(|cell| cell.fg != Color::Reset || cell.bg != Color::Reset)
-    };
-    assert!(!has_colour(PLAIN));
-    assert!(has_colour(Theme { colours: true }));
 }
 
 #[test]

@@ -5,7 +5,6 @@ use ratatui::style::{Color, Modifier, Style};
 /// Colours, or none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Theme {
-    /// Whether there are any.
     pub(crate) colours: bool,
 }
 
@@ -16,7 +15,6 @@ impl Theme {
         Self { colours: !none }
     }
 
-    /// Letters in this colour.
     pub(super) fn style(self, colour: Color) -> Style {
         if self.colours {
             Style::new().fg(colour)
@@ -26,7 +24,6 @@ impl Theme {
     }
 }
 
-/// What is to be seen first.
 pub(super) fn bold() -> Style {
     Style::new().add_modifier(Modifier::BOLD)
 }

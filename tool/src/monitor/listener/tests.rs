@@ -1,23 +1,15 @@
 //! The PC's decisions beside the module's own.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use clap::Parser;
 use firmware::{Event, EventRecord, Packet};
 use host_sim::decisions;
 use wire::{Command, TickRecord};
 
 use super::{Decided, Listener};
-use crate::conversation::Conversation;
 use crate::monitor::known::Known;
-use crate::source::SourceChoice;
+use crate::source::{chosen, scene_file};
 use crate::tally::Tally;
-
-#[derive(Parser)]
-struct Line {
-    #[command(flatten)]
-    source: SourceChoice,
-}
 
 /// What was decided: tick, side, class, posterior in millionths, samples.
 type Row = (u32, usize, String, i64, u32);
@@ -30,11 +22,10 @@ fn listened(
     seed: &str,
     seconds: f64,
     drops: fn(&TickRecord) -> bool,
-) -> [Vec<Row>; 2] {
-    let words = ["x", how, scene.to_str().unwrap(), "--seed", seed];
-    let Line { source } = Line::parse_from(words);
+) -> [Vec<Told>; 2] {
+    let source = chosen(&[how, scene.to_str().unwrap(), "--seed", seed]);
     let known = Known::of(Some(scene), None).unwrap().unwrap();
-    let mut module = Conversation::new(source.open(0).unwrap());
+    let mut module = source.module().unwrap();
     module.ask(Command::Stream(true)).unwrap();
     let [tick_hz, whiskers] = module.ask(Command::Hello).unwrap().values;
     let classes = module.classes().unwrap();
@@ -77,10 +68,6 @@ fn listened(
     [own, sent]
 }
 
-fn scene(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.toml"))
-}
-
 /// Ticks and sides apart both say the same, to a millionth.
 fn assert_same(own: &[Row], sent: &[Row]) {
     for (own, sent) in own.iter().zip(sent) {
@@ -94,13 +81,13 @@ fn assert_same(own: &[Row], sent: &[Row]) {
 fn decisions_are_those_of_the_simulated_module() {
     // Ends of the runs: fewer whisks are in a shorter one.
     for (name, seed, least) in [
-        ("textures", "1", 200),
-        ("textures", "2", 200),
-        ("both", "1", 300),
-        ("papers", "1", 200),
-        ("whisker", "1", 200),
+        ("textures.toml", "1", 200),
+        ("textures.toml", "2", 200),
+        ("both.toml", "1", 300),
+        ("papers.toml", "1", 200),
+        ("whisker.toml", "1", 200),
     ] {
-        let [own, sent] = listened("--sim", &scene(name), seed, 40.0, |_| false);
+        let [own, told] = listened("--sim", &scene_file(name), seed, 40.0, |_| false);
         println!("{name}: {} decisions", own.len());
         assert!(own.len() >= least, "{name}: {}", own.len());
         assert_same(&own, &sent);
@@ -111,7 +98,9 @@ fn decisions_are_those_of_the_simulated_module() {
 
 #[test]
 fn decisions_are_those_of_the_emulated_board() {
-    let [own, sent] = listened("--emulated", &scene("textures"), "2", 6.0, |_| false);
+    let [own, told] = listened("--emulated", &scene_file("textures.toml"), "2", 6.0, |_| {
+        false
+    });
     println!("{} decisions", own.len());
     assert!(own.len() >= 20, "{}", own.len());
     assert_same(&own, &sent);
@@ -120,12 +109,12 @@ fn decisions_are_those_of_the_emulated_board() {
 #[test]
 fn after_lost_records_it_restarts() {
     let drops = |record: &TickRecord| record.sequence == 10_000;
-    let [own, sent] = listened("--sim", &scene("textures"), "2", 12.0, drops);
-    let split = |all: &[Row]| all.iter().filter(|sent| sent.0 < 10_000).count();
-    let (before, sent_before) = (split(&own), split(&sent));
-    assert_eq!(before, sent_before);
-    assert_same(&own[..before], &sent[..before]);
-    // The detector of touches learns again for a second.
-    assert!(own[before].0 > 12_000 && sent[before].0 < 12_000);
+    let [own, told] = listened("--sim", &scene_file("textures.toml"), "2", 12.0, drops);
+    let split = |all: &[Told]| all.iter().filter(|told| told.0 < 10_000).count();
+    let (before, told_before) = (split(&own), split(&told));
+    assert_eq!(before, told_before);
+    assert_same(&own[..before], &told[..before]);
+    // What a touch is, is learnt anew for a second.
+    assert!(own[before].0 > 12_000 && told[before].0 < 12_000);
     assert!(own.len() > before + 10, "{}", own.len());
 }

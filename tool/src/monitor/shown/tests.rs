@@ -1,33 +1,15 @@
 //! What is shown of records and lines.
 
-use std::path::Path;
-
 use firmware::{Event, EventRecord, Packet, Place};
 use whisking::motor;
 use wire::{Flags, TickRecord};
 
-use super::{Fault, signals};
+use super::Fault;
 use crate::monitor::history::History;
 use crate::monitor::known::Known;
 use crate::monitor::listener::Listener;
 use crate::monitor::view::View;
-use crate::source::Incoming;
-
-#[test]
-fn signals_have_their_units() {
-    let record = TickRecord {
-        x: 4 * 9000,
-        y: 4 * 8000,
-        setpoint: 4096,
-        measured: -4096,
-        duty: -32767,
-        z: 2048,
-        contact: 4096,
-        ..TickRecord::default()
-    };
-    let expected = [100.0, 0.0, 9000.0, 8000.0, 0.5, 0.25, -1.0];
-    assert_eq!(signals(&record), expected);
-}
+use crate::source::{Incoming, record, scene_file};
 
 /// Records of four seconds at 1 kHz, a peak of one tick in the third, with a fault.
 fn history() -> History {
@@ -35,18 +17,15 @@ fn history() -> History {
     for sequence in 1..=4000 {
         let measured = if sequence == 2500 { 8192 } else { 0 };
         let record = TickRecord {
-            sequence,
             measured,
-            ..TickRecord::default()
+            ..record(sequence, Flags::default())
         };
         let fault = (sequence == 2000).then_some(Packet::Event(EventRecord {
             sequence,
             event: Event::MotorFault(Place::new(0, 0), motor::Fault::Runaway),
         }));
-        history.take(&Incoming {
-            packets: [Packet::Record(record)].into_iter().chain(fault).collect(),
-            lines: Vec::new(),
-        });
+        let packets = [Packet::Record(record)].into_iter().chain(fault);
+        history.take(&Incoming::of(packets.collect::<Vec<_>>()));
     }
     history
 }
@@ -93,21 +72,15 @@ fn faults_come_with_cause_and_remedy() {
 }
 
 #[test]
-fn it_is_said_that_the_classifier_has_restarted() {
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/textures.toml");
-    let known = Known::of(Some(&scene), None).unwrap().unwrap();
+fn it_is_said_that_the_classifier_has_started_anew() {
+    let known = Known::of(Some(&scene_file("textures.toml")), None)
+        .unwrap()
+        .unwrap();
     let listener = Listener::new(known, 2000, 1).unwrap();
     let mut history = History::new(2000, 1, Some(listener));
     let mut take = |sequence| {
-        let record = TickRecord {
-            sequence,
-            flags: Flags::VALID,
-            ..TickRecord::default()
-        };
-        history.take(&Incoming {
-            packets: vec![Packet::Record(record)],
-            lines: Vec::new(),
-        });
+        let record = record(sequence, Flags::VALID);
+        history.take(&Incoming::of([Packet::Record(record)]));
         let shown = history.shown(&View::new(), "t", String::new());
         shown.classifying.join("\n")
     };

@@ -15,7 +15,7 @@ use rustix::pty::{OpenptFlags, grantpt, ioctl_tiocgptpeer, openpt, unlockpt};
 use rustix::termios::{LocalModes, Termios, Winsize, tcgetattr, tcsetwinsize};
 use vt100::Parser;
 
-use crate::common::Place;
+use crate::common::{Place, words};
 
 pub(super) const TERM: Signal = Signal::TERM;
 pub(super) const HANGUP: Signal = Signal::HUP;
@@ -54,7 +54,7 @@ impl Terminal {
         let program = Command::new("setsid")
             .arg("--ctty")
             .arg(env!("CARGO_BIN_EXE_whisker"))
-            .args(arguments.split_whitespace())
+            .args(words(arguments))
             .env_remove("NO_COLOR")
             .envs(environment.iter().copied())
             .env("TERM", "xterm-256color")
@@ -113,6 +113,7 @@ impl Terminal {
     }
 
     /// Waits until it is so.
+    #[track_caller]
     pub(super) fn wait_until(&mut self, is_so: impl Fn(&str) -> bool) {
         let begun = Instant::now();
         while !is_so(&self.text()) {
@@ -122,12 +123,9 @@ impl Terminal {
     }
 
     /// Waits until a word is there.
+    #[track_caller]
     pub(super) fn wait_for(&mut self, word: &str) {
-        let begun = Instant::now();
-        while !self.text().contains(word) {
-            assert!(begun.elapsed() < PATIENCE, "no {word:?}:{}", self.text());
-            thread::sleep(Duration::from_millis(5));
-        }
+        self.wait_until(|text| text.contains(word));
     }
 
     /// Presses keys.

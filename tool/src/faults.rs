@@ -25,7 +25,7 @@ pub(crate) const fn number(event: &Event) -> Option<u8> {
 }
 
 /// What the table of faults says of an event, if it is about a fault.
-pub(super) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32) -> Option<Fault> {
+pub(crate) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32) -> Option<Fault> {
     let number = number(event)?;
     let t_s = f64::from(*sequence) / f64::from(tick_hz);
     let (_, said) = report::said(event, &[])?;
@@ -39,7 +39,6 @@ pub(super) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32)
     })
 }
 
-/// A row of the table of faults in plain text.
 fn plain(markdown: &str) -> String {
     let mut text = String::new();
     let mut rest = markdown;

@@ -1,0 +1,36 @@
+//! What a whisker has done, as a picture.
+
+use host_sim::plot::{Ink, Strip, Strips};
+
+use crate::sample::Sample;
+
+/// A chart: quantity and unit, what its axis spans at least, and its curves.
+pub(crate) type Panel<'c> = (&'static str, f64, &'c [Curve]);
+
+/// Its name, how it is drawn, and what it is of.
+pub(crate) type Curve = (&'static str, Ink, fn(&Sample) -> f64);
+
+pub(crate) const ANGLE: Panel<'static> = (
+    "angle θ′, degrees",
+    10.0,
+    &[
+        ("setpoint", Ink::Wanted, |s| s.setpoint_deg),
+        ("measured", Ink::Found, |s| s.measured_deg),
+    ],
+);
+
+pub(crate) fn picture(title: String, samples: &[Sample], panels: &[Panel<'_>]) -> Strips {
+    let points = |of: fn(&Sample) -> f64| samples.iter().map(|s| (s.t_s, of(s))).collect();
+    let strip = |(y, least, curves): &Panel<'_>| Strip {
+        y,
+        least: *least,
+        curves: curves
+            .iter()
+            .map(|(name, ink, of)| (*name, *ink, points(*of)))
+            .collect(),
+    };
+    Strips {
+        title,
+        strips: panels.iter().map(strip).collect(),
+    }
+}

@@ -1,0 +1,77 @@
+//! A module for tests, with something wrong on the way to it.
+
+use firmware::Packet;
+use host_sim::Error;
+use host_sim::origin::Origin;
+use wire::{TaggedCommand, TickRecord};
+
+use super::{Incoming, Source};
+
+/// What becomes of a record at its time, s; false: it is lost.
+pub(crate) type Alter = fn(&mut TickRecord, f64) -> bool;
+
+/// What comes between a module and who listens.
+#[derive(Clone, Copy)]
+pub(crate) struct Around {
+    /// How fast the clock beside it runs.
+    pub(crate) clock: f64,
+    /// When somebody says that the sample lies there; 0: it is laid by the world.
+    pub(crate) laid_s: f64,
+    /// How much comes at once, as on a PC that is busy.
+    pub(crate) at_once: u32,
+}
+
+pub(crate) const GOOD: Around = Around {
+    clock: 1.0,
+    laid_s: 0.0,
+    at_once: 1,
+};
+
+pub(crate) struct Altered {
+    pub(crate) module: Box<dyn Source>,
+    pub(crate) alter: Alter,
+    pub(crate) around: Around,
+}
+
+impl Source for Altered {
+    fn next(&mut self) -> Result<Incoming, Error> {
+        let mut incoming = Incoming::default();
+        for _ in 0..self.around.at_once {
+            incoming.packets.extend(self.module.next()?.packets);
+        }
+        let t_s = self.module.now_s();
+        incoming.packets.retain_mut(|packet| match packet {
+            Packet::Record(record) => (self.alter)(record, t_s),
+            Packet::Answer(_) | Packet::Event(_) => true,
+        });
+        Ok(incoming)
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.module.request(request)
+    }
+
+    fn has(&self, sample: &str) -> Result<(), Error> {
+        self.module.has(sample)
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.module.lay(sample)
+    }
+
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        Ok(self.module.is_laid()? && self.module.now_s() >= self.around.laid_s)
+    }
+
+    fn is_laid_by_hand(&mut self) -> bool {
+        self.around.laid_s > 0.0
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.around.clock * self.module.now_s()
+    }
+
+    fn origin(&self) -> Origin {
+        self.module.origin()
+    }
+}
