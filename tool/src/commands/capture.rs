@@ -198,7 +198,8 @@ struct Capture {
     done: u64,
     /// When the first ended: by the module's clock, s, and by the PC's.
     first: Option<(f64, Timestamp)>,
-    told: usize,
+    /// Lines about what is wrong.
+    warnings: usize,
 }
 
 impl Capture {

@@ -119,7 +119,7 @@ fn toolchain(facts: &Facts, list: &mut List) {
 
 fn room(facts: &Facts, list: &mut List) {
     let Some(free) = facts.free_mib else {
-        return list.found("free disk, which cannot be told here");
+        return list.found("free disk, which is unknown here");
     };
     let needed = ROOM_MIB / 1024;
     list.put(
@@ -186,7 +186,7 @@ fn ports(facts: &Facts, list: &mut List) {
         list.put(
             format!("serial port {}", port.path.display()),
             port.may_open,
-            "sudo usermod -aG dialout $USER, then log in anew",
+            "sudo usermod -aG dialout $USER, then log in again",
         );
     }
 }

@@ -96,7 +96,7 @@ pub(crate) fn open(
         Ok(done) => done.map_err(failed),
         Err(RecvTimeoutError::Disconnected) => Err(Error::Work("drawing has failed".to_owned())),
         Err(RecvTimeoutError::Timeout) => {
-            // The terminal takes nothing: it can be told nothing either.
+            // The terminal takes nothing, so there is no way to say it.
             let _ = terminal::disable_raw_mode();
             std::process::exit(1);
         }

@@ -16,7 +16,7 @@ pub(super) fn seen_as(item: &ProbeListItem) -> SeenProbe {
     }
 }
 
-/// Fails as [`open`] does, as far as can be told without opening.
+/// Fails as [`open`] does, as far as is known without opening.
 pub(crate) fn is_there(selector: &str) -> Result<(), Error> {
     let items = Lister::new().list_all_with_access();
     let seen: Vec<_> = items.iter().map(seen_as).collect();

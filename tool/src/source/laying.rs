@@ -47,7 +47,7 @@ impl Laying {
         Ok(())
     }
 
-    /// Whether it lies there. Waits for nobody.
+    /// Whether it lies there. Does not wait.
     pub(super) fn is_laid(&mut self) -> Result<bool, Error> {
         let (line, running) = match self {
             Self::Person(person) => return person.is_laid(),

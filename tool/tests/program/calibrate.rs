@@ -41,7 +41,7 @@ fn a_whisker_is_calibrated_and_a_recording_keeps_it() {
 }
 
 #[test]
-fn what_touches_something_is_told_to_be_taken_away() {
+fn what_touches_something_is_to_be_taken_away() {
     let ran = Place::new().done("calibrate --sim @bench.toml --world @textures.toml --out found");
     ran.warns("x swings too far for free air: take away what the whisker touches");
 }
@@ -54,7 +54,7 @@ fn a_check_of_what_its_scene_says_finds_nothing() {
     let report = place.text("report/check.md");
     let lost = "| records lost |  | 0 | 0 | 0 |";
     assert!(report.contains(lost), "{report}");
-    // In a world in which it meets something it is told what differs.
+    // In a world in which it meets something it says what differs.
     let ran = place.fails(&format!("{check} --world @textures.toml"));
     ran.prints("swing of ");
 }

@@ -50,7 +50,7 @@ fn labels_have_as_many_touches_as_were_asked_for() {
     ran.prints("\nfrom the first touch: ");
     ran.prints(" s of the module's time\nnext: ");
     ran.prints("host-sim -- train --data c.csv --rate 2000");
-    // What is clean has nothing to be told.
+    // What is clean has no warning.
     assert_eq!(ran.stderr, "");
 }
 

@@ -28,17 +28,17 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     assert!(without.contains("touch left 1") && !without.contains("decision"));
 
     let ran = place.done(DEPLOY);
-    let told: Vec<&str> = ran.stdout.lines().collect();
-    assert_eq!(told.len(), 5, "{told:?}");
-    assert!(told[0].ends_with("4 classes: smooth, p600, p240, carpet"));
-    assert!(told[1].starts_with("before, the module runs scene bench ("));
-    assert!(told[2].starts_with("before, the module decides by no model: none was deployed"));
-    assert!(told[3].starts_with("now it runs scene bench ("));
+    let lines: Vec<&str> = ran.stdout.lines().collect();
+    assert_eq!(lines.len(), 5, "{lines:?}");
+    assert!(lines[0].ends_with("4 classes: smooth, p600, p240, carpet"));
+    assert!(lines[1].starts_with("before, the module runs scene bench ("));
+    assert!(lines[2].starts_with("before, the module decides by no model: none was deployed"));
+    assert!(lines[3].starts_with("now it runs scene bench ("));
     // Samples count from the model's contact then.
-    assert_ne!(told[1].split_once("runs"), told[3].split_once("runs"));
+    assert_ne!(lines[1].split_once("runs"), lines[3].split_once("runs"));
     let crc = u32::from_le_bytes(*model().last_chunk().unwrap());
     let decides = format!("decides by model {crc:08x}, 4 classes");
-    assert_eq!(told[4], format!("now it {decides}"));
+    assert_eq!(lines[4], format!("now it {decides}"));
 
     let deployed = log(IN_WORLD);
     let (first, rest) = deployed.split_once('\n').unwrap();

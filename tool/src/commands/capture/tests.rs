@@ -16,9 +16,9 @@ struct Line {
     arguments: Arguments,
 }
 
-/// Captures six touches of a carpet so; lines told, and the touches in each trial.
+/// Captures six touches of a carpet so; the count of warnings, and the touches in each trial.
 fn captured(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<usize>) {
-    let (told, streams) = streams(more, around, alter);
+    let (warnings, streams) = streams(more, around, alter);
     let of = |stream: &Stream| {
         let mut touches = stream.touch.clone().unwrap();
         touches.dedup();
@@ -28,7 +28,7 @@ fn captured(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<usize>) 
     (warnings, streams.iter().map(of).collect())
 }
 
-/// With `more` options: lines told, and what is captured.
+/// With `more` options: the count of warnings, and what is captured.
 fn streams(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<Stream>) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("c.csv");
@@ -76,7 +76,7 @@ fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_reported() {
 }
 
 #[test]
-fn a_fault_costs_its_touch_and_is_told() {
+fn a_fault_costs_its_touch_and_is_reported() {
     let spoils = |record: &mut TickRecord, _: f64| {
         if (4100..4120).contains(&record.sequence) {
             record.flags = record.flags.without(Flags::VALID);

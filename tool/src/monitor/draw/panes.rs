@@ -132,7 +132,7 @@ fn bar(share: f32, room: usize) -> String {
     format!("{bar:room$}")
 }
 
-fn told(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
+fn events_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let room = usize::from(area.height.saturating_sub(2));
     let old = shown.events.len().saturating_sub(room);
     let lines: Vec<Line<'_>> = shown.events[old..]

@@ -22,7 +22,7 @@ fn listened(
     seed: &str,
     seconds: f64,
     drops: fn(&TickRecord) -> bool,
-) -> [Vec<Told>; 2] {
+) -> [Vec<Row>; 2] {
     let source = chosen(&[how, scene.to_str().unwrap(), "--seed", seed]);
     let known = Known::of(Some(scene), None).unwrap().unwrap();
     let mut module = source.module().unwrap();
@@ -87,7 +87,7 @@ fn decisions_are_those_of_the_simulated_module() {
         ("papers.toml", "1", 200),
         ("whisker.toml", "1", 200),
     ] {
-        let [own, told] = listened("--sim", &scene_file(name), seed, 40.0, |_| false);
+        let [own, sent] = listened("--sim", &scene_file(name), seed, 40.0, |_| false);
         println!("{name}: {} decisions", own.len());
         assert!(own.len() >= least, "{name}: {}", own.len());
         assert_same(&own, &sent);
@@ -98,7 +98,7 @@ fn decisions_are_those_of_the_simulated_module() {
 
 #[test]
 fn decisions_are_those_of_the_emulated_board() {
-    let [own, told] = listened("--emulated", &scene_file("textures.toml"), "2", 6.0, |_| {
+    let [own, sent] = listened("--emulated", &scene_file("textures.toml"), "2", 6.0, |_| {
         false
     });
     println!("{} decisions", own.len());
@@ -109,12 +109,12 @@ fn decisions_are_those_of_the_emulated_board() {
 #[test]
 fn after_lost_records_it_restarts() {
     let drops = |record: &TickRecord| record.sequence == 10_000;
-    let [own, told] = listened("--sim", &scene_file("textures.toml"), "2", 12.0, drops);
-    let split = |all: &[Told]| all.iter().filter(|told| told.0 < 10_000).count();
-    let (before, told_before) = (split(&own), split(&told));
-    assert_eq!(before, told_before);
-    assert_same(&own[..before], &told[..before]);
-    // What a touch is, is learnt anew for a second.
-    assert!(own[before].0 > 12_000 && told[before].0 < 12_000);
+    let [own, sent] = listened("--sim", &scene_file("textures.toml"), "2", 12.0, drops);
+    let split = |all: &[Row]| all.iter().filter(|sent| sent.0 < 10_000).count();
+    let (before, sent_before) = (split(&own), split(&sent));
+    assert_eq!(before, sent_before);
+    assert_same(&own[..before], &sent[..before]);
+    // What a touch is, is learnt again for a second.
+    assert!(own[before].0 > 12_000 && sent[before].0 < 12_000);
     assert!(own.len() > before + 10, "{}", own.len());
 }

@@ -72,7 +72,7 @@ fn faults_come_with_cause_and_remedy() {
 }
 
 #[test]
-fn it_is_said_that_the_classifier_has_started_anew() {
+fn it_is_said_that_the_classifier_has_started_again() {
     let known = Known::of(Some(&scene_file("textures.toml")), None)
         .unwrap()
         .unwrap();
