@@ -55,7 +55,7 @@ const COSTS: &str = include_str!("costs.toml");
 
 static FORMS: LazyLock<Vec<Form>> = LazyLock::new(|| printed(COSTS, "forms"));
 
-/// The papers' kernels, which were counted once.
+/// Kernels that were counted once.
 static ONCE: LazyLock<BTreeMap<String, f64>> = LazyLock::new(|| printed(COSTS, "counted"));
 
 /// Mean instructions of a kernel on a Cortex-M4F, in the first format counted.
