@@ -1,7 +1,7 @@
 //! The numeric kernels of the module, to be counted one by one on an emulated core.
 //!
-//! `cargo xtask count` builds this program for a Cortex-M4F and a Cortex-M0+; the emulator
-//! (`emulator/src/counts.rs`) runs it and makes the table `docs/measured/instructions.csv`. These
+//! `cargo xtask count` builds these programs for a Cortex-M4F and a Cortex-M0+; the emulator
+//! (`emulator/src/counts.rs`) runs them and `docs/measured/instructions.csv` is their table. These
 //! are instructions, not cycles: what they take depends on the part, its flash and its caches.
 //!
 //! # Glossary
@@ -11,9 +11,8 @@
 //!   in their registers already.
 //! - *peer*: what a user would pick instead, counted in the same way.
 //!
-//! A program of `src/bin` has kernels that have no function in common: the firmware calls each part
-//! once and so the compiler takes it in whole; called from two kernels it might stay a function of
-//! its own.
+//! The kernels of a program share no function: the firmware calls each part once and so the
+//! compiler takes it in whole; called from two kernels it might stay a function of its own.
 #![cfg_attr(target_os = "none", no_std)]
 
 pub mod calls;
