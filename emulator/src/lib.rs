@@ -19,6 +19,7 @@ mod chip;
 pub mod compare;
 mod core;
 mod counters;
+pub mod counts;
 pub mod damage;
 mod damaged;
 pub mod deadlines;

@@ -9,7 +9,7 @@ use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
 use emulator::compare::{Circumstances, Probe};
 use emulator::endurance;
 use emulator::{
-    compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers,
+    compare, counts, damage, deadlines, deploying, emulate, latency, overload, picture, registers,
     sensor_loss, serial, starting, supply, telemetry,
 };
 use host_sim::output::{self, write_whole};
@@ -71,6 +71,15 @@ enum Command {
         /// Print them as a table of comma-separated values
         #[arg(long)]
         csv: bool,
+    },
+    /// Counts the instructions of the kernels that the program of xtask/count calls: prints a
+    /// kernel, its format, mean and worst a line
+    Count {
+        /// The program
+        program: PathBuf,
+        /// The board whose core executes it
+        #[arg(long)]
+        board: String,
     },
     /// Breaks the sensors' wires of a scene that whisks, side by side; fails if the motor of
     /// a lost side is not switched off or stays off, or another rests
@@ -362,6 +371,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 return Err(Error::Work(format!("{} ticks missed", measured.missed)));
             }
         }
+        Command::Count { program, board } => report::say(counts::count(&program, &board)?),
         Command::Deploying {
             flashed,
             world,

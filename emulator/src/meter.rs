@@ -14,7 +14,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    const fn add(&mut self, value: u64) {
+    pub(crate) const fn add(&mut self, value: u64) {
         self.count += 1;
         self.sum += value;
         if value > self.worst {

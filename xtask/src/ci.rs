@@ -8,8 +8,8 @@ use crate::firmware::{Board, EVERY_PART};
 use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::Steps;
 use crate::{
-    arrows, book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz,
-    page, panics, python, size, studies, walk,
+    book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz, page,
+    panics, python, size, studies, walk,
 };
 
 /// What a warning becomes.
@@ -39,7 +39,6 @@ const SEED: &str = "1";
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
     steps.run("format", format)?;
-    steps.run("arrows", arrows::all)?;
     steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
     // All tests, and the main job, whose output and files are what the generated documents

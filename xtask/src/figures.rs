@@ -51,7 +51,7 @@ pub(crate) struct Table {
     pub(crate) decimals: &'static [usize],
     /// By how much a number may become dearer before a check fails.
     pub(crate) slack: f64,
-    /// What writes it anew.
+    /// What writes it.
     pub(crate) command: &'static str,
 }
 
@@ -73,7 +73,7 @@ impl Table {
             print!("{}", self.text(found));
             return Ok(());
         }
-        print!("{}", self.columns(found));
+        print!("{}", self.lines(found));
         if check {
             return self.compare(&self.read(csv)?, found, true);
         }
@@ -82,7 +82,7 @@ impl Table {
 
     /// Prints a part of the table and compares it.
     pub(crate) fn check_part(&self, found: &[Figure]) -> Result<(), Fault> {
-        print!("{}", self.columns(found));
+        print!("{}", self.lines(found));
         self.compare(&self.read(None)?, found, false)
     }
 
@@ -118,32 +118,14 @@ impl Table {
             .collect()
     }
 
-    /// The figures in columns, each with its note.
-    fn columns(&self, figures: &[Figure]) -> String {
-        let names: Vec<&str> = self.header.split(',').collect();
-        let width = |field: usize, name: &str| {
-            let keys = figures.iter().filter_map(|figure| figure.key.get(field));
-            let longest = keys.map(String::len).max().unwrap_or(0);
-            longest.max(name.len()).max(7)
-        };
-        let widths = names.iter().enumerate();
-        let widths: Vec<usize> = widths.map(|(field, name)| width(field, name)).collect();
-        let mut text = String::new();
-        for (name, width) in names.iter().zip(&widths) {
-            let _ = write!(text, "{name:width$}  ");
+    /// The figures for a person to read, each with its note.
+    fn lines(&self, figures: &[Figure]) -> String {
+        let mut text = format!("{}\n", self.header);
+        for figure in figures {
+            let (key, numbers) = (figure.key.join(", "), figure.text(self.decimals, "  "));
+            let _ = writeln!(text, "{key:60}{numbers:>20}  {}", figure.note);
         }
-        for Figure { key, numbers, note } in figures {
-            text += "\n";
-            for (field, width) in key.iter().zip(&widths) {
-                let _ = write!(text, "{field:width$}  ");
-            }
-            let numbers = numbers.iter().zip(self.decimals);
-            for ((number, &decimals), width) in numbers.zip(&widths[key.len()..]) {
-                let _ = write!(text, "{number:>width$.decimals$}  ");
-            }
-            text += note;
-        }
-        text + "\n"
+        text
     }
 
     /// Names everything in `found` that has become dearer than `known` says or is
@@ -203,7 +185,7 @@ mod tests {
             let wrong = TABLE.text(&figures) + line;
             assert!(TABLE.parse(&wrong).is_err(), "{line}");
         }
-        assert_eq!(TABLE.columns(&figures).lines().count(), 3);
+        assert_eq!(TABLE.lines(&figures).lines().count(), 3);
     }
 
     #[test]

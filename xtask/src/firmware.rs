@@ -18,7 +18,8 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 pub(crate) struct Board {
     /// Its name, and its feature in `firmware/Cargo.toml`.
     pub(crate) name: &'static str,
-    target: &'static str,
+    /// What it compiles for.
+    pub(crate) target: &'static str,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
 }

@@ -1,5 +1,6 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `docs`.
 
+#[cfg(test)]
 mod arrows;
 mod book;
 mod ci;
@@ -43,14 +44,12 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// All that CI checks: format, arrows, lints, all tests, the main job and the
+    /// All that CI checks: format, lints, all tests, the main job and the
     /// generated documents, firmware, and short forms of the long runs
     Ci(Only),
     /// The long runs in full: every scene on every board, every count, experiments,
     /// mutations (takes hours)
     Nightly(Only),
-    /// Fails on a dependency against the order of the crates
-    Arrows,
     /// Builds the page for a browser into target/page/whisker.html
     Page {
         /// Also uses it in headless Chromium as a person would
@@ -96,8 +95,8 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: PathBuf,
     },
-    /// Counts the instructions of every kernel on emulated processors
-    /// (needs qemu-system-arm) and writes docs/measured/instructions.csv
+    /// Counts the instructions of every kernel on emulated processors and writes
+    /// docs/measured/instructions.csv
     Count(OfTable),
     /// Says what each stage of a tick costs, beside its goal and what others take
     /// (from docs/measured/instructions.csv and the emulated board); writes docs/measured/cost.csv and
@@ -289,7 +288,6 @@ fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Ci(Only { steps }) => ci::all(steps),
         Command::Nightly(Only { steps }) => nightly::all(steps),
-        Command::Arrows => arrows::all(),
         Command::Page { test: false } => page::build(),
         Command::Page { test: true } => page::build().and_then(|()| page::test(None)),
         Command::Python => python::test(),

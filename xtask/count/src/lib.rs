@@ -1,103 +1,69 @@
-//! Counts the instructions of every numeric kernel on emulated processors.
+//! The numeric kernels of the module, to be counted one by one on an emulated core.
 //!
-//! `cargo xtask count` builds the programs of this package for a Cortex-M4F
-//! and a Cortex-M0 (whose instruction set is also that of the Cortex-M0+), runs
-//! them in QEMU and makes the table `docs/measured/instructions.csv` of what they print.
-//! These are instructions, not cycles: what they take depends on the part, its
-//! flash and its caches.
+//! `cargo xtask count` builds these programs for a Cortex-M4F and a Cortex-M0+; the emulator
+//! (`emulator/src/counts.rs`) runs them and `docs/measured/instructions.csv` is their table. These
+//! are instructions, not cycles: what they take depends on the part, its flash and its caches.
 //!
 //! # Glossary
 //!
-//! - *kernel*: a function that a tick calls, or a tick as a whole.
-//! - *count*: the instructions of one call of a kernel: call, body and return,
-//!   its arguments being in their registers already.
+//! - *kernel*: a function that a tick calls, or all that a tick computes.
+//! - *count*: the instructions of one call of a kernel: call, body and return, its arguments being
+//!   in their registers already.
 //! - *peer*: what a user would pick instead, counted in the same way.
 //!
-//! # Where to look
-//!
-//! [`machine`] counts, `check.rs` proves that it does, [`program!`] enters the
-//! kernels of a program of `src/bin`. A number format is measured when it has a
-//! line in the build script, one in [`mod@format`] and one in [`each_format`].
-//! Configurations lie in memory, as on a board, and are bytes before that, so that the
-//! compiler knows nothing of them. Programs of more than two whiskers (`*_2x12`) are
-//! built with the feature `array`.
-//!
-//! Kernels that have a function in common stand in programs apart: the firmware
-//! calls each part once and so the compiler takes it in whole, with its
-//! constants; called from two kernels it might stay a function of its own.
+//! The kernels of a program share no function: the firmware calls each part once and so the
+//! compiler takes it in whole; called from two kernels it might stay a function of its own.
 #![cfg_attr(target_os = "none", no_std)]
 
-pub mod arguments;
-#[cfg(target_os = "none")]
-pub mod check;
-pub mod format;
-pub mod listener;
-#[cfg(target_os = "none")]
-pub mod machine;
-#[cfg(not(target_os = "none"))]
-#[path = "pc.rs"]
-pub mod machine;
+pub mod calls;
+pub mod classifier;
 pub mod module;
-pub mod pipeline;
-pub mod report;
 pub mod samples;
-#[cfg(target_os = "none")]
-pub mod start;
 
-/// Makes a program that counts kernels, each with its name, its body, the inputs and
-/// the state it starts from: `program!(R, ("name", ...), ...)` in every number format
-/// `R`, `program!(R, parts = parts(R::LONE), ...)` where they start from parts of a
-/// configuration, `program!(("format": "name", ...), ...)` where there is no choice of a
-/// format.
+use whisking::{Fix, Number};
+
+/// A number format to be measured.
+pub trait Format: Number {
+    /// Its name in the table.
+    const NAME: &'static str;
+}
+
+impl Format for f32 {
+    const NAME: &'static str = "f32";
+}
+
+impl Format for f64 {
+    const NAME: &'static str = "f64";
+}
+
+impl Format for Fix {
+    const NAME: &'static str = "fix";
+}
+
+/// Makes a program that calls this function. Once all kernels are counted the core sleeps, which
+/// the emulator sees. On a PC the kernels run, and nothing is counted.
 #[macro_export]
 macro_rules! program {
-    (
-        $(#[$only:meta])* $number:ident, $($parts:ident = $made:expr,)?
-        $(($($kernel:tt)*)),* $(,)?
-    ) => {
-        $crate::program!(@ $(#[$only])* {
-            #[inline(never)]
-            fn each<$number: $crate::format::Format>() {
-                $(let $parts = $made;)?
-                $($crate::kernel!([$number] $number::NAME, $($kernel)*);)*
-            }
-            $crate::each_format!(each);
-        });
-    };
-    ($($(#[$only:meta])* ($format:literal: $($kernel:tt)*)),* $(,)?) => {
-        $crate::program!(@ { $($(#[$only])* { $crate::kernel!([] $format, $($kernel)*) })* });
-    };
-    (@ $(#[$only:meta])* $kernels:block) => {
-        fn kernels() {
-            $(#[$only])*
-            $kernels
-        }
-
-        /// What the processor does after its start.
+    ($kernels:ident) => {
         #[cfg(target_os = "none")]
-        #[allow(
-            unsafe_code,
-            reason = "the start finds it by its name, which no other has"
-        )]
-        #[unsafe(no_mangle)]
-        extern "C" fn start() -> ! {
-            $crate::start::run(kernels)
+        #[cortex_m_rt::entry]
+        fn start() -> ! {
+            $kernels();
+            loop {
+                cortex_m::asm::wfi();
+            }
         }
 
-        /// On a PC the kernels run, and nothing is counted.
         #[cfg(not(target_os = "none"))]
         fn main() {
-            kernels();
+            $kernels();
         }
     };
 }
 
-/// Calls a function once for every number format.
-#[macro_export]
-macro_rules! each_format {
-    ($kernels:ident) => {{
-        $kernels::<f32>();
-        $kernels::<f64>();
-        $kernels::<whisking::Fix>();
-    }};
+/// A fault, which the emulator sees too.
+#[cfg(target_os = "none")]
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo) -> ! {
+    cortex_m::asm::udf()
 }

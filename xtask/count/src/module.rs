@@ -1,179 +1,68 @@
-//! A whole active module on hardware that is only memory: its sensors, motors,
-//! encoders and clock are fields, as they are registers on a board.
+//! What moves of a module, in a number format: 2 kHz, 2 whisks a second, sides coupled, RCP and
+//! CIA.
 
-use core::convert::Infallible;
+use core::hint::black_box;
 
-use embedded_hal::digital::{self, OutputPin};
-use embedded_hal::pwm::{self, SetDutyCycle};
-use firmware::{
-    AngleInput, BusError, Clock, CodeClassifier, Config, Event, FrameSource, Hardware, Module,
-    WhiskerParts,
-};
-use mlx90333::FRAME_LEN;
-use tactile::{Model, StreamClassifier};
-use whisking::Number;
-use whisking::motor::HBridge;
+use whisking::{Config, GateSettings, Integrator, Real, Settings, Start, filter, pd};
 
-use crate::listener::open_9;
-use crate::samples::frame;
+/// Ticks a second: BIOTACT's.
+const TICK_HZ: f64 = 2000.0;
 
-/// Counts of the clock between two ticks.
-const PERIOD: u32 = 45_000;
-
-/// A sensor that has a new frame in every tick.
+/// The constants of a module's kernels.
 #[derive(Debug)]
-pub struct Frames {
-    next: u32,
+pub struct Module<R: Real> {
+    /// The contact filter.
+    pub h50: filter::Config<R>,
+    /// The pattern generator.
+    pub whisking: Config<R>,
+    /// Where that starts.
+    pub start: Start<R>,
+    /// Position control.
+    pub pd: pd::Config<R>,
 }
 
-impl FrameSource for Frames {
-    #[inline]
-    fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        self.next += 1;
-        Ok(Some(*frame(self.next)))
-    }
-}
-
-/// The compare register of a PWM.
-#[derive(Debug)]
-pub struct Compare(u16);
-
-impl pwm::ErrorType for Compare {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for Compare {
-    #[inline]
-    fn max_duty_cycle(&self) -> u16 {
-        2250
-    }
-
-    #[inline]
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.0 = duty;
-        Ok(())
-    }
-}
-
-/// The output register of a pin.
-#[derive(Debug)]
-pub struct Pin(bool);
-
-impl digital::ErrorType for Pin {
-    type Error = Infallible;
-}
-
-impl OutputPin for Pin {
-    #[inline]
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        self.0 = false;
-        Ok(())
-    }
-
-    #[inline]
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        self.0 = true;
-        Ok(())
-    }
-}
-
-/// The counter of an encoder, which turns on.
-#[derive(Debug)]
-pub struct Encoder(i32);
-
-impl AngleInput for Encoder {
-    #[inline]
-    fn counts(&mut self) -> i32 {
-        self.0 += 2;
-        self.0
-    }
-}
-
-/// A counter that runs.
-#[derive(Debug)]
-pub struct Counter(u32);
-
-impl Clock for Counter {
-    #[inline]
-    fn now(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(PERIOD / 2);
-        self.0
-    }
-}
-
-/// All of these.
-pub struct Memory;
-
-impl Hardware for Memory {
-    type Source = Frames;
-    type Motor = HBridge<Compare, Pin>;
-    type Angle = Encoder;
-    type Classifier = CodeClassifier;
-    type Clock = Counter;
-}
-
-/// A module with a classifier of nine classes, and the last event that it reported.
-pub struct Whole<R: Number> {
-    module: Module<R, Memory>,
-    reported: Option<Event>,
-}
-
-impl<R: Number> Whole<R> {
-    /// A module that has not ticked yet.
+impl<R: Real> Module<R> {
+    /// So many sides with so many whiskers each.
     ///
     /// # Panics
-    /// If the build script has made another model, or another configuration, than this needs.
-    pub fn new(config: &Config<R>) -> Self {
-        let whiskers = config.head.whiskers();
-        let parts = (0..whiskers).map(|n| WhiskerParts {
-            source: Frames { next: n as u32 },
-            motor: Some((
-                HBridge::new(Compare(0), Pin(false)).with_buffered_pwm(),
-                Encoder(0),
-            )),
-        });
-        let model = Model::parse(open_9()).expect("a model");
-        let (rule, deciding) = config
-            .classifier
-            .and_then(|classifier| Some((classifier.rule?, classifier.deciding)))
-            .expect("a rule");
-        let classifier = StreamClassifier::new(model, rule, deciding, whiskers);
-        let classifier = CodeClassifier::new(classifier.expect("any model has this rule"));
-        let classifier = classifier.expect("learnt from codes");
-        let mut module = Module::new(config, parts, Some(classifier), (Counter(0), PERIOD));
-        module.arm(true);
+    /// If a constant below is out of its range.
+    pub fn new(integrator: Integrator, sides: usize, whiskers: usize) -> Self {
+        // As a board, which reads its settings, the compiler does not know them.
+        let settings = black_box(settings(integrator));
+        let psi = [[0.6, -0.8], [0.0, -1.0]];
+        let gains = [1.0; 12];
+        let gains = [&gains[..whiskers]; 2];
         Self {
-            module,
-            reported: None,
+            h50: filter::Config::new(filter::CORNER_HZ, black_box(TICK_HZ)).expect("a corner"),
+            whisking: settings.build().expect("settings in range"),
+            start: settings
+                .start(&psi[..sides], &gains[..sides])
+                .expect("a start in range"),
+            pd: black_box(PD).build(TICK_HZ).expect("gains in range"),
         }
-    }
-
-    /// One tick.
-    #[inline]
-    pub fn tick(&mut self, config: &Config<R>) {
-        let reported = &mut self.reported;
-        self.module
-            .tick(config, &mut |event| *reported = Some(event));
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::Whole;
-    use crate::format::{Format, config};
-    use crate::report::CALLS;
-
-    #[test]
-    fn what_is_counted_is_a_tick_in_which_all_is_well() {
-        fn run<R: Format>() {
-            let config = config::<R>(R::LONE);
-            let mut whole = Whole::new(&config);
-            for _ in 0..CALLS {
-                whole.tick(&config);
-                assert_eq!(whole.reported, None);
-            }
-            assert!(whole.module.contact()[0].to_f64() > 0.0);
-        }
-        crate::each_format!(run);
+fn settings(integrator: Integrator) -> Settings {
+    let gate = |gain| GateSettings { gain, tau_s: 0.125 };
+    Settings {
+        tick_hz: TICK_HZ,
+        frequency_hz: 2.0,
+        integrator,
+        coupling: true,
+        noise: 0.0,
+        rcp: Some(gate(0.7)),
+        cia: Some(gate(0.5)),
     }
 }
+
+const PD: pd::Settings = pd::Settings {
+    kp: 0.05,
+    kd: 0.001,
+    limit: 0.8,
+    slew_per_s: 400.0,
+    min_deg: 30.0,
+    max_deg: 160.0,
+    // BIOTACT's motor: 512 counts a turn, a gear of 11.
+    degrees_per_count: 360.0 / (512.0 * 11.0),
+};

@@ -1,47 +1,70 @@
-//! The parts of a tick, with the structure-preserving integrators.
+//! The parts of a tick.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
-use count::arguments::Three;
-use count::format::{Oscillators, oscillators, parts};
-use count::samples::{drives, number};
+use count::module::Module;
+use count::samples::{Three, drives, number};
+use count::{Format, kernel};
 use whisking::gate::{Cia, Gate, Rcp};
-use whisking::{filter, muscle, pd};
+use whisking::{Fix, Integrator, MAX_SIDES, filter, muscle, oscillator, pd};
+
+count::program!(parts);
 
 type Gates<'c, R> = (&'c Rcp<R>, &'c Cia<R>, Gate<R>, Gate<R>, R);
+type Oscillators<'c, R> = (
+    &'c oscillator::Config<R>,
+    oscillator::State<R>,
+    [R; MAX_SIDES],
+);
 
-count::program!(R, parts = parts::<R>(R::PAIR),
-    ("h50",
+fn parts() {
+    each::<f32>();
+    each::<Fix>();
+}
+
+#[inline(never)]
+fn each<R: Format>() {
+    let two = Module::<R>::new(Integrator::Exact, 2, 1);
+    kernel!([R] R::NAME, "h50",
         (x: R, (h50, state): &mut (&filter::Config<R>, filter::State<R>)) -> R {
             h50.process(state, x)
         },
-        number::<R>(-1.0, 1.0), (&parts.h50, filter::State::default())),
-    ("gates z and g",
-        (contact: R, (rcp, cia, z, lift, nominal): &mut Gates<R>) {
-            rcp.step(z, contact);
-            cia.step(lift, *nominal, contact);
-        },
-        number::<R>(0.0, 1.0),
-        (
-            parts.motion.whisking.rcp.as_ref().expect("RCP"),
-            parts.motion.whisking.cia.as_ref().expect("CIA"),
-            Gate::default(), Gate::default(), R::ONE,
-        )),
-    ("muscle",
+        number::<R>(-1.0, 1.0), (&two.h50, filter::State::default()));
+    kernel!([R] R::NAME, "gates z and g",
+    (contact: R, (rcp, cia, z, lift, nominal): &mut Gates<R>) {
+        rcp.step(z, contact);
+        cia.step(lift, *nominal, contact);
+    },
+    number::<R>(0.0, 1.0),
+    (
+        two.whisking.rcp.as_ref().expect("RCP"),
+        two.whisking.cia.as_ref().expect("CIA"),
+        Gate::default(), Gate::default(), R::ONE,
+    ));
+    kernel!([R] R::NAME, "muscle",
         (at: Three<R>, (config, state): &mut (&muscle::Config<R>, muscle::State<R>)) {
             let Three(gain, before, after) = at;
             config.step(state, gain, before, after);
         },
-        drives::<R>(), (&parts.motion.whisking.muscle, muscle::State::default())),
-    ("oscillators of 2 sides",
-        (_: u32, (config, state, drive): &mut Oscillators<R>) {
-            config.step(state, None);
-            *drive = config.drives(state);
-        },
-        |call| call, oscillators(&parts)),
-    ("pd",
+        drives::<R>(), (&two.whisking.muscle, muscle::State::default()));
+    kernel!([R] R::NAME, "pd",
         (setpoint: R, (config, state, counts): &mut (&pd::Config<R>, pd::State<R>, i32)) -> i16 {
             *counts += 1;
             config.step(state, setpoint, *counts, 1).q15()
         },
-        number::<R>(-0.4, 1.2), (&parts.motion.servo.pd, pd::State::default(), 0)),
-);
+        number::<R>(-0.4, 1.2), (&two.pd, pd::State::default(), 0));
+    let one = Module::<R>::new(Integrator::Exact, 1, 1);
+    oscillators("oscillators of 2 sides", &two);
+    oscillators("oscillator of 1 side", &one);
+}
+
+/// A step of the oscillators, with their drives.
+fn oscillators<R: Format>(name: &str, module: &Module<R>) {
+    let start = module.start.sides.iter();
+    let state = oscillator::State::new(start.map(|side| side.oscillator).collect());
+    kernel!([R] R::NAME, name,
+        (_: u32, (config, state, drive): &mut Oscillators<R>) {
+            config.step(state, None);
+            *drive = config.drives(state);
+        },
+        |call| call, (&module.whisking.oscillators, state, [R::ZERO; MAX_SIDES]));
+}

@@ -1,21 +1,45 @@
-//! What a tick computes, without the hardware around it: for each whisker a
+//! All that a tick computes, without the hardware around it: for each whisker a
 //! frame, two filtered channels, RCP, CIA, muscle, position control and a
 //! classifier of nine classes; for each side an oscillator and a drive.
+#![cfg_attr(target_os = "none", no_std, no_main)]
 
+use count::classifier::{classifier, push};
+use count::module::Module;
+use count::samples::frame;
+use count::{Format, kernel, model};
 use heapless::Vec;
 use mlx90333::Decoder;
-use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, State, filter, pd};
+use tactile::Sequential;
+use whisking::{Fix, Integrator, MAX_SIDES, MAX_WHISKERS, Number, Real, State, filter, pd};
 
-use crate::format::Parts;
-use crate::listener::{Listener, open_9};
-use crate::samples::frame;
+count::program!(computation);
+
+fn computation() {
+    each::<f32>();
+    each::<Fix>();
+}
+
+#[inline(never)]
+fn each<R: Format>() {
+    let (name, sides, whiskers) = if cfg!(feature = "array") {
+        ("computation of 24 whiskers", 2, 12)
+    } else {
+        ("computation of 1 whisker", 1, 1)
+    };
+    let module = Module::new(Integrator::Exact, sides, whiskers);
+    kernel!([R] R::NAME, name,
+        (call: u32, (module, pipeline): &mut (&Module<R>, Pipeline<R>)) -> u32 {
+            pipeline.tick(module, call)
+        },
+        |call| call, (&module, Pipeline::new(&module)));
+}
 
 /// One whisker's share: sensor, filters, motor and classifier.
 #[derive(Debug)]
 struct Channel<R: Real> {
     filters: [filter::State<R>; 2],
     pd: pd::State<R>,
-    listener: Listener<2>,
+    classifier: Sequential,
     counts: i32,
 }
 
@@ -24,7 +48,7 @@ impl<R: Real> Channel<R> {
         Self {
             filters: Default::default(),
             pd: pd::State::default(),
-            listener: Listener::new(open_9()),
+            classifier: classifier(model!("open9")),
             counts: 0,
         }
     }
@@ -32,7 +56,7 @@ impl<R: Real> Channel<R> {
     /// Takes the frame of a number in: what the classifier says, and the contact or
     /// `strongest`, whichever is more.
     #[inline]
-    fn listen(&mut self, h50: &filter::Config<R>, number: u32, strongest: R) -> (u32, R) {
+    fn sense(&mut self, h50: &filter::Config<R>, number: u32, strongest: R) -> (u32, R) {
         let Ok(frame) = Decoder::new().decode(frame(number)) else {
             return (1 << 31, strongest);
         };
@@ -44,13 +68,13 @@ impl<R: Real> Channel<R> {
             .into_iter()
             .fold(strongest, |most, one| one.abs().max(most));
         let codes = words.map(|word| i32::from(word.signed14()) + 8192);
-        (self.listener.push(codes), strongest)
+        (push(&mut self.classifier, codes), strongest)
     }
 }
 
 /// The whiskers of a module.
 #[derive(Debug)]
-pub struct Pipeline<R: Real> {
+struct Pipeline<R: Real> {
     state: State<R>,
     channels: Vec<Channel<R>, MAX_WHISKERS>,
     /// Duties and decisions, so that nothing is computed in vain.
@@ -59,8 +83,8 @@ pub struct Pipeline<R: Real> {
 
 impl<R: Number> Pipeline<R> {
     /// At its start.
-    pub fn new(parts: &Parts<R>) -> Self {
-        let state = State::new(&parts.motion.start, 1);
+    fn new(module: &Module<R>) -> Self {
+        let state = State::new(&module.start, 1);
         Self {
             channels: state.whiskers.iter().map(|_| Channel::new()).collect(),
             state,
@@ -70,21 +94,21 @@ impl<R: Number> Pipeline<R> {
 
     /// One tick; whisker n has frame `call` + n.
     #[inline]
-    pub fn tick(&mut self, parts: &Parts<R>, call: u32) -> u32 {
+    fn tick(&mut self, module: &Module<R>, call: u32) -> u32 {
         let mut contact = [R::ZERO; MAX_SIDES];
         let whiskers = self.channels.iter_mut().zip(&self.state.whiskers);
         for (n, (channel, whisker)) in whiskers.enumerate() {
             let Some(strongest) = contact.get_mut(usize::from(whisker.side)) else {
                 continue;
             };
-            let (said, contact) = channel.listen(&parts.h50, call + n as u32, *strongest);
+            let (said, contact) = channel.sense(&module.h50, call + n as u32, *strongest);
             self.said = self.said.wrapping_add(said);
             *strongest = contact;
         }
-        parts.motion.whisking.step(&mut self.state, &contact);
+        module.whisking.step(&mut self.state, &contact);
         for (channel, whisker) in self.channels.iter_mut().zip(&self.state.whiskers) {
             channel.counts += 2;
-            let pd = &parts.motion.servo.pd;
+            let pd = &module.pd;
             let duty = pd.step(&mut channel.pd, whisker.muscle.theta, channel.counts, 2);
             self.said = self.said.wrapping_add(duty.magnitude().into());
         }

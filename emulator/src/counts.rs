@@ -1,0 +1,113 @@
+//! The instructions of single kernels: runs the program `xtask/count`, which calls each.
+//!
+//! Counted are the call, the body and the return; a step of the core is an instruction.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use host_sim::Error;
+
+use crate::chip::{Chip, Fault, MODELS, Memory};
+use crate::core::{Core, EXCEPTION};
+use crate::memory::{Memories, Shared};
+use crate::meter::Tally;
+use crate::program::Program;
+
+/// Bytes of flash and RAM: the program's own memory map, more than a chip has.
+const FLASH_LEN: u32 = 1 << 20;
+const RAM_LEN: u32 = 1 << 18;
+/// An address of code names the instruction set in its lowest bit.
+const THUMB: u32 = 1;
+
+/// In a call the core is asked after so many instructions whether it has taken an exception.
+const CHECKED: u64 = 10_000;
+
+/// A kernel whose calls are counted.
+struct Kernel {
+    name: String,
+    body: u32,
+    calls: Tally,
+}
+
+impl Kernel {
+    /// What the program says of it, at an address.
+    fn read(at: u32, memories: &Memories) -> Result<Self, Fault> {
+        let byte = |at| {
+            let outside = || Fault::Memory(format!("{at:#010x} is not in memory"));
+            memories.get(at).ok_or_else(outside)
+        };
+        let word = |n: u32| -> Result<u32, Fault> {
+            let at = at + 4 * n;
+            let bytes = [byte(at)?, byte(at + 1)?, byte(at + 2)?, byte(at + 3)?];
+            Ok(u32::from_le_bytes(bytes))
+        };
+        let text = |at: u32, length: u32| -> Result<String, Fault> {
+            let bytes: Result<Vec<u8>, _> = (at..at + length).map(byte).collect();
+            Ok(String::from_utf8_lossy(&bytes?).into_owned())
+        };
+        let [name, format] = [text(word(0)?, word(1)?)?, text(word(2)?, word(3)?)?];
+        Ok(Self {
+            name: format!("{name},{format}"),
+            body: word(4)? & !THUMB,
+            calls: Tally::default(),
+        })
+    }
+}
+
+/// Runs `program` on the core of `board`; gives `kernel,format,mean,worst`, a line a kernel.
+///
+/// # Errors
+/// [`Error::Input`] for a board that there is not, [`Error::Work`] for a program that fails.
+pub fn count(program: &Path, board: &str) -> Result<String, Error> {
+    let mut models = MODELS.iter();
+    let model = models.find(|model| model.program == board.replace('-', "_"));
+    let model = model.ok_or_else(|| Error::Input(format!("no board {board}")))?;
+    let program = Program::load(program)?;
+    let announcement = program.symbol("count_calls")? & !THUMB;
+    let memories = Memories::flashed(program.segments(), FLASH_LEN, RAM_LEN)?;
+    let shared = Shared::new(Chip::new(model)?);
+    let mut core = Core::new(model, &memories, memories.space(&shared)?);
+    let mut kernels: Vec<Kernel> = Vec::new();
+    while !core.is_asleep() {
+        let pc = core.pc();
+        if pc == announcement {
+            kernels.push(Kernel::read(core.reg(0), &memories)?);
+        } else if let Some(kernel) = kernels.last_mut()
+            && kernel.body == pc
+        {
+            kernel.calls.add(call(&mut core)?);
+            continue;
+        }
+        core.step();
+        without_exception(&core)?;
+    }
+    let mut lines = String::new();
+    for Kernel { name, calls, .. } in &kernels {
+        // Writing to a string does not fail.
+        let _ = writeln!(lines, "{name},{:.3},{}", calls.mean(), calls.worst);
+    }
+    Ok(lines.trim_end().to_owned())
+}
+
+/// An exception never ends: it is a mistake in the program.
+fn without_exception(core: &Core) -> Result<(), Fault> {
+    if core.xpsr() & EXCEPTION == 0 {
+        return Ok(());
+    }
+    let at = core.pc();
+    Err(Fault::Program(format!("it takes an exception, {at:#010x}")))
+}
+
+/// The instructions of a call whose body begins here, the call itself among them.
+fn call(core: &mut Core) -> Result<u64, Fault> {
+    let end = core.reg(14) & !THUMB;
+    let mut instructions = 1;
+    while core.pc() != end {
+        core.step();
+        instructions += 1;
+        if instructions % CHECKED == 0 {
+            without_exception(core)?;
+        }
+    }
+    Ok(instructions)
+}
