@@ -14,8 +14,9 @@ use wire::{Command, CommandStatus, Load, WhiskerId};
 use crate::compare::{Agreement, Circumstances, compare_loaded};
 use crate::damaged;
 use crate::deployment::{Deployment, flashed_for};
-use crate::loading::{ask, load, load_watched, must, refuses};
+use crate::loading::{load, load_watched, refuses};
 use crate::program::Program;
+use crate::scenario;
 use crate::session::Session;
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
@@ -31,17 +32,6 @@ const PATIENCE_S: f64 = 6.0;
 /// Where the header of a model has its version and its length.
 const VERSION: usize = 4;
 const LENGTH: usize = 12;
-
-/// A scene without a model, the world that it is in, and what is flashed for it.
-#[derive(Debug, Clone, Copy)]
-pub struct Boards<'p> {
-    /// The scene.
-    pub scene: &'p Path,
-    /// That of the world.
-    pub world: &'p Path,
-    /// The board's program.
-    pub program: &'p Path,
-}
 
 /// A scene, what a board has of it, and that in its flash.
 struct Flashed {
@@ -75,8 +65,12 @@ struct Case<'p> {
 ///
 /// # Errors
 /// [`Error::Work`] says what did not happen.
-pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> {
-    let case = Case::new(bench, model)?;
+pub(crate) fn deploying(
+    on: &scenario::Flashed,
+    world: &Path,
+    model: &Path,
+) -> Result<Vec<String>, Error> {
+    let case = Case::new(on, world, model)?;
     let mut lines = Vec::new();
     let without = case.agree(&case.old, &case.old.flash, COMPARED_S)?;
     lines.push(agreed("without a model", without));
@@ -216,14 +210,14 @@ fn says(lines: &[String], refusal: Refusal) -> bool {
 
 /// The CRC of the configuration that a board runs by.
 fn running(session: &mut Session) -> Result<u32, Error> {
-    Ok(ask(session, Command::Scene)?.values[0].cast_unsigned())
+    Ok(session.ask(Command::Scene)?.values[0].cast_unsigned())
 }
 
 /// Stops a board that whisks, once its whisker is at rest: that is where it starts from.
 fn stop(session: &mut Session) -> Result<(), Error> {
-    ask(session, Command::Setpoint(WhiskerId::default(), 0))?;
+    session.ask(Command::Setpoint(WhiskerId::default(), 0))?;
     pass(session, TO_REST_S)?;
-    ask(session, Command::Stop)?;
+    session.ask(Command::Stop)?;
     session.tick()
 }
 
@@ -247,15 +241,15 @@ impl Flashed {
 }
 
 impl<'p> Case<'p> {
-    fn new(bench: Boards<'p>, model: &Path) -> Result<Self, Error> {
-        let path = bench.scene;
-        let old = Loaded::new(path)?.in_world(bench.world)?;
+    fn new(on: &'p scenario::Flashed, world: &Path, model: &Path) -> Result<Self, Error> {
+        let path = &on.scene;
+        let old = Loaded::new(path)?.in_world(world)?;
         let new = old.clone().with_model(model)?;
         let (_, model) = files::load_model(model)?;
-        let program = flashed_for(&old.scene, path, bench.program)?;
+        let program = flashed_for(&old.scene, path, &on.program)?;
         Ok(Self {
             path,
-            is_lean: Program::load(bench.program)?.brings_scene()?,
+            is_lean: Program::load(&on.program)?.brings_scene()?,
             old: Flashed::new(old, None, &program)?,
             new: Flashed::new(new, Some(&model), &program)?,
             program,
@@ -324,10 +318,10 @@ impl<'p> Case<'p> {
         let right = self.new.deployment.load();
         let program = self.with(&self.old.flash)?;
         let mut session = Session::of(&self.old.loaded.scene, &program)?;
-        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        session.must(Command::Load(right), CommandStatus::Armed)?;
         pass(&mut session, 0.5)?;
         let is_driven = session.drives();
-        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        session.must(Command::Load(right), CommandStatus::Armed)?;
         let mut session = self.stopped(Way::Probe)?;
         let [slot, _] = self.facts()?.flash.slots;
         let room = Load {
@@ -345,10 +339,10 @@ impl<'p> Case<'p> {
             with_model(room.model + 2),
             with_model(u16::MAX),
         ] {
-            must(&mut session, Command::Load(load), CommandStatus::OutOfRange)?;
+            session.must(Command::Load(load), CommandStatus::OutOfRange)?;
         }
-        must(&mut session, Command::Word(0, 0), CommandStatus::NotHere)?;
-        must(&mut session, Command::Restart, CommandStatus::NotHere)?;
+        session.must(Command::Word(0, 0), CommandStatus::NotHere)?;
+        session.must(Command::Restart, CommandStatus::NotHere)?;
         for (config, error) in self.wrong_configs()? {
             refuses(&mut session, &config, error)?;
         }
@@ -408,7 +402,7 @@ impl<'p> Case<'p> {
         if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
             return Err(missing(refusal.text(), &lines));
         }
-        let answer = ask(&mut session, Command::Model)?.values;
+        let answer = session.ask(Command::Model)?.values;
         if answer != [0, -i32::from(refusal.code())] || running(&mut session)? != self.new.crc()? {
             return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
         }
@@ -484,7 +478,7 @@ impl<'p> Case<'p> {
         let wrong = |error: tactile::ModelError| Error::Work(error.to_string());
         let model = ModelBuf::from_bytes(&right.model).map_err(wrong)?;
         let (lines, _) = pass(&mut session, PATIENCE_S)?;
-        let [crc, classes] = ask(&mut session, Command::Model)?.values;
+        let [crc, classes] = session.ask(Command::Model)?.values;
         let is_it = crc.cast_unsigned() == model.crc() && classes as usize == model.classes();
         let is_named = |line: &&String| {
             let mut names = model.names().chain(["unknown"]);

@@ -4,14 +4,11 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
 use emulator::campaign::{self, Ending, Plan, Shard, ShardTable};
-use emulator::compare::{Circumstances, Probe};
-use emulator::endurance;
-use emulator::{
-    compare, damage, deadlines, deploying, emulate, latency, overload, picture, registers,
-    sensor_loss, serial, starting, supply, telemetry,
-};
+use emulator::scenario::{self, Flashed, Given, Scenario};
+use emulator::{emulate, endurance, picture, registers};
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -41,46 +38,22 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+    /// Puts a board through one of the scenarios; fails if something is not as it should be
+    Scenario {
+        /// Which
+        #[arg(value_parser = scenarios())]
+        scenario: &'static Scenario,
+        #[command(flatten)]
+        given: Given,
+    },
     /// Draws what both sides do in scenes with obstacles, one below the other
     Picture {
-        /// The scene files
-        #[arg(required = true)]
-        scenes: Vec<PathBuf>,
-        /// The programs that were built for them, in the same order
-        #[arg(long, value_name = "ELF", required = true)]
-        program: Vec<PathBuf>,
+        #[command(flatten)]
+        several: Several,
         /// The SVG file to write
         #[arg(long, value_name = "FILE")]
         out: PathBuf,
     },
-    /// Runs one scene on PC and board and compares every tick
-    Compare {
-        #[command(flatten)]
-        flashed: Flashed,
-        /// Who fetches the log
-        #[arg(long, value_enum, default_value_t = Reader::Attached)]
-        probe: Reader,
-    },
-    /// Measures how the board keeps its time; fails if it misses a tick
-    Deadlines {
-        #[command(flatten)]
-        flashed: Flashed,
-        /// Over how many minutes of simulated time
-        #[arg(long, default_value_t = 10.0)]
-        minutes: f64,
-        /// Print them as a table of comma-separated values
-        #[arg(long)]
-        csv: bool,
-    },
-    /// Breaks the sensors' wires of a scene that whisks, side by side; fails if the motor of
-    /// a lost side is not switched off or stays off, or another rests
-    SensorLoss(Flashed),
-    /// Measures how long contact on one side takes to excite the other; fails if it does so
-    /// in another tick than the one that reads it
-    Latency(Flashed),
-    /// Resets the chip in every way that was not asked for; fails if a motor is driven after it
-    /// before the user button is pressed
-    Starting(Flashed),
     /// Injects faults at random into running scenes and writes a row a run
     Campaign(Campaign),
     /// Prints what drivers and emulated chips take from the chips' manuals, as the page of it
@@ -110,59 +83,34 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: PathBuf,
     },
-    /// Flips bits in the settings and in the model of a scene; fails if the motors are not
-    /// switched off, or the log does not say why
-    Damage(Flashed),
-    /// Deploys a scene with a model to a board whose scene names none: after a right one PC and
-    /// board must agree; fails if a wrong or interrupted one is not refused, or does not leave
-    /// the scene before
-    Deploying {
-        #[command(flatten)]
-        flashed: Flashed,
-        /// The scene in whose world it is
-        #[arg(long, value_name = "SCENE")]
-        world: PathBuf,
-        /// The right model
-        #[arg(long, value_name = "FILE")]
-        model: PathBuf,
-    },
-    /// Lets the supply dip and the clock stop; fails if the motor pins are not low in time, or
-    /// the next start does not say why
-    Supply(Flashed),
-    /// Has a PC talk to the board; fails if an answer is wrong, a record not that of the same
-    /// module on the PC, or telemetry takes more instructions than it may
-    Telemetry {
-        #[command(flatten)]
-        flashed: Flashed,
-        /// The program of the same scene without telemetry
-        #[arg(long, value_name = "ELF")]
-        without: PathBuf,
-    },
-    /// Talks with the board over its serial line; fails if a line, a record or an answer is
-    /// not what it should be, something is lost, or the tick takes longer for it
-    Serial {
-        #[command(flatten)]
-        flashed: Flashed,
-        /// The program of the same scene at a baud that cannot carry records
-        #[arg(long, value_name = "ELF")]
-        slow: PathBuf,
-        /// The program of the same scene without a serial port
-        #[arg(long, value_name = "ELF")]
-        without: PathBuf,
-    },
-    /// Makes ticks too long on purpose; fails if deadline counter or watchdog do not act
-    Overload(Flashed),
+}
+
+/// A scenario by its name.
+fn scenarios() -> impl TypedValueParser<Value = &'static Scenario> {
+    let name = |scenario: &Scenario| PossibleValue::new(scenario.name).help(scenario.what);
+    PossibleValuesParser::new(scenario::ALL.iter().map(name)).try_map(|name| {
+        let mut all = scenario::ALL.iter();
+        all.find(|scenario| scenario.name == name)
+            .ok_or("no such scenario")
+    })
+}
+
+/// Scenes, and the programs that were built for them.
+#[derive(Args)]
+struct Several {
+    /// The scene files
+    #[arg(required = true)]
+    scenes: Vec<PathBuf>,
+    /// The programs, in the same order; none: on the PC, where that can be done
+    #[arg(long, value_name = "ELF")]
+    program: Vec<PathBuf>,
 }
 
 /// Which runs are made, and where their rows are kept.
 #[derive(Args)]
 struct Campaign {
-    /// The scene files
-    #[arg(required = true)]
-    scenes: Vec<PathBuf>,
-    /// The programs that were built for them, in the same order; none: on the PC
-    #[arg(long, value_name = "ELF")]
-    program: Vec<PathBuf>,
+    #[command(flatten)]
+    several: Several,
     /// A run for every word of RAM of the only scene's program, of which it flips a bit
     #[arg(long, requires = "program")]
     words: bool,
@@ -220,43 +168,12 @@ fn endure(run: &Endure) -> Result<(), Error> {
     row.write(&run.out)
 }
 
-/// Who fetches the log from the board.
-#[derive(Clone, Copy, ValueEnum)]
-enum Reader {
-    /// A probe
-    Attached,
-    /// Nobody
-    Absent,
-    /// A probe that is pulled while the program waits for it
-    Pulled,
-}
-
-impl From<Reader> for Probe {
-    fn from(reader: Reader) -> Self {
-        match reader {
-            Reader::Attached => Self::Attached,
-            Reader::Absent => Self::Absent,
-            Reader::Pulled => Self::Pulled,
-        }
-    }
-}
-
-/// A scene and what is flashed for it; to a program that brings no scene with it this one is
-/// deployed.
-#[derive(Args)]
-struct Flashed {
-    /// The scene file
-    scene: PathBuf,
-    /// The program: built for it, or for any scene
-    #[arg(long, value_name = "ELF")]
-    program: PathBuf,
-}
-
 /// Makes the runs of a shard that its table does not have yet.
 fn inject(campaign: Campaign) -> Result<(), Error> {
-    let programs = campaign.program.into_iter().map(Some);
+    let Several { scenes, program } = campaign.several;
+    let programs = program.into_iter().map(Some);
     let programs = programs.chain(std::iter::repeat(None));
-    let scenes = campaign.scenes.into_iter().zip(programs).collect();
+    let scenes = scenes.into_iter().zip(programs).collect();
     let shard = Shard {
         first: campaign.first,
         end: campaign.first.saturating_add(campaign.runs),
@@ -293,21 +210,12 @@ fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<(), Error> {
     }
 }
 
-/// Deploys scenes, and tells what was seen.
-fn deploy(flashed: &Flashed, world: &Path, model: &Path) -> Result<(), Error> {
-    let bench = deploying::Boards {
-        scene: &flashed.scene,
-        world,
-        program: &flashed.program,
-    };
-    let lines = deploying::deploying(bench, model)?;
-    lines.iter().for_each(report::say);
-    Ok(())
-}
-
-fn draw(scenes: &[PathBuf], programs: &[PathBuf], out: &Path) -> Result<(), Error> {
+fn draw(Several { scenes, program }: &Several, out: &Path) -> Result<(), Error> {
     output::check(out)?;
-    let flashed = scenes.iter().zip(programs);
+    if scenes.len() != program.len() {
+        return Err(Error::Input("each scene needs its program".to_owned()));
+    }
+    let flashed = scenes.iter().zip(program);
     let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
     write_whole(out, picture::picture(&flashed)?.as_bytes())?;
     Ok(())
@@ -322,51 +230,14 @@ fn work(arguments: Arguments) -> Result<(), Error> {
                 report::say(summary);
             }
         }
-        Command::Picture {
-            scenes,
-            program,
-            out,
-        } => draw(&scenes, &program, &out)?,
-        Command::Compare {
-            flashed: Flashed { scene, program },
-            probe,
+        Command::Scenario {
+            scenario,
+            mut given,
         } => {
-            let agreed = compare::compare(
-                &scene,
-                &program,
-                Circumstances {
-                    probe: probe.into(),
-                    ..Circumstances::default()
-                },
-            )?;
-            report::say(format_args!(
-                "{}: PC and board agree to the last bit in {} ticks, {} decisions; {} bytes of stack",
-                scene.display(),
-                agreed.ticks,
-                agreed.decisions,
-                agreed.stack
-            ));
+            given.verbosity = verbosity;
+            report::say(scenario.run(&given)?.join("\n"));
         }
-        Command::Deadlines {
-            flashed: Flashed { scene, program },
-            minutes,
-            csv,
-        } => {
-            let measured = deadlines::measure(&scene, &program, minutes, verbosity)?;
-            if csv {
-                report::say(measured.csv());
-            } else {
-                report::say(&measured);
-            }
-            if measured.missed > 0 {
-                return Err(Error::Work(format!("{} ticks missed", measured.missed)));
-            }
-        }
-        Command::Deploying {
-            flashed,
-            world,
-            model,
-        } => deploy(&flashed, &world, &model)?,
+        Command::Picture { several, out } => draw(&several, &out)?,
         Command::Campaign(campaign) => inject(campaign)?,
         Command::Endure(run) => endure(&run)?,
         Command::Endurance { shards, out } => {
@@ -377,39 +248,6 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Command::Reliability { tables, out } => reliability(&tables, out.as_deref())?,
         Command::Facts { board: None } => report::say(registers::page().trim_end()),
         Command::Facts { board: Some(board) } => report::say(registers::table(&board)?.trim_end()),
-        Command::Damage(Flashed { scene, program }) => {
-            report::say(damage::damage(&scene, &program)?.join("\n"));
-        }
-        Command::Overload(Flashed { scene, program }) => {
-            report::say(overload::overload(&scene, &program)?.join("\n"));
-        }
-        Command::Starting(Flashed { scene, program }) => {
-            report::say(starting::start_again(&scene, &program)?.join("\n"));
-        }
-        Command::Telemetry {
-            flashed: Flashed { scene, program },
-            without,
-        } => report::say(telemetry::talk(&scene, &program, &without)?.join("\n")),
-        Command::Serial {
-            flashed: Flashed { scene, program },
-            slow,
-            without,
-        } => report::say(serial::talk(&scene, [&program, &slow, &without])?.join("\n")),
-        Command::Supply(Flashed { scene, program }) => {
-            report::say(supply::dip(&scene, &program)?.join("\n"));
-        }
-        Command::Latency(Flashed { scene, program }) => {
-            let measured = latency::measure(&scene, &program)?;
-            for latency in measured {
-                report::say(latency);
-            }
-            if measured.iter().any(|one| one.ticks != latency::EXPECTED) {
-                return Err(Error::Work("excitation comes in another tick".to_owned()));
-            }
-        }
-        Command::SensorLoss(Flashed { scene, program }) => {
-            report::say(sensor_loss::lose(&scene, &program)?.join("\n"));
-        }
     }
     Ok(())
 }
