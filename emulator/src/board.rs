@@ -28,7 +28,6 @@ use crate::notice::Notice;
 use crate::program::Program;
 use crate::watch::{Said, Watch};
 
-/// A sensor on its wires: host-sim's slave.
 #[derive(Debug, Default)]
 struct Wired {
     slave: Slave,
@@ -111,7 +110,6 @@ fn read(receiver: &mut Receiver, bytes: &[u8]) -> Result<Vec<Received>, Fault> {
     Ok(received)
 }
 
-/// The packets of what was received.
 pub(crate) fn packets(received: &[Received]) -> Vec<Packet> {
     let packets = received.iter().filter_map(|received| match received {
         Received::Packet(packet) => Some(*packet),
@@ -186,7 +184,6 @@ impl Board {
         self.drain()
     }
 
-    /// Resets the chip now.
     pub(crate) fn reset_now(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.was_reset(cause);
         self.machine.reset(cause)
@@ -268,12 +265,10 @@ impl Board {
         read(&mut self.line, &bytes)
     }
 
-    /// Has the other end of the serial line send bytes.
     pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
         self.machine.disturb(|chip| chip.serial_write(bytes));
     }
 
-    /// What the other end of the serial line has received since the last call.
     pub(crate) fn serial_read(&mut self) -> Vec<u8> {
         self.machine.with_chip(Chip::serial_read)
     }
@@ -283,7 +278,6 @@ impl Board {
         self.machine.with_chip(|chip| chip.signals())
     }
 
-    /// What was logged and not taken yet.
     pub(crate) fn logged(&self) -> &[u8] {
         &self.log
     }
@@ -359,7 +353,6 @@ pub(crate) struct Emulated {
 }
 
 impl Emulated {
-    /// A board before its first tick.
     pub(crate) fn new(board: Board) -> Self {
         Self {
             board,
@@ -374,7 +367,6 @@ impl Emulated {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// What has been logged since the last call.
     pub(crate) fn take_log(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.board.log)
     }

@@ -102,7 +102,6 @@ pub(crate) struct Chip {
 }
 
 impl Chip {
-    /// A chip as its supply comes.
     pub(crate) fn new(model: &'static Model) -> Result<Self, Fault> {
         let rcc = Rcc::new(model.rcc);
         let clocks = rcc.clocks()?;
@@ -154,7 +153,6 @@ impl Chip {
         Ok(())
     }
 
-    /// A cycle of the core now.
     pub(crate) const fn cycle(&self) -> Ps {
         self.clocks.core
     }
@@ -191,9 +189,6 @@ impl Chip {
 
     /// Lets everything happen that is due by `now`; `sensors` hang on the wires, the
     /// left one first. Returns what resets the chip.
-    ///
-    /// # Errors
-    /// The first fault since the last call.
     pub(crate) fn advance(
         &mut self,
         now: Ps,
@@ -256,7 +251,6 @@ impl Chip {
         self.lines[side].say_again(said)
     }
 
-    /// The clock of a side's SPI.
     fn spi_clock(&self, side: usize) -> Ps {
         self.clocks.bus(self.model.spis[side])
     }

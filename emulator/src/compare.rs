@@ -104,9 +104,6 @@ impl Pair {
 
     /// One tick of both, of which the `n`-th must be the same, with the touches of the PC
     /// numbered as on the board; how many decisions fell.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says what is not the same.
     pub(crate) fn tick(&mut self, n: u64, touch: impl Fn(u16) -> u16) -> Result<u64, Error> {
         let found = self.tick_board()?;
         self.follow(n, found, touch)
@@ -217,9 +214,6 @@ impl fmt::Display for Agreement {
 /// Contact is compared where the scene uses it: host-sim's trace shows it
 /// wherever there is an obstacle, the board computes it only for RCP, CIA or a
 /// classifier that listens during contact.
-///
-/// # Errors
-/// [`Error::Work`] names the first tick and column that differ.
 pub(crate) fn compare(
     path: &Path,
     program: &Path,

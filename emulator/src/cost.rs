@@ -30,9 +30,6 @@ pub(crate) struct Price<'p> {
 }
 
 /// Measures the tick's handler; what was found.
-///
-/// # Errors
-/// [`Error::Work`] if something takes more than it may.
 pub(crate) fn cost(scene: &Scene, prices: &[Price<'_>]) -> Result<Vec<String>, Error> {
     let mut said = Vec::new();
     for price in prices {

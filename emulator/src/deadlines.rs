@@ -14,10 +14,6 @@ use crate::meter::Tally;
 /// own duration, and measures every tick. Returns `what,mean,worst`, a line each, where what has no
 /// mean leaves it out; as a table to read, if not as `csv`. The stack is by its paint, times by the
 /// cycle model, the rest are instructions.
-///
-/// # Errors
-/// [`Error::Input`] for a scene that is wrong, [`Error::Work`] for what the
-/// board cannot go along with, a reset or a tick that is missed among it.
 pub(crate) fn measure(
     path: &Path,
     program: &Path,

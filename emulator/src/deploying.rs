@@ -7,7 +7,7 @@ use firmware::{ConfigError, Header, Part, Refusal, decode};
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use scene::Integrator;
-use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
+use tactile::ModelBuf;
 use whisking::Fix;
 use wire::{Command, CommandStatus, Load, WhiskerId};
 
@@ -28,10 +28,6 @@ const WATCHED_S: f64 = 2.0;
 const TO_REST_S: f64 = 0.3;
 /// How long one that has a model may take to decide, s.
 const PATIENCE_S: f64 = 6.0;
-
-/// Where the header of a model has its version and its length.
-const VERSION: usize = 4;
-const LENGTH: usize = 12;
 
 /// A scene, what a board has of it, and that in its flash.
 struct Flashed {
@@ -62,9 +58,6 @@ struct Case<'p> {
 /// before. What was interrupted after any word, and configurations that are wrong, must leave the
 /// scene before, and what is wrong must be refused with its reason: configurations before
 /// anything is written, too. Returns what was seen, a line each.
-///
-/// # Errors
-/// [`Error::Work`] says what did not happen.
 pub(crate) fn deploying(
     on: &scenario::Flashed,
     world: &Path,
@@ -73,9 +66,9 @@ pub(crate) fn deploying(
     let case = Case::new(on, world, model)?;
     let mut lines = Vec::new();
     let without = case.agree(&case.old, &case.old.flash, COMPARED_S)?;
-    lines.push(agreed("without a model", without));
+    lines.push(format!("without a model: {without}"));
     let with = case.agree(&case.new, &case.new.flash, COMPARED_S)?;
-    lines.push(agreed("with a model", with));
+    lines.push(format!("with a model: {with}"));
     if without.decisions != 0 || with.decisions == 0 {
         return Err(Error::Work(lines.join("\n")));
     }
@@ -99,91 +92,12 @@ pub(crate) fn deploying(
         let said = case.keeps(Way::Probe, &wrong, usize::MAX, Some(error))?;
         lines.push(format!("{said}; the scene before runs, as on the PC"));
     }
-    for (what, model, why) in wrong_models(&case.new.deployment.model, case.facts()?)? {
+    for (what, model, why) in damaged::models(&case.new.deployment.model, case.facts()?)? {
         lines.push(format!("{what}: {}", case.refuses(&model, why)?));
     }
     lines.push(case.refuses_another()?);
     lines.extend(case.decides()?);
     Ok(lines)
-}
-
-fn agreed(what: &str, of: Agreement) -> String {
-    format!(
-        "{what}: PC and board agree to the last bit in {} ticks, {} decisions",
-        of.ticks, of.decisions
-    )
-}
-
-/// What is wrong with a model, the model, and why a board must refuse it.
-type Wrong = (&'static str, Vec<u8>, Refusal);
-
-/// Models that a board must refuse.
-fn wrong_models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Error> {
-    let changed = |at: usize, by: &[u8]| {
-        let mut model = right.to_vec();
-        for (byte, other) in model.iter_mut().skip(at).zip(by) {
-            *byte ^= other;
-        }
-        model
-    };
-    let mut long = right.to_vec();
-    let [slot, _] = facts.flash.slots;
-    let length = slot.model.bytes + 4;
-    for (byte, other) in long.iter_mut().skip(LENGTH).zip(length.to_le_bytes()) {
-        *byte = other;
-    }
-    let mut contradictory = right.to_vec();
-    // Of the tables of samples none is left, and the sum is right.
-    contradictory[8] = 0;
-    let (body, sum) = contradictory.split_at_mut(right.len() - CRC_BYTES);
-    sum.copy_from_slice(&checksum(body).to_le_bytes());
-    let many = facts.max_classes + 1;
-    Ok(vec![
-        ("something else", changed(0, &[1]), Refusal::Strange),
-        ("another version", changed(VERSION, &[1]), Refusal::Version),
-        ("too long", long, Refusal::TooLong),
-        (
-            "a bit flipped",
-            changed(right.len() / 2, &[4]),
-            Refusal::Damaged,
-        ),
-        ("no table", contradictory, Refusal::Content),
-        ("too many classes", plain(many, 2)?, Refusal::Classes),
-        ("three channels", plain(2, 3)?, Refusal::Channels),
-    ])
-}
-
-/// A model of so many classes and channels, of which all are alike.
-fn plain(classes: usize, channels: usize) -> Result<Vec<u8>, Error> {
-    let names: Vec<String> = (0..classes).map(|class| format!("class {class}")).collect();
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 16_384,
-    };
-    let axis = |channel| Axis {
-        channel,
-        bins: 2,
-        low: 0,
-        high: 16_384,
-    };
-    let axes: Vec<Axis> = (0..channels).map(axis).collect();
-    let entries = vec![1_024; 2 * classes];
-    let tables: Vec<_> = axes
-        .iter()
-        .map(|axis| TableParts::of_channel(axis, &entries))
-        .collect();
-    let model = ModelBuf::new(&ModelParts {
-        names: &names,
-        block: 20,
-        channels: &vec![quantiser; channels],
-        tables: &tables,
-        floors: None,
-        touch: None,
-    });
-    let model = model.map_err(|error| Error::Work(error.to_string()))?;
-    Ok(model.as_bytes().to_vec())
 }
 
 /// Lets time pass; the lines that the board has logged, and whether a motor was driven.
@@ -516,12 +430,11 @@ impl<'p> Case<'p> {
         }
         Ok([
             format!("deployed: {by}, first {first}"),
-            agreed(
+            format!(
                 "deployed by the serial port and by a probe, the scene before after each word but \
-                 the last",
-                deployed,
+                 the last: {deployed}"
             ),
-            agreed("deployed again, cut off in the middle of the model", again),
+            format!("deployed again, cut off in the middle of the model: {again}"),
         ])
     }
 }

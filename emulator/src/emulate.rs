@@ -32,9 +32,6 @@ pub(crate) fn pwm_counts(scene: &Scene, model: &Model) -> u16 {
 
 /// A scene on the emulated board before its first tick; `classes` are those of
 /// the program's classifier.
-///
-/// # Errors
-/// [`Error::Work`] for what the board cannot go along with, a scene that it refuses among it.
 pub(crate) fn start(
     scene: &Scene,
     classes: Vec<String>,
@@ -53,9 +50,6 @@ pub(crate) fn start(
 pub(crate) const NO_SCENE: &str = "no scene: ";
 
 /// As [`start`], of a board that may have no scene, or refuse it.
-///
-/// # Errors
-/// [`Error::Work`] for what the board cannot go along with.
 pub(crate) fn start_without(
     scene: &Scene,
     classes: Vec<String>,

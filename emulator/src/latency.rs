@@ -25,10 +25,6 @@ use crate::talk::wrong;
 /// Runs the scene in `path`, which has two sides, CIA and an obstacle a side, until
 /// contact has excited the other side; then again with the obstacles exchanged. Returns how long
 /// that took.
-///
-/// # Errors
-/// [`Error::Work`] if the scene is no such one, both sides touch at once, nothing touches
-/// or nothing is excited, in the next tick or at all, or a tick goes wrong.
 pub(crate) fn measure(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let mut scene = loaded.scene;

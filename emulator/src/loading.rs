@@ -9,9 +9,6 @@ use crate::session::{PATIENCE, Session};
 
 /// Sends a configuration that the board puts aside, and must refuse for this reason; nothing is
 /// written.
-///
-/// # Errors
-/// [`Error::Work`] if it does not.
 pub(crate) fn refuses(
     session: &mut Session,
     config: &[u8],
@@ -31,17 +28,11 @@ pub(crate) fn refuses(
 
 /// Has a board whose motors are off load a scene and its model, of which only so many `words`
 /// come: then there are no more requests, and it starts again by itself.
-///
-/// # Errors
-/// [`Error::Work`] if it refuses, drives a motor meanwhile, or does not start.
 pub(crate) fn load(session: &mut Session, what: &Deployment, words: usize) -> Result<(), Error> {
     load_watched(session, what, words, |_, _| Ok(()))
 }
 
 /// The same; `watch` looks at it after each word, with the number of those that were written.
-///
-/// # Errors
-/// As [`load`], and what `watch` says.
 pub(crate) fn load_watched(
     session: &mut Session,
     what: &Deployment,

@@ -214,7 +214,6 @@ impl Memories {
         Ok(space)
     }
 
-    /// Bytes of flash.
     pub(crate) const fn flash_len(&self) -> u32 {
         self.flash_len
     }
@@ -225,7 +224,6 @@ impl Memories {
         self.ram.read_at(offset, bytes).map_err(refused).map(drop)
     }
 
-    /// A word of RAM.
     pub(crate) fn word(&self, address: u32) -> Result<u32, Fault> {
         let mut bytes = [0; 4];
         self.read(address, &mut bytes)?;
@@ -245,7 +243,6 @@ impl Memories {
         done.map_err(refused).map(drop)
     }
 
-    /// Erases flash.
     pub(crate) fn erase(&self, place: Range<u32>) -> Result<(), Fault> {
         let ones = vec![ERASED; place.len()];
         let offset = place.start - FLASH;
@@ -266,7 +263,6 @@ impl Memories {
             .map(drop)
     }
 
-    /// Bytes of flash.
     pub(crate) fn flashed_bytes(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
         let outside = || Fault::Memory(format!("{address:#010x} is not in flash"));
         let offset = address.checked_sub(FLASH).ok_or_else(outside)?;

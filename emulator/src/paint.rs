@@ -18,7 +18,6 @@ pub(crate) struct Stack {
 }
 
 impl Stack {
-    /// Of `program`.
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         Ok(Self {
             end: program.symbol("_stack_end")?,
@@ -27,9 +26,6 @@ impl Stack {
     }
 
     /// The most bytes it has held since the reset.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if it was not painted or ran over its end.
     pub(crate) fn used(self, memories: &Memories) -> Result<u32, Fault> {
         if memories.word(self.end)? != PAINT {
             let what = "the stack was not painted, or ran over its end";

@@ -68,7 +68,6 @@ impl Given {
     }
 }
 
-/// What is done with a board.
 enum What {
     /// Steps on one board, or each case on its own.
     Steps(fn(&Loaded, &Program) -> Result<Vec<Case>, Error>),

@@ -28,9 +28,6 @@ const MORE: f64 = 2.0;
 
 /// Talks with a board that runs the scene in `path` by the program that has its serial port,
 /// one with [`SLOW_BAUD`] and one without. Returns what was found.
-///
-/// # Errors
-/// [`Error::Work`] says what is not as it should be.
 pub(crate) fn talk(
     path: &Path,
     [program, slow, without]: [&Path; 3],
@@ -69,7 +66,6 @@ fn write(talk: &mut Talk, bytes: &[u8], ticks: u32) -> Result<Vec<String>, Error
     Ok(new.filter(is_reply).cloned().collect())
 }
 
-/// Lines must be answered so.
 fn exchange(talk: &mut Talk, exchanges: &[(&str, &str)]) -> Result<(), Error> {
     for (line, expected) in exchanges {
         let replies = say(talk, line)?;

@@ -67,9 +67,6 @@ impl Session {
     }
 
     /// A board that runs `scene`, and says its classes by their names.
-    ///
-    /// # Errors
-    /// As [`start`].
     pub(crate) fn running(
         scene: &Scene,
         classes: Vec<String>,
@@ -107,7 +104,6 @@ impl Session {
         &mut self.board_mut().machine
     }
 
-    /// A tick, ps.
     pub(crate) fn period(&self) -> Ps {
         1_000_000_000_000 / Ps::from(self.tick_hz)
     }
@@ -128,13 +124,11 @@ impl Session {
         duties.into_iter().take(self.sides).map(share).collect()
     }
 
-    /// Whether a motor is driven.
     pub(crate) fn drives(&mut self) -> bool {
         let duties = self.machine().with_chip(|chip| chip.motor_duties());
         duties.iter().any(|(on, _)| *on > 0)
     }
 
-    /// Whether all are.
     pub(crate) fn drives_all(&mut self) -> bool {
         self.efforts().iter().all(|effort| *effort > 0.0)
     }
@@ -205,7 +199,6 @@ impl Session {
         Err(Error::Work(format!("{command:?}: no room for it")))
     }
 
-    /// Asks for something, and waits for the answer.
     pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         let TaggedCommand { tag, .. } = self.send(command)?;
         for _ in 0..PATIENCE {

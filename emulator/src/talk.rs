@@ -115,17 +115,32 @@ impl Talk {
         wrong(format!("{command:?}: no answer"))
     }
 
-    /// The PC makes the ticks that the board was ahead, and what was asked for in them: each tick
-    /// must be the same, to the last bit. Returns what it has sent.
+    /// The PC makes the ticks that the board was ahead, and what was asked for in them; what it
+    /// has sent.
     pub(crate) fn follow(&mut self) -> Result<Vec<Packet>, Error> {
+        self.follow_by(|pair, _, _| {
+            pair.host.tick();
+            Ok(())
+        })
+    }
+
+    /// The same, where each tick must be as on the board, to the last bit.
+    pub(crate) fn follow_exactly(&mut self) -> Result<Vec<Packet>, Error> {
+        self.follow_by(|pair, n, seen| pair.follow(n, seen, |touch| touch).map(drop))
+    }
+
+    fn follow_by(
+        &mut self,
+        tick: impl Fn(&mut Pair, u64, Seen) -> Result<(), Error>,
+    ) -> Result<Vec<Packet>, Error> {
         let mut sent = Vec::new();
         while let Some(seen) = self.ahead.pop_front() {
-            let tick = self.ticks - self.ahead.len() as u32 - 1;
+            let made = self.ticks - self.ahead.len() as u32 - 1;
             let module = self.pair.host.module_mut();
-            for (_, request) in self.requests.iter().filter(|(at, _)| *at == tick) {
+            for (_, request) in self.requests.iter().filter(|(at, _)| *at == made) {
                 module.request(*request);
             }
-            self.pair.follow((tick + 1).into(), seen, |touch| touch)?;
+            tick(&mut self.pair, (made + 1).into(), seen)?;
             sent.extend(self.pair.host.module_mut().take_packets());
         }
         Ok(sent)

@@ -36,9 +36,6 @@ const ONE: i32 = 1 << 24;
 
 /// Talks with the board that runs the scene in `path`, once with a program that has
 /// telemetry and once `without`. Returns what was found.
-///
-/// # Errors
-/// [`Error::Work`] says what is not as it should be.
 pub(crate) fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let mut said = converse(path, program)?;
     said.extend(tune(path, program)?);

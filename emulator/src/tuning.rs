@@ -27,9 +27,6 @@ const PATIENCE: u32 = 20;
 /// Has the board in the middle of the scene in `path` go on by another configuration, sent word
 /// by word: from the tick that takes it over on it must do what the PC does by the same, to the
 /// last bit, and miss no tick. What is refused must change nothing. Returns what was found.
-///
-/// # Errors
-/// [`Error::Work`] says what was otherwise.
 pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, false);
@@ -74,7 +71,7 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let took = answer.sequence - before;
     talk.pass(2 * part)?;
     runs_by(&mut talk, &on_board)?;
-    talk.follow()?;
+    talk.follow_exactly()?;
     let missed = talk.pair.target.board_mut().missed()?;
     if missed != 0 {
         return wrong(format!("{missed} ticks missed"));

@@ -34,9 +34,6 @@ pub(crate) enum Upset {
 
 impl Upset {
     /// Lets it happen now; for how long the core is held.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] where there is no RAM.
     pub(crate) fn happen(self, core: &Core, memories: &Memories) -> Result<Ps, Fault> {
         match self {
             Self::Held(time) => return Ok(time),

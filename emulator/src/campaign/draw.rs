@@ -33,7 +33,6 @@ pub(super) struct Has {
     pub(super) tick_hz: u32,
 }
 
-/// The random numbers of a run.
 pub(super) fn random(run: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(run)
 }

@@ -1,27 +1,23 @@
 //! A scene as a board's program on its emulated chip, of which bits can be inverted.
 
 use host_sim::Error;
-use host_sim::bus::Slave;
 use host_sim::loaded::Loaded;
-use host_sim::motor::SimMotor;
 
-use super::subject::{Seen, Subject, number, seen};
+use super::subject::{Seen, number, seen};
 use super::words::{STACK, Words};
 use crate::chip::Fault;
 use crate::program::Program;
 use crate::session::Session;
 use crate::upset::{MIDDLE, REGISTERS, Upset};
 
-/// A scene on an emulated board.
 pub(super) struct OnBoard<'p> {
-    session: Session,
+    pub(super) session: Session,
     words: &'p Words,
-    changed: Option<String>,
+    /// The word or register that was changed.
+    pub(super) changed: Option<String>,
 }
 
 impl<'p> OnBoard<'p> {
-    /// # Errors
-    /// As [`Session::running`].
     pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
         let mut session = Session::running(&loaded.scene, loaded.classes()?, program)?;
         session.bear_resets(true);
@@ -45,8 +41,8 @@ const fn parts(detail: u64) -> [u32; 4] {
     ]
 }
 
-impl Subject for OnBoard<'_> {
-    fn tick(&mut self) -> Result<Seen, Fault> {
+impl OnBoard<'_> {
+    pub(super) fn tick(&mut self) -> Result<Seen, Fault> {
         self.session.pass_tick()?;
         let mut seen = seen(&self.session.run, 1);
         let board = self.session.board_mut();
@@ -65,15 +61,8 @@ impl Subject for OnBoard<'_> {
         Ok(seen)
     }
 
-    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
-        self.session.run.motor_mut(whisker)
-    }
-
-    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
-        self.session.run.slave_mut(whisker)
-    }
-
-    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
+    /// Inverts a bit of RAM, between two ticks or within the next.
+    pub(super) fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
         let (word, name) = self.words.pick(detail as u32);
         let [bit, byte, within, instruction] = parts(detail);
         let (address, bits) = (word + byte % 4, 1_u8 << (bit % 8));
@@ -96,7 +85,8 @@ impl Subject for OnBoard<'_> {
         Ok(())
     }
 
-    fn flip_core(&mut self, detail: u64) {
+    /// Inverts a bit of a register of the core within the next tick.
+    pub(super) fn flip_core(&mut self, detail: u64) {
         let [bit, register, _, instruction] = parts(detail);
         let register = register % REGISTERS.len() as u32;
         let name = REGISTERS
@@ -118,25 +108,13 @@ impl Subject for OnBoard<'_> {
         self.changed = Some(format!("{name} bit {bit}"));
     }
 
-    fn flip_register(&mut self, detail: u64) -> Result<(), Fault> {
+    /// Inverts a bit of a peripheral's register.
+    pub(super) fn flip_register(&mut self, detail: u64) {
         self.changed = self.session.machine().with_chip(|chip| chip.flip(detail));
-        Ok(())
     }
 
-    fn stop_dma(&mut self) -> Result<(), Fault> {
-        self.session
-            .machine()
-            .with_chip(crate::chip::Chip::stop_dma);
-        Ok(())
-    }
-
-    fn stop_clock(&mut self) -> Result<(), Fault> {
-        let machine = self.session.machine();
-        machine.disturb(|chip| chip.stop_clock(true))?;
-        Ok(())
-    }
-
-    fn hold(&mut self, detail: u64) {
+    /// Holds the core within the next tick.
+    pub(super) fn hold(&mut self, detail: u64) {
         // From a tenth of a tick to ten ticks, which the watchdog bears.
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
         let time = share * 1e12 / f64::from(self.session.tick_hz);
@@ -144,11 +122,8 @@ impl Subject for OnBoard<'_> {
         machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
     }
 
-    fn changed(&self) -> Option<String> {
-        self.changed.clone()
-    }
-
-    fn complaints(&mut self) -> Vec<String> {
+    /// Errors and warnings of the log since the last call.
+    pub(super) fn complaints(&mut self) -> Vec<String> {
         let lines = self.session.log().into_iter();
         lines
             .filter(|line| line.contains("ERROR") || line.contains("WARN"))

@@ -59,7 +59,6 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Ending and reason.
     pub(super) fn verdict(&self) -> (Ending, String) {
         if let Some((tick, harm)) = &self.harm {
             return (Ending::Harmful, format!("{harm}, tick {tick}"));

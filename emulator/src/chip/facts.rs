@@ -29,7 +29,6 @@ pub(crate) enum FactKind {
     Bits,
 }
 
-/// A fact.
 #[derive(Debug, Clone)]
 pub(crate) struct Fact {
     pub(crate) kind: FactKind,
@@ -106,7 +105,6 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
     }
 }
 
-/// All facts of a chip.
 pub(crate) fn facts(model: &Model) -> Vec<Fact> {
     let mut facts = vec![
         fact(FactKind::Chip, "flash", "", [model.flash, 0]),

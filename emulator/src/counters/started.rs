@@ -125,9 +125,6 @@ impl Started {
     }
 
     /// How many have wrapped.
-    ///
-    /// # Errors
-    /// What those count that have not.
     pub(crate) fn wrapped(&self) -> Result<usize, String> {
         let left = self.seen.iter().filter(|seen| !seen.is_beyond);
         let left: Vec<&str> = left.map(|seen| seen.counter.what).collect();

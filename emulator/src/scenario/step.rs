@@ -7,7 +7,7 @@ use host_sim::Error;
 use host_sim::bus::WireFault;
 use mlx90333::Faults;
 
-use crate::chip::{Chip, Ps, ResetCause, SIDE_NAMES};
+use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::session::Session;
 use crate::upset::{MIDDLE, Upset};
 
@@ -22,7 +22,6 @@ const DRIVEN: f64 = 0.5;
 /// How far a whisker may run on without its motor, degrees.
 const RUN_ON_DEG: f64 = 60.0;
 
-/// A step of a scenario.
 pub(super) enum Step {
     /// So much of the scene passes, ms.
     Pass(u32),
@@ -40,29 +39,17 @@ pub(super) enum Step {
     Upset(Upset),
     /// The user button is held down so long, ms.
     Press(u32),
+    /// Something is done to the board from outside.
+    Do(fn(&mut Session) -> Result<(), Fault>),
     /// The supply changes, mV.
     Supply(u32),
-    /// The clock from outside stops, or is there again; whether the chip runs by it.
-    Clock { stops: bool, is_used: bool },
-    /// The brown-out reset gets its highest level; whether the chip has levels.
-    BrownOut { is_there: bool },
-    /// The non-maskable interrupt comes.
-    Nmi,
-    /// The chip is reset.
-    Reset(ResetCause),
     /// A bit of memory is inverted.
     Flip { address: u32, bit: u32 },
     /// This befalls the wires of these sides' sensors, and they say this of themselves.
     Sensors(Vec<usize>, Option<WireFault>, Faults),
 
-    /// No motor is driven within this time, of which the text says since what.
-    LowWithin(Ps, String),
-    /// The chip is reset within this time, for this cause.
-    ResetWithin(Ps, ResetCause),
-    /// The last reset had this cause.
-    WasReset(Option<ResetCause>),
-    /// The module has missed so many ticks.
-    Missed(u32),
+    /// So it is now, or becomes within this time.
+    Within(Ps, &'static str, fn(&mut Session) -> Result<bool, Fault>),
     /// The first line of health: the longest tick, us, and ticks missed.
     Health { us: Range<f64>, missed: u32 },
     /// There is no contact on these sides.
@@ -107,9 +94,6 @@ struct Runner {
 }
 
 /// Runs a case on a board before its first tick. Returns what was seen.
-///
-/// # Errors
-/// [`Error::Work`] says what did not happen.
 pub(super) fn run(mut session: Session, case: &Case) -> Result<Vec<String>, Error> {
     session.run.module_mut().bears_resets = case.may_reset;
     let (log, said) = (Vec::new(), Vec::new());
@@ -136,20 +120,8 @@ impl Runner {
             Step::UntilDriven { in_tick } => return self.until_driven(*in_tick),
             Step::Upset(upset) => session.machine().upset_next_tick(MIDDLE, *upset),
             Step::Press(ms) => return self.press(*ms),
+            Step::Do(act) => act(session)?,
             Step::Supply(mv) => _ = session.machine().set_supply(*mv)?,
-            Step::Clock { stops, is_used } => {
-                let found = session.machine().disturb(|chip| chip.stop_clock(*stops))?;
-                if *stops && found != *is_used {
-                    return wrong("another clock than expected".to_owned());
-                }
-            }
-            Step::BrownOut { is_there } => {
-                if session.machine().disturb(Chip::set_brown_out) != *is_there {
-                    return wrong("another brown-out reset than expected".to_owned());
-                }
-            }
-            Step::Nmi => session.machine().raise_nmi(),
-            Step::Reset(cause) => session.board_mut().reset_now(*cause)?,
             Step::Flip { address, bit } => {
                 session.machine().memories.flip(*address, 1 << bit)?;
             }
@@ -162,28 +134,7 @@ impl Runner {
                     slave.set_error_word(*word);
                 }
             }
-            Step::LowWithin(time, what) => {
-                let us = self.within(*time, |session| !session.drives())?;
-                self.said.push(format!("{what}: pins low within {us} us"));
-            }
-            Step::ResetWithin(time, cause) => {
-                let us = self.within(*time, |session| {
-                    session.board_mut().reset.take() == Some(*cause)
-                })?;
-                self.said.push(format!("- and reset within {us} us more"));
-            }
-            Step::WasReset(expected) => {
-                let found = session.board_mut().reset.take();
-                if found != *expected {
-                    return wrong(format!("reset by {found:?}, not {expected:?}"));
-                }
-            }
-            Step::Missed(expected) => {
-                let found = session.board_mut().missed()?;
-                if found != *expected {
-                    return wrong(format!("{expected} ticks were lost, {found} counted"));
-                }
-            }
+            Step::Within(time, what, is_so) => return self.within(*time, what, *is_so),
             Step::Health { us, missed } => return self.health(us, *missed),
             Step::NoContact(sides) => {
                 let contact = session.run.row().contact;
@@ -289,16 +240,22 @@ impl Runner {
         Ok(())
     }
 
-    /// Waits until something has happened; how long it took, us.
-    fn within(&mut self, most: Ps, has: impl Fn(&mut Session) -> bool) -> Result<Ps, Error> {
+    fn within(
+        &mut self,
+        most: Ps,
+        what: &str,
+        is_so: fn(&mut Session) -> Result<bool, Fault>,
+    ) -> Result<(), Error> {
         let begun = self.session.machine().now;
-        while !has(&mut self.session) {
-            if self.session.machine().now - begun > most {
-                return wrong(format!("nothing within {} us", most / US));
+        while !is_so(&mut self.session)? {
+            if self.session.machine().now - begun >= most {
+                return wrong(format!("not within {} us: {what}", most / US));
             }
             self.session.board_mut().wait(LOOK)?;
         }
-        Ok((self.session.machine().now - begun).div_ceil(US))
+        let us = (self.session.machine().now - begun).div_ceil(US);
+        self.said.push(format!("{what}: within {us} us"));
+        Ok(())
     }
 
     /// The line of the log that says `text`.

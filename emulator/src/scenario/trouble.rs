@@ -1,6 +1,8 @@
 //! Boards in trouble: does the module notice, are its motors off in time, does it say why, and
 //! does it carry on?
 
+use std::iter;
+
 use firmware::BoardCode;
 use firmware::boards::BoardFacts;
 use host_sim::Error;
@@ -9,13 +11,14 @@ use mlx90333::Faults;
 use scene::{OnFault, Scene};
 
 use super::step::Step::{
-    BrownOut, Clock, Flip, Forget, Hang, Health, LowWithin, Missed, Move, Nmi, NoContact, Pass,
-    Press, Reset, ResetWithin, SaysTimes, Sensors, Stand, Supply, UntilDriven, Upset, WasReset,
+    Do, Flip, Forget, Hang, Health, Move, NoContact, Pass, Press, SaysTimes, Sensors, Stand,
+    Supply, UntilDriven, Upset, Within,
 };
 use super::step::{Case, MS, Step, US, says, whisk};
-use crate::chip::{Fault, Ps, ResetCause, SIDE_NAMES, WELL_MV};
+use crate::chip::{Chip, Fault, Ps, ResetCause, SIDE_NAMES, WELL_MV};
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
+use crate::session::Session;
 use crate::upset::Upset::{Astray, Held, NoStack};
 
 /// Longer than the watchdog bears.
@@ -28,11 +31,11 @@ const CRASH_LOW: Ps = 20 * US;
 const LOW: Ps = 50 * US;
 
 /// A case in which the chip may be reset.
-fn case(what: impl Into<String>, steps: Vec<Step>) -> Case {
+fn case(what: &str, steps: impl IntoIterator<Item = Step>) -> Case {
     Case {
-        what: what.into(),
+        what: what.to_owned(),
         may_reset: true,
-        steps,
+        steps: steps.into_iter().collect(),
     }
 }
 
@@ -50,10 +53,14 @@ pub(super) fn overload(scene: &Scene) -> Vec<Case> {
     let held_us = 1e6 / f64::from(scene.tick_hz) * 2.25;
     let steps = vec![
         Pass(100),
-        Missed(0),
+        Within(0, "no tick is missed", |board| {
+            Ok(board.board_mut().missed()? == 0)
+        }),
         Upset(Held(held)),
         Pass(1_000),
-        Missed(1),
+        Within(0, "one is missed", |board| {
+            Ok(board.board_mut().missed()? == 1)
+        }),
         Health {
             us: held_us..held_us + TICK_US,
             missed: 1,
@@ -62,7 +69,9 @@ pub(super) fn overload(scene: &Scene) -> Vec<Case> {
         Forget,
         BITES,
         Pass(1_100),
-        WasReset(Some(ResetCause::Watchdog)),
+        Within(0, "the watchdog bites", |board| {
+            Ok(board.board_mut().reset.take() == Some(ResetCause::Watchdog))
+        }),
         says(" watchdog 2 52"),
         Health {
             us: 0.0..f64::INFINITY,
@@ -111,7 +120,7 @@ pub(super) fn starting(scene: &Scene) -> Vec<Case> {
     steps.extend((3..6).flat_map(|start| crash(Astray, 49, start)));
     steps.extend([
         Forget,
-        Reset(ResetCause::Pin),
+        Do(|board| board.board_mut().reset_now(ResetCause::Pin)),
         rest(100),
         says("not-armed 59 "),
     ]);
@@ -154,90 +163,103 @@ pub(super) fn supply(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         let steps = [
             Stand(DIP),
             says(format!("fault board {fault} ")),
-            WasReset(None),
-            Reset(ResetCause::Watchdog),
+            Within(0, "no reset yet", |board| {
+                Ok(board.board_mut().reset.is_none())
+            }),
+            Do(|board| board.board_mut().reset_now(ResetCause::Watchdog)),
         ];
         steps.into_iter().chain(refuses("watchdog", fault))
     };
-    let begin = |in_tick| vec![whisk(250), UntilDriven { in_tick }];
-    let stops = |is_used| Clock {
-        stops: true,
-        is_used,
-    };
+    let begin = |in_tick| [whisk(250), UntilDriven { in_tick }].into_iter();
+    let low = |what| Within(LOW, what, |board| Ok(!board.drives()));
+    let software =
+        |board: &mut Session| Ok(board.board_mut().reset.take() == Some(ResetCause::Software));
 
     let mut cases = Vec::new();
     for (in_tick, what) in [
-        (false, "the supply falls in idle"),
-        (true, "the supply falls in a tick"),
+        (false, "pins low as the supply falls in idle"),
+        (true, "pins low as the supply falls in a tick"),
     ] {
-        let mut steps = begin(in_tick);
-        steps.extend([
+        let falls = [
             Supply(LOW_MV),
-            LowWithin(LOW, what.to_owned()),
-            // Which takes it back to its own clock.
-            ResetWithin(LOW, ResetCause::Software),
+            low(what),
+            Within(LOW, "reset, and so on its own clock", software),
             Supply(LOWER_MV),
             Stand(DIP),
             says("waiting for the supply"),
             Supply(WELL_MV),
-        ]);
-        steps.extend(refuses("software", 58));
+        ];
+        let steps = begin(in_tick).chain(falls).chain(refuses("software", 58));
         cases.push(case(what, steps));
     }
-
-    let mut steps = begin(false);
-    steps.extend([
+    let goes = [
         Supply(GONE_MV),
         Stand(DIP),
         Supply(LOW_MV),
         Stand(DIP),
         says("waiting for the supply"),
         Supply(WELL_MV),
-    ]);
-    steps.extend(refuses("power-up", 53));
+    ];
+    let steps = begin(false).chain(goes).chain(refuses("power-up", 53));
     cases.push(case("the supply goes, and comes back slowly", steps));
 
-    let is_there = facts.code != BoardCode::NucleoF103rb;
-    let mut steps = vec![whisk(250)];
-    if is_there {
-        steps.extend([
-            says(TOO_LOW),
-            BrownOut { is_there },
-            UntilDriven { in_tick: true },
-            Supply(BROWN_MV),
-            Stand(DIP),
-            Forget,
-            Supply(WELL_MV),
-        ]);
-        steps.extend(refuses("brown-out", 53));
+    let highest = |board: &mut Session| Ok(board.machine().disturb(Chip::set_brown_out));
+    let browns_out = [
+        says(TOO_LOW),
+        Within(0, "the brown-out reset at its highest level", highest),
+        UntilDriven { in_tick: true },
+        Supply(BROWN_MV),
+        Stand(DIP),
+        Forget,
+        Supply(WELL_MV),
+    ];
+    let steps: Vec<Step> = if facts.code == BoardCode::NucleoF103rb {
+        vec![Within(0, "no brown-out reset", |board| {
+            Ok(!board.machine().disturb(Chip::set_brown_out))
+        })]
     } else {
-        steps.push(BrownOut { is_there });
-    }
-    steps.push(SaysTimes(0, TOO_LOW.to_owned()));
+        browns_out
+            .into_iter()
+            .chain(refuses("brown-out", 53))
+            .collect()
+    };
+    let silent = SaysTimes(0, TOO_LOW.to_owned());
+    let steps = iter::once(whisk(250)).chain(steps).chain([silent]);
     cases.push(case("the supply falls below the brown-out level", steps));
 
-    // The G071 runs by its own oscillator.
-    let is_used = facts.code != BoardCode::NucleoG071rb;
-    let mut steps = begin(true);
-    steps.push(stops(is_used));
-    let what = "the clock stops in a tick";
-    if is_used {
-        steps.push(LowWithin(LOW, what.to_owned()));
-        steps.push(Clock {
-            stops: false,
-            is_used,
-        });
-        steps.extend(dies(50));
+    let what = "pins low as the clock stops in a tick";
+    let stops = |board: &mut Session| board.machine().disturb(|chip| chip.stop_clock(true));
+    let stopped = [
+        Within(0, "the clock from outside stops", stops),
+        low(what),
+        Do(|board| {
+            board
+                .machine()
+                .disturb(|chip| chip.stop_clock(false))
+                .map(drop)
+        }),
+    ];
+    let steps: Vec<Step> = if facts.code == BoardCode::NucleoG071rb {
+        let unused =
+            |board: &mut Session| Ok(!board.machine().disturb(|chip| chip.stop_clock(true))?);
+        vec![
+            Within(0, "no clock from outside is needed", unused),
+            whisk(250),
+        ]
     } else {
-        steps.push(whisk(250));
-    }
-    cases.push(case(what, steps));
+        stopped.into_iter().chain(dies(50)).collect()
+    };
+    cases.push(case(what, begin(true).chain(steps)));
 
-    let what = "a non-maskable interrupt without a cause";
-    let mut steps = begin(true);
-    steps.extend([Nmi, LowWithin(LOW, what.to_owned())]);
-    steps.extend(dies(51));
-    cases.push(case(what, steps));
+    let what = "pins low after a non-maskable interrupt without a cause";
+    let comes = Do(|board| {
+        board.machine().raise_nmi();
+        Ok(())
+    });
+    cases.push(case(
+        what,
+        begin(true).chain([comes, low(what)]).chain(dies(51)),
+    ));
     cases
 }
 
