@@ -65,6 +65,7 @@ const fn word(kind: FactKind) -> &'static str {
         FactKind::Pin => "pin",
         FactKind::Request => "request",
         FactKind::Bits => "bits",
+        FactKind::Kind => "kind",
     }
 }
 
