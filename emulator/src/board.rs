@@ -22,7 +22,7 @@ use mlx90333::FRAME_LEN;
 use scene::Scene;
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
-use crate::machine::{Machine, Observer, Stop};
+use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
 use crate::program::Program;
@@ -70,7 +70,8 @@ impl SensorEnd for Wired {
     }
 }
 
-/// The emulated board and what hangs on it.
+/// The emulated board and what hangs on it, as host-sim's runs see it. What goes wrong is kept for
+/// [`Board::check`]; after that it stands still.
 #[derive(Debug)]
 pub(crate) struct Board {
     pub(crate) machine: Machine,
@@ -95,6 +96,11 @@ pub(crate) struct Board {
     pub(crate) is_late: bool,
     /// A tick has ended, and the world has moved on since.
     has_ticked: bool,
+    /// How the ticks have kept their time.
+    pub(crate) meter: Meter,
+    /// Whether a reset is no fault.
+    pub(crate) bears_resets: bool,
+    fault: Option<Fault>,
 }
 
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
@@ -142,6 +148,9 @@ impl Board {
             world_waits: None,
             is_late: false,
             has_ticked: false,
+            meter: Meter::default(),
+            bears_resets: false,
+            fault: None,
         };
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
@@ -157,7 +166,7 @@ impl Board {
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.
-    pub(crate) fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
+    fn pass_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
         if std::mem::take(&mut self.has_ticked) {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
@@ -168,7 +177,9 @@ impl Board {
         }
         let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
-            let stop = self.machine.run(limit, &mut self.sensors, observer)?;
+            let stop = self
+                .machine
+                .run(limit, &mut self.sensors, &mut self.meter)?;
             self.is_late = stop == Stop::Time;
             match stop {
                 Stop::Tick => break,
@@ -251,7 +262,6 @@ impl Board {
         Ok(sent == bytes.len())
     }
 
-    /// Fetches what the program has sent to a PC.
     pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.packets(memories)?;
@@ -338,29 +348,6 @@ impl Board {
             }
         }
     }
-}
-
-/// The board as host-sim's runs see it. What goes wrong is kept for
-/// [`Emulated::check`]; after that the board stands still.
-#[derive(Debug)]
-pub(crate) struct Emulated {
-    pub(crate) board: Board,
-    /// How the ticks have kept their time.
-    pub(crate) meter: Meter,
-    /// Whether a reset is no fault.
-    pub(crate) bears_resets: bool,
-    fault: Option<Fault>,
-}
-
-impl Emulated {
-    pub(crate) fn new(board: Board) -> Self {
-        Self {
-            board,
-            meter: Meter::default(),
-            bears_resets: false,
-            fault: None,
-        }
-    }
 
     /// Fails with the fault that has stopped the board; a reset is one too.
     pub(crate) fn check(&self) -> Result<(), Fault> {
@@ -368,7 +355,7 @@ impl Emulated {
     }
 
     pub(crate) fn take_log(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.board.log)
+        std::mem::take(&mut self.log)
     }
 
     fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {
@@ -382,39 +369,35 @@ impl Emulated {
     }
 
     fn run_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
-        self.board.tick(&mut self.meter)?;
-        let board = &mut self.board;
-        if let Some(cause) = board.reset
+        self.pass_tick()?;
+        if let Some(cause) = self.reset
             && !self.bears_resets
         {
             return Err(Fault::Reset(cause));
         }
-        let Machine { rtt, memories, .. } = &board.machine;
+        let Machine { rtt, memories, .. } = &self.machine;
         self.meter.logged(rtt.log().writer(memories)?);
-        for (place, said) in board.watch.said(&board.machine.memories)? {
+        for (place, said) in self.watch.said(memories)? {
             match said {
                 Said::Decision(decision) => events.push(Event::Decision(place, decision)),
-                Said::Notice(notice) => board.notices.push((place, notice)),
+                Said::Notice(notice) => self.notices.push((place, notice)),
             }
         }
         Ok(())
     }
 }
 
-impl Bench for Emulated {
+impl Bench for Board {
     fn tick(&mut self, events: &mut Vec<Event>) {
-        self.attempt(|emulated| emulated.run_tick(events));
+        self.attempt(|board| board.run_tick(events));
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
-        self.attempt(|emulated| {
-            let board = &emulated.board;
-            board.watch.look(&board.machine.memories, snapshot)
-        });
+        self.attempt(|board| board.watch.look(&board.machine.memories, snapshot));
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let sensor = self.board.sensors.get_mut(n)?;
+        let sensor = self.sensors.get_mut(n)?;
         Some(&mut sensor.slave)
     }
 

@@ -72,7 +72,6 @@ const SUPPLY_IRQ: u16 = 1;
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
 pub(crate) struct Chip {
-    /// Which chip it is.
     pub(crate) model: &'static Model,
     /// The time up to which everything has happened, and at which accesses happen.
     pub(crate) now: Ps,

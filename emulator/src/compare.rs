@@ -271,14 +271,14 @@ pub(crate) fn compare_loaded(
             started.look(pair.target.board_mut())?;
         }
     }
-    let emulated = pair.target.run.module_mut();
-    let period = emulated.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
+    let board = pair.target.board_mut();
+    let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
         let fault = format!("a tick lasts {period} times as long as it should");
         return Err(named(&fault));
     }
-    agreement.stack = emulated.board.machine.stack_used()?;
-    agreement.missed = emulated.board.missed()?;
+    agreement.stack = board.machine.stack_used()?;
+    agreement.missed = board.missed()?;
     if let Some(started) = started {
         agreement.wrapped = started.wrapped().map_err(|left| named(&left))?;
     }

@@ -67,5 +67,5 @@ fn mean(scene: &Scene, (program, asks): (&Program, Asks)) -> Result<f64, Error> 
             session.packets()?;
         }
     }
-    Ok(session.run.module_mut().meter.figures.tick.mean())
+    Ok(session.board_mut().meter.figures.tick.mean())
 }

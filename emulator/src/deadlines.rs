@@ -34,11 +34,11 @@ pub(crate) fn measure(
         progress.tick(n);
     }
     let ticks = run.ticks();
-    let emulated = run.module_mut();
-    let machine = &emulated.board.machine;
-    let figures = &emulated.meter.figures;
+    let board = run.module_mut();
+    let machine = &board.machine;
+    let figures = &board.meter.figures;
     let cycles = |time: Ps| time / machine.cycle.max(1);
-    let missed = emulated.board.missed()?;
+    let missed = board.missed()?;
     let mean = |tally: &Tally| (Some(tally.mean()), tally.worst);
     let rows = [
         ("ticks", (None, ticks)),

@@ -13,7 +13,6 @@ use wire::{Load, LoadedWord};
 
 use crate::program::Program;
 
-/// What is deployed.
 #[derive(Debug, Clone)]
 pub(crate) struct Deployment {
     /// The configuration, with its header.

@@ -78,7 +78,6 @@ fn work(what: &str) -> Error {
     Error::Work(what.to_owned())
 }
 
-/// The first contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     side: usize,

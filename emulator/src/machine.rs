@@ -119,14 +119,12 @@ impl Machine {
         })
     }
 
-    /// Works on the chip from outside.
     pub(crate) fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
         let mut chip = self.shared.chip();
         chip.now = self.now;
         work(&mut chip)
     }
 
-    /// Why no tick ends.
     pub(crate) fn stands_still(&self) -> Fault {
         if self.is_locked_up {
             Fault::LockUp { pc: self.core.pc() }

@@ -11,11 +11,9 @@ use rsemu::core::space::{
 use crate::chip::{Chip, Fault, Memory, Model, Ps};
 use crate::program::Program;
 
-/// Where the flash begins.
 pub(crate) const FLASH: u32 = 0x0800_0000;
 /// A byte of flash that is erased.
 const ERASED: u8 = 0xFF;
-/// Where RAM begins.
 pub(crate) const RAM: u32 = 0x2000_0000;
 
 /// Where peripherals can be: those on buses, ports with a bus of their own, the debug unit.
@@ -134,7 +132,6 @@ impl MemOps for FlashStores {
     }
 }
 
-/// Flash and RAM.
 #[derive(Debug, Clone)]
 pub(crate) struct Memories {
     flash: Arc<RamStore>,

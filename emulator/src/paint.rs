@@ -8,7 +8,6 @@ use crate::program::Program;
 /// What cortex-m-rt fills the stack with (its feature `paint-stack`).
 const PAINT: u32 = 0xCCCC_CCCC;
 
-/// Where a program's stack lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stack {
     /// The lowest address.

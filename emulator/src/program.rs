@@ -10,7 +10,6 @@ use rtt::LogDecoder;
 
 use crate::chip::{Fault, MODELS, Model};
 
-/// An ELF file as it came from the linker.
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
     bytes: Vec<u8>,

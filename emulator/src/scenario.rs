@@ -2,7 +2,9 @@
 //! runs and what is expected. Most are steps that one runner makes; what measures, or talks with
 //! the board, is a function.
 
+mod broken;
 mod step;
+mod supply;
 mod trouble;
 
 use std::path::{Path, PathBuf};
@@ -28,6 +30,17 @@ pub struct Flashed {
     /// The program: built for it, or for any scene
     #[arg(long, value_name = "ELF")]
     pub program: PathBuf,
+}
+
+/// Scenes, and the programs that were built for them.
+#[derive(Debug, Args)]
+pub struct Several {
+    /// The scene files
+    #[arg(required = true)]
+    pub scenes: Vec<PathBuf>,
+    /// The programs, in the same order; none: on the PC, where that can be done
+    #[arg(long, value_name = "ELF")]
+    pub program: Vec<PathBuf>,
 }
 
 /// What a scenario is given.
@@ -132,21 +145,19 @@ pub const ALL: [Scenario; 11] = [
         name: "supply",
         what: "Lets the supply dip and the clock stop; fails if the motor pins are not low in \
                time, or the next start does not say why",
-        how: What::Steps(|loaded, program| {
-            Ok(trouble::supply(&loaded.scene, program.model()?.facts))
-        }),
+        how: What::Steps(|loaded, program| Ok(supply::dip(&loaded.scene, program.model()?.facts))),
     },
     Scenario {
         name: "sensor-loss",
         what: "Breaks the sensors' wires of a scene that whisks, side by side; fails if the motor \
                of a lost side is not switched off or stays off, or another rests",
-        how: What::Steps(|loaded, _| Ok(trouble::sensor_loss(&loaded.scene))),
+        how: What::Steps(|loaded, _| Ok(broken::sensor_loss(&loaded.scene))),
     },
     Scenario {
         name: "damage",
         what: "Flips bits in the settings and in the model; fails if the motors are not switched \
                off, or the log does not say why",
-        how: What::Steps(|loaded, program| trouble::damage(&loaded.scene, program)),
+        how: What::Steps(|loaded, program| broken::damage(&loaded.scene, program)),
     },
     Scenario {
         name: "deploying",

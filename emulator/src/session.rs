@@ -11,7 +11,7 @@ use host_sim::run::Run;
 use scene::{Scene, Texture};
 use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
-use crate::board::{self, Board, Emulated};
+use crate::board::{self, Board};
 use crate::chip::{Fault, Ps};
 use crate::emulate::{start, start_without};
 use crate::machine::Machine;
@@ -26,7 +26,7 @@ pub(crate) const PATIENCE: u32 = 10_000;
 
 /// A board, started and before its first tick.
 pub struct Session {
-    pub(crate) run: Run<Emulated>,
+    pub(crate) run: Run<Board>,
     decoder: LogDecoder,
     board: &'static str,
     /// Where scenes and models lie.
@@ -75,7 +75,7 @@ impl Session {
         Self::around(start(scene, classes, program)?, scene, program)
     }
 
-    fn around(run: Run<Emulated>, scene: &Scene, program: &Program) -> Result<Self, Error> {
+    fn around(run: Run<Board>, scene: &Scene, program: &Program) -> Result<Self, Error> {
         Ok(Self {
             run,
             decoder: program.log_decoder()?,
@@ -97,7 +97,7 @@ impl Session {
     }
 
     pub(crate) fn board_mut(&mut self) -> &mut Board {
-        &mut self.run.module_mut().board
+        self.run.module_mut()
     }
 
     pub(crate) fn machine(&mut self) -> &mut Machine {
@@ -148,11 +148,11 @@ impl Session {
     pub fn bear_resets(&mut self, bears: bool) {
         // Ticks are not equally long.
         let most_wait = self.period() * 3 / 2;
-        let emulated = self.run.module_mut();
-        emulated.bears_resets = bears;
-        emulated.board.world_waits = bears.then_some(most_wait);
+        let board = self.board_mut();
+        board.bears_resets = bears;
+        board.world_waits = bears.then_some(most_wait);
         if !bears {
-            emulated.board.reset = None;
+            board.reset = None;
         }
     }
 
@@ -172,7 +172,7 @@ impl Session {
     /// The same, for who asks what was not followed.
     pub(crate) fn pass_tick(&mut self) -> Result<(), Fault> {
         self.run.tick();
-        self.run.module_mut().check()
+        self.board_mut().check()
     }
 
     /// Writes a request; whether there was room for it.
@@ -251,7 +251,7 @@ impl Session {
 
     /// The lines that it has logged since the last call.
     pub fn log(&mut self) -> Vec<String> {
-        let bytes = self.run.module_mut().take_log();
+        let bytes = self.board_mut().take_log();
         self.decoder.lines(&bytes)
     }
 

@@ -20,7 +20,6 @@ pub(crate) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
     Err(Error::Work(what.into()))
 }
 
-/// The board and the PC.
 pub(crate) struct Talk {
     pub(crate) pair: Pair,
     /// Ticks of the board, and of a part.
@@ -100,7 +99,6 @@ impl Talk {
         Ok(answer)
     }
 
-    /// Asks the board alone.
     pub(crate) fn ask_board(&mut self, command: Command) -> Result<Answer, Error> {
         let TaggedCommand { tag, .. } = self.pair.target.send(command)?;
         self.waiting = Some(tag);

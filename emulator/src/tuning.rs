@@ -87,7 +87,6 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     ])
 }
 
-/// The same scene with other numbers.
 fn other(scene: &Scene) -> Scene {
     let mut other = scene.clone();
     if let Some(whisking) = &mut other.whisking {
@@ -108,7 +107,6 @@ fn other(scene: &Scene) -> Scene {
     other
 }
 
-/// Configurations that the board must refuse, and why.
 fn refusable(
     loaded: &Loaded,
     bytes_of: impl Fn(&Scene) -> Result<Vec<u8>, Error>,
@@ -130,14 +128,12 @@ fn refusable(
     Ok(refused)
 }
 
-/// A configuration as the PC takes it.
 fn simulated<R: Real>(config: &Config<R>) -> Result<Vec<u8>, Error> {
     let bytes = encode(config, BoardCode::Simulation);
     let bytes = bytes.map_err(|error| Error::Work(error.to_string()))?;
     Ok(bytes.to_vec())
 }
 
-/// Has the board put a configuration aside.
 fn stage(talk: &mut Talk, bytes: &[u8]) -> Result<(), Error> {
     talk.ask_board(Command::Forget)?;
     for (number, word) in words(bytes).into_iter().enumerate() {
@@ -151,7 +147,6 @@ fn stage(talk: &mut Talk, bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The board refuses a configuration for this reason.
 fn refuses(talk: &mut Talk, bytes: &[u8], error: ConfigError) -> Result<(), Error> {
     stage(talk, bytes)?;
     let answer = talk.ask_board(Command::Apply(bytes.len() as u32))?;

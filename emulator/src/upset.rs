@@ -17,7 +17,6 @@ pub(crate) const REGISTERS: [&str; 17] = [
     "pc", "xpsr",
 ];
 
-/// What can befall it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Upset {
     /// It executes nothing for so long while the peripherals go on: a tick that is too long.
@@ -49,7 +48,6 @@ impl Upset {
     }
 }
 
-/// An upset that is still to come.
 #[derive(Debug, Default)]
 pub(crate) struct Planned {
     /// Before which instruction of the next tick's handler, counted from 1.

@@ -141,7 +141,6 @@ impl Kind {
         })
     }
 
-    /// What befalls a motor's cables.
     const fn at_the_motor(self) -> Option<Wire> {
         Some(match self {
             Self::EncoderStuck | Self::EncoderLoose => Wire::Encoder,
@@ -153,7 +152,6 @@ impl Kind {
     }
 }
 
-/// A fault, and when and where it is injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Injection {
     pub(super) kind: Kind,
@@ -245,7 +243,6 @@ impl Injection {
         Ok(())
     }
 
-    /// Has it befall the chip once.
     fn befall(&self, board: &mut OnBoard<'_>) -> Result<(), Fault> {
         match self.kind {
             Kind::RamBit => board.flip_ram(self.detail)?,

@@ -46,7 +46,6 @@ pub struct RunRow {
     pub noticed_ms: Option<f64>,
 }
 
-/// What is known of a run at its end.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) harm: Option<(u64, Harm)>,

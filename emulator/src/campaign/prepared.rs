@@ -18,7 +18,6 @@ use crate::chip::Fault;
 use crate::deployment::flashed;
 use crate::program::Program;
 
-/// A scene, ready to be run again and again.
 pub(super) struct Prepared {
     loaded: Loaded,
     board: Option<(Program, Words)>,
@@ -210,7 +209,6 @@ fn extent(angles: &[f64]) -> f64 {
     (highest - lowest).max(0.0)
 }
 
-/// What is noticed first of a tick.
 fn first_notice(seen: &Seen, complaints: &[String]) -> Option<String> {
     let notice = seen.notices.first();
     let notice = notice.map(|(_, notice)| format!("{notice:?}"));

@@ -14,7 +14,6 @@ use crate::chip::{Fault, ResetCause};
 use crate::notice::Notice;
 use crate::program::Program;
 
-/// What can be seen of a tick from outside.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Seen {
     /// Setpoints and angles.

@@ -88,7 +88,6 @@ fn name(model: &Model, unit: Unit) -> &'static str {
     }
 }
 
-/// What is known of a unit's registers.
 fn fields(model: &Model, unit: Unit) -> Vec<Field> {
     match unit {
         Unit::Tim(n) => timer::fields(model.timers[n].0),

@@ -70,7 +70,6 @@ pub(super) struct Case {
     pub(super) steps: Vec<Step>,
 }
 
-/// The log says this.
 pub(super) fn says(text: impl Into<String>) -> Step {
     Step::Says(text.into())
 }
@@ -95,7 +94,7 @@ struct Runner {
 
 /// Runs a case on a board before its first tick. Returns what was seen.
 pub(super) fn run(mut session: Session, case: &Case) -> Result<Vec<String>, Error> {
-    session.run.module_mut().bears_resets = case.may_reset;
+    session.board_mut().bears_resets = case.may_reset;
     let (log, said) = (Vec::new(), Vec::new());
     let mut runner = Runner { session, log, said };
     for step in &case.steps {
@@ -249,7 +248,7 @@ impl Runner {
         let begun = self.session.machine().now;
         while !is_so(&mut self.session)? {
             if self.session.machine().now - begun >= most {
-                return wrong(format!("not within {} us: {what}", most / US));
+                return wrong(format!("not so within {} us: {what}", most / US));
             }
             self.session.board_mut().wait(LOOK)?;
         }

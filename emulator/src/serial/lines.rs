@@ -18,7 +18,6 @@ const PULSE_S: f64 = 0.01;
 /// before it, and it itself, at any baud that carries records.
 const LATE_S: f64 = 0.003;
 
-/// A line that is due.
 struct Due {
     /// The tick of its event.
     tick: u32,
