@@ -1,57 +1,30 @@
 //! Scenes and models deployed to a board: right ones, wrong ones, and such as were interrupted.
 
+mod case;
+
 use std::path::Path;
 
-use firmware::boards::{BoardFacts, Region, SlotHeader, newest_first};
-use firmware::{ConfigError, Header, Part, Refusal, decode};
-use host_sim::loaded::Loaded;
-use host_sim::{Error, files};
-use scene::Integrator;
+use firmware::boards::{Region, SlotHeader, newest_first};
+use firmware::{ConfigError, Header, Refusal, decode};
+use host_sim::Error;
 use tactile::ModelBuf;
 use whisking::Fix;
-use wire::{Command, CommandStatus, Load, WhiskerId};
+use wire::{Command, CommandStatus, Load};
 
-use crate::compare::{Agreement, Circumstances, compare_loaded};
 use crate::damaged;
-use crate::deployment::{Deployment, flashed_for};
+use crate::deployment::Deployment;
 use crate::loading::{load, load_watched, refuses};
-use crate::program::Program;
 use crate::scenario;
 use crate::session::Session;
+use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
 const COMPARED_S: f64 = 8.0;
 const SHORT_S: f64 = 1.0;
 /// How long a board that was deployed to is watched, s: it whisks and may touch.
 const WATCHED_S: f64 = 2.0;
-/// How long a whisker takes to come to rest, s.
-const TO_REST_S: f64 = 0.3;
 /// How long one that has a model may take to decide, s.
 const PATIENCE_S: f64 = 6.0;
-
-/// A scene, what a board has of it, and that in its flash.
-struct Flashed {
-    loaded: Loaded,
-    deployment: Deployment,
-    flash: Vec<u8>,
-}
-
-/// By what requests go.
-#[derive(Debug, Clone, Copy)]
-enum Way {
-    Probe,
-    Serial,
-}
-
-/// A board that has a scene without a model, and the same scene with one.
-struct Case<'p> {
-    path: &'p Path,
-    program: Program,
-    /// Whether the program brings its scene with it, and so was built of the parts of that.
-    is_lean: bool,
-    old: Flashed,
-    new: Flashed,
-}
 
 /// Deploys the scene with the model in `model` to a board that has it without, by a probe and by
 /// the serial port: PC and board must then agree to the last bit, in decisions too, as they must
@@ -100,133 +73,7 @@ pub(crate) fn deploying(
     Ok(lines)
 }
 
-/// Lets time pass; the lines that the board has logged, and whether a motor was driven.
-fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, bool), Error> {
-    let begun = session.now_s();
-    let (mut lines, mut driven) = (Vec::new(), false);
-    while session.now_s() - begun < seconds {
-        session.tick()?;
-        lines.extend(session.log());
-        driven |= session.drives();
-    }
-    Ok((lines, driven))
-}
-
-fn missing(what: &str, lines: &[String]) -> Error {
-    Error::Work(format!("not so: {what}\n  {}", lines.join("\n  ")))
-}
-
-fn says(lines: &[String], refusal: Refusal) -> bool {
-    let at = lines.iter().position(|line| line.contains("limit 34 "));
-    let why = at.and_then(|at| lines.get(at + 1));
-    why.is_some_and(|line| line.contains(refusal.text()))
-}
-
-/// The CRC of the configuration that a board runs by.
-fn running(session: &mut Session) -> Result<u32, Error> {
-    Ok(session.ask(Command::Scene)?.values[0].cast_unsigned())
-}
-
-/// Stops a board that whisks, once its whisker is at rest: that is where it starts from.
-fn stop(session: &mut Session) -> Result<(), Error> {
-    session.ask(Command::Setpoint(WhiskerId::default(), 0))?;
-    pass(session, TO_REST_S)?;
-    session.ask(Command::Stop)?;
-    session.tick()
-}
-
-impl Flashed {
-    fn new(loaded: Loaded, model: Option<&ModelBuf>, program: &Program) -> Result<Self, Error> {
-        let deployment = Deployment::of(&loaded.scene, model, program.model()?.facts)?;
-        let mut program = program.clone();
-        deployment.flash(&mut program)?;
-        Ok(Self {
-            flash: Session::of(&loaded.scene, &program)?.flash()?,
-            loaded,
-            deployment,
-        })
-    }
-
-    fn crc(&self) -> Result<u32, Error> {
-        let header = Header::of(&self.deployment.config);
-        let header = header.map_err(|error| Error::Work(error.to_string()))?;
-        Ok(header.crc)
-    }
-}
-
-impl<'p> Case<'p> {
-    fn new(on: &'p scenario::Flashed, world: &Path, model: &Path) -> Result<Self, Error> {
-        let path = &on.scene;
-        let old = Loaded::new(path)?.in_world(world)?;
-        let new = old.clone().with_model(model)?;
-        let (_, model) = files::load_model(model)?;
-        let program = flashed_for(&old.scene, path, &on.program)?;
-        Ok(Self {
-            path,
-            is_lean: Program::load(&on.program)?.brings_scene()?,
-            old: Flashed::new(old, None, &program)?,
-            new: Flashed::new(new, Some(&model), &program)?,
-            program,
-        })
-    }
-
-    fn facts(&self) -> Result<&'static BoardFacts, Error> {
-        Ok(self.program.model()?.facts)
-    }
-
-    /// The program with these scenes and models.
-    fn with(&self, flash: &[u8]) -> Result<Program, Error> {
-        let mut program = self.program.clone();
-        program.add(program.scenes()?.start, flash)?;
-        Ok(program)
-    }
-
-    /// PC and board must agree about a scene, where the board's flash is so.
-    fn agree(&self, scene: &Flashed, flash: &[u8], seconds: f64) -> Result<Agreement, Error> {
-        let circumstances = Circumstances {
-            duration_s: Some(seconds),
-            ..Circumstances::default()
-        };
-        let program = self.with(flash)?;
-        compare_loaded(scene.loaded.clone(), self.path, &program, circumstances)
-    }
-
-    /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,
-    /// that of another integrator is one.
-    fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
-        let mut wrong = damaged::configs(&self.new.deployment.config);
-        if self.is_lean {
-            let mut scene = self.old.loaded.scene.clone();
-            let mut error = None;
-            if let Some(whisking) = &mut scene.whisking {
-                let (other, part) = match whisking.integrator {
-                    Integrator::Exact => (Integrator::Euler, Part::Euler),
-                    Integrator::Euler => (Integrator::Exact, Part::Exact),
-                };
-                whisking.integrator = other;
-                error = Some(ConfigError::NotBuilt(part));
-            }
-            let config = Deployment::of(&scene, None, self.facts()?)?.config;
-            wrong.extend(error.map(|error| (config, error)));
-        }
-        Ok(wrong)
-    }
-
-    /// A board with the old scene whose motor was on, and is off, its whisker at rest.
-    fn stopped(&self, way: Way) -> Result<Session, Error> {
-        let program = self.with(&self.old.flash)?;
-        let mut session = Session::of(&self.old.loaded.scene, &program)?;
-        if let Way::Serial = way {
-            session = session.by_serial();
-        }
-        let (lines, driven) = pass(&mut session, 0.5)?;
-        if !driven || !says(&lines, Refusal::Absent) {
-            return Err(missing("a board without a model whisks", &lines));
-        }
-        stop(&mut session)?;
-        Ok(session)
-    }
-
+impl Case<'_> {
     /// Nothing is loaded while a motor is armed, nor what there is no room for.
     fn refuses_to_load(&self) -> Result<String, Error> {
         let right = self.new.deployment.load();
