@@ -94,8 +94,8 @@ pub(crate) struct Board {
     pub(crate) world_waits: Option<Ps>,
     /// No tick has ended since the world moved on last.
     pub(crate) is_late: bool,
-    /// A tick has ended, and the world has moved on since.
-    has_ticked: bool,
+    /// How often the world has moved on.
+    moves: u64,
     /// How the ticks have kept their time.
     pub(crate) meter: Meter,
     /// Whether a reset is no fault.
@@ -147,7 +147,7 @@ impl Board {
             reset: None,
             world_waits: None,
             is_late: false,
-            has_ticked: false,
+            moves: 0,
             meter: Meter::default(),
             bears_resets: false,
             fault: None,
@@ -168,7 +168,7 @@ impl Board {
     /// Runs to the end of the next tick, through resets if they are borne.
     fn pass_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
-        if std::mem::take(&mut self.has_ticked) {
+        if self.moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
                 if let Some(said) = sensor.moved() {
                     self.machine.say_again(side, &said)?;
@@ -191,7 +191,7 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
-        self.has_ticked = true;
+        self.moves += 1;
         self.drain()
     }
 

@@ -12,51 +12,64 @@ use super::trouble::{all, case};
 use crate::chip::{Chip, Ps, ResetCause, WELL_MV};
 use crate::session::Session;
 
+/// Within which the pins must be low, and the chip be reset after that.
+const LOW: Ps = 50 * US;
+/// Below the detector's threshold, where the clock of every board is still right, mV.
+const LOW_MV: u32 = 2_750;
+/// Below what the fastest clock needs, where each chip still runs, mV.
+const LOWER_MV: u32 = 2_200;
+/// Below the power-down reset, mV. RAM keeps its contents, as it does for a moment.
+const GONE_MV: u32 = 1_000;
+/// Below the highest brown-out level, mV.
+const BROWN_MV: u32 = 2_800;
+/// For how long the supply is low, and for how long a fault handler is watched: longer than
+/// the watchdog bears.
+const DIP: Ps = 45 * MS;
+const TOO_LOW: &str = "brown-out level";
+
+fn low(what: &'static str) -> Step {
+    Within(LOW, what, |board| Ok(!board.drives()))
+}
+
+fn begin(in_tick: bool) -> impl Iterator<Item = Step> {
+    [whisk(250), UntilDriven { in_tick }].into_iter()
+}
+
+/// The module ticks, with its motors off; its second start was for this cause and fault.
+fn refuses(scene: &Scene, cause: &str, fault: u8) -> [Step; 3] {
+    let off = all(scene);
+    [
+        Move { ms: 100, off },
+        says(format!("not-armed {fault} ")),
+        says(format!(" {cause} 2 {fault}")),
+    ]
+}
+
+/// The handler of this fault has its line in the log and feeds the watchdog, for longer than
+/// that bears without; its bite is not waited for.
+fn dies(scene: &Scene, fault: u8) -> impl Iterator<Item = Step> {
+    let steps = [
+        Stand(DIP),
+        says(format!("fault board {fault} ")),
+        Within(0, "no reset yet", |board| {
+            Ok(board.board_mut().reset.is_none())
+        }),
+        Do(|board| board.board_mut().reset_now(ResetCause::Watchdog)),
+    ];
+    steps.into_iter().chain(refuses(scene, "watchdog", fault))
+}
+
 /// A supply that dips and a clock that stops, in idle and in the middle of a tick: the motor pins
 /// must be low in time, the start must wait for the supply, motors must stay off after it.
 pub(super) fn dip(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
-    /// Within which the pins must be low, and the chip be reset after that.
-    const LOW: Ps = 50 * US;
-    /// Below the detector's threshold, where the clock of every board is still right, mV.
-    const LOW_MV: u32 = 2_750;
-    /// Below what the fastest clock needs, where each chip still runs, mV.
-    const LOWER_MV: u32 = 2_200;
-    /// Below the power-down reset, mV. RAM keeps its contents, as it does for a moment.
-    const GONE_MV: u32 = 1_000;
-    /// Below the highest brown-out level, mV.
-    const BROWN_MV: u32 = 2_800;
-    /// For how long the supply is low, and for how long a fault handler is watched: longer than
-    /// the watchdog bears.
-    const DIP: Ps = 45 * MS;
-    const TOO_LOW: &str = "brown-out level";
+    let mut cases = falls(scene, facts);
+    cases.extend(clock_fails(scene, facts));
+    cases
+}
 
-    // The module ticks, with its motors off; its second start was for this cause and fault.
-    let refuses = |cause: &str, fault: u8| {
-        let off = all(scene);
-        [
-            Move { ms: 100, off },
-            says(format!("not-armed {fault} ")),
-            says(format!(" {cause} 2 {fault}")),
-        ]
-    };
-    // The handler of this fault has its line in the log and feeds the watchdog, for longer than
-    // that bears without; its bite is not waited for.
-    let dies = |fault: u8| {
-        let steps = [
-            Stand(DIP),
-            says(format!("fault board {fault} ")),
-            Within(0, "no reset yet", |board| {
-                Ok(board.board_mut().reset.is_none())
-            }),
-            Do(|board| board.board_mut().reset_now(ResetCause::Watchdog)),
-        ];
-        steps.into_iter().chain(refuses("watchdog", fault))
-    };
-    let begin = |in_tick| [whisk(250), UntilDriven { in_tick }].into_iter();
-    let low = |what| Within(LOW, what, |board| Ok(!board.drives()));
+fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
     let software =
         |board: &mut Session| Ok(board.board_mut().reset.take() == Some(ResetCause::Software));
-
     let mut cases = Vec::new();
     for (in_tick, what) in [
         (false, "pins low as the supply falls in idle"),
@@ -71,7 +84,9 @@ pub(super) fn dip(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
             says("waiting for the supply"),
             Supply(WELL_MV),
         ];
-        let steps = begin(in_tick).chain(falls).chain(refuses("software", 58));
+        let steps = begin(in_tick)
+            .chain(falls)
+            .chain(refuses(scene, "software", 58));
         cases.push(case(what, steps));
     }
     let goes = [
@@ -82,7 +97,9 @@ pub(super) fn dip(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         says("waiting for the supply"),
         Supply(WELL_MV),
     ];
-    let steps = begin(false).chain(goes).chain(refuses("power-up", 53));
+    let steps = begin(false)
+        .chain(goes)
+        .chain(refuses(scene, "power-up", 53));
     cases.push(case("the supply goes, and comes back slowly", steps));
 
     let highest = |board: &mut Session| Ok(board.machine().disturb(Chip::set_brown_out));
@@ -102,13 +119,16 @@ pub(super) fn dip(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
     } else {
         browns_out
             .into_iter()
-            .chain(refuses("brown-out", 53))
+            .chain(refuses(scene, "brown-out", 53))
             .collect()
     };
     let silent = SaysTimes(0, TOO_LOW.to_owned());
     let steps = iter::once(whisk(250)).chain(steps).chain([silent]);
     cases.push(case("the supply falls below the brown-out level", steps));
+    cases
+}
 
+fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 2] {
     let what = "pins low as the clock stops in a tick";
     let stops = |board: &mut Session| board.machine().disturb(|chip| chip.stop_clock(true));
     let stopped = [
@@ -129,18 +149,16 @@ pub(super) fn dip(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
             whisk(250),
         ]
     } else {
-        stopped.into_iter().chain(dies(50)).collect()
+        stopped.into_iter().chain(dies(scene, 50)).collect()
     };
-    cases.push(case(what, begin(true).chain(steps)));
+    let stopped = case(what, begin(true).chain(steps));
 
     let what = "pins low after a non-maskable interrupt without a cause";
     let comes = Do(|board| {
         board.machine().raise_nmi();
         Ok(())
     });
-    cases.push(case(
-        what,
-        begin(true).chain([comes, low(what)]).chain(dies(51)),
-    ));
-    cases
+    let comes = [comes, low(what)];
+    let stray = case(what, begin(true).chain(comes).chain(dies(scene, 51)));
+    [stopped, stray]
 }
