@@ -112,7 +112,7 @@ fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         Forget,
         Supply(WELL_MV),
     ];
-    let steps: Vec<Step> = if facts.code == BoardCode::NucleoF103rb {
+    let steps: Vec<Step> = if facts.code != BoardCode::NucleoF446re {
         vec![Within(0, "no brown-out reset", |board| {
             Ok(!board.machine().disturb(Chip::set_brown_out))
         })]
