@@ -112,15 +112,13 @@ fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         Forget,
         Supply(WELL_MV),
     ];
-    let steps: Vec<Step> = if facts.code != BoardCode::NucleoF446re {
+    let steps: Vec<Step> = if facts.code == BoardCode::NucleoF446re {
+        let refused = refuses(scene, "brown-out", 53);
+        browns_out.into_iter().chain(refused).collect()
+    } else {
         vec![Within(0, "no brown-out reset", |board| {
             Ok(!board.machine().disturb(Chip::set_brown_out))
         })]
-    } else {
-        browns_out
-            .into_iter()
-            .chain(refuses(scene, "brown-out", 53))
-            .collect()
     };
     let silent = SaysTimes(0, TOO_LOW.to_owned());
     let steps = iter::once(whisk(250)).chain(steps).chain([silent]);
