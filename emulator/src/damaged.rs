@@ -53,7 +53,7 @@ pub(crate) fn models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Err
     let length = (slot.model.bytes + 4).to_le_bytes();
     let long = (MODEL_LENGTH_AT..).zip(length);
     let long = long.fold(right.to_vec(), |mut model, (at, other)| {
-        model[at] ^= other;
+        model[at] = other;
         model
     });
     let mut contradictory = right.to_vec();
